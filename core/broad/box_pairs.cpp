@@ -1,0 +1,83 @@
+#include "core/broad/box_pairs.h"
+
+namespace contactcheck {
+namespace {
+
+Aabb shrunk(const Aabb& box, double scale) {
+  if (scale == 1.0) return box;
+  const Vec3 center = box.center();
+  Aabb out;
+  out.lo = center + (box.lo - center) * scale;
+  out.hi = center + (box.hi - center) * scale;
+  return out;
+}
+
+double buckets_met(const GridKey& lo, const GridKey& hi) {
+  // In double: the product of three spans of up to 2^63 must not overflow.
+  const auto span = [](std::int64_t a, std::int64_t b) {
+    return static_cast<double>(b) - static_cast<double>(a) + 1.0;
+  };
+  return span(lo.x, hi.x) * span(lo.y, hi.y) * span(lo.z, hi.z);
+}
+
+}  // namespace
+
+void BoxPairFinder::find(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings,
+                         std::vector<Pair>& out) {
+  hash_boxes(boxes, settings);
+  pairs_in_buckets(boxes, settings.cell_size, out);
+  pairs_of_oversize(boxes, out);
+}
+
+void BoxPairFinder::hash_boxes(const std::vector<OwnedBox>& boxes,
+                               const BoxPairSettings& settings) {
+  hash_ = SpatialHash(settings.table_size);
+  oversize_.clear();
+  is_oversize_.assign(boxes.size(), 0);
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    const Aabb box = shrunk(boxes[i].box, settings.fault_bucket_scale);
+    const GridKey lo = grid_key(box.lo, settings.cell_size);
+    const GridKey hi = grid_key(box.hi, settings.cell_size);
+    if (buckets_met(lo, hi) > settings.largest_buckets_per_box) {
+      oversize_.push_back(i);
+      is_oversize_[i] = 1;
+      continue;
+    }
+    for (std::int64_t z = lo.z; z <= hi.z; ++z)
+      for (std::int64_t y = lo.y; y <= hi.y; ++y)
+        for (std::int64_t x = lo.x; x <= hi.x; ++x) hash_.insert({x, y, z}, i);
+  }
+  hash_.build();
+}
+
+void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double cell_size,
+                                     std::vector<Pair>& out) {
+  for (std::size_t b = 0; b < hash_.bucket_count(); ++b) {
+    const auto entries = hash_.bucket_at(b);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const OwnedBox& first = boxes[entries[i].id];
+      for (std::size_t j = i + 1; j < entries.size(); ++j) {
+        const OwnedBox& second = boxes[entries[j].id];
+        if (first.body == second.body || !first.box.overlaps(second.box)) continue;
+        if (entries[i].key != entries[j].key) continue;
+        // floor is monotone: the key of the intersection's lower corner lies in both boxes' ranges.
+        const Vec3 corner = first.box.lo.cwiseMax(second.box.lo);
+        if (grid_key(corner, cell_size) == entries[i].key)
+          out.emplace_back(std::min(entries[i].id, entries[j].id),
+                           std::max(entries[i].id, entries[j].id));
+      }
+    }
+  }
+}
+
+void BoxPairFinder::pairs_of_oversize(const std::vector<OwnedBox>& boxes, std::vector<Pair>& out) {
+  for (std::uint32_t big : oversize_) {
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+      if (is_oversize_[i] && i <= big) continue;  // two oversize boxes meet once
+      if (boxes[i].body == boxes[big].body || !boxes[i].box.overlaps(boxes[big].box)) continue;
+      out.emplace_back(std::min(i, big), std::max(i, big));
+    }
+  }
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,64 @@
+// Spatial hashing of an infinite uniform grid.
+// Source: Teschner, Heidelberger, Mueller, Pomeranets, Gross: Optimized Spatial Hashing for
+// Collision Detection of Deformable Objects, VMV 2003: hash = (x p1) xor (y p2) xor (z p3) mod n.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// Integer coordinates of a grid cell: floor(p / h) per axis, towards minus infinity also for
+/// negative coordinates; clamped to +-2^62, so every finite p has a key and keys are monotone in p.
+struct GridKey {
+  std::int64_t x = 0, y = 0, z = 0;
+  auto operator<=>(const GridKey&) const = default;
+};
+
+GridKey grid_key(const Vec3& p, double cell_size);
+
+/// A table built once per frame. Keys that fall into one bucket are told apart by their
+/// coordinates, so what lookups find does not depend on the table's size.
+class SpatialHash {
+ public:
+  struct Entry {
+    GridKey key;
+    std::uint32_t id = 0;
+  };
+
+  /// `table_size` 0: the smallest power of two that is at least the number of entries; otherwise
+  /// rounded up to a power of two.
+  explicit SpatialHash(std::uint32_t table_size = 0) : wanted_size_(table_size) {}
+
+  void clear() { entries_.clear(); }
+  void insert(const GridKey& key, std::uint32_t id) { entries_.push_back({key, id}); }
+  /// To be called between the last insert and the first lookup.
+  void build();
+  /// Entries of one bucket: those with other keys are the caller's to skip.
+  std::span<const Entry> bucket(const GridKey& key) const;
+
+  template <typename Visit>
+  void for_each(const GridKey& key, Visit&& visit) const {
+    for (const Entry& e : bucket(key))
+      if (e.key == key) visit(e.id);
+  }
+  std::size_t size() const { return entries_.size(); }
+  std::size_t bucket_count() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+  std::span<const Entry> bucket_at(std::size_t index) const {
+    return std::span(sorted_).subspan(begin_[index], begin_[index + 1] - begin_[index]);
+  }
+
+ private:
+  std::uint32_t slot(const GridKey& key) const;
+
+  std::uint32_t wanted_size_;
+  std::uint32_t mask_ = 0;
+  std::vector<Entry> entries_, sorted_;
+  std::vector<std::uint32_t> begin_, next_;
+};
+
+}  // namespace contactcheck

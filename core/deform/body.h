@@ -1,0 +1,41 @@
+// A body: a shape, shared by all its instances, and a name.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/deform/embedding.h"
+#include "core/deform/lattice.h"
+#include "core/types/frame.h"
+#include "core/types/mesh.h"
+#include "core/types/mesh_topology.h"
+
+namespace contactcheck {
+
+struct BodyShape {
+  TriangleMesh mesh;  ///< at rest
+  MeshTopology topology;
+  std::optional<Lattice> lattice;  ///< none: nodes are vertices
+  Embedding embedding;             ///< empty without a lattice
+
+  std::size_t node_count() const { return lattice ? lattice->nodes.size() : mesh.vertices.size(); }
+};
+
+struct Body {
+  std::string name;
+  std::shared_ptr<const BodyShape> shape;
+};
+
+/// Builds a shape in a lattice of the given resolution.
+/// @throws InputError when the mesh has a fatal defect
+std::shared_ptr<const BodyShape> make_shape(TriangleMesh mesh, const Resolution& resolution,
+                                            double padding = 0.02);
+/// Builds a shape without a lattice (static or recorded).
+std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh);
+
+/// Deformed vertices of a body: canonical mapping, or a copy of the nodes without a lattice.
+void map_body(const BodyShape& shape, std::span<const Vec3> nodes, std::span<Vec3> out);
+
+}  // namespace contactcheck

@@ -1,0 +1,41 @@
+// How a mesh sits in its lattice: a home cell and local coordinates per vertex, labels per
+// triangle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/deform/lattice.h"
+#include "core/types/mesh.h"
+
+namespace contactcheck {
+
+struct Embedding {
+  std::vector<std::uint32_t> home_cell;  ///< per vertex: index of a kept cell
+  std::vector<Vec3> local;               ///< per vertex: (s, t, u) in [0, 1] in its home cell
+
+  /// The label of a triangle: every kept cell whose closed box its rest triangle meets, ascending.
+  /// Made at rest, exactly; a label, not containment (design: level `cell`).
+  std::vector<std::uint32_t> label_begin;  ///< size: triangles + 1
+  std::vector<std::uint32_t> label_cells;
+
+  /// Vertices sorted by home cell, in blocks, for the batch mapping (see mapping.h).
+  std::vector<std::uint32_t> cell_order;            ///< vertex indices
+  std::vector<std::uint32_t> cell_begin;            ///< size: kept cells + 1; range in cell_order
+  std::array<std::vector<double>, 3> sorted_local;  ///< local coordinates in cell_order, per axis
+
+  std::span<const std::uint32_t> cells_of_triangle(std::uint32_t triangle) const {
+    return std::span(label_cells)
+        .subspan(label_begin[triangle], label_begin[triangle + 1] - label_begin[triangle]);
+  }
+};
+
+/// Rebuilds the cell-sorted arrays from home cells and local coordinates.
+void sort_by_cell(std::size_t cells, Embedding& out);
+
+/// @pre the lattice was made for this mesh by make_lattice
+Embedding embed(const TriangleMesh& mesh, const Lattice& lattice);
+
+}  // namespace contactcheck

@@ -1,0 +1,95 @@
+#include "core/deform/ffd_aabb.h"
+
+#include <array>
+
+#include "core/deform/mapping.h"
+
+namespace contactcheck {
+namespace {
+
+// Clipping a triangle by six planes leaves at most nine corners.
+struct Polygon {
+  std::array<Vec3, 10> points;
+  int size = 0;
+  void push(const Vec3& p) { points[size++] = p; }
+};
+
+// Keeps the part of `in` where sign * (p[axis] - bound) <= 0 (Sutherland & Hodgman 1974).
+Polygon clip(const Polygon& in, int axis, double bound, double sign) {
+  Polygon out;
+  for (int i = 0; i < in.size; ++i) {
+    const Vec3& a = in.points[i];
+    const Vec3& b = in.points[(i + 1) % in.size];
+    const double da = sign * (a[axis] - bound), db = sign * (b[axis] - bound);
+    if (da <= 0) out.push(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
+      Vec3 cut = a + (b - a) * (da / (da - db));
+      cut[axis] = bound;
+      out.push(cut);
+    }
+  }
+  return out;
+}
+
+Vec3 to_local(const Vec3& p, const Aabb& cell) {
+  return (p - cell.lo).cwiseQuotient(cell.hi - cell.lo);
+}
+
+Aabb clamp_to_unit(const Aabb& box) {
+  Aabb out;
+  out.lo = box.lo.cwiseMax(0.0).cwiseMin(1.0);
+  out.hi = box.hi.cwiseMax(0.0).cwiseMin(1.0);
+  return out;
+}
+
+Aabb clipped_bounds(const std::array<Vec3, 3>& local) {
+  Polygon polygon;
+  Aabb whole;
+  for (const Vec3& p : local) {
+    polygon.push(p);
+    whole.extend(p);
+  }
+  for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) {
+    polygon = clip(polygon, axis, 0.0, -1.0);
+    if (polygon.size > 0) polygon = clip(polygon, axis, 1.0, 1.0);
+  }
+  // A triangle that only touches the cell may be rounded away: its own bounds, clamped, cover it.
+  if (polygon.size == 0) return clamp_to_unit(whole);
+  Aabb box;
+  for (int i = 0; i < polygon.size; ++i) box.extend(polygon.points[i]);
+  return clamp_to_unit(box);
+}
+
+}  // namespace
+
+std::vector<Aabb> ffd_aabbs(const TriangleMesh& mesh, const Lattice& lattice,
+                            const Embedding& embedding) {
+  std::vector<Aabb> boxes(lattice.cells.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t cell : embedding.cells_of_triangle(t)) {
+      const Aabb cell_box = lattice.cell_box(cell);
+      std::array<Vec3, 3> local;
+      for (int k = 0; k < 3; ++k)
+        local[k] = to_local(mesh.vertices[mesh.triangles[t][k]], cell_box);
+      boxes[cell].extend(clipped_bounds(local));
+    }
+  }
+  // Home cells hold their vertices bit for bit, whatever clipping rounded.
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    boxes[embedding.home_cell[v]].extend(embedding.local[v]);
+  return boxes;
+}
+
+Corners mapped_box(const Lattice& lattice, std::uint32_t cell, const Aabb& local,
+                   std::span<const Vec3> nodes) {
+  const Corners corners = corners_of(lattice, cell, nodes);
+  Corners out;
+  for (int c = 0; c < 8; ++c) {
+    const Vec3 at((c & 1) ? local.hi.x() : local.lo.x(), (c & 2) ? local.hi.y() : local.lo.y(),
+                  (c & 4) ? local.hi.z() : local.lo.z());
+    out[c] = map_point(corners, at);
+  }
+  return out;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,81 @@
+// Index arithmetic over the full grid of a lattice (kept or not).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/deform/lattice.h"
+#include "core/narrow/triangle_box.h"
+
+namespace contactcheck {
+
+class Grid {
+ public:
+  explicit Grid(const std::array<std::vector<double>, 3>& lines) : lines_(lines) {}
+
+  std::size_t cells(int axis) const { return lines_[axis].size() - 1; }
+  std::size_t cell_count() const { return cells(0) * cells(1) * cells(2); }
+  std::size_t node_count() const { return lines_[0].size() * lines_[1].size() * lines_[2].size(); }
+
+  std::size_t flat(const GridIndex& c) const { return (c[2] * cells(1) + c[1]) * cells(0) + c[0]; }
+  GridIndex unflat(std::size_t i) const { return split(i, cells(0), cells(1)); }
+  std::size_t flat_node(const GridIndex& n) const {
+    return (n[2] * lines_[1].size() + n[1]) * lines_[0].size() + n[0];
+  }
+  GridIndex unflat_node(std::size_t i) const {
+    return split(i, lines_[0].size(), lines_[1].size());
+  }
+
+  /// The last interval of `axis` whose lower line is <= x, clamped to the grid. A coordinate on an
+  /// inner line belongs to the upper interval: every vertex has one home.
+  std::uint32_t interval(int axis, double x) const {
+    const std::vector<double>& l = lines_[axis];
+    const auto it = std::upper_bound(l.begin() + 1, l.end() - 1, x);
+    return static_cast<std::uint32_t>(it - l.begin() - 1);
+  }
+  GridIndex cell_of(const Vec3& v) const {
+    return {interval(0, v.x()), interval(1, v.y()), interval(2, v.z())};
+  }
+
+  Aabb cell_box(const GridIndex& c) const {
+    Aabb box;
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] = lines_[k][c[k]];
+      box.hi[k] = lines_[k][c[k] + 1];
+    }
+    return box;
+  }
+
+  /// Calls `visit(GridIndex)` for every cell whose closed box meets the closed triangle, exactly,
+  /// in ascending (z, y, x) order.
+  template <typename Visit>
+  void for_cells_meeting(const TrianglePoints& triangle, Visit&& visit) const {
+    Aabb box;
+    for (const Vec3& p : triangle) box.extend(p);
+    GridIndex lo, hi;
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = interval(k, box.lo[k]);
+      hi[k] = interval(k, box.hi[k]);
+      // On a line, the interval below is met too.
+      if (lo[k] > 0 && lines_[k][lo[k]] == box.lo[k]) --lo[k];
+    }
+    for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
+      for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
+        for (std::uint32_t x = lo[0]; x <= hi[0]; ++x) {
+          const GridIndex cell{x, y, z};
+          if (triangle_meets_box(triangle, cell_box(cell))) visit(cell);
+        }
+  }
+
+ private:
+  static GridIndex split(std::size_t i, std::size_t nx, std::size_t ny) {
+    return {static_cast<std::uint32_t>(i % nx), static_cast<std::uint32_t>(i / nx % ny),
+            static_cast<std::uint32_t>(i / nx / ny)};
+  }
+
+  const std::array<std::vector<double>, 3>& lines_;
+};
+
+}  // namespace contactcheck

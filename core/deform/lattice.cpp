@@ -1,0 +1,142 @@
+#include "core/deform/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/deform/grid.h"
+#include "core/narrow/triangle_box.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+std::vector<double> grid_lines(double lo, double hi, std::uint32_t cells) {
+  std::vector<double> lines(cells + 1);
+  for (std::uint32_t i = 0; i <= cells; ++i) {
+    const double w = static_cast<double>(i) / cells;
+    lines[i] = lo * (1.0 - w) + hi * w;
+  }
+  lines.back() = hi;
+  return lines;
+}
+
+std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
+                                              const Resolution& resolution, double padding) {
+  const Aabb box = bounding_box(mesh.vertices);
+  const double largest = box.extent().maxCoeff();
+  // A flat or point-like mesh still gets cells of positive size.
+  const double pad = std::max(padding * largest, std::max(1e-3 * largest, 1e-9));
+  const std::array<std::uint32_t, 3> cells = {resolution.x, resolution.y, resolution.z};
+  std::array<std::vector<double>, 3> lines;
+  for (int k = 0; k < 3; ++k) lines[k] = grid_lines(box.lo[k] - pad, box.hi[k] + pad, cells[k]);
+  return lines;
+}
+
+// Marks every cell that meets the triangle, exactly.
+void mark_cells(const Grid& grid, const TrianglePoints& triangle, std::vector<bool>& kept) {
+  grid.for_cells_meeting(triangle, [&](const GridIndex& cell) { kept[grid.flat(cell)] = true; });
+}
+
+std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
+  std::vector<bool> kept(grid.cell_count(), false);
+  for (const Triangle& t : mesh.triangles) {
+    mark_cells(grid, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, kept);
+  }
+  // A vertex without a triangle still needs a home.
+  for (const Vec3& v : mesh.vertices) kept[grid.flat(grid.cell_of(v))] = true;
+  std::vector<GridIndex> cells;
+  for (std::size_t flat = 0; flat < kept.size(); ++flat) {
+    if (kept[flat]) cells.push_back(grid.unflat(flat));
+  }
+  return cells;
+}
+
+void number_nodes(const Grid& grid, Lattice& lattice) {
+  std::vector<bool> used(grid.node_count(), false);
+  const auto corner = [](const GridIndex& cell, int c) {
+    return GridIndex{cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2 & 1)};
+  };
+  for (const GridIndex& cell : lattice.cells)
+    for (int c = 0; c < 8; ++c) used[grid.flat_node(corner(cell, c))] = true;
+  std::vector<std::uint32_t> number(used.size(), 0);
+  for (std::size_t flat = 0; flat < used.size(); ++flat) {
+    if (!used[flat]) continue;
+    number[flat] = static_cast<std::uint32_t>(lattice.nodes.size());
+    lattice.nodes.push_back(grid.unflat_node(flat));
+  }
+  for (const GridIndex& cell : lattice.cells) {
+    CornerIds ids;
+    for (int c = 0; c < 8; ++c) ids[c] = number[grid.flat_node(corner(cell, c))];
+    lattice.cell_nodes.push_back(ids);
+  }
+}
+
+}  // namespace
+
+Vec3 Lattice::rest_node(std::uint32_t node) const {
+  const GridIndex& g = nodes[node];
+  return {lines[0][g[0]], lines[1][g[1]], lines[2][g[2]]};
+}
+
+std::vector<Vec3> Lattice::rest_nodes() const {
+  std::vector<Vec3> out(nodes.size());
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) out[n] = rest_node(n);
+  return out;
+}
+
+Aabb Lattice::cell_box(std::uint32_t cell) const {
+  const GridIndex& g = cells[cell];
+  Aabb box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = lines[k][g[k]];
+    box.hi[k] = lines[k][g[k] + 1];
+  }
+  return box;
+}
+
+Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding) {
+  CONTACTCHECK_INVARIANT(resolution.x > 0 && resolution.y > 0 && resolution.z > 0,
+                         "a lattice has at least one cell per axis");
+  Lattice lattice;
+  lattice.lines = make_lines(mesh, resolution, padding);
+  const Grid grid(lattice.lines);
+  lattice.cells = kept_cells(grid, mesh);
+  number_nodes(grid, lattice);
+  return lattice;
+}
+
+Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, double padding) {
+  const Vec3 extent = bounding_box(mesh.vertices).extent();
+  const double largest = std::max(extent.maxCoeff(), 1e-9);
+  const auto resolution_at = [&](int divisions) {
+    const auto cells = [&](double side) {
+      return static_cast<std::uint32_t>(std::max(1.0, std::round(side / largest * divisions)));
+    };
+    return Resolution{cells(extent.x()), cells(extent.y()), cells(extent.z())};
+  };
+  Resolution best;
+  std::size_t best_gap = SIZE_MAX;
+  // Kept cells grow about quadratically with the divisions: stop once far beyond the wish.
+  for (int divisions = 1; divisions <= 256; ++divisions) {
+    const Resolution r = resolution_at(divisions);
+    const std::size_t kept = make_lattice(mesh, r, padding).cells.size();
+    const std::size_t gap = kept > wanted ? kept - wanted : wanted - kept;
+    if (gap < best_gap) {
+      best_gap = gap;
+      best = r;
+    }
+    if (kept > 2 * wanted) break;
+  }
+  return best;
+}
+
+Corners corners_of(const Lattice& lattice, std::uint32_t cell, std::span<const Vec3> nodes) {
+  Corners corners;
+  const CornerIds& ids = lattice.cell_nodes[cell];
+  for (int c = 0; c < 8; ++c) corners[c] = nodes[ids[c]];
+  return corners;
+}
+
+}  // namespace contactcheck

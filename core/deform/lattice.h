@@ -1,0 +1,54 @@
+// The free-form-deformation lattice of one body, at rest.
+// Source: Sederberg & Parry, Free-Form Deformation of Solid Geometric Models, SIGGRAPH 1986, in its
+// trilinear form; only cells that hold surface are kept (Jeon et al. 2013).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types/mesh.h"
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// Position of a cell or node in the grid.
+using GridIndex = std::array<std::uint32_t, 3>;
+
+/// The eight corners of a cell or box. Corner c lies at the high end of axis k when bit k of c is
+/// set.
+using Corners = std::array<Vec3, 8>;
+using CornerIds = std::array<std::uint32_t, 8>;
+
+struct Lattice {
+  /// Grid lines per axis, strictly increasing, at least two. A cell's closed box at rest runs
+  /// between neighbouring lines: these doubles, not origin + i * h, are the definition.
+  std::array<std::vector<double>, 3> lines;
+  std::vector<GridIndex> cells;       ///< kept cells, ascending in (z, y, x)
+  std::vector<GridIndex> nodes;       ///< nodes of kept cells, ascending in (z, y, x)
+  std::vector<CornerIds> cell_nodes;  ///< per kept cell: indices into `nodes`
+
+  Vec3 rest_node(std::uint32_t node) const;
+  std::vector<Vec3> rest_nodes() const;
+  Aabb cell_box(std::uint32_t cell) const;
+};
+
+/// Number of cells wanted per axis.
+struct Resolution {
+  std::uint32_t x = 1, y = 1, z = 1;
+};
+
+/// A regular lattice round `mesh` (padding: fraction of the largest side added on each side), with
+/// the cells kept that hold surface: whose closed box meets a triangle (exactly), or that are the
+/// home of a vertex.
+/// @pre the mesh has no fatal defect; each resolution is at least 1
+Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding);
+
+/// The resolution of near-cubic cells whose lattice keeps a number of cells nearest to `wanted`.
+Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, double padding);
+
+/// Gathers the eight (deformed) nodes of a cell.
+Corners corners_of(const Lattice& lattice, std::uint32_t cell, std::span<const Vec3> nodes);
+
+}  // namespace contactcheck

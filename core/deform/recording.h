@@ -1,0 +1,27 @@
+// Recordings: the lattice nodes of every body per frame, with meshes and embeddings. A recording is
+// what makes a comparison repeatable on another machine. The format is described in
+// fixtures/README.md, "Recordings (.ccr)". Needs no library.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/deform/body.h"
+
+namespace contactcheck {
+
+struct Recording {
+  std::string scene;
+  std::vector<Body> bodies;  ///< instances share one shape, by content hash
+  double time_step = 0.0;    ///< seconds
+  std::vector<std::vector<std::vector<Vec3>>> frames;  ///< nodes [frame][body][node]
+};
+
+/// Written under a temporary name and renamed. @throws InputError with the path when it cannot be.
+void write_recording(const std::filesystem::path& file, const Recording& recording);
+
+/// @throws InputError: not a recording, wrong version, truncated, inconsistent, non-finite value
+Recording read_recording(const std::filesystem::path& file);
+
+}  // namespace contactcheck

@@ -1,0 +1,64 @@
+// The interface of every detector, ours and adapted ones.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+#include "core/types/semantics.h"
+
+namespace contactcheck {
+
+/// What one pipeline stage still covers for the frame of the last update. Exactly one of the
+/// coverage lists is meaningful, by `kind`; pairs are canonical sets.
+struct StageRecord {
+  enum class Kind {
+    kBodies,      ///< every triangle pair of these body pairs
+    kLabelCells,  ///< triangle pairs whose labels (Embedding) include these cell pairs
+    kOwnerCells,  ///< triangle pairs whose owner cells are these cell pairs; see `owner`
+    kTriangles    ///< these triangle pairs
+  };
+  std::string name;
+  std::string unit;  ///< what `in` and `out` count: "body pairs", "sphere pairs", ...
+  std::uint64_t in = 0;
+  std::uint64_t out = 0;
+  Kind kind = Kind::kBodies;
+  std::vector<BodyPair> bodies;
+  std::vector<ElementPair> elements;
+};
+
+/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is kOwnerCells.
+struct StageTrace {
+  std::vector<StageRecord> stages;
+  std::vector<std::vector<std::uint32_t>> owner;
+};
+
+/// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
+/// frames may come in any order and repeat. A detector holds no state that changes the answer to a
+/// later frame. Exceptions are recorded as status `error` (RefusedInput: `refused`).
+class Detector {
+ public:
+  Detector() = default;
+  Detector(const Detector&) = delete;
+  Detector& operator=(const Detector&) = delete;
+  virtual ~Detector() = default;
+
+  virtual const Semantics& semantics() const = 0;
+  /// True when update() reads BodyState::vertices; the mapping is then timed as phase `map`.
+  virtual bool needs_vertices() const = 0;
+  /// Once per scene. The bodies outlive the detector.
+  virtual void prepare(const std::vector<Body>& bodies) = 0;
+  virtual void update(const Frame& frame) = 0;
+  /// Appends to `out` (the caller clears it); canonicalize() is the caller's, untimed.
+  /// @pre semantics().answers(question)
+  virtual void query(Question question, ContactSet& out) = 0;
+  /// The stages of the last updated frame; empty for detectors without stages. Untimed.
+  virtual StageTrace trace() { return {}; }
+};
+
+}  // namespace contactcheck

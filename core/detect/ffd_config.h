@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+namespace contactcheck {
+
+/// What stands for the surface in a cell.
+enum class CellVolume {
+  kLatticeCell,  ///< the cell itself (ffd-grid)
+  kFfdAabb       ///< the box round the surface inside it (ffd-aabb and all spheres)
+};
+
+enum class ElementTest { kNodePlane, kTriangle };
+
+/// The two readings of what the paper leaves open (design, "Detector names").
+enum class BoundsReading { kPaper, kSafe };
+
+/// Faults seeded by tests, to prove that each bound of the safe reading is needed and that the
+/// suite sees it fail: every bound is multiplied by its share. 1 in every real run.
+struct SeededFaults {
+  double sphere_radius = 1.0;
+  double cell_box = 1.0;
+  double buckets = 1.0;
+};
+
+/// One member of the FFD-AABB family.
+struct FfdConfig {
+  CellVolume volume = CellVolume::kFfdAabb;
+  int sphere_levels = 0;  ///< 0: none, 1: one sphere per body, 2: the paper's proposal, ...
+  int spheres = 16;       ///< parts into which a sphere is split at the next level
+  ElementTest element = ElementTest::kNodePlane;
+  BoundsReading bounds = BoundsReading::kPaper;
+  double hash_cell = 1.0;        ///< hash grid cell / mean edge of the boxes at rest
+  std::uint32_t table_size = 0;  ///< buckets; 0: from the number of entries
+  SeededFaults faults;
+};
+
+}  // namespace contactcheck

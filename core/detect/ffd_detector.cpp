@@ -1,0 +1,197 @@
+#include "core/detect/ffd_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+Semantics semantics_of(const FfdConfig& config) {
+  Semantics s;
+  if (config.element == ElementTest::kTriangle) {
+    s.levels = {Level::kBody, Level::kTriangle};
+    s.questions = {Question::kTriangles, Question::kBody};
+    s.exact = config.bounds == BoundsReading::kSafe;
+  } else {
+    s.levels = {Level::kBody, Level::kCell};
+    // What node tests on FFD-AABBs literally claim; a lattice cell is no FFD-AABB, and an owner's
+    // boxes under `safe` are not the box of the level.
+    if (config.volume == CellVolume::kFfdAabb && config.bounds == BoundsReading::kPaper)
+      s.levels.push_back(Level::kBox);
+    s.questions = {Question::kCells, Question::kBody};
+  }
+  return s;
+}
+
+void sort_unique(std::vector<ElementPair>& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+void canonicalize(std::vector<ElementPair>& pairs) {
+  for (ElementPair& p : pairs)
+    if (p.body_a > p.body_b) p = {p.body_b, p.body_a, p.b, p.a};
+  sort_unique(pairs);
+}
+
+}  // namespace
+
+FfdDetector::FfdDetector(const FfdConfig& config)
+    : config_(config), semantics_(semantics_of(config)) {}
+
+void FfdDetector::prepare(const std::vector<Body>& bodies) {
+  models_.clear();
+  double edges = 0.0;
+  for (const Body& body : bodies) {
+    try {
+      models_.push_back(make_ffd_model(*body.shape, config_));
+    } catch (const RefusedInput& e) {
+      throw RefusedInput("body \"" + body.name + "\": " + e.what());
+    }
+    edges += models_.back().mean_edge;
+  }
+  states_.assign(models_.size(), FfdState{});
+  const double mean = models_.empty() ? 0.0 : edges / static_cast<double>(models_.size());
+  // Boxes without extent (all surface in one point per cell) still need a grid.
+  hash_cell_size_ = mean > 0.0 ? mean * config_.hash_cell : 1.0;
+}
+
+void FfdDetector::update(const Frame& frame) {
+  CONTACTCHECK_INVARIANT(frame.bodies.size() == models_.size(), "one state per prepared body");
+  for (std::size_t body = 0; body < models_.size(); ++body)
+    update_state(models_[body], config_, frame.bodies[body], states_[body]);
+  if (config_.element == ElementTest::kTriangle) {
+    triangle_.begin_frame(models_, frame);
+  } else {
+    node_plane_.begin_frame(models_);
+  }
+}
+
+void FfdDetector::find_candidates() {
+  run_spheres(models_, states_, config_.bounds, config_.sphere_levels, survivors_);
+  if (safe()) {
+    box_hash_.run(models_, states_, config_, survivors_, hash_cell_size_, cells_);
+  } else {
+    probe_hash_.run(models_, states_, config_, survivors_, hash_cell_size_, hits_);
+  }
+}
+
+std::vector<ElementPair> FfdDetector::cells_of_hits() const {
+  std::vector<ElementPair> cells;
+  for (const ProbeHit& hit : hits_)
+    for_cells_of_probe(models_[hit.body_a], config_.volume, hit.probe, [&](std::uint32_t cell) {
+      cells.push_back({hit.body_a, hit.body_b, cell, hit.cell_b});
+    });
+  canonicalize(cells);
+  return cells;
+}
+
+void FfdDetector::test_elements(bool first_only, std::vector<ElementPair>& out) {
+  if (config_.element == ElementTest::kTriangle) {
+    if (!safe()) cells_ = cells_of_hits();
+    triangle_.run(models_, cells_, first_only, out);
+  } else if (safe()) {
+    node_plane_.run_cells(models_, states_, cells_, first_only, out);
+  } else {
+    node_plane_.run_probes(models_, states_, config_.volume, hits_, first_only, out);
+  }
+}
+
+void FfdDetector::query(Question question, ContactSet& out) {
+  find_candidates();
+  const bool boolean = question == Question::kBody;
+  std::vector<ElementPair>& elements =
+      config_.element == ElementTest::kTriangle ? out.triangles : out.cells;
+  if (!boolean) {
+    test_elements(false, elements);
+    return;
+  }
+  std::vector<ElementPair> found;
+  test_elements(true, found);
+  for (const ElementPair& p : found) out.bodies.push_back({p.body_a, p.body_b});
+}
+
+// Which cells still take part after `levels` sphere levels.
+std::vector<std::vector<char>> FfdDetector::covered_cells(int levels,
+                                                          const SphereSurvivors& s) const {
+  FfdConfig config = config_;
+  config.sphere_levels = levels;
+  if (safe()) return BoxHashStage::active_cells(models_, config, s);
+  const auto probes = ProbeHashStage::active_probes(models_, states_, config, s);
+  std::vector<std::vector<char>> cells(models_.size());
+  for (std::size_t body = 0; body < models_.size(); ++body) {
+    cells[body].assign(models_[body].piece_begin.size() - 1, 0);
+    for (std::uint32_t p = 0; p < probes[body].size(); ++p)
+      if (probes[body][p])
+        for_cells_of_probe(models_[body], config_.volume, p,
+                           [&](std::uint32_t cell) { cells[body][cell] = 1; });
+  }
+  return cells;
+}
+
+void FfdDetector::trace_spheres(StageTrace& out) {
+  for (int level = 1; level <= config_.sphere_levels; ++level) {
+    SphereSurvivors s;
+    run_spheres(models_, states_, config_.bounds, level, s);
+    StageRecord record;
+    record.name = "sphere" + std::to_string(level);
+    record.unit = level == 1 ? "body pairs" : "sphere pairs";
+    record.in = s.tested;
+    record.out = s.colliding;
+    if (level == 1) {
+      record.kind = StageRecord::Kind::kBodies;
+      record.bodies = s.body_pairs;
+    } else {
+      record.kind = safe() ? StageRecord::Kind::kOwnerCells : StageRecord::Kind::kLabelCells;
+      const auto cells = covered_cells(level, s);
+      for (const BodyPair& pair : s.body_pairs)
+        for (std::uint32_t a = 0; a < cells[pair.a].size(); ++a)
+          for (std::uint32_t b = 0; cells[pair.a][a] && b < cells[pair.b].size(); ++b)
+            if (cells[pair.b][b]) record.elements.push_back({pair.a, pair.b, a, b});
+      canonicalize(record.elements);
+    }
+    out.stages.push_back(std::move(record));
+  }
+}
+
+void FfdDetector::trace_hash_and_elements(StageTrace& out) {
+  find_candidates();
+  StageRecord hash;
+  hash.name = "hash";
+  hash.unit = "cell pairs";
+  hash.kind = safe() ? StageRecord::Kind::kOwnerCells : StageRecord::Kind::kLabelCells;
+  const auto cells = covered_cells(config_.sphere_levels, survivors_);
+  const auto count = [&](std::uint32_t body) {
+    return static_cast<std::uint64_t>(std::count(cells[body].begin(), cells[body].end(), 1));
+  };
+  for (const BodyPair& pair : survivors_.body_pairs) hash.in += count(pair.a) * count(pair.b);
+  hash.elements = safe() ? cells_ : cells_of_hits();
+  canonicalize(hash.elements);
+  hash.out = hash.elements.size();
+
+  StageRecord element;
+  const bool triangles = config_.element == ElementTest::kTriangle;
+  element.name = triangles ? "triangles" : "node-plane";
+  element.unit = triangles ? "cell pairs to triangle pairs" : "cell pairs";
+  // Reported cell pairs are judged through labels in both readings, as the level `cell` is.
+  element.kind = triangles ? StageRecord::Kind::kTriangles : StageRecord::Kind::kLabelCells;
+  element.in = hash.out;
+  test_elements(false, element.elements);
+  canonicalize(element.elements);
+  element.out = element.elements.size();
+  out.stages.push_back(std::move(hash));
+  out.stages.push_back(std::move(element));
+}
+
+StageTrace FfdDetector::trace() {
+  StageTrace out;
+  if (safe())
+    for (const FfdModel& model : models_) out.owner.push_back(model.owner);
+  trace_spheres(out);
+  trace_hash_and_elements(out);
+  return out;
+}
+
+}  // namespace contactcheck

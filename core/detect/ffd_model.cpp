@@ -1,0 +1,158 @@
+#include "core/detect/ffd_model.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/broad/sphere.h"
+#include "core/deform/ffd_aabb.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+Aabb unit_box() { return {Vec3::Zero(), Vec3::Ones()}; }
+
+// Turns (row, value) pairs, given in ascending order of value per row, into rows.
+Rows make_rows(std::size_t rows,
+               const std::vector<std::pair<std::uint32_t, std::uint32_t>>& items) {
+  Rows out;
+  out.begin.assign(rows + 1, 0);
+  for (const auto& [row, value] : items) ++out.begin[row + 1];
+  std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+  out.values.resize(items.size());
+  std::vector<std::uint32_t> next(out.begin.begin(), out.begin.end() - 1);
+  for (const auto& [row, value] : items) out.values[next[row]++] = value;
+  return out;
+}
+
+std::uint32_t owner_of(const Triangle& t, const std::vector<std::uint32_t>& home) {
+  const std::uint32_t a = home[t[0]], b = home[t[1]], c = home[t[2]];
+  return b == c ? b : a;
+}
+
+void own_triangles(const BodyShape& shape, FfdModel& model) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
+  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+    model.owner.push_back(owner_of(shape.mesh.triangles[t], shape.embedding.home_cell));
+    items.emplace_back(model.owner.back(), t);
+  }
+  model.triangles = make_rows(shape.lattice->cells.size(), items);
+}
+
+void label_triangles(const BodyShape& shape, FfdModel& model) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
+  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
+    for (std::uint32_t cell : shape.embedding.cells_of_triangle(t)) items.emplace_back(cell, t);
+  model.triangles = make_rows(shape.lattice->cells.size(), items);
+}
+
+void make_paper_pieces(const BodyShape& shape, CellVolume volume, FfdModel& model) {
+  const std::vector<Aabb> boxes = volume == CellVolume::kFfdAabb
+                                      ? ffd_aabbs(shape.mesh, *shape.lattice, shape.embedding)
+                                      : std::vector<Aabb>(shape.lattice->cells.size(), unit_box());
+  for (std::uint32_t cell = 0; cell < boxes.size(); ++cell)
+    model.pieces.push_back({cell, cell, boxes[cell]});
+}
+
+// The bounds of the vertices of one owner's triangles, per home cell.
+void add_safe_pieces(const BodyShape& shape, CellVolume volume, std::uint32_t cell,
+                     FfdModel& model) {
+  const std::size_t first = model.pieces.size();
+  for (std::uint32_t t : model.triangles.row(cell)) {
+    for (std::uint32_t v : shape.mesh.triangles[t]) {
+      const std::uint32_t home = shape.embedding.home_cell[v];
+      auto piece = std::find_if(model.pieces.begin() + first, model.pieces.end(),
+                                [&](const FfdPiece& p) { return p.home == home; });
+      if (piece == model.pieces.end()) {
+        piece = model.pieces.insert(piece, {cell, home, Aabb{}});
+        if (volume == CellVolume::kLatticeCell) piece->local = unit_box();
+      }
+      piece->local.extend(shape.embedding.local[v]);
+    }
+  }
+}
+
+void index_pieces(std::size_t kept, FfdModel& model) {
+  model.piece_begin.assign(kept + 1, 0);
+  for (const FfdPiece& p : model.pieces) ++model.piece_begin[p.cell + 1];
+  std::partial_sum(model.piece_begin.begin(), model.piece_begin.end(), model.piece_begin.begin());
+  for (std::uint32_t cell = 0; cell < kept; ++cell)
+    if (model.piece_begin[cell] < model.piece_begin[cell + 1]) model.cells.push_back(cell);
+}
+
+void find_node_cells(const Lattice& lattice, FfdModel& model) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
+  for (std::uint32_t cell = 0; cell < lattice.cells.size(); ++cell)
+    for (std::uint32_t node : lattice.cell_nodes[cell]) items.emplace_back(node, cell);
+  model.node_cells = make_rows(lattice.nodes.size(), items);
+}
+
+std::vector<Corners> rest_corners(const FfdModel& model) {
+  const std::vector<Vec3> nodes = model.shape->lattice->rest_nodes();
+  std::vector<Corners> corners;
+  for (const FfdPiece& p : model.pieces)
+    corners.push_back(mapped_box(*model.shape->lattice, p.home, p.local, nodes));
+  return corners;
+}
+
+double mean_edge_of(const std::vector<Corners>& boxes) {
+  double sum = 0.0;
+  for (const Corners& box : boxes)
+    for (int c = 0; c < 8; ++c)
+      for (int axis = 1; axis <= 4; axis *= 2)
+        if (!(c & axis)) sum += (box[c | axis] - box[c]).norm();
+  return boxes.empty() ? 0.0 : sum / (12.0 * static_cast<double>(boxes.size()));
+}
+
+double rest_radius(const FfdModel& model, const std::vector<Corners>& corners,
+                   const SphereNode& sphere, const Vec3& center) {
+  double radius = 0.0;
+  for (std::uint32_t cell : sphere.cells)
+    for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
+      radius = std::max(radius, covering_radius(center, corners[p], 0.0));
+  return radius;
+}
+
+void measure_spheres(const std::vector<Corners>& corners, FfdModel& model) {
+  Aabb box;
+  for (const Corners& c : corners)
+    for (const Vec3& p : c) box.extend(p);
+  for (std::size_t level = 0; level < model.spheres.levels.size(); ++level) {
+    std::vector<double> radii;
+    for (const SphereNode& sphere : model.spheres.levels[level]) {
+      const Vec3 center =
+          level == 0 ? box.center() : model.shape->lattice->rest_node(sphere.center_node);
+      radii.push_back(rest_radius(model, corners, sphere, center));
+    }
+    model.rest_radius.push_back(std::move(radii));
+  }
+}
+
+}  // namespace
+
+FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config) {
+  if (!shape.lattice) throw RefusedInput("the FFD-AABB family needs a lattice for every body");
+  FfdModel model;
+  model.shape = &shape;
+  const std::size_t kept = shape.lattice->cells.size();
+  if (config.bounds == BoundsReading::kSafe) {
+    own_triangles(shape, model);
+    for (std::uint32_t cell = 0; cell < kept; ++cell)
+      add_safe_pieces(shape, config.volume, cell, model);
+  } else {
+    label_triangles(shape, model);
+    make_paper_pieces(shape, config.volume, model);
+  }
+  index_pieces(kept, model);
+  find_node_cells(*shape.lattice, model);
+  const std::vector<Corners> corners = rest_corners(model);
+  model.mean_edge = mean_edge_of(corners);
+  if (config.sphere_levels > 0) {
+    model.spheres =
+        make_sphere_tree(*shape.lattice, model.cells, config.sphere_levels, config.spheres);
+    measure_spheres(corners, model);
+  }
+  return model;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,95 @@
+#include "core/detect/ffd_detector.h"
+#include "core/detect/registry.h"
+
+namespace contactcheck {
+namespace {
+
+struct Member {
+  const char* id;
+  const char* summary;
+  CellVolume volume;
+  int sphere_levels;  // fixed; 0 with `deep`: the option decides
+  bool deep;
+};
+
+constexpr Member kFamily[] = {
+    {"ffd-grid", "traditional FFD: the lattice cells themselves collide", CellVolume::kLatticeCell,
+     0, false},
+    {"ffd-aabb", "FFD-AABB: a tight box per cell, hashed", CellVolume::kFfdAabb, 0, false},
+    {"ffd-aabb-sphere", "FFD-AABB behind one bounding sphere per body", CellVolume::kFfdAabb, 1,
+     false},
+    {"ffd-aabb-sphere2", "FFD-AABB behind two levels of spheres (Jeon et al. 2013)",
+     CellVolume::kFfdAabb, 2, false},
+    {"ffd-aabb-sphereN", "FFD-AABB behind a deeper hierarchy of spheres", CellVolume::kFfdAabb, 0,
+     true}};
+
+OptionInfo choice(std::string name, std::string value, std::vector<std::string> choices,
+                  std::string help) {
+  OptionInfo o;
+  o.name = std::move(name);
+  o.default_value = std::move(value);
+  o.choices = std::move(choices);
+  o.help = std::move(help);
+  return o;
+}
+
+OptionInfo number(std::string name, std::string value, double min, double max, bool integer,
+                  std::string help) {
+  OptionInfo o;
+  o.name = std::move(name);
+  o.default_value = std::move(value);
+  o.min = min;
+  o.max = max;
+  o.integer = integer;
+  o.help = std::move(help);
+  return o;
+}
+
+std::vector<OptionInfo> options_of(const Member& member, ElementTest element) {
+  std::vector<OptionInfo> options;
+  options.push_back(choice("bounds", element == ElementTest::kTriangle ? "safe" : "paper",
+                           {"paper", "safe"}, "how open points of the paper are read"));
+  options.push_back(
+      number("cell", "1", 1e-3, 1e3, false, "hash grid cell, in mean edges of the boxes at rest"));
+  options.push_back(number("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"));
+  if (member.sphere_levels > 1 || member.deep)
+    options.push_back(number("spheres", member.deep ? "4" : "16", 1, 1024, true,
+                             "spheres into which one is split at the next level"));
+  if (member.deep) options.push_back(number("levels", "3", 1, 8, true, "levels of spheres"));
+  return options;
+}
+
+FfdConfig config_of(const Member& member, ElementTest element, const Options& options) {
+  FfdConfig config;
+  config.volume = member.volume;
+  config.element = element;
+  config.bounds = options.at("bounds") == "safe" ? BoundsReading::kSafe : BoundsReading::kPaper;
+  config.hash_cell = number_option(options, "cell");
+  config.table_size = static_cast<std::uint32_t>(number_option(options, "table"));
+  config.sphere_levels =
+      member.deep ? static_cast<int>(number_option(options, "levels")) : member.sphere_levels;
+  if (options.count("spheres"))
+    config.spheres = static_cast<int>(number_option(options, "spheres"));
+  return config;
+}
+
+}  // namespace
+
+void register_core_detectors(DetectorCatalog& catalog) {
+  for (ElementTest element : {ElementTest::kNodePlane, ElementTest::kTriangle}) {
+    for (const Member& member : kFamily) {
+      const bool triangles = element == ElementTest::kTriangle;
+      DetectorInfo info;
+      info.id = std::string(member.id) + (triangles ? "+tri" : "");
+      info.summary = std::string(member.summary) +
+                     (triangles ? "; exact triangle test" : "; node-against-plane test");
+      info.options = options_of(member, element);
+      info.make = [member, element](const Options& options) -> std::unique_ptr<Detector> {
+        return std::make_unique<FfdDetector>(config_of(member, element, options));
+      };
+      catalog.add(std::move(info));
+    }
+  }
+}
+
+}  // namespace contactcheck

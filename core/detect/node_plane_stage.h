@@ -1,0 +1,54 @@
+// The paper's element stage: each node against each plane of the boxes in its bucket.
+#pragma once
+
+#include <vector>
+
+#include "core/detect/ffd_state.h"
+#include "core/detect/hash_stage.h"
+#include "core/narrow/node_plane.h"
+#include "core/types/contact_set.h"
+
+namespace contactcheck {
+
+class NodePlaneStage {
+ public:
+  /// Forgets the planes of the last frame.
+  void begin_frame(const std::vector<FfdModel>& models);
+
+  /// Reading `paper`: reports (cell of the probe, box's cell) for every probe inside its box.
+  /// `first_only`: at most one report per pair of bodies.
+  void run_probes(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                  CellVolume volume, const std::vector<ProbeHit>& hits, bool first_only,
+                  std::vector<ElementPair>& out);
+  /// Reading `safe`: every corner of the boxes of one owner cell against the boxes of the other,
+  /// both ways.
+  void run_cells(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                 const std::vector<ElementPair>& candidates, bool first_only,
+                 std::vector<ElementPair>& out);
+
+ private:
+  const BoxPlanes& planes(const std::vector<FfdState>& states, std::uint32_t body,
+                          std::uint32_t piece);
+  bool any_corner_inside(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                         std::uint32_t body_a, std::uint32_t cell_a, std::uint32_t body_b,
+                         std::uint32_t cell_b);
+
+  std::vector<std::vector<BoxPlanes>> planes_;  // per body and piece
+  std::vector<std::vector<char>> known_;
+};
+
+/// Which pairs of bodies were reported already; for boolean questions.
+class SeenPairs {
+ public:
+  explicit SeenPairs(std::size_t bodies) : bodies_(bodies), seen_(bodies * bodies, 0) {}
+  bool seen(std::uint32_t a, std::uint32_t b) const { return seen_[a * bodies_ + b] != 0; }
+  void mark(std::uint32_t a, std::uint32_t b) {
+    seen_[a * bodies_ + b] = seen_[b * bodies_ + a] = 1;
+  }
+
+ private:
+  std::size_t bodies_;
+  std::vector<char> seen_;
+};
+
+}  // namespace contactcheck

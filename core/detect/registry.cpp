@@ -1,0 +1,128 @@
+#include "core/detect/registry.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+std::string join(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
+  return out;
+}
+
+// Shortest text that reads back as the same double.
+std::string shortest(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, end.ptr};
+}
+
+std::string checked_number(const std::string& detector, const OptionInfo& option,
+                           const std::string& text) {
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = end.ec == std::errc() && end.ptr == text.data() + text.size();
+  const bool whole = !option.integer || value == static_cast<double>(static_cast<long long>(value));
+  if (!number || !(value >= option.min && value <= option.max) || !whole) {
+    throw InputError("detector \"" + detector + "\": option " + option.name + " is \"" + text +
+                     "\"; allowed: " + (option.integer ? "a whole number" : "a number") + " from " +
+                     shortest(option.min) + " to " + shortest(option.max));
+  }
+  return shortest(value);
+}
+
+std::string checked_value(const std::string& detector, const OptionInfo& option,
+                          const std::string& text) {
+  if (option.choices.empty()) return checked_number(detector, option, text);
+  if (std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end()) {
+    throw InputError("detector \"" + detector + "\": option " + option.name + " is \"" + text +
+                     "\"; allowed: " + join(option.choices));
+  }
+  return text;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    parts.emplace_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+const OptionInfo& option_named(const DetectorInfo& info, std::string_view text,
+                               const std::string& name) {
+  for (const OptionInfo& option : info.options)
+    if (option.name == name) return option;
+  std::vector<std::string> names;
+  for (const OptionInfo& option : info.options) names.push_back(option.name);
+  throw InputError("detector \"" + std::string(text) + "\": unknown option \"" + name + "\"; " +
+                   info.id + " knows " + (names.empty() ? "no options" : join(names)));
+}
+
+std::string canonical_name(const DetectorInfo& info, const Options& options) {
+  std::string text;
+  for (const auto& [name, value] : options) {
+    const OptionInfo& option = option_named(info, info.id, name);
+    if (value != option.default_value) text += (text.empty() ? ":" : ",") + name + "=" + value;
+  }
+  return info.id + text;
+}
+
+}  // namespace
+
+void DetectorCatalog::add(DetectorInfo info) {
+  CONTACTCHECK_INVARIANT(find(info.id) == nullptr, "detector ids are unique: " + info.id);
+  infos_.push_back(std::move(info));
+}
+
+const DetectorInfo* DetectorCatalog::find(std::string_view id) const {
+  for (const DetectorInfo& info : infos_)
+    if (info.id == id) return &info;
+  return nullptr;
+}
+
+DetectorSpec DetectorCatalog::parse(std::string_view text) const {
+  const std::size_t colon = text.find(':');
+  const DetectorInfo* info = find(text.substr(0, colon));
+  if (info == nullptr) {
+    throw InputError("unknown detector \"" + std::string(text.substr(0, colon)) +
+                     "\"; `contactcheck list` names all");
+  }
+  DetectorSpec spec;
+  spec.id = info->id;
+  for (const OptionInfo& option : info->options) spec.options[option.name] = option.default_value;
+  if (colon != std::string_view::npos) {
+    for (const std::string& part : split(text.substr(colon + 1), ',')) {
+      const std::size_t equals = part.find('=');
+      if (equals == std::string::npos) {
+        throw InputError("detector \"" + std::string(text) + "\": \"" + part +
+                         "\" is not of the form option=value");
+      }
+      const OptionInfo& option = option_named(*info, text, part.substr(0, equals));
+      spec.options[option.name] = checked_value(std::string(text), option, part.substr(equals + 1));
+    }
+  }
+  spec.name = canonical_name(*info, spec.options);
+  return spec;
+}
+
+std::unique_ptr<Detector> DetectorCatalog::make(const DetectorSpec& spec) const {
+  const DetectorInfo* info = find(spec.id);
+  CONTACTCHECK_INVARIANT(info != nullptr && info->make, "only built detectors are made");
+  return info->make(spec.options);
+}
+
+double number_option(const Options& options, const std::string& name) {
+  const std::string& text = options.at(name);
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+}  // namespace contactcheck

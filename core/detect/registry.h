@@ -1,0 +1,62 @@
+// Names of detectors: `ID[+tri][:option=value,...]`, and the catalogue they are made from.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/detect/detector.h"
+
+namespace contactcheck {
+
+struct OptionInfo {
+  std::string name;
+  std::string default_value;
+  std::vector<std::string> choices;  ///< allowed words; empty: a number in [min, max]
+  double min = 0.0, max = 0.0;
+  bool integer = false;
+  std::string help;
+};
+
+/// Options by name, complete: every option of the detector has a value here.
+using Options = std::map<std::string, std::string>;
+
+struct DetectorInfo {
+  std::string id;       ///< includes "+tri" where that is a variant of its own
+  std::string summary;  ///< one line
+  std::vector<OptionInfo> options;
+  std::function<std::unique_ptr<Detector>(const Options&)> make;
+  std::string absent_because;  ///< not empty: known, but not built into this program
+};
+
+struct DetectorSpec {
+  std::string id;
+  Options options;   ///< complete
+  std::string name;  ///< canonical: options at their defaults left out, the others sorted
+};
+
+class DetectorCatalog {
+ public:
+  void add(DetectorInfo info);
+  const std::vector<DetectorInfo>& all() const { return infos_; }
+  const DetectorInfo* find(std::string_view id) const;
+
+  /// @throws InputError: unknown detector or option, value not allowed; the sentence names both
+  DetectorSpec parse(std::string_view text) const;
+  /// @pre spec came from parse of this catalogue and the detector is not absent
+  std::unique_ptr<Detector> make(const DetectorSpec& spec) const;
+
+ private:
+  std::vector<DetectorInfo> infos_;
+};
+
+/// The detectors of core.
+void register_core_detectors(DetectorCatalog& catalog);
+
+/// @pre the option exists; values were checked by parse
+double number_option(const Options& options, const std::string& name);
+
+}  // namespace contactcheck

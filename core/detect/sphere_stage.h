@@ -1,0 +1,29 @@
+// Sphere against sphere, level by level.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/ffd_state.h"
+#include "core/types/contact_set.h"
+
+namespace contactcheck {
+
+/// What is left after the sphere levels.
+struct SphereSurvivors {
+  std::size_t bodies = 0;
+  std::vector<BodyPair> body_pairs;  ///< candidates, canonical order
+  std::vector<char> pair_active;     ///< [a * bodies + b], both orders
+  /// Per body: spheres of the finest level tested so far that collide with another body's;
+  /// meaningful from level 2 on.
+  std::vector<std::vector<char>> sphere_active;
+  std::uint64_t tested = 0, colliding = 0;  ///< sphere pairs of the last level
+
+  bool active(std::uint32_t a, std::uint32_t b) const { return pair_active[a * bodies + b] != 0; }
+};
+
+/// Sphere levels 1 .. `levels` (0: every pair of bodies is a candidate).
+void run_spheres(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                 BoundsReading bounds, int levels, SphereSurvivors& out);
+
+}  // namespace contactcheck

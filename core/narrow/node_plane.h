@@ -1,0 +1,42 @@
+// The paper's element test: is a node on the inner side of all six planes of a mapped box?
+// Source: Jeon, Hong, Choi, Jeong 2013, "each node against each plane of the boxes in its bucket".
+#pragma once
+
+#include <array>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// A mapped box has faces that need not be planar. Fixed reading (design, "Detector names"): a
+/// face's plane goes through its centroid, its normal is the cross product of its diagonals,
+/// outward at rest. A face without area has normal zero and excludes nothing.
+struct BoxPlanes {
+  std::array<Vec3, 6> normal;
+  std::array<Vec3, 6> point;
+};
+
+inline BoxPlanes planes_of_box(const std::array<Vec3, 8>& corners) {
+  // Counter-clockwise seen from outside at rest; corner c is high on axis k when bit k is set.
+  constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  BoxPlanes planes;
+  for (int f = 0; f < 6; ++f) {
+    const Vec3 &a = corners[kFaces[f][0]], &b = corners[kFaces[f][1]], &c = corners[kFaces[f][2]],
+               &d = corners[kFaces[f][3]];
+    planes.normal[f] = (c - a).cross(d - b);
+    planes.point[f] = 0.25 * ((a + b) + (c + d));
+  }
+  return planes;
+}
+
+/// Closed: a node on a plane counts as inside. An approximation by nature, in plain double; what
+/// it misses and invents is what the suite measures.
+inline bool node_inside(const BoxPlanes& planes, const Vec3& node) {
+  for (int f = 0; f < 6; ++f) {
+    if (planes.normal[f].dot(node - planes.point[f]) > 0.0) return false;
+  }
+  return true;
+}
+
+}  // namespace contactcheck

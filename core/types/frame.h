@@ -1,0 +1,27 @@
+// One moment of a scene, as every detector is given it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// The deformed state of one body. `nodes` are the lattice nodes (of the kept cells, in the
+/// lattice's node order) or, for a body without a lattice, its vertices. `vertices` are the mapped
+/// vertices, or empty for a detector that said it does not need them.
+struct BodyState {
+  std::span<const Vec3> nodes;
+  std::span<const Vec3> vertices;
+};
+
+/// All values finite: the runner refuses NaN and infinity before any detector sees them.
+struct Frame {
+  std::size_t index = 0;
+  double time = 0.0;  ///< seconds
+  std::vector<BodyState> bodies;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,181 @@
+#include "core/types/mesh_topology.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace contactcheck {
+namespace {
+
+struct HalfEdge {
+  std::uint32_t low, high, triangle;
+  bool forward;  // runs from low to high
+};
+
+std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& tri = mesh.triangles[t];
+    for (int e = 0; e < 3; ++e) {
+      const std::uint32_t a = tri[e], b = tri[(e + 1) % 3];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
+    return std::tie(x.low, x.high, x.triangle) < std::tie(y.low, y.high, y.triangle);
+  });
+  return edges;
+}
+
+// Exact for doubles that differ by less than 2^53 of one another only in rare cases; a triangle is
+// called zero-area here when its three corners are equal in pairs or its cross product, computed in
+// double, vanishes in all three components. This is a report to the user, never a verdict.
+bool zero_area(const TriangleMesh& mesh, const Triangle& t) {
+  const Vec3 u = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+  const Vec3 v = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+  return u.cross(v).isZero(0.0);
+}
+
+void check_vertices_and_indices(const TriangleMesh& mesh, MeshTopology& out) {
+  if (mesh.vertices.empty() || mesh.triangles.empty()) {
+    out.defects.push_back({MeshDefectKind::kEmpty, 0});
+  }
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) out.defects.push_back({MeshDefectKind::kNonFiniteVertex, v});
+  }
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t index : mesh.triangles[t]) {
+      if (index >= mesh.vertices.size()) {
+        out.defects.push_back({MeshDefectKind::kIndexOutOfRange, t});
+        break;
+      }
+    }
+  }
+  out.fatal = !out.defects.empty();
+}
+
+void check_triangles(const TriangleMesh& mesh, MeshTopology& out) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& tri = mesh.triangles[t];
+    if (tri[0] == tri[1] || tri[1] == tri[2] || tri[2] == tri[0]) {
+      out.defects.push_back({MeshDefectKind::kRepeatedIndex, t});
+    } else if (zero_area(mesh, tri)) {
+      out.defects.push_back({MeshDefectKind::kZeroAreaTriangle, t});
+    }
+  }
+}
+
+void check_edges(const TriangleMesh& mesh, MeshTopology& out) {
+  const std::vector<HalfEdge> edges = sorted_half_edges(mesh);
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    if (j - i == 1) out.defects.push_back({MeshDefectKind::kBoundaryEdge, edges[i].triangle});
+    if (j - i > 2) out.defects.push_back({MeshDefectKind::kNonManifoldEdge, edges[i].triangle});
+    if (j - i == 2 && edges[i].forward == edges[i + 1].forward) {
+      out.defects.push_back({MeshDefectKind::kInconsistentOrientation, edges[i + 1].triangle});
+    }
+    i = j;
+  }
+}
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+void find_components(const TriangleMesh& mesh, MeshTopology& out) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 1; k < 3; ++k) {
+      const std::uint32_t a = find_root(parent, t[0]), b = find_root(parent, t[k]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) used[find_root(parent, t[0])] = true;
+  out.component_of_vertex.assign(mesh.vertices.size(), 0);
+  std::vector<std::uint32_t> number(mesh.vertices.size(), 0);
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::uint32_t root = find_root(parent, v);
+    if (root == v && used[v]) {
+      number[v] = static_cast<std::uint32_t>(out.component_vertex.size());
+      out.component_vertex.push_back(v);
+    }
+    out.component_of_vertex[v] = number[root];
+  }
+}
+
+}  // namespace
+
+const char* name_of(MeshDefectKind kind) {
+  switch (kind) {
+    case MeshDefectKind::kEmpty:
+      return "empty-mesh";
+    case MeshDefectKind::kNonFiniteVertex:
+      return "non-finite-vertex";
+    case MeshDefectKind::kIndexOutOfRange:
+      return "index-out-of-range";
+    case MeshDefectKind::kRepeatedIndex:
+      return "repeated-index";
+    case MeshDefectKind::kZeroAreaTriangle:
+      return "zero-area-triangle";
+    case MeshDefectKind::kNonManifoldEdge:
+      return "non-manifold-edge";
+    case MeshDefectKind::kBoundaryEdge:
+      return "boundary-edge";
+    case MeshDefectKind::kInconsistentOrientation:
+      return "inconsistent-orientation";
+  }
+  return "unknown";
+}
+
+bool is_fatal(MeshDefectKind kind) {
+  return kind == MeshDefectKind::kEmpty || kind == MeshDefectKind::kNonFiniteVertex ||
+         kind == MeshDefectKind::kIndexOutOfRange;
+}
+
+std::size_t MeshTopology::count(MeshDefectKind kind) const {
+  return static_cast<std::size_t>(std::count_if(
+      defects.begin(), defects.end(), [&](const MeshDefect& d) { return d.kind == kind; }));
+}
+
+MeshTopology analyse_topology(const TriangleMesh& mesh) {
+  MeshTopology out;
+  check_vertices_and_indices(mesh, out);
+  if (out.fatal) return out;
+  check_triangles(mesh, out);
+  check_edges(mesh, out);
+  std::stable_sort(out.defects.begin(), out.defects.end(),
+                   [](const MeshDefect& a, const MeshDefect& b) { return a.kind < b.kind; });
+  find_components(mesh, out);
+  out.solid = out.count(MeshDefectKind::kRepeatedIndex) == 0 &&
+              out.count(MeshDefectKind::kNonManifoldEdge) == 0 &&
+              out.count(MeshDefectKind::kBoundaryEdge) == 0 &&
+              out.count(MeshDefectKind::kInconsistentOrientation) == 0;
+  return out;
+}
+
+std::string describe(const MeshTopology& topology) {
+  std::string text;
+  for (std::size_t i = 0; i < topology.defects.size();) {
+    const MeshDefectKind kind = topology.defects[i].kind;
+    const std::size_t n = topology.count(kind);
+    const char* of = kind == MeshDefectKind::kNonFiniteVertex ? "vertex " : "triangle ";
+    if (!text.empty()) text += ", ";
+    text += std::to_string(n) + " " + name_of(kind);
+    if (kind != MeshDefectKind::kEmpty) {
+      text += std::string(" (") + (n > 1 ? "first: " : "") + of +
+              std::to_string(topology.defects[i].index) + ")";
+    }
+    i += n;
+  }
+  return text;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,51 @@
+// What a mesh is: its defects by name and index, and whether it bounds a solid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/types/mesh.h"
+
+namespace contactcheck {
+
+enum class MeshDefectKind {
+  kEmpty,                   ///< no vertex or no triangle
+  kNonFiniteVertex,         ///< index: vertex
+  kIndexOutOfRange,         ///< index: triangle
+  kRepeatedIndex,           ///< index: triangle that names one vertex twice
+  kZeroAreaTriangle,        ///< index: triangle whose three corners are exactly collinear
+  kNonManifoldEdge,         ///< index: first triangle of an edge with more than two triangles
+  kBoundaryEdge,            ///< index: triangle of an edge with one triangle
+  kInconsistentOrientation  ///< index: triangle that runs a shared edge the same way as its
+                            ///< neighbour
+};
+
+struct MeshDefect {
+  MeshDefectKind kind;
+  std::uint32_t index;
+};
+
+const char* name_of(MeshDefectKind kind);
+/// True for defects no detector can be given: empty, non-finite, index out of range.
+bool is_fatal(MeshDefectKind kind);
+
+struct MeshTopology {
+  std::vector<MeshDefect> defects;  ///< all of them, in the order of the kinds, then index
+  std::vector<std::uint32_t> component_of_vertex;  ///< connected component of each vertex
+  std::vector<std::uint32_t> component_vertex;  ///< one vertex of each component that has triangles
+  bool fatal = false;
+  /// Edge-manifold, closed, consistently oriented: inside is defined.
+  bool solid = false;
+
+  std::size_t count(MeshDefectKind kind) const;
+};
+
+/// Lists every defect of `mesh`; never throws for bad meshes.
+MeshTopology analyse_topology(const TriangleMesh& mesh);
+
+/// "3 boundary-edge (first: triangle 17), 1 zero-area-triangle (triangle 4)"; empty without
+/// defects.
+std::string describe(const MeshTopology& topology);
+
+}  // namespace contactcheck

@@ -1,0 +1,74 @@
+#include "core/types/semantics.h"
+
+#include <algorithm>
+#include <array>
+
+namespace contactcheck {
+namespace {
+constexpr std::array kLevels = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
+                                Level::kTriangle, Level::kVertex,      Level::kNear};
+}
+
+const char* name_of(Level level) {
+  switch (level) {
+    case Level::kBody:
+      return "body";
+    case Level::kContainment:
+      return "containment";
+    case Level::kCell:
+      return "cell";
+    case Level::kBox:
+      return "box";
+    case Level::kTriangle:
+      return "triangle";
+    case Level::kVertex:
+      return "vertex";
+    case Level::kNear:
+      return "near";
+  }
+  return "unknown";
+}
+
+const char* name_of(Question question) {
+  switch (question) {
+    case Question::kTriangles:
+      return "triangles";
+    case Question::kBody:
+      return "body";
+    case Question::kCells:
+      return "cells";
+  }
+  return "unknown";
+}
+
+const char* name_of(Precision precision) {
+  return precision == Precision::kDouble ? "double" : "single";
+}
+
+const char* name_of(DepthKind kind) {
+  switch (kind) {
+    case DepthKind::kNone:
+      return "none";
+    case DepthKind::kVertexSurface:
+      return "vertex-surface";
+    case DepthKind::kConvexPair:
+      return "convex-pair";
+  }
+  return "unknown";
+}
+
+std::optional<Level> level_from_name(std::string_view name) {
+  for (Level level : kLevels)
+    if (name == name_of(level)) return level;
+  return std::nullopt;
+}
+
+bool Semantics::claims(Level level) const {
+  return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+bool Semantics::answers(Question question) const {
+  return std::find(questions.begin(), questions.end(), question) != questions.end();
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,44 @@
+// What a detector claims. The comparison judges exactly this and nothing else.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace contactcheck {
+
+/// The levels of contact; each has a truth of its own (see the README of fixtures for the meaning).
+enum class Level { kBody, kContainment, kCell, kBox, kTriangle, kVertex, kNear };
+
+/// What is asked of a detector when its time is taken.
+enum class Question {
+  kTriangles,  ///< all pairs of intersecting triangles
+  kBody,       ///< pairs of bodies in contact; early-out allowed
+  kCells       ///< all pairs of colliding FFD cells
+};
+
+enum class Precision { kDouble, kSingle };
+enum class DepthKind { kNone, kVertexSurface, kConvexPair };
+
+const char* name_of(Level level);
+const char* name_of(Question question);
+const char* name_of(Precision precision);
+const char* name_of(DepthKind kind);
+std::optional<Level> level_from_name(std::string_view name);
+
+struct Semantics {
+  std::vector<Level> levels;        ///< levels it claims to answer, all of which are judged
+  std::vector<Question> questions;  ///< first one: its own question; never empty
+  bool solid = false;               ///< true: containment counts as contact; false: surfaces only
+  bool closed = true;               ///< true: touching is contact
+  bool exact = false;               ///< true: it claims no miss and nothing spurious at its levels
+  double margin = 0.0;              ///< metres; 0 without a margin
+  Precision precision = Precision::kDouble;
+  DepthKind depth = DepthKind::kNone;
+
+  bool claims(Level level) const;
+  bool answers(Question question) const;
+};
+
+}  // namespace contactcheck

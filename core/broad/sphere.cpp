@@ -22,7 +22,8 @@ bool collide_strict(const Sphere& a, const Sphere& b) {
 bool collide_safe(const Sphere& a, const Sphere& b) {
   const double reach = (a.radius + b.radius) * kUp + kTiny;
   const double distance = (a.center - b.center).norm();
-  return !(distance > reach * kUp);
+  // Beyond about 1e154 the squares overflow: nothing is known, nothing is excluded.
+  return !(distance > reach * kUp) || std::isinf(distance);
 }
 
 double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack) {

@@ -59,6 +59,7 @@ std::size_t nearest(const Lattice& lattice, std::span<const std::uint32_t> cente
 
 void split(const Lattice& lattice, const SphereNode& sphere, std::uint32_t number, int children,
            std::vector<SphereNode>& out) {
+  if (sphere.cells.empty()) return;
   const std::vector<std::uint32_t> centers = spread_nodes(lattice, sphere.cells, children);
   std::vector<SphereNode> parts(centers.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -26,7 +26,7 @@ struct SphereTree {
 /// Clusters the given cells: per level each sphere is split into up to `children` spheres, whose
 /// centres are nodes of its cells chosen far apart (each next one farthest from those before, the
 /// lowest index where equal), cells going to the nearest centre. Deterministic.
-/// @pre levels >= 1, children >= 1
+/// @pre levels >= 1, children >= 1; without cells only the top exists
 SphereTree make_sphere_tree(const Lattice& lattice, std::span<const std::uint32_t> cells,
                             int levels, int children);
 

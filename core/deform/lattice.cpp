@@ -12,6 +12,11 @@
 namespace contactcheck {
 namespace {
 
+// Fraction of the largest side.
+constexpr double kLeastPadding = 1e-3;
+// Metres, for a mesh at or within a metre of the origin; relative to its coordinates farther out.
+constexpr double kPaddingOfPoint = 1e-9;
+
 std::vector<double> grid_lines(double lo, double hi, std::uint32_t cells) {
   std::vector<double> lines(cells + 1);
   for (std::uint32_t i = 0; i <= cells; ++i) {
@@ -22,15 +27,29 @@ std::vector<double> grid_lines(double lo, double hi, std::uint32_t cells) {
   return lines;
 }
 
+// Cells far from the origin may be finer than doubles there, and huge ones may overflow.
+void check_lines(const std::vector<double>& lines, int axis) {
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    if (!(lines[i - 1] < lines[i]) || !std::isfinite(lines[i] - lines[i - 1]))
+      throw InputError("the lattice cannot have " + std::to_string(lines.size() - 1) +
+                       " cells along axis " + "xyz"[axis] + " between " +
+                       std::to_string(lines.front()) + " and " + std::to_string(lines.back()) +
+                       ": double precision cannot tell its grid lines apart");
+}
+
 std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
                                               const Resolution& resolution, double padding) {
   const Aabb box = bounding_box(mesh.vertices);
   const double largest = box.extent().maxCoeff();
-  // A flat or point-like mesh still gets cells of positive size.
-  const double pad = std::max(padding * largest, std::max(1e-3 * largest, 1e-9));
+  // A flat mesh still gets cells of positive size, and so does one that is a single point.
+  const double pad = largest > 0.0 ? std::max(padding, kLeastPadding) * largest
+                                   : kPaddingOfPoint * std::max(1.0, box.hi.cwiseAbs().maxCoeff());
   const std::array<std::uint32_t, 3> cells = {resolution.x, resolution.y, resolution.z};
   std::array<std::vector<double>, 3> lines;
-  for (int k = 0; k < 3; ++k) lines[k] = grid_lines(box.lo[k] - pad, box.hi[k] + pad, cells[k]);
+  for (int k = 0; k < 3; ++k) {
+    lines[k] = grid_lines(box.lo[k] - pad, box.hi[k] + pad, cells[k]);
+    check_lines(lines[k], k);
+  }
   return lines;
 }
 
@@ -109,10 +128,10 @@ Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, dou
 
 Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, double padding) {
   const Vec3 extent = bounding_box(mesh.vertices).extent();
-  const double largest = std::max(extent.maxCoeff(), 1e-9);
+  const double largest = extent.maxCoeff();
   const auto resolution_at = [&](int divisions) {
     const auto cells = [&](double side) {
-      return static_cast<std::uint32_t>(std::max(1.0, std::round(side / largest * divisions)));
+      return static_cast<std::uint32_t>(side > 0.0 ? std::max(1.0, std::round(side / largest * divisions)) : 1.0);
     };
     return Resolution{cells(extent.x()), cells(extent.y()), cells(extent.z())};
   };

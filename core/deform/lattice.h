@@ -43,6 +43,7 @@ struct Resolution {
 /// the cells kept that hold surface: whose closed box meets a triangle (exactly), or that are the
 /// home of a vertex.
 /// @pre the mesh has no fatal defect; each resolution is at least 1
+/// @throws InputError when the mesh lies too far out for grid lines that differ as doubles
 Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding);
 
 /// The resolution of near-cubic cells whose lattice keeps a number of cells nearest to `wanted`.

@@ -90,6 +90,8 @@ void map_all(const Lattice& lattice, const Embedding& embedding, const Vec3* nod
   }
 }
 
+const char* target_name() { return hwy::TargetName(HWY_TARGET); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace contactcheck
 HWY_AFTER_NAMESPACE();
@@ -97,6 +99,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace contactcheck {
 HWY_EXPORT(map_all);
+HWY_EXPORT(target_name);
+
+const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out) {

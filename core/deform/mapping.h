@@ -34,6 +34,9 @@ inline Vec3 map_point(const Corners& c, const Vec3& local) {
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out);
 
+/// Name of the instruction set that map_vertices runs on here: "AVX3", "AVX2", "SSE4", ...
+const char* simd_target();
+
 /// Bound on |computed - exact| per coordinate of map_point, given the largest |coordinate| of the
 /// nodes, for local coordinates in [0, 1] known exactly.
 /// Each blend adds at most 3 rounding steps of 2^-53 relative to its inputs (1 - w, the two

@@ -60,8 +60,14 @@ void FfdDetector::prepare(const std::vector<Body>& bodies) {
 
 void FfdDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == models_.size(), "one state per prepared body");
-  for (std::size_t body = 0; body < models_.size(); ++body)
+  for (std::size_t body = 0; body < models_.size(); ++body) {
+    const BodyShape& shape = *models_[body].shape;
+    const BodyState& state = frame.bodies[body];
+    CONTACTCHECK_INVARIANT(state.nodes.size() == shape.node_count(), "one position per node");
+    CONTACTCHECK_INVARIANT(!needs_vertices() || state.vertices.size() == shape.mesh.vertices.size(),
+                           "one position per vertex");
     update_state(models_[body], config_, frame.bodies[body], states_[body]);
+  }
   if (config_.element == ElementTest::kTriangle) {
     triangle_.begin_frame(models_, frame);
   } else {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <set>
 
 #include "core/types/check.h"
 
@@ -26,13 +28,13 @@ std::string checked_number(const std::string& detector, const OptionInfo& option
   double value = 0.0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool number = end.ec == std::errc() && end.ptr == text.data() + text.size();
-  const bool whole = !option.integer || value == static_cast<double>(static_cast<long long>(value));
-  if (!number || !(value >= option.min && value <= option.max) || !whole) {
+  const bool in_range = number && value >= option.min && value <= option.max;  // false for NaN
+  if (!in_range || (option.integer && value != std::floor(value))) {
     throw InputError("detector \"" + detector + "\": option " + option.name + " is \"" + text +
                      "\"; allowed: " + (option.integer ? "a whole number" : "a number") + " from " +
                      shortest(option.min) + " to " + shortest(option.max));
   }
-  return shortest(value);
+  return shortest(value + 0.0);  // -0 is 0
 }
 
 std::string checked_value(const std::string& detector, const OptionInfo& option,
@@ -78,6 +80,9 @@ std::string canonical_name(const DetectorInfo& info, const Options& options) {
 
 void DetectorCatalog::add(DetectorInfo info) {
   CONTACTCHECK_INVARIANT(find(info.id) == nullptr, "detector ids are unique: " + info.id);
+  // In the form that parse gives values, so that canonical names can leave defaults out.
+  for (OptionInfo& option : info.options)
+    option.default_value = checked_value(info.id, option, option.default_value);
   infos_.push_back(std::move(info));
 }
 
@@ -98,6 +103,7 @@ DetectorSpec DetectorCatalog::parse(std::string_view text) const {
   spec.id = info->id;
   for (const OptionInfo& option : info->options) spec.options[option.name] = option.default_value;
   if (colon != std::string_view::npos) {
+    std::set<std::string> given;
     for (const std::string& part : split(text.substr(colon + 1), ',')) {
       const std::size_t equals = part.find('=');
       if (equals == std::string::npos) {
@@ -105,6 +111,10 @@ DetectorSpec DetectorCatalog::parse(std::string_view text) const {
                          "\" is not of the form option=value");
       }
       const OptionInfo& option = option_named(*info, text, part.substr(0, equals));
+      if (!given.insert(option.name).second) {
+        throw InputError("detector \"" + std::string(text) + "\": option " + option.name +
+                         " is given twice");
+      }
       spec.options[option.name] = checked_value(std::string(text), option, part.substr(equals + 1));
     }
   }

@@ -44,7 +44,8 @@ class DetectorCatalog {
   const std::vector<DetectorInfo>& all() const { return infos_; }
   const DetectorInfo* find(std::string_view id) const;
 
-  /// @throws InputError: unknown detector or option, value not allowed; the sentence names both
+  /// @throws InputError: unknown detector or option, option given twice, value not allowed; the
+  /// sentence names both
   DetectorSpec parse(std::string_view text) const;
   /// @pre spec came from parse of this catalogue and the detector is not absent
   std::unique_ptr<Detector> make(const DetectorSpec& spec) const;

@@ -82,7 +82,7 @@ void run_spheres(const std::vector<FfdModel>& models, const std::vector<FfdState
                  BoundsReading bounds, int levels, SphereSurvivors& out) {
   out.bodies = models.size();
   std::vector<SpherePair> hits = test_top(states, bounds, levels > 0, out);
-  for (int level = 1; level < levels && !hits.empty(); ++level)
+  for (int level = 1; level < levels; ++level)
     hits = test_children(models, states, bounds, level, hits, out);
   out.colliding = hits.size();
   mark_active(models, levels > 1 ? levels - 1 : 0, hits, out);

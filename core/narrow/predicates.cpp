@@ -23,7 +23,9 @@
 //   So 48 e XYZ is an upper bound of the error.
 //
 // orient2d, the same: 2 * 2 e XY from the differences, 2 e XY from the products and 2 e XY from
-// their difference, 8 e XY to first order; underflow adds 2 n = 2^-1074. 10 e XY is a bound.
+// their difference, 8 e XY to first order; underflow adds 2 n = 2^-1074. 10 e XY is a bound. Where
+// a difference or XY overflows the bound is infinite or NaN and no sign passes; where XY is finite
+// both products are, and if their difference overflows, its sign is right.
 //
 // Exact path. Scaling one axis by a power of two scales the determinant and keeps its sign. So
 // every axis is divided by the lowest set bit of its coordinates, which makes them integers: short

@@ -17,7 +17,8 @@ namespace contactcheck {
 /// Smaller values would make wrong signs possible, larger ones send more calls to exact arithmetic.
 inline constexpr double kOrient3dErrorFactor = 48 * 0x1p-53;
 inline constexpr double kOrient2dErrorFactor = 10 * 0x1p-53;
-/// Outside these limits overflow or underflow could spoil the bounds: the exact path decides.
+/// Outside these limits overflow or underflow could spoil the bounds: the exact path decides. (The
+/// largest difference matters to orient3d alone.)
 inline constexpr double kFilterLargestDifference = 0x1p300;
 inline constexpr double kFilterSmallestBound = 0x1p-700;
 
@@ -56,7 +57,7 @@ inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
   const double x = std::max(std::abs(ux), std::abs(vx));
   const double y = std::max(std::abs(uy), std::abs(vy));
   const double bound = kOrient2dErrorFactor * (x * y);
-  if (bound >= kFilterSmallestBound && std::max(x, y) <= kFilterLargestDifference) {
+  if (bound >= kFilterSmallestBound) {
     if (determinant > bound) return 1;
     if (determinant < -bound) return -1;
   }

@@ -51,6 +51,7 @@ bool separated_by_plane(const TrianglePoints& t, const Aabb& box,
 
 /// Seen along `axis`: the whole box strictly on one side of the line a b, and the triangle's third
 /// corner not strictly on that side. `turn`: orient2d of a, b and the third corner.
+/// (Where turn is 0 the three edges run forth and back on one line, so both sides get their test.)
 bool separated_by_edge(const Vec3& a, const Vec3& b, int turn, const Aabb& box, int axis) {
   const int first = (axis + 1) % 3, second = (axis + 2) % 3;
   std::array<int, 3> left{};  // signs of the direction to the left of a -> b

@@ -1,8 +1,8 @@
 // The three kinds of checks of this code base.
 //
-//   InputError / throw     the user's data is bad: a sentence that names place and value; exit code
-//   2 CONTACTCHECK_INVARIANT a promise of our own code is broken: aborts in every build
-//   CONTACTCHECK_DCHECK    the same in hot loops: Debug builds only
+//   InputError, RefusedInput: the user's data is bad; a sentence names place and value (exit code 2)
+//   CONTACTCHECK_INVARIANT: a promise of our own code is broken; aborts in every build
+//   CONTACTCHECK_DCHECK: the same in hot loops; Debug builds only
 #pragma once
 
 #include <stdexcept>

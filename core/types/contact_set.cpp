@@ -71,6 +71,10 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   }
   hash_pairs(hash, contacts.cells);
   hash_pairs(hash, contacts.triangles);
+  hash.value(static_cast<std::uint64_t>(contacts.vertices.size()));
+  for (const VertexInBody& v : contacts.vertices) {
+    for (std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
+  }
   return hash.digest();
 }
 

@@ -31,12 +31,20 @@ std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
-// Exact for doubles that differ by less than 2^53 of one another only in rare cases; a triangle is
-// called zero-area here when its three corners are equal in pairs or its cross product, computed in
-// double, vanishes in all three components. This is a report to the user, never a verdict.
+// A power of two brings the largest component near 1, so that products neither overflow nor vanish
+// in a mesh of any scale.
+Vec3 near_unit_size(const Vec3& v) {
+  int exponent = 0;
+  std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
+  return {std::ldexp(v.x(), -exponent), std::ldexp(v.y(), -exponent),
+          std::ldexp(v.z(), -exponent)};
+}
+
+// In double: the differences and products round, so a triangle within rounding of a line may fall
+// on either side. This is a report to the user, never a verdict.
 bool zero_area(const TriangleMesh& mesh, const Triangle& t) {
-  const Vec3 u = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-  const Vec3 v = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+  const Vec3 u = near_unit_size(mesh.vertices[t[1]] - mesh.vertices[t[0]]);
+  const Vec3 v = near_unit_size(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
   return u.cross(v).isZero(0.0);
 }
 
@@ -99,8 +107,8 @@ void find_components(const TriangleMesh& mesh, MeshTopology& out) {
   }
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Triangle& t : mesh.triangles) used[find_root(parent, t[0])] = true;
-  out.component_of_vertex.assign(mesh.vertices.size(), 0);
-  std::vector<std::uint32_t> number(mesh.vertices.size(), 0);
+  out.component_of_vertex.assign(mesh.vertices.size(), kNoComponent);
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kNoComponent);
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
     const std::uint32_t root = find_root(parent, v);
     if (root == v && used[v]) {
@@ -152,7 +160,9 @@ MeshTopology analyse_topology(const TriangleMesh& mesh) {
   check_triangles(mesh, out);
   check_edges(mesh, out);
   std::stable_sort(out.defects.begin(), out.defects.end(),
-                   [](const MeshDefect& a, const MeshDefect& b) { return a.kind < b.kind; });
+                   [](const MeshDefect& a, const MeshDefect& b) {
+                     return std::tie(a.kind, a.index) < std::tie(b.kind, b.index);
+                   });
   find_components(mesh, out);
   out.solid = out.count(MeshDefectKind::kRepeatedIndex) == 0 &&
               out.count(MeshDefectKind::kNonManifoldEdge) == 0 &&

@@ -14,7 +14,7 @@ enum class MeshDefectKind {
   kNonFiniteVertex,         ///< index: vertex
   kIndexOutOfRange,         ///< index: triangle
   kRepeatedIndex,           ///< index: triangle that names one vertex twice
-  kZeroAreaTriangle,        ///< index: triangle whose three corners are exactly collinear
+  kZeroAreaTriangle,        ///< index: triangle with collinear corners (cross product 0 in double)
   kNonManifoldEdge,         ///< index: first triangle of an edge with more than two triangles
   kBoundaryEdge,            ///< index: triangle of an edge with one triangle
   kInconsistentOrientation  ///< index: triangle that runs a shared edge the same way as its
@@ -30,9 +30,12 @@ const char* name_of(MeshDefectKind kind);
 /// True for defects no detector can be given: empty, non-finite, index out of range.
 bool is_fatal(MeshDefectKind kind);
 
+/// Of a vertex without a triangle.
+inline constexpr std::uint32_t kNoComponent = ~0u;
+
 struct MeshTopology {
   std::vector<MeshDefect> defects;  ///< all of them, in the order of the kinds, then index
-  std::vector<std::uint32_t> component_of_vertex;  ///< connected component of each vertex
+  std::vector<std::uint32_t> component_of_vertex;  ///< connected component, or kNoComponent
   std::vector<std::uint32_t> component_vertex;  ///< one vertex of each component that has triangles
   bool fatal = false;
   /// Edge-manifold, closed, consistently oriented: inside is defined.

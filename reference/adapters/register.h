@@ -1,0 +1,17 @@
+// The detectors of other libraries.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/detect/registry.h"
+
+namespace contactcheck {
+
+/// Adds every adapted detector to the catalogue.
+void register_reference_detectors(DetectorCatalog& catalog);
+
+/// Versions of the libraries that detectors are made of, by library: "fcl" -> "0.7.0".
+std::map<std::string, std::string> library_versions();
+
+}  // namespace contactcheck

@@ -1,0 +1,130 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/detect/registry.h"
+#include "core/types/check.h"
+#include "reference/adapters/register.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/progress_display.h"
+#include "reference/report/markdown.h"
+#include "reference/report/terminal.h"
+#include "reference/run/suite_run.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/scene.h"
+#include "reference/scene/suite_file.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> canonical_detectors(const std::vector<std::string>& names) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  register_reference_detectors(catalog);
+  std::vector<std::string> out;
+  for (const std::string& name : names) {
+    const std::string canonical = catalog.parse(name).name;
+    if (std::find(out.begin(), out.end(), canonical) == out.end()) out.push_back(canonical);
+  }
+  return out;
+}
+
+Suite default_suite(const fs::path& fixtures) {
+  return load_suite(find_target("default", fixtures).file);
+}
+
+void add_task(const fs::path& file, const std::vector<std::string>& detectors,
+              std::vector<SceneTask>& tasks) {
+  for (const SceneTask& task : tasks)
+    if (task.file == file) return;
+  tasks.push_back({"", file, canonical_detectors(detectors)});
+}
+
+std::vector<SceneTask> make_tasks(const RunArguments& arguments) {
+  const fs::path fixtures = fixtures_directory();
+  std::vector<std::string> targets = arguments.targets;
+  if (targets.empty()) targets.push_back("default");
+  std::vector<SceneTask> tasks;
+  for (const std::string& name : targets) {
+    const Target target = find_target(name, fixtures);
+    const bool is_suite = target.kind == TargetKind::kSuite;
+    std::vector<std::string> detectors = arguments.detectors;
+    if (is_suite) {
+      const Suite suite = load_suite(target.file);
+      if (detectors.empty()) detectors = suite.detectors;
+      for (const std::string& scene : suite.scenes)
+        add_task(find_scene(scene, fixtures), detectors, tasks);
+    } else {
+      if (detectors.empty()) detectors = default_suite(fixtures).detectors;
+      add_task(target.file, detectors, tasks);
+    }
+  }
+  return tasks;
+}
+
+// Every scene is read before anything runs: a bad one ends the run before it has written a byte.
+void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
+  std::set<std::string> ids;
+  for (SceneTask& task : tasks) {
+    const Scene scene =
+        task.file.extension() == ".ccr" ? load_recording(task.file) : load_scene(task.file, frames);
+    task.id = scene.id;
+    if (!ids.insert(task.id).second)
+      throw InputError("two scenes of this run have the id \"" + task.id + "\"");
+  }
+}
+
+void check_out(const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) throw InputError("--out " + out.string() + ": " + error.message());
+  if (!fs::is_directory(out)) throw InputError("--out " + out.string() + ": is not a folder");
+  if (access(out.c_str(), W_OK) != 0)
+    throw InputError("--out " + out.string() + ": cannot be written");
+}
+
+void print_outcome(const RunArguments& arguments, const Json& results) {
+  if (!arguments.quiet) {
+    const std::string tables = terminal_tables(results, isatty(STDOUT_FILENO) != 0);
+    std::fwrite(tables.data(), 1, tables.size(), stdout);
+  }
+  for (const Json& run : results.at("runs"))
+    if (run.at("status") == "absent")
+      std::printf("absent: %s: %s\n", run.at("detector").get<std::string>().c_str(),
+                  run.at("message").get<std::string>().c_str());
+  std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
+              (arguments.out / "report.md").c_str());
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  SuiteRequest request;
+  request.tasks = make_tasks(arguments);
+  check_scenes(arguments.frames, request.tasks);
+  check_out(arguments.out);
+  request.settings.frames = arguments.frames;
+  request.settings.repeats = arguments.repeats;
+  request.settings.processes = arguments.processes;
+  request.settings.timing = arguments.timing;
+  request.out = arguments.out;
+  request.executable = fs::read_symlink("/proc/self/exe");
+  request.command = arguments.command_line;
+
+  ProgressDisplay display(arguments.quiet, isatty(STDERR_FILENO) != 0);
+  SuiteOutcome outcome;
+  const Json results = run_suite(
+      request, [&](const SuiteProgress& progress) { display.show(progress); }, &outcome);
+  display.finish();
+  write_text_file(arguments.out / "report.md", markdown_report(results));
+  print_outcome(arguments, results);
+  return outcome.any_error ? 3 : 0;
+}
+
+}  // namespace contactcheck

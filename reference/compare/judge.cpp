@@ -1,0 +1,151 @@
+#include "reference/compare/judge.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/types/check.h"
+#include "reference/compare/label_cover.h"
+
+namespace contactcheck {
+namespace {
+
+bool all_solid(const std::vector<Body>& bodies) {
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [](const Body& b) { return b.shape->topology.solid; });
+}
+
+bool all_in_lattices(const std::vector<Body>& bodies) {
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [](const Body& b) { return b.shape->lattice.has_value(); });
+}
+
+std::string obstacle(Level level, const std::vector<Body>& bodies) {
+  const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
+  if (needs_solid && !all_solid(bodies)) return "not judged: open";
+  const bool needs_lattice = level == Level::kCell || level == Level::kBox;
+  if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
+  return "";
+}
+
+ElementPair as_pair(const ElementPair& p) { return p; }
+ElementPair as_pair(const BodyPair& p) { return {p.a, p.b, 0, 0}; }
+ElementPair as_pair(const VertexInBody& v) { return {v.body, v.in, v.vertex, 0}; }
+
+Level finest(const std::vector<Level>& levels) {
+  for (Level level : {Level::kTriangle, Level::kNear, Level::kVertex, Level::kCell, Level::kBox})
+    if (std::find(levels.begin(), levels.end(), level) != levels.end()) return level;
+  return Level::kBody;
+}
+
+}  // namespace
+
+std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+                                 const std::vector<Level>& wanted,
+                                 std::map<Level, std::string>* not_judged) {
+  std::vector<Level> out;
+  for (Level level : semantics.levels) {
+    if (std::find(wanted.begin(), wanted.end(), level) == wanted.end()) continue;
+    const std::string why = obstacle(level, bodies);
+    if (why.empty()) {
+      out.push_back(level);
+    } else if (not_judged != nullptr) {
+      (*not_judged)[level] = why;
+    }
+  }
+  return out;
+}
+
+Judge::Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels)
+    : bodies_(bodies), semantics_(semantics), wanted_(std::move(levels)) {
+  for (Level level : wanted_) levels_[level];
+  if (!wanted_.empty()) per_frame_.level = name_of(finest(wanted_));
+}
+
+void Judge::note(Level level, const char* kind, std::size_t frame, const ElementPair& pair) {
+  for (const Disagreement& d : disagreements_)
+    if (d.level == name_of(level) && d.kind == kind) return;
+  Disagreement d;
+  d.level = name_of(level);
+  d.kind = kind;
+  d.frame = frame;
+  d.pair = pair;
+  disagreements_.push_back(std::move(d));
+}
+
+template <typename T>
+LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vector<T>& truth,
+                                const std::vector<T>& reported) {
+  std::vector<T> missed, spurious;
+  std::set_difference(truth.begin(), truth.end(), reported.begin(), reported.end(),
+                      std::back_inserter(missed));
+  std::set_difference(reported.begin(), reported.end(), truth.begin(), truth.end(),
+                      std::back_inserter(spurious));
+  if (!missed.empty()) note(level, "missed", frame, as_pair(missed.front()));
+  if (!spurious.empty()) note(level, "spurious", frame, as_pair(spurious.front()));
+  return {truth.size(), reported.size(), truth.size() - missed.size(), missed.size(),
+          spurious.size()};
+}
+
+// Truth, hit and missed count triangle pairs; reported and spurious count cell pairs.
+LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
+                               const std::vector<ElementPair>& reported) {
+  std::vector<char> covers(reported.size(), 0);
+  LevelCounts counts;
+  counts.truth = truth.size();
+  counts.reported = reported.size();
+  for (const ElementPair& pair : truth) {
+    if (covered_by_cells(bodies_, reported, pair, [&](std::size_t i) { covers[i] = 1; })) {
+      ++counts.hit;
+    } else {
+      ++counts.missed;
+      note(Level::kCell, "missed", frame, pair);
+    }
+  }
+  for (std::size_t i = 0; i < reported.size(); ++i) {
+    if (covers[i]) continue;
+    ++counts.spurious;
+    note(Level::kCell, "spurious", frame, reported[i]);
+  }
+  return counts;
+}
+
+LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& truth,
+                               const ContactSet& reported) {
+  switch (level) {
+    case Level::kBody: {
+      std::vector<BodyPair> bodies = truth.surface.bodies;
+      if (semantics_.solid) {
+        bodies.insert(bodies.end(), truth.containment.begin(), truth.containment.end());
+        std::sort(bodies.begin(), bodies.end());
+      }
+      return compare_sets(level, frame, bodies, reported.bodies);
+    }
+    case Level::kContainment:
+      return compare_sets(level, frame, truth.containment, reported.bodies);
+    case Level::kCell:
+      return judge_cells(frame, truth.surface.triangles, reported.cells);
+    case Level::kBox:
+      return compare_sets(level, frame, truth.boxes, reported.cells);
+    case Level::kTriangle:
+      return compare_sets(level, frame, truth.surface.triangles, reported.triangles);
+    case Level::kVertex:
+      return compare_sets(level, frame, truth.surface.vertices, reported.vertices);
+    case Level::kNear:
+      break;
+  }
+  CONTACTCHECK_INVARIANT(false, "no detector of this program speaks in margins");
+  return {};
+}
+
+void Judge::add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported) {
+  for (Level level : wanted_) {
+    const LevelCounts counts = judge_level(level, frame, truth, reported);
+    levels_[level] += counts;
+    if (per_frame_.level != name_of(level)) continue;
+    per_frame_.truth.push_back(counts.truth);
+    per_frame_.missed.push_back(counts.missed);
+    per_frame_.spurious.push_back(counts.spurious);
+  }
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,52 @@
+// Holds a detector's answers against the truth, frame by frame, at each level it claims.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/semantics.h"
+#include "reference/compare/run_result.h"
+#include "reference/oracle/oracle.h"
+
+namespace contactcheck {
+
+/// The levels at which an answer is held against the truth: claimed and wanted by the scene.
+/// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
+std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+                                 const std::vector<Level>& wanted,
+                                 std::map<Level, std::string>* not_judged);
+
+class Judge {
+ public:
+  Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels);
+
+  /// @pre both sets are canonical; frames come in order
+  void add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported);
+
+  const std::map<Level, LevelCounts>& levels() const { return levels_; }
+  const PerFrame& per_frame() const { return per_frame_; }
+  /// The first missed and the first spurious contact of each level; scene and detector left empty.
+  const std::vector<Disagreement>& disagreements() const { return disagreements_; }
+
+ private:
+  LevelCounts judge_level(Level level, std::size_t frame, const Truth& truth,
+                          const ContactSet& reported);
+  template <typename T>
+  LevelCounts compare_sets(Level level, std::size_t frame, const std::vector<T>& truth,
+                           const std::vector<T>& reported);
+  LevelCounts judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
+                          const std::vector<ElementPair>& reported);
+  void note(Level level, const char* kind, std::size_t frame, const ElementPair& pair);
+
+  const std::vector<Body>& bodies_;
+  Semantics semantics_;
+  std::vector<Level> wanted_;
+  std::map<Level, LevelCounts> levels_;
+  PerFrame per_frame_;
+  std::vector<Disagreement> disagreements_;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,168 @@
+#include "reference/compare/run_result_json.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json nullable(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json to_json(const LevelCounts& c) {
+  return {{"truth", c.truth},
+          {"reported", c.reported},
+          {"hit", c.hit},
+          {"missed", c.missed},
+          {"spurious", c.spurious},
+          {"recall", nullable(c.recall())},
+          {"spurious_rate", nullable(c.spurious_rate())}};
+}
+
+Json to_json(const Semantics& s) {
+  Json levels = Json::array(), questions = Json::array();
+  for (Level level : s.levels) levels.push_back(name_of(level));
+  for (Question question : s.questions) questions.push_back(name_of(question));
+  return {{"levels", levels},
+          {"questions", questions},
+          {"body", s.solid ? "solid" : "surface"},
+          {"touching", s.closed ? "closed" : "open"},
+          {"exact", s.exact},
+          {"margin", s.margin},
+          {"precision", name_of(s.precision)},
+          {"depth_kind", name_of(s.depth)}};
+}
+
+Json to_json(const PhaseTimes& t) {
+  return {{"map", nullable(t.map)},
+          {"update", t.update},
+          {"query", t.query},
+          {"frame", t.frame},
+          {"contact_frame", nullable(t.contact_frame)}};
+}
+
+Json to_json(const QuestionTimes& t, double prepare_ms) {
+  return {{"prepare", prepare_ms},          {"question", name_of(t.question)},
+          {"timed_frames", t.timed_frames}, {"timed_contact_frames", t.timed_contact_frames},
+          {"repeats", t.repeats},           {"cold", to_json(t.cold)},
+          {"hot", to_json(t.hot)}};
+}
+
+Json to_json(const Ratio& r) { return {{"ratio", r.ratio}, {"low", r.low}, {"high", r.high}}; }
+
+Json to_json(const std::optional<Ratio>& r) { return r ? to_json(*r) : Json(nullptr); }
+
+Json to_json(const Speedup& s) {
+  return {{"cold", to_json(s.cold)},
+          {"hot", to_json(s.hot)},
+          {"contact_frames", to_json(s.contact_frames)},
+          {"without_map", to_json(s.without_map)}};
+}
+
+Json episode_json(const Episode& e) {
+  return {{"bodies", {e.bodies.a, e.bodies.b}},
+          {"first_true", nullable(e.first_true)},
+          {"first_reported", nullable(e.first_reported)},
+          {"hover_gap", nullable(e.hover_gap)},
+          {"late_frames", nullable(e.late_frames)}};
+}
+
+// Errors of depth, normal and length are measured for detectors that offer them; a quantity that
+// was not measured is null, never 0.
+Json geometry_json(const RunResult& run) {
+  Json episodes = Json::array();
+  for (const Episode& e : run.episodes) episodes.push_back(episode_json(e));
+  return {{"missed_length", nullptr},
+          {"covered_length_fraction", nullptr},
+          {"spurious_distance_max", nullptr},
+          {"depth_kind", name_of(run.semantics.depth)},
+          {"depth_error_max", nullptr},
+          {"depth_error_p95", nullptr},
+          {"normal_error_deg_max", nullptr},
+          {"hover_gap_max", nullable(run.hover_gap_max())},
+          {"late_frames", nullable(run.late_frames_worst())},
+          {"episodes", episodes}};
+}
+
+Json levels_json(const RunResult& run) {
+  Json out = Json::object();
+  for (const auto& [level, counts] : run.levels) out[name_of(level)] = to_json(counts);
+  return out;
+}
+
+Json stages_json(const RunResult& run) {
+  Json out = Json::array();
+  for (const StageResult& s : run.stages)
+    out.push_back(
+        {{"name", s.name}, {"unit", s.unit}, {"in", s.in}, {"out", s.out}, {"missed", s.missed}});
+  return out;
+}
+
+Json per_frame_json(const PerFrame& f) {
+  return {{"level", f.level}, {"truth", f.truth}, {"missed", f.missed}, {"spurious", f.spurious}};
+}
+
+}  // namespace
+
+std::string hex(std::uint64_t value) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+Json to_json(const Disagreement& d) {
+  return {{"scene", d.scene}, {"frame", d.frame}, {"detector", d.detector},
+          {"level", d.level}, {"kind", d.kind},   {"case", d.case_file}};
+}
+
+Json to_json(const RunResult& run) {
+  Json out = {{"scene", run.scene},
+              {"detector", run.detector},
+              {"status", name_of(run.status)},
+              {"message", run.message},
+              {"frames", run.frames},
+              {"contact_frames", run.contact_frames},
+              {"semantics", to_json(run.semantics)},
+              {"options", run.options},
+              {"recording", run.recording}};
+  if (run.status != RunStatus::kOk) return out;
+  out["per_frame"] = per_frame_json(run.per_frame);
+  out["levels"] = levels_json(run);
+  Json not_judged = Json::object();
+  for (const auto& [level, why] : run.not_judged) not_judged[name_of(level)] = why;
+  out["not_judged"] = not_judged;
+  out["geometry"] = geometry_json(run);
+  out["stages"] = stages_json(run);
+  out["time_ms"] = {{"prepare", run.prepare_ms}};
+  out["memory_bytes"] = run.memory_bytes;
+  out["contact_hash"] = hex(run.contact_hash);
+  out["float_environment"] = run.float_environment;
+  return out;
+}
+
+void add_times(const RunTimes& times, Json& run) {
+  if (times.questions.empty()) return;
+  const Json prepare = run.at("time_ms").at("prepare");
+  run["time_ms"] = to_json(times.questions.front(), prepare);
+  Json others = Json::array();
+  for (std::size_t i = 1; i < times.questions.size(); ++i)
+    others.push_back(to_json(times.questions[i], prepare));
+  run["time_ms_other_questions"] = others;
+  Json frame_ms = Json::array();
+  for (std::size_t f = 0; f < run.at("frames").get<std::size_t>(); ++f) {
+    const auto it = times.cold_frame_ms.find(f);
+    frame_ms.push_back(it == times.cold_frame_ms.end() ? Json(nullptr) : Json(it->second));
+  }
+  run["per_frame"]["frame_ms"] = frame_ms;
+  Json speedup = Json::object();
+  for (const auto& [question, references] : times.speedups)
+    for (const auto& [reference, s] : references)
+      speedup[name_of(question)][reference] = to_json(s);
+  run["speedup"] = speedup;
+}
+
+}  // namespace contactcheck

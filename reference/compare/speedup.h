@@ -1,0 +1,51 @@
+// From raw time samples to times per frame and speed-ups with intervals.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "reference/compare/run_result.h"
+
+namespace contactcheck {
+
+/// Nanoseconds of one repeat of one frame.
+struct PhaseSample {
+  double map = 0.0, update = 0.0, query = 0.0;
+  double total() const { return map + update + query; }
+};
+
+struct FrameSamples {
+  std::vector<PhaseSample> cold, hot;  ///< one per repeat; repeat r of all detectors ran together
+};
+
+/// The samples of one detector and one question in one process.
+struct QuestionSamples {
+  Question question = Question::kTriangles;
+  bool lazy_map = false;  ///< the detector maps what it needs itself: no phase `map`
+  std::map<std::size_t, FrameSamples> frames;
+};
+
+/// One entry per fresh process; all hold the same frames.
+using ProcessSamples = std::vector<QuestionSamples>;
+
+/// @pre processes is not empty and holds at least one frame
+QuestionTimes summarize_times(const ProcessSamples& processes,
+                              const std::vector<bool>& contact_frames);
+
+/// Median over repeats per frame, cold, milliseconds; by frame.
+std::map<std::size_t, double> cold_frame_ms(const ProcessSamples& processes);
+
+/// time(reference) / time(detector) over the frames both were timed on. The interval is a
+/// percentile bootstrap (200 draws, fixed seed) over processes and, within each, over repeats;
+/// one draw takes the same repeats of both sides, as they ran together.
+/// None when the two share no timed frame.
+std::optional<Speedup> compute_speedup(const ProcessSamples& reference,
+                                       const ProcessSamples& detector,
+                                       const std::vector<bool>& contact_frames);
+
+double median(std::vector<double> values);
+
+}  // namespace contactcheck

@@ -1,0 +1,34 @@
+// The exact signs on which every verdict of the oracle rests, and the only door to CGAL's kernel.
+//
+// All inputs finite; every answer is exact for every finite double, subnormal ones included.
+// Source: CGAL 5.5, EPICK kernel (LGPL): floating-point filters, then exact arithmetic. CGAL's own
+// checks vanish under NDEBUG and it then answers degenerate triangles wrongly without a word (seen
+// in 5.5.1), so nothing here hands it one.
+#pragma once
+
+#include <array>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck::oracle {
+
+/// The three corners of a triangle; degenerate ones are the segment or the point that they are.
+using TriangleCorners = std::array<Vec3, 3>;
+
+/// Sign of det[b - a, c - a, d - a]: +1 when d lies on the side to which (b - a) x (c - a) points.
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// Sign of component `axis` of (b - a) x (c - a): the turn a, b, c, seen against that axis.
+int projected_orientation(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+
+/// True when the three points lie on one line (or coincide).
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Lexicographic order; among collinear points the order along their line.
+bool lexicographically_less(const Vec3& a, const Vec3& b);
+
+/// True when the closed triangles share a point.
+/// @pre both are proper: no three collinear corners
+bool proper_triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
+
+}  // namespace contactcheck::oracle

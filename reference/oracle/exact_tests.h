@@ -1,0 +1,26 @@
+// Whether closed triangles, segments and points share a point: exact, for every finite input.
+//
+// Touching counts. Degenerate triangles are the segment or the point that they are; so are segments
+// whose ends coincide. No epsilon.
+#pragma once
+
+#include "core/types/vec3.h"
+#include "reference/oracle/exact_predicates.h"
+
+namespace contactcheck::oracle {
+
+struct Segment {
+  Vec3 from, to;
+};
+
+bool point_on_segment(const Vec3& point, const Segment& segment);
+bool point_on_triangle(const Vec3& point, const TriangleCorners& triangle);
+bool segments_intersect(const Segment& p, const Segment& q);
+bool segment_meets_triangle(const Segment& segment, const TriangleCorners& triangle);
+bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
+
+/// The segment (or point) that a degenerate triangle is: between its outermost corners.
+/// @pre the corners are collinear
+Segment segment_of_degenerate(const TriangleCorners& triangle);
+
+}  // namespace contactcheck::oracle

@@ -1,0 +1,153 @@
+#include "reference/oracle/oracle.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/types/check.h"
+#include "reference/oracle/cell_hulls.h"
+#include "reference/oracle/exact_tests.h"
+#include "reference/oracle/floating_point_guard.h"
+#include "reference/oracle/surface_distance.h"
+#include "reference/oracle/surface_tree.h"
+#include "reference/oracle/winding.h"
+
+namespace contactcheck {
+
+using namespace oracle;
+
+struct Oracle::Impl {
+  explicit Impl(const std::vector<Body>& bodies);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(shapes.size()); }
+  void check(const Frame& frame) const;
+  void judge_pair(const Frame& frame, BodyPair pair, const WantedTruth& wanted, Truth& truth);
+  bool judge_surfaces(BodyPair pair, bool all, Truth& truth) const;
+  bool holds(const Frame& frame, std::uint32_t outer, std::uint32_t inner) const;
+  void judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in,
+                      Truth& truth) const;
+  void update_boxes(const Frame& frame);
+  void judge_boxes(BodyPair pair, Truth& truth);
+
+  std::vector<std::shared_ptr<const BodyShape>> shapes;
+  std::vector<SurfaceTree> trees;
+  std::vector<CellHulls> hulls;  // empty until boxes are first wanted
+  ScaledSurface scaled_a, scaled_b;
+};
+
+Oracle::Impl::Impl(const std::vector<Body>& bodies) {
+  for (const Body& body : bodies) {
+    shapes.push_back(body.shape);
+    // Instances of one shape share its tree's topology.
+    const auto first = std::find(shapes.begin(), shapes.end(), body.shape);
+    const auto index = static_cast<std::size_t>(first - shapes.begin());
+    if (index < trees.size()) {
+      trees.push_back(SurfaceTree(trees[index]));
+    } else {
+      trees.emplace_back(body.shape->mesh);
+    }
+  }
+}
+
+void Oracle::Impl::check(const Frame& frame) const {
+  CONTACTCHECK_INVARIANT(frame.bodies.size() == shapes.size(), "one state per body");
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    CONTACTCHECK_INVARIANT(frame.bodies[i].vertices.size() == shapes[i]->mesh.vertices.size(),
+                           "the oracle needs every deformed vertex");
+  }
+}
+
+// Records the pairs of triangles that share a point; with `all` unset, stops at the first.
+bool Oracle::Impl::judge_surfaces(BodyPair pair, bool all, Truth& truth) const {
+  bool contact = false;
+  any_box_pair(trees[pair.a], trees[pair.b], [&](std::uint32_t a, std::uint32_t b) {
+    if (!triangles_intersect(trees[pair.a].corners(a), trees[pair.b].corners(b))) return false;
+    contact = true;
+    if (all) truth.surface.triangles.push_back({pair.a, pair.b, a, b});
+    return !all;
+  });
+  return contact;
+}
+
+// @pre the surfaces share no point, so a component lies inside when one of its vertices does
+bool Oracle::Impl::holds(const Frame& frame, std::uint32_t outer, std::uint32_t inner) const {
+  const MeshTopology& topology = shapes[inner]->topology;
+  if (!shapes[outer]->topology.solid) return false;
+  return std::all_of(topology.component_vertex.begin(), topology.component_vertex.end(),
+                     [&](std::uint32_t v) {
+                       return strictly_inside(trees[outer], frame.bodies[inner].vertices[v]);
+                     });
+}
+
+void Oracle::Impl::judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in,
+                                  Truth& truth) const {
+  if (!shapes[in]->topology.solid) return;
+  const auto vertices = frame.bodies[body].vertices;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (strictly_inside(trees[in], vertices[v])) truth.surface.vertices.push_back({body, in, v});
+}
+
+void Oracle::Impl::judge_pair(const Frame& frame, BodyPair pair, const WantedTruth& wanted,
+                              Truth& truth) {
+  if (!trees[pair.a].bounds().overlaps(trees[pair.b].bounds())) return;
+  if (wanted.triangles || wanted.containment) {
+    const bool contact = judge_surfaces(pair, wanted.triangles, truth);
+    if (wanted.containment && !contact &&
+        (holds(frame, pair.a, pair.b) || holds(frame, pair.b, pair.a))) {
+      truth.containment.push_back(pair);
+    }
+  }
+  if (wanted.vertices) {
+    judge_vertices(frame, pair.a, pair.b, truth);
+    judge_vertices(frame, pair.b, pair.a, truth);
+  }
+}
+
+void Oracle::Impl::update_boxes(const Frame& frame) {
+  if (hulls.empty())
+    for (const auto& shape : shapes) hulls.emplace_back(shape);
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (!shapes[i]->lattice) continue;
+    CONTACTCHECK_INVARIANT(frame.bodies[i].nodes.size() == shapes[i]->node_count(),
+                           "the oracle needs every deformed node");
+    hulls[i].update(frame.bodies[i].nodes);
+  }
+}
+
+void Oracle::Impl::judge_boxes(BodyPair pair, Truth& truth) {
+  std::vector<CellPair> cells;
+  overlapping_cells(hulls[pair.a], hulls[pair.b], cells);
+  for (const CellPair& c : cells) truth.boxes.push_back({pair.a, pair.b, c.a, c.b});
+}
+
+Oracle::Oracle(const std::vector<Body>& bodies) : impl_(std::make_unique<Impl>(bodies)) {}
+Oracle::~Oracle() = default;
+
+Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
+  const FloatingPointGuard guard;
+  impl_->check(frame);
+  Truth truth;
+  for (std::uint32_t i = 0; i < impl_->size(); ++i) impl_->trees[i].refit(frame.bodies[i].vertices);
+  if (wanted.boxes) impl_->update_boxes(frame);
+  for (std::uint32_t a = 0; a < impl_->size(); ++a)
+    for (std::uint32_t b = a + 1; b < impl_->size(); ++b) {
+      impl_->judge_pair(frame, {a, b}, wanted, truth);
+      if (wanted.boxes) impl_->judge_boxes({a, b}, truth);
+    }
+  truth.surface.canonicalize();
+  std::sort(truth.boxes.begin(), truth.boxes.end());
+  return truth;
+}
+
+DistanceInterval Oracle::distance(const Frame& frame, BodyPair pair) {
+  const FloatingPointGuard guard;
+  impl_->check(frame);
+  CONTACTCHECK_INVARIANT(pair.a != pair.b && std::max(pair.a, pair.b) < impl_->size(),
+                         "two different bodies of the scene");
+  impl_->scaled_a.tree = &impl_->trees[pair.a];
+  impl_->scaled_b.tree = &impl_->trees[pair.b];
+  impl_->scaled_a.vertices = frame.bodies[pair.a].vertices;
+  impl_->scaled_b.vertices = frame.bodies[pair.b].vertices;
+  return surface_distance(impl_->scaled_a, impl_->scaled_b);
+}
+
+}  // namespace contactcheck

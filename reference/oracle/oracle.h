@@ -1,0 +1,56 @@
+// The exact oracle: which contacts are really there, for the deformed doubles of a frame.
+//
+// Uses core's types and its rest-shape data, none of its broad or narrow code: its own tree finds
+// the candidates, CGAL's EPICK kernel decides, with a path of its own for degenerate triangles.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+
+namespace contactcheck {
+
+/// What truth is wanted; what is not wanted is not computed.
+struct WantedTruth {
+  bool triangles = true;  ///< triangle pairs and, from them, body pairs by surface
+  bool containment = false;
+  bool vertices = false;
+  bool boxes = false;  ///< overlapping hulls of mapped FFD-AABB boxes
+};
+
+struct Truth {
+  /// bodies: pairs whose surfaces share a point; triangles: pairs that share a point; vertices:
+  /// strictly inside a solid body. Canonical. `cells` stays empty: cell truth is triangle truth
+  /// read through labels.
+  ContactSet surface;
+  std::vector<BodyPair> containment;  ///< one solid holds the other, no surface contact
+  std::vector<ElementPair> boxes;     ///< pairs of kept cells whose mapped FFD-AABB hulls overlap
+};
+
+/// Certified: lower <= true distance <= upper, and upper - lower <= 1e-9 * scale of the
+/// coordinates; both 0 exactly when the surfaces share a point.
+struct DistanceInterval {
+  double lower = 0.0, upper = 0.0;
+};
+
+class Oracle {
+ public:
+  explicit Oracle(const std::vector<Body>& bodies);
+  ~Oracle();
+  Oracle(const Oracle&) = delete;
+  Oracle& operator=(const Oracle&) = delete;
+
+  /// @pre frame has vertices for every body, all finite
+  Truth judge(const Frame& frame, const WantedTruth& wanted);
+  /// Distance between two surfaces (triangle against triangle), of the vertices of `frame`.
+  DistanceInterval distance(const Frame& frame, BodyPair pair);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,111 @@
+// The oracle's own box tree over the triangles of one surface: shape once, boxes every frame.
+//
+// Split by the median of the rest centroids along the longest side; refit bottom-up. Boxes are the
+// exact bounds of the vertices, and only comparisons decide, so no candidate is ever lost.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/types/mesh.h"
+#include "core/types/vec3.h"
+#include "reference/oracle/exact_predicates.h"
+
+namespace contactcheck::oracle {
+
+class SurfaceTree {
+ public:
+  /// A leaf holds the places first .. first + count; an inner node has count 0 and its children
+  /// are the next node and `second`.
+  struct Node {
+    Aabb box;
+    std::uint32_t first = 0, count = 0, second = 0;
+    bool is_leaf() const { return count > 0; }
+  };
+
+  /// @pre at least one triangle, indices in range
+  explicit SurfaceTree(const TriangleMesh& rest);
+
+  /// Moves the tree to new vertices, which must outlive their use.
+  void refit(std::span<const Vec3> vertices);
+
+  const Aabb& bounds() const { return nodes_.front().box; }
+  const Node& node(std::uint32_t index) const { return nodes_[index]; }
+  /// The triangle at a place of a leaf, and its box.
+  std::uint32_t triangle_at(std::uint32_t place) const { return order_[place]; }
+  const Aabb& box_at(std::uint32_t place) const { return boxes_[place]; }
+  TriangleCorners corners(std::uint32_t triangle) const { return corners(triangle, vertices_); }
+  /// The corners in another set of positions of the same mesh.
+  TriangleCorners corners(std::uint32_t triangle, std::span<const Vec3> vertices) const {
+    const Triangle& t = triangles_[triangle];
+    return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  }
+  /// True when every node's box holds its children's and every leaf's its triangles'.
+  bool validate() const;
+
+ private:
+  std::uint32_t build(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& centroids);
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> order_;  // place -> triangle
+  std::vector<Aabb> boxes_;           // per place
+  std::vector<Node> nodes_;           // children after their parent
+  std::span<const Vec3> vertices_;
+};
+
+/// Calls `visit(triangle)` for every triangle whose closed box satisfies `meets(box)`; `meets` must
+/// hold for a box whenever it holds for a box inside it. Stops and returns true when `visit` does.
+template <typename Meets, typename Visit>
+bool any_triangle(const SurfaceTree& tree, Meets&& meets, Visit&& visit,
+                  std::uint32_t index = 0) {
+  const SurfaceTree::Node& node = tree.node(index);
+  if (!meets(node.box)) return false;
+  if (!node.is_leaf()) {
+    return any_triangle(tree, meets, visit, index + 1) ||
+           any_triangle(tree, meets, visit, node.second);
+  }
+  for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
+    if (meets(tree.box_at(place)) && visit(tree.triangle_at(place))) return true;
+  return false;
+}
+
+namespace surface_tree_detail {
+
+template <typename Visit>
+bool any_leaf_pair(const SurfaceTree& a, const SurfaceTree& b, const SurfaceTree::Node& x,
+                   const SurfaceTree::Node& y, Visit&& visit) {
+  for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
+    if (!a.box_at(i).overlaps(y.box)) continue;
+    for (std::uint32_t j = y.first; j < y.first + y.count; ++j)
+      if (a.box_at(i).overlaps(b.box_at(j)) && visit(a.triangle_at(i), b.triangle_at(j)))
+        return true;
+  }
+  return false;
+}
+
+}  // namespace surface_tree_detail
+
+/// Calls `visit(triangle of a, triangle of b)` for every pair whose closed boxes overlap, once.
+/// Stops and returns true when `visit` does.
+template <typename Visit>
+bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i = 0,
+                  std::uint32_t j = 0) {
+  const SurfaceTree::Node& x = a.node(i);
+  const SurfaceTree::Node& y = b.node(j);
+  if (!x.box.overlaps(y.box)) return false;
+  if (x.is_leaf() && y.is_leaf()) {
+    return surface_tree_detail::any_leaf_pair(a, b, x, y, visit);
+  }
+  const bool split_first =
+      y.is_leaf() ||
+      (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
+  if (split_first) {
+    return any_box_pair(a, b, visit, i + 1, j) || any_box_pair(a, b, visit, x.second, j);
+  }
+  return any_box_pair(a, b, visit, i, j + 1) || any_box_pair(a, b, visit, i, y.second);
+}
+
+}  // namespace contactcheck::oracle

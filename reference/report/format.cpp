@@ -1,0 +1,50 @@
+#include "reference/report/format.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+// Three significant digits without exponent in the range people read.
+std::string significant(double value) {
+  if (value == 0.0) return "0";
+  const double size = std::fabs(value);
+  if (size >= 1e6 || size < 1e-4) return fmt::format("{:.2e}", value);
+  const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
+  return fmt::format("{:.{}f}", value, digits);
+}
+
+}  // namespace
+
+std::string format_rate(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return "-";
+  const double rate = value.get<double>();
+  if (rate == 1.0 || rate == 0.0) return fmt::format("{:.0f}", rate);
+  return fmt::format("{:.5f}", std::floor(rate * 1e5) / 1e5);
+}
+
+std::string format_number(const nlohmann::ordered_json& value) {
+  return value.is_null() ? "-" : significant(value.get<double>());
+}
+
+std::string format_count(const nlohmann::ordered_json& value) {
+  return value.is_null() ? "-" : fmt::format("{}", value.get<long long>());
+}
+
+std::string format_millimetres(const nlohmann::ordered_json& value) {
+  return value.is_null() ? "-" : significant(1e3 * value.get<double>());
+}
+
+std::string format_ratio(const nlohmann::ordered_json& ratio, bool interval) {
+  if (ratio.is_null()) return "-";
+  std::string text = significant(ratio.at("ratio").get<double>()) + "x";
+  if (interval)
+    text += " [" + significant(ratio.at("low").get<double>()) + ", " +
+            significant(ratio.at("high").get<double>()) + "]";
+  return text;
+}
+
+}  // namespace contactcheck

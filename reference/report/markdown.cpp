@@ -1,0 +1,145 @@
+#include "reference/report/markdown.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/report/claims.h"
+#include "reference/report/format.h"
+#include "reference/report/run_row.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+
+// A cell must not end its column or its line.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string table_line(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + escaped(cell) + " |";
+  return line + "\n";
+}
+
+std::string machine_section(const Json& results) {
+  const Json& m = results.at("machine");
+  std::string libraries;
+  for (const auto& [name, version] : results.at("libraries").items())
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version.get<std::string>();
+  return fmt::format(
+      "- command: `{}`\n- machine: {}, {} cores, {}, {}\n- built with {}, {}\n- libraries: {}\n"
+      "- contactcheck {}, schema {}\n\n",
+      results.at("command").get<std::string>(), m.at("cpu").get<std::string>(),
+      m.at("cores").get<int>(), m.at("isa").get<std::string>(), m.at("os").get<std::string>(),
+      m.at("compiler").get<std::string>(), m.at("build").get<std::string>(), libraries,
+      results.at("version").get<std::string>(), results.at("schema").get<std::string>());
+}
+
+std::string bodies_table(const Json& scene) {
+  std::string out =
+      "| body | mesh | vertices | triangles | cells | solid | notes |\n"
+      "|---|---|--:|--:|--:|---|---|\n";
+  for (const Json& b : scene.at("bodies"))
+    out += table_line({b.at("name").get<std::string>(), b.at("source").get<std::string>(),
+                       format_count(b.at("vertices")), format_count(b.at("triangles")),
+                       format_count(b.at("cells")), b.at("solid").get<bool>() ? "yes" : "no",
+                       b.at("notes").get<std::string>()});
+  return out + "\n";
+}
+
+std::string result_table(const std::vector<Json>& runs) {
+  std::vector<std::string> titles;
+  std::string rule = "|";
+  for (const Column& c : result_columns()) {
+    titles.emplace_back(c.title);
+    rule += c.left ? "---|" : "--:|";
+  }
+  std::string out = table_line(titles) + rule + "\n";
+  for (const Json& run : runs) out += table_line(result_cells(run));
+  return out + "\n";
+}
+
+std::string stages_table(const std::vector<Json>& runs) {
+  std::string rows;
+  for (const Json& run : runs) {
+    if (run.at("status") != "ok") continue;
+    for (const Json& s : run.at("stages"))
+      rows += table_line({run.at("detector").get<std::string>(), s.at("name").get<std::string>(),
+                          s.at("unit").get<std::string>(), format_count(s.at("in")),
+                          format_count(s.at("out")), format_count(s.at("missed"))});
+  }
+  if (rows.empty()) return "";
+  return "Which stage lost which true triangle pairs (sums over frames):\n\n"
+         "| detector | stage | unit | in | out | missed |\n|---|---|---|--:|--:|--:|\n" +
+         rows + "\n";
+}
+
+std::string times_table(const std::vector<Json>& runs) {
+  std::string rows;
+  for (const Json& run : runs) {
+    if (run.at("status") != "ok" || !run.at("time_ms").contains("cold")) continue;
+    const Json& t = run.at("time_ms");
+    rows += table_line(
+        {run.at("detector").get<std::string>(), t.at("question").get<std::string>(),
+         format_number(t.at("prepare")), format_number(t.at("cold").at("map")),
+         format_number(t.at("cold").at("update")), format_number(t.at("cold").at("query")),
+         format_number(t.at("cold").at("frame")), format_number(t.at("cold").at("contact_frame")),
+         format_number(t.at("hot").at("frame")), format_count(t.at("timed_frames")),
+         format_count(t.at("repeats")),
+         format_number(run.at("memory_bytes").get<double>() / 1048576.0)});
+  }
+  if (rows.empty()) return "";
+  return "Times in milliseconds per frame (medians over repeats; cold unless said):\n\n"
+         "| detector | question | prepare | map | update | query | frame | contact frame | frame, "
+         "hot | timed frames | repeats | memory, MiB |\n"
+         "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n" +
+         rows + "\n";
+}
+
+std::string disagreements_list(const Json& results, const std::string& scene) {
+  std::string out;
+  for (const Json& d : results.at("disagreements")) {
+    if (d.at("scene") != scene) continue;
+    out += fmt::format("- {}: first {} at level {} in frame {}: `{}`\n",
+                       d.at("detector").get<std::string>(), d.at("kind").get<std::string>(),
+                       d.at("level").get<std::string>(), d.at("frame").get<std::size_t>(),
+                       d.at("case").get<std::string>());
+  }
+  return out.empty() ? "" : "Disagreements with the truth (first of each kind):\n\n" + out + "\n";
+}
+
+std::string scene_section(const Json& results, const Json& scene) {
+  const auto id = scene.at("id").get<std::string>();
+  const std::vector<Json> runs = runs_of_scene(results, id);
+  return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", id,
+                     scene.at("title").get<std::string>(), scene.at("frames").get<std::size_t>(),
+                     scene.at("contact_frames").get<std::size_t>(),
+                     format_number(scene.at("size"))) +
+         bodies_table(scene) + result_table(runs) + stages_table(runs) + times_table(runs) +
+         disagreements_list(results, id);
+}
+
+std::string legend() {
+  std::string out = "## How to read the result table\n\n";
+  for (const Column& c : result_columns()) out += fmt::format("- **{}**: {}\n", c.title, c.meaning);
+  return out;
+}
+
+}  // namespace
+
+std::string markdown_report(const Json& results) {
+  std::string out = "# contactcheck report\n\n" + machine_section(results);
+  const std::string claims = claims_markdown(results);
+  if (!claims.empty()) out += "## What the results say\n\n" + claims;
+  for (const Json& scene : results.at("scenes")) out += scene_section(results, scene);
+  return out + legend();
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace contactcheck {
+
+/// The Markdown report: where and how it was measured, what it says about the claims, one section
+/// per scene (bodies, result table, losses per stage, disagreements), and how to read the columns.
+std::string markdown_report(const nlohmann::ordered_json& results);
+
+}  // namespace contactcheck

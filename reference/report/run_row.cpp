@@ -1,0 +1,103 @@
+#include "reference/report/run_row.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reference/report/format.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json at_or_null(const Json& j, const char* key) {
+  const auto it = j.find(key);
+  return it == j.end() ? Json(nullptr) : *it;
+}
+
+// "missed/spurious" of the level body, where it is judged.
+std::string body_errors(const Json& run) {
+  const Json body = at_or_null(run.at("levels"), "body");
+  if (body.is_null()) return "-";
+  return format_count(body.at("missed")) + "/" + format_count(body.at("spurious"));
+}
+
+std::string cold_frame(const Json& run) {
+  const Json cold = at_or_null(run.at("time_ms"), "cold");
+  return cold.is_null() ? "-" : format_number(cold.at("frame"));
+}
+
+std::string speed_cell(const Json& run, const char* reference) {
+  const Json s = speedup_of(run, compared_question(run), reference);
+  return s.is_null() ? "-" : format_ratio(s.at("cold"), false);
+}
+
+}  // namespace
+
+const std::vector<Column>& result_columns() {
+  static const std::vector<Column> columns = {
+      {"detector", true, "as given to --detector"},
+      {"level", true, "finest level judged"},
+      {"truth", false, "true contacts at that level, over all frames"},
+      {"recall", false, "hit / truth, cut, not rounded"},
+      {"missed", false, "true contacts not reported"},
+      {"spurious", false, "reported, not true"},
+      {"body m/s", false, "pairs of bodies missed / spurious, over all frames"},
+      {"hover mm", false, "largest true distance at the moment contact is first reported"},
+      {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
+      {"ms/frame", false, "map + update + query, cold median, own question"},
+      {"question", true, "question in which the next two columns compare"},
+      {"vs fcl-aabb", false, "time of fcl-aabb / time of this detector, cold"},
+      {"vs fcl-obbrss", false, "time of fcl-obbrss / time of this detector, cold"}};
+  return columns;
+}
+
+std::vector<std::string> result_cells(const Json& run) {
+  const auto detector = run.at("detector").get<std::string>();
+  if (run.at("status") != "ok") {
+    std::vector<std::string> cells(result_columns().size(), "");
+    cells[0] = detector;
+    cells[1] = run.at("status").get<std::string>();
+    cells[2] = run.at("message").get<std::string>();
+    return cells;
+  }
+  const auto level = run.at("per_frame").at("level").get<std::string>();
+  const Json counts = at_or_null(run.at("levels"), level.c_str());
+  const auto count = [&](const char* key) {
+    return counts.is_null() ? std::string("-") : format_count(counts.at(key));
+  };
+  const Json& geometry = run.at("geometry");
+  return {detector,
+          level,
+          count("truth"),
+          counts.is_null() ? "-" : format_rate(counts.at("recall")),
+          count("missed"),
+          count("spurious"),
+          body_errors(run),
+          format_millimetres(geometry.at("hover_gap_max")),
+          format_count(geometry.at("late_frames")),
+          cold_frame(run),
+          compared_question(run),
+          speed_cell(run, "fcl-aabb"),
+          speed_cell(run, "fcl-obbrss")};
+}
+
+nlohmann::ordered_json speedup_of(const Json& run, const std::string& question,
+                                  const std::string& reference) {
+  const Json by_question = at_or_null(at_or_null(run, "speedup"), question.c_str());
+  return by_question.is_null() ? Json(nullptr) : at_or_null(by_question, reference.c_str());
+}
+
+std::string compared_question(const Json& run) {
+  const Json& questions = run.at("semantics").at("questions");
+  return std::find(questions.begin(), questions.end(), "triangles") != questions.end() ? "triangles"
+                                                                                       : "body";
+}
+
+std::vector<nlohmann::ordered_json> runs_of_scene(const Json& results, const std::string& scene) {
+  std::vector<Json> out;
+  for (const Json& run : results.at("runs"))
+    if (run.at("scene") == scene) out.push_back(run);
+  return out;
+}
+
+}  // namespace contactcheck

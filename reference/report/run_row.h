@@ -1,0 +1,33 @@
+// One run of results.json as the cells of a table line: shared by the terminal and Markdown.
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace contactcheck {
+
+struct Column {
+  const char* title;
+  bool left;            ///< aligned
+  const char* meaning;  ///< for the legend
+};
+
+/// Columns of the result table, in order.
+const std::vector<Column>& result_columns();
+
+/// The cells of one run, one per column. Runs that are not `ok` show their status and message.
+std::vector<std::string> result_cells(const nlohmann::ordered_json& run);
+
+/// speedup[question][reference] of a run, or null.
+nlohmann::ordered_json speedup_of(const nlohmann::ordered_json& run, const std::string& question,
+                                  const std::string& reference);
+/// The question a run is compared in: triangles where it answers them, else body.
+std::string compared_question(const nlohmann::ordered_json& run);
+
+/// The runs of one scene, in file order.
+std::vector<nlohmann::ordered_json> runs_of_scene(const nlohmann::ordered_json& results,
+                                                  const std::string& scene);
+
+}  // namespace contactcheck

@@ -1,0 +1,91 @@
+#include "reference/report/terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reference/report/run_row.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+using Line = std::vector<std::string>;
+
+constexpr const char* kRed = "\x1b[31m";
+constexpr const char* kBold = "\x1b[1m";
+constexpr const char* kReset = "\x1b[0m";
+constexpr std::size_t kStatus = 1, kMessage = 2, kMissed = 4, kSpurious = 5;
+
+bool is_ok(const Line& line) { return !line[kStatus + 2].empty(); }
+
+std::vector<std::size_t> widths_of(const std::vector<Line>& lines) {
+  std::vector<std::size_t> widths;
+  for (const Column& c : result_columns()) widths.push_back(std::string(c.title).size());
+  for (const Line& line : lines) {
+    widths[0] = std::max(widths[0], line[0].size());
+    for (std::size_t i = 1; is_ok(line) && i < line.size(); ++i)
+      widths[i] = std::max(widths[i], line[i].size());
+  }
+  return widths;
+}
+
+std::string aligned(const std::string& text, std::size_t width, bool left) {
+  return left ? fmt::format("{:<{}}", text, width) : fmt::format("{:>{}}", text, width);
+}
+
+std::string paint(const std::string& text, const char* code, bool color) {
+  return color ? code + text + kReset : text;
+}
+
+bool is_bad_count(std::size_t column, const std::string& cell) {
+  return (column == kMissed || column == kSpurious) && cell != "0" && cell != "-";
+}
+
+std::string line_text(const Line& line, const std::vector<std::size_t>& widths, bool color) {
+  std::string out = "  " + aligned(line[0], widths[0], true);
+  if (!is_ok(line))
+    return out + "  " + paint(line[kStatus], kRed, color) + "  " + line[kMessage] + "\n";
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const std::string cell = aligned(line[i], widths[i], result_columns()[i].left);
+    out += "  " + (is_bad_count(i, line[i]) ? paint(cell, kRed, color) : cell);
+  }
+  return out + "\n";
+}
+
+std::string scene_head(const Json& scene, bool color) {
+  std::size_t triangles = 0;
+  for (const Json& body : scene.at("bodies")) triangles += body.at("triangles").get<std::size_t>();
+  return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n",
+                     paint(scene.at("id").get<std::string>(), kBold, color),
+                     scene.at("title").get<std::string>(), scene.at("bodies").size(), triangles,
+                     scene.at("frames").get<std::size_t>(),
+                     scene.at("contact_frames").get<std::size_t>());
+}
+
+std::string legend() {
+  std::string out;
+  for (std::size_t i = 1; i < result_columns().size(); ++i)
+    out += fmt::format("  {:<13}  {}\n", result_columns()[i].title, result_columns()[i].meaning);
+  return out;
+}
+
+}  // namespace
+
+std::string terminal_tables(const Json& results, bool color) {
+  std::string out;
+  for (const Json& scene : results.at("scenes")) {
+    std::vector<Line> lines;
+    for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
+      lines.push_back(result_cells(run));
+    const std::vector<std::size_t> widths = widths_of(lines);
+    Line titles;
+    for (const Column& c : result_columns()) titles.emplace_back(c.title);
+    out += scene_head(scene, color) + line_text(titles, widths, false);
+    for (const Line& line : lines) out += line_text(line, widths, color);
+    out += "\n";
+  }
+  return out + legend();
+}
+
+}  // namespace contactcheck

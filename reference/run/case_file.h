@@ -1,0 +1,20 @@
+// Disagreements as self-contained files: ids, and the vertices as hex floats.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "reference/compare/run_result.h"
+#include "reference/run/accuracy.h"
+
+namespace contactcheck {
+
+/// Writes what is needed to look at a disagreement without the scene: level, kind, frame, and for
+/// pairs of triangles, the six deformed vertices bit for bit; for pairs of cells, the mapped nodes.
+void write_case(const std::filesystem::path& file, const JudgedScene& judged,
+                const Disagreement& disagreement);
+
+/// "0x1.8p+1": reads back as the same double everywhere.
+std::string hex_float(double value);
+
+}  // namespace contactcheck

@@ -1,0 +1,56 @@
+#include "reference/run/float_environment.h"
+
+#include <cfenv>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace contactcheck {
+namespace {
+
+constexpr unsigned kFlushToZero = 0x8000u, kDenormalsAreZero = 0x0040u;
+// Rounding control and exception masks are looked at through fegetround or not at all; the sticky
+// exception flags (low six bits) change with every inexact operation.
+constexpr unsigned kWatched = kFlushToZero | kDenormalsAreZero;
+
+unsigned control_word() {
+#if defined(__SSE__)
+  return _mm_getcsr() & kWatched;
+#else
+  return 0;
+#endif
+}
+
+void set_control_word(unsigned watched) {
+#if defined(__SSE__)
+  _mm_setcsr((_mm_getcsr() & ~kWatched) | watched);
+#else
+  (void)watched;
+#endif
+}
+
+void add(std::string& text, const char* word) {
+  if (!text.empty()) text += ", ";
+  text += word;
+}
+
+}  // namespace
+
+FloatEnvironmentGuard::FloatEnvironmentGuard()
+    : rounding_(std::fegetround()), control_(control_word()) {}
+
+std::string FloatEnvironmentGuard::check_and_restore() const {
+  std::string changed;
+  const unsigned now = control_word();
+  if (std::fegetround() != rounding_) add(changed, "rounding mode");
+  if ((now ^ control_) & kFlushToZero) add(changed, "flush-to-zero");
+  if ((now ^ control_) & kDenormalsAreZero) add(changed, "denormals-are-zero");
+  if (!changed.empty()) {
+    std::fesetround(rounding_);
+    set_control_word(control_);
+  }
+  return changed;
+}
+
+}  // namespace contactcheck

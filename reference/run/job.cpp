@@ -1,0 +1,90 @@
+#include "reference/run/job.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::json;
+
+Json to_json(const RunSettings& s) {
+  return {{"detectors", s.detectors},     {"frames", s.frames},
+          {"repeats", s.repeats},         {"processes", s.processes},
+          {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
+          {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
+          {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
+}
+
+RunSettings settings_from(const Json& j) {
+  RunSettings s;
+  j.at("detectors").get_to(s.detectors);
+  j.at("frames").get_to(s.frames);
+  j.at("repeats").get_to(s.repeats);
+  j.at("processes").get_to(s.processes);
+  j.at("time_budget").get_to(s.time_budget);
+  j.at("fewest_timed_frames").get_to(s.fewest_timed_frames);
+  j.at("sweep_bytes").get_to(s.sweep_bytes);
+  j.at("timing").get_to(s.timing);
+  j.at("call_limit").get_to(s.call_limit);
+  j.at("memory_limit").get_to(s.memory_limit);
+  return s;
+}
+
+}  // namespace
+
+void write_job(const std::filesystem::path& file, const Job& job) {
+  const Json j = {{"scene_file", job.scene_file.string()},
+                  {"settings", to_json(job.settings)},
+                  {"skip", job.skip},
+                  {"process", job.process},
+                  {"order", job.order},
+                  {"prefixes", job.prefixes},
+                  {"answer_file", job.answer_file.string()},
+                  {"recording_file", job.recording_file.string()}};
+  write_text_file(file, j.dump());
+}
+
+Job read_job(const std::filesystem::path& file) {
+  const Json j = Json::parse(read_text_file(file));
+  Job job;
+  job.scene_file = j.at("scene_file").get<std::string>();
+  job.settings = settings_from(j.at("settings"));
+  j.at("skip").get_to(job.skip);
+  j.at("process").get_to(job.process);
+  j.at("order").get_to(job.order);
+  j.at("prefixes").get_to(job.prefixes);
+  job.answer_file = j.at("answer_file").get<std::string>();
+  job.recording_file = j.at("recording_file").get<std::string>();
+  return job;
+}
+
+void write_text_file(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(getpid());
+  std::ofstream out(temporary, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(temporary, file, error);
+  if (!out || error) {
+    const std::string why = error ? error.message() : std::strerror(errno);
+    std::filesystem::remove(temporary, error);
+    throw InputError("cannot write " + file.string() + ": " + why);
+  }
+}
+
+std::string read_text_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw InputError("cannot read " + file.string() + ": " + std::strerror(errno));
+  return text.str();
+}
+
+}  // namespace contactcheck

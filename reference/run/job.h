@@ -1,0 +1,48 @@
+// What one run is asked to do, as the parent hands it to its workers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace contactcheck {
+
+/// Settings of a run; the same for all its scenes.
+struct RunSettings {
+  std::vector<std::string> detectors;  ///< canonical names
+  std::size_t frames = 0;              ///< 0: as the scene says
+  std::size_t repeats = 5;
+  std::size_t processes = 1;  ///< fresh processes whose samples are pooled
+  /// Aim for the timed part per detector and question, seconds: slow detectors are timed on fewer
+  /// frames (at least `fewest_timed_frames`), the same for both sides of a ratio.
+  double time_budget = 0.15;
+  std::size_t fewest_timed_frames = 4;
+  std::size_t sweep_bytes = std::size_t{8} << 20;  ///< read and written before each cold repeat
+  bool timing = true;
+  double call_limit = 60.0;  ///< seconds without progress until a worker is stopped
+  std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
+};
+
+/// One worker's job: one scene.
+struct Job {
+  std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
+  RunSettings settings;
+  std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
+  std::size_t process = 0;          ///< 0 judges and times, others only time
+  /// For processes above 0, out of process 0's answer: the order of frames, and per detector how
+  /// many of them are timed (0: not timed).
+  std::vector<std::size_t> order, prefixes;
+  std::filesystem::path answer_file;     ///< where the worker writes
+  std::filesystem::path recording_file;  ///< where process 0 writes the recording; empty: nowhere
+};
+
+void write_job(const std::filesystem::path& file, const Job& job);
+Job read_job(const std::filesystem::path& file);
+
+/// Writes under a temporary name and renames. @throws InputError when the folder cannot be written
+void write_text_file(const std::filesystem::path& file, const std::string& text);
+std::string read_text_file(const std::filesystem::path& file);
+
+}  // namespace contactcheck

@@ -1,0 +1,63 @@
+// What a worker tells its supervisor while it works, through shared memory: it survives the
+// worker's death, so that a crash is booked on the right detector, frame and phase.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace contactcheck {
+
+enum class Phase : std::uint32_t { kScene, kTruth, kPrepare, kMap, kUpdate, kQuery, kTrace, kDone };
+
+inline const char* name_of(Phase phase) {
+  switch (phase) {
+    case Phase::kScene:
+      return "scene";
+    case Phase::kTruth:
+      return "truth";
+    case Phase::kPrepare:
+      return "prepare";
+    case Phase::kMap:
+      return "map";
+    case Phase::kUpdate:
+      return "update";
+    case Phase::kQuery:
+      return "query";
+    case Phase::kTrace:
+      return "trace";
+    case Phase::kDone:
+      return "done";
+  }
+  return "unknown";
+}
+
+/// Lives in a shared mapping; all members are lock-free atomics.
+struct SharedProgress {
+  static constexpr std::uint32_t kNoDetector = ~0u;
+
+  std::atomic<std::uint32_t> detector{kNoDetector};  ///< position in the job's list
+  std::atomic<std::uint32_t> frame{0};
+  std::atomic<Phase> phase{Phase::kScene};
+  std::atomic<std::uint64_t> ticks{0};     ///< grows with every step: a stand-still is a hang
+  std::atomic<std::uint32_t> permille{0};  ///< of the worker's work, for the progress bar
+};
+
+static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
+
+/// The worker's side.
+class ProgressWriter {
+ public:
+  explicit ProgressWriter(SharedProgress* shared) : shared_(shared) {}
+  void enter(std::uint32_t detector, std::size_t frame, Phase phase) {
+    shared_->detector = detector;
+    shared_->frame = static_cast<std::uint32_t>(frame);
+    shared_->phase = phase;
+    ++shared_->ticks;
+  }
+  void part(double share) { shared_->permille = static_cast<std::uint32_t>(share * 1000.0); }
+
+ private:
+  SharedProgress* shared_;
+};
+
+}  // namespace contactcheck

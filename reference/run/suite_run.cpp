@@ -1,0 +1,240 @@
+#include "reference/run/suite_run.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/types/check.h"
+#include "reference/adapters/register.h"
+#include "reference/compare/run_result_json.h"
+#include "reference/compare/speedup.h"
+#include "reference/run/machine.h"
+#include "reference/run/samples_json.h"
+#include "reference/run/supervisor.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// Detectors that speed-ups are given against, where the run has them.
+constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss"};
+
+/// A folder of its own for jobs and answers, removed at the end whatever happens.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const fs::path& parent)
+      : path_(parent / (".work" + std::to_string(getpid()))) {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error) throw InputError("cannot write in " + parent.string() + ": " + error.message());
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// All workers of one scene.
+class SceneRunner {
+ public:
+  SceneRunner(const SuiteRequest& request, const SceneTask& task, const fs::path& scratch,
+              ProgressCallback on_progress)
+      : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
+    job_.scene_file = task.file;
+    job_.settings = request.settings;
+    job_.settings.detectors = task.detectors;
+  }
+
+  /// The runs of this scene as JSON, in the order of the detectors; appends its disagreements and
+  /// its scene entry.
+  Json run(Json& scenes, Json& disagreements) {
+    job_.recording_file = request_.out / "recordings" / (task_.id + ".ccr");
+    const Json first = run_process(0);
+    job_.recording_file.clear();
+    job_.order = first.at("order").get<std::vector<std::size_t>>();
+    job_.prefixes = first.at("prefixes").get<std::vector<std::size_t>>();
+    std::vector<Json> answers = {first};
+    for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
+      answers.push_back(run_process(p));
+    scenes.push_back(first.at("scene"));
+    return assemble(answers, disagreements);
+  }
+
+ private:
+  // Runs one process; whoever dies in a detector runs again without it.
+  Json run_process(std::size_t process) {
+    job_.process = process;
+    job_.answer_file = scratch_ / (task_.id + "." + std::to_string(process) + ".answer");
+    const fs::path job_file = scratch_ / (task_.id + "." + std::to_string(process) + ".job");
+    while (true) {
+      write_job(job_file, job_);
+      const WorkerOutcome outcome =
+          run_supervised(request_.executable, job_file, job_.settings, on_progress_);
+      if (outcome.done) return Json::parse(read_text_file(job_.answer_file));
+      if (!outcome.detector) throw_for_scene(outcome);
+      broken_[*outcome.detector] = outcome;
+      job_.skip.push_back(*outcome.detector);
+    }
+  }
+
+  [[noreturn]] void throw_for_scene(const WorkerOutcome& outcome) const {
+    // The worker has said on stderr what is wrong; a bad scene was found before any run.
+    throw InputError("scene \"" + task_.id + "\" ended in " + outcome.reason + ", phase " +
+                     name_of(outcome.phase) + ", frame " + std::to_string(outcome.frame) +
+                     ", outside any detector");
+  }
+
+  Json assemble(const std::vector<Json>& answers, Json& disagreements) {
+    std::map<std::uint32_t, Json> runs;
+    std::map<std::uint32_t, std::vector<ProcessSamples>> samples;
+    collect(answers, runs, samples, disagreements);
+    const auto contact = answers.front().at("contact_frames").get<std::vector<bool>>();
+    for (auto& [position, run] : runs)
+      if (samples.count(position)) add_times(times_of(position, samples, contact), run);
+    Json out = Json::array();
+    for (std::uint32_t i = 0; i < task_.detectors.size(); ++i)
+      out.push_back(broken_.count(i) ? broken_run(i, answers.front()) : std::move(runs.at(i)));
+    return out;
+  }
+
+  void collect(const std::vector<Json>& answers, std::map<std::uint32_t, Json>& runs,
+               std::map<std::uint32_t, std::vector<ProcessSamples>>& samples, Json& disagreements) {
+    for (const Json& answer : answers) {
+      for (const Json& entry : answer.at("runs")) {
+        const auto position = entry.at("position").get<std::uint32_t>();
+        if (broken_.count(position)) continue;
+        std::vector<ProcessSamples>& by_question = samples[position];
+        by_question.resize(entry.at("samples").size());
+        for (std::size_t q = 0; q < entry.at("samples").size(); ++q)
+          by_question[q].push_back(samples_from_json(entry.at("samples")[q]));
+        if (by_question.empty()) samples.erase(position);
+        if (&answer != &answers.front()) continue;
+        runs[position] = entry.at("run");
+        if (fs::exists(recording()))
+          runs[position]["recording"] = "recordings/" + task_.id + ".ccr";
+        for (const Json& d : entry.at("disagreements")) disagreements.push_back(d);
+      }
+    }
+  }
+
+  fs::path recording() const { return request_.out / "recordings" / (task_.id + ".ccr"); }
+
+  RunTimes times_of(std::uint32_t position,
+                    const std::map<std::uint32_t, std::vector<ProcessSamples>>& samples,
+                    const std::vector<bool>& contact) const {
+    RunTimes times;
+    const std::vector<ProcessSamples>& own = samples.at(position);
+    times.cold_frame_ms = cold_frame_ms(own.front());
+    for (const ProcessSamples& question : own) {
+      times.questions.push_back(summarize_times(question, contact));
+      for (const auto& [other, theirs] : samples)
+        add_speedups(other, theirs, question, contact, times);
+    }
+    return times;
+  }
+
+  void add_speedups(std::uint32_t other, const std::vector<ProcessSamples>& theirs,
+                    const ProcessSamples& own, const std::vector<bool>& contact,
+                    RunTimes& times) const {
+    const std::string& name = task_.detectors[other];
+    if (std::none_of(std::begin(kReferences), std::end(kReferences),
+                     [&](const char* reference) { return name == reference; }))
+      return;
+    for (const ProcessSamples& reference : theirs) {
+      if (reference.front().question != own.front().question) continue;
+      if (const auto s = compute_speedup(reference, own, contact))
+        times.speedups[own.front().question][name] = *s;
+    }
+  }
+
+  Json broken_run(std::uint32_t position, const Json& answer) const {
+    const WorkerOutcome& o = broken_.at(position);
+    RunResult run;
+    run.scene = task_.id;
+    run.detector = task_.detectors[position];
+    run.status = RunStatus::kError;
+    run.message = "scene " + task_.id + ", frame " + std::to_string(o.frame) + ", phase " +
+                  name_of(o.phase) + ": " + o.reason;
+    run.frames = answer.at("scene").at("frames").get<std::size_t>();
+    run.contact_frames = answer.at("scene").at("contact_frames").get<std::size_t>();
+    return to_json(run);
+  }
+
+  const SuiteRequest& request_;
+  const SceneTask& task_;
+  fs::path scratch_;
+  ProgressCallback on_progress_;
+  Job job_;
+  std::map<std::uint32_t, WorkerOutcome> broken_;
+};
+
+// Case files get running numbers over the whole suite.
+void move_cases(const fs::path& out, Json& disagreements) {
+  std::size_t number = 0;
+  for (Json& d : disagreements) {
+    char name[32];
+    std::snprintf(name, sizeof name, "cases/%04zu.json", ++number);
+    fs::rename(d.at("case").get<std::string>(), out / name);
+    d["case"] = name;
+  }
+}
+
+void make_folders(const fs::path& out) {
+  for (const char* folder : {"cases", "recordings"}) {
+    std::error_code error;
+    fs::create_directories(out / folder, error);
+    if (error) throw InputError("cannot write in " + out.string() + ": " + error.message());
+  }
+  for (const auto& entry : fs::directory_iterator(out / "cases")) fs::remove(entry.path());
+}
+
+}  // namespace
+
+nlohmann::ordered_json run_suite(const SuiteRequest& request,
+                                 const std::function<void(const SuiteProgress&)>& on_progress,
+                                 SuiteOutcome* outcome) {
+  make_folders(request.out);
+  const ScratchFolder scratch(request.out);
+  Json runs = Json::array(), disagreements = Json::array(), scenes = Json::array();
+  SuiteProgress progress;
+  progress.scenes = request.tasks.size();
+  for (; progress.scene < request.tasks.size(); ++progress.scene) {
+    const SceneTask& task = request.tasks[progress.scene];
+    progress.scene_id = task.id;
+    const auto report = [&](double share, std::optional<std::uint32_t> detector) {
+      progress.detector = detector ? task.detectors[*detector] : "";
+      progress.share =
+          (static_cast<double>(progress.scene) + share) / static_cast<double>(progress.scenes);
+      on_progress(progress);
+    };
+    SceneRunner runner(request, task, scratch.path(), report);
+    for (Json& run : runner.run(scenes, disagreements)) runs.push_back(std::move(run));
+  }
+  move_cases(request.out, disagreements);
+  outcome->any_error = std::any_of(runs.begin(), runs.end(), [](const Json& run) {
+    return run.at("status") == name_of(RunStatus::kError);
+  });
+  Json results = {{"schema", "contactcheck-results/1"},
+                  {"version", CONTACTCHECK_VERSION},
+                  {"command", request.command},
+                  {"machine", describe_machine()},
+                  {"libraries", library_versions()},
+                  {"scenes", scenes},
+                  {"runs", runs},
+                  {"disagreements", disagreements}};
+  write_text_file(request.out / "results.json", results.dump(1) + "\n");
+  return results;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,45 @@
+// Runs scenes one after the other, each in worker processes, and puts results.json together.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "reference/run/job.h"
+
+namespace contactcheck {
+
+struct SceneTask {
+  std::string id;
+  std::filesystem::path file;          ///< .json or .ccr
+  std::vector<std::string> detectors;  ///< canonical names
+};
+
+struct SuiteRequest {
+  std::vector<SceneTask> tasks;
+  RunSettings settings;              ///< detectors are taken from the tasks
+  std::filesystem::path out;         ///< existing, writable
+  std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
+  std::string command;               ///< for the record
+};
+
+/// What is going on, for the progress display.
+struct SuiteProgress {
+  std::size_t scene = 0, scenes = 0;
+  std::string scene_id, detector;
+  double share = 0.0;  ///< of the whole suite
+};
+
+struct SuiteOutcome {
+  bool any_error = false;  ///< some detector ended in `error`
+};
+
+/// Writes out/results.json, out/recordings/ and out/cases/. Returns the results as written.
+/// @throws InputError for bad scenes or an unwritable folder
+nlohmann::ordered_json run_suite(const SuiteRequest& request,
+                                 const std::function<void(const SuiteProgress&)>& on_progress,
+                                 SuiteOutcome* outcome);
+
+}  // namespace contactcheck

@@ -1,0 +1,85 @@
+#include "reference/run/timing.h"
+
+#include <chrono>
+
+namespace contactcheck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::nano>(to - from).count();
+}
+
+// Buffers shared by all entries: every detector maps into the same memory.
+struct MappedFrame {
+  std::vector<std::vector<Vec3>> vertices;
+  Frame frame;
+};
+
+PhaseSample run_once(const JudgedScene& judged, std::size_t index, TimedEntry& entry,
+                     MappedFrame& mapped, ContactSet& contacts) {
+  const Scene& scene = *judged.scene;
+  PhaseSample sample;
+  const bool needs_vertices = entry.detector->needs_vertices();
+  contacts.clear();
+  const auto start = Clock::now();
+  if (needs_vertices) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      map_body(*scene.bodies[b].shape, judged.nodes[index][b], mapped.vertices[b]);
+  }
+  const auto after_map = Clock::now();
+  entry.detector->update(mapped.frame);
+  const auto after_update = Clock::now();
+  entry.detector->query(entry.question, contacts);
+  const auto after_query = Clock::now();
+  sample.map = needs_vertices ? nanoseconds(start, after_map) : 0.0;
+  sample.update = nanoseconds(after_map, after_update);
+  sample.query = nanoseconds(after_update, after_query);
+  return sample;
+}
+
+void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& mapped) {
+  mapped.frame.index = index;
+  mapped.frame.time = judged.scene->time_of(index);
+  mapped.frame.bodies.clear();
+  for (std::size_t b = 0; b < judged.scene->bodies.size(); ++b)
+    mapped.frame.bodies.push_back({judged.nodes[index][b], mapped.vertices[b]});
+}
+
+}  // namespace
+
+void CacheSweep::run() {
+  for (std::size_t i = 0; i < buffer_.size(); i += 8) sum_ += buffer_[i]++;
+  // The sum must be looked at, or the loop is nobody's business.
+  volatile std::uint64_t sink = sum_;
+  (void)sink;
+}
+
+void run_timing(const JudgedScene& judged, const std::vector<std::size_t>& order,
+                std::size_t repeats, std::size_t sweep_bytes, std::vector<TimedEntry>& entries,
+                ProgressWriter& progress) {
+  CacheSweep sweep(sweep_bytes);
+  MappedFrame mapped;
+  for (const Body& body : judged.scene->bodies)
+    mapped.vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
+  ContactSet contacts;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const std::size_t index = order[place];
+    point_to_frame(judged, index, mapped);
+    progress.part(0.5 + 0.5 * static_cast<double>(place) / static_cast<double>(order.size()));
+    for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        TimedEntry& entry = entries[(i + repeat) % entries.size()];
+        if (place >= entry.frames) continue;
+        progress.enter(entry.position, index, Phase::kQuery);
+        FrameSamples& samples = entry.samples.frames[index];
+        sweep.run();
+        samples.cold.push_back(run_once(judged, index, entry, mapped, contacts));
+        samples.hot.push_back(run_once(judged, index, entry, mapped, contacts));
+      }
+    }
+  }
+}
+
+}  // namespace contactcheck

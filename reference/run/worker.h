@@ -1,0 +1,13 @@
+// A worker: one process, one scene, all detectors. It is started fresh (exec) before any thread
+// exists; its parent watches it through SharedProgress (supervisor.h).
+#pragma once
+
+#include <filesystem>
+
+namespace contactcheck {
+
+/// Entry of the hidden subcommand. `progress_fd`: an inherited descriptor of the shared page, or -1
+/// to run without a parent. Writes the job's answer file. Returns the exit code.
+int run_worker(const std::filesystem::path& job_file, int progress_fd);
+
+}  // namespace contactcheck

@@ -1,0 +1,94 @@
+#include "reference/scene/assimp_reader.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "core/types/check.h"
+#include "reference/scene/file_text.h"
+
+namespace contactcheck {
+namespace {
+
+// Collects triangles; vertices with the same bits in all three coordinates are one.
+class Welder {
+ public:
+  std::uint32_t vertex(const aiVector3D& p) {
+    const std::array<std::uint32_t, 3> bits = {std::bit_cast<std::uint32_t>(p.x),
+                                               std::bit_cast<std::uint32_t>(p.y),
+                                               std::bit_cast<std::uint32_t>(p.z)};
+    const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto [it, is_new] = index_.try_emplace(bits, next);
+    if (is_new) mesh.vertices.emplace_back(p.x, p.y, p.z);
+    return it->second;
+  }
+
+  TriangleMesh mesh;
+
+ private:
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> index_;
+};
+
+void refuse_non_finite(const aiMesh& part, std::size_t mesh_index, const std::string& name) {
+  for (std::size_t v = 0; v < part.mNumVertices; ++v) {
+    const aiVector3D& p = part.mVertices[v];
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
+    throw InputError(name + ": vertex " + std::to_string(v) + " of mesh " +
+                     std::to_string(mesh_index) + " has a coordinate that is not a finite number.");
+  }
+}
+
+// Lines and points of the file are no surface; their number is returned.
+std::size_t add_part(const aiMesh& part, Welder& welder) {
+  std::size_t skipped = 0;
+  for (std::size_t f = 0; f < part.mNumFaces; ++f) {
+    const aiFace& face = part.mFaces[f];
+    if (face.mNumIndices != 3) {
+      ++skipped;
+      continue;
+    }
+    Triangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle[k] = welder.vertex(part.mVertices[face.mIndices[k]]);
+    }
+    welder.mesh.triangles.push_back(triangle);
+  }
+  return skipped;
+}
+
+}  // namespace
+
+LoadedMesh read_with_assimp(const std::filesystem::path& file) {
+  const std::string name = "mesh file " + in_quotes(file.string());
+  Assimp::Importer importer;
+  const aiScene* scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) {
+    std::string reason = importer.GetErrorString();
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
+    throw InputError(name + " cannot be read by assimp: " + reason + ".");
+  }
+  Welder welder;
+  std::size_t corners = 0, skipped = 0;
+  for (std::size_t m = 0; m < scene->mNumMeshes; ++m) {
+    refuse_non_finite(*scene->mMeshes[m], m, name);
+    skipped += add_part(*scene->mMeshes[m], welder);
+    corners += scene->mMeshes[m]->mNumVertices;
+  }
+  if (welder.mesh.triangles.empty()) throw InputError(name + " holds no triangle.");
+  LoadedMesh out{std::move(welder.mesh), "read as float by assimp"};
+  if (out.mesh.vertices.size() < corners) {
+    add_note(out.notes, std::to_string(corners - out.mesh.vertices.size()) +
+                            " vertices at equal places joined");
+  }
+  if (skipped > 0) add_note(out.notes, std::to_string(skipped) + " lines and points left out");
+  return out;
+}
+
+}  // namespace contactcheck

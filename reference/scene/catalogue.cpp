@@ -1,0 +1,104 @@
+#include "reference/scene/catalogue.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "core/types/check.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/id_check.h"
+#include "reference/scene/json_field.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+CatalogueEntry read_entry(const fs::path& file, const std::string& kind) {
+  const std::string document = kind + " file " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, kind + " file"), document);
+  const JsonField root(value, document);
+  const JsonField id = root.at("id");
+  if (parse_id(id) != file.stem().string()) {
+    id.refuse("the file's name without its extension, " + in_quotes(file.stem().string()));
+  }
+  return {id.text(), root.has("title") ? root.at("title").text() : id.text(), file};
+}
+
+std::vector<CatalogueEntry> list_folder(const fs::path& folder, const std::string& kind) {
+  if (!fs::is_directory(folder)) {
+    throw InputError("folder " + in_quotes(folder.string()) + " with the " + kind +
+                     "s does not exist; $CONTACTCHECK_FIXTURES says where fixtures are.");
+  }
+  std::vector<CatalogueEntry> entries;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
+    if (file.path().extension() == ".json") entries.push_back(read_entry(file.path(), kind));
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const CatalogueEntry& a, const CatalogueEntry& b) { return a.id < b.id; });
+  return entries;
+}
+
+// The file of an id in a folder, found by name alone: no other file is read.
+std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id) {
+  if (!is_id(id)) return std::nullopt;
+  const fs::path file = folder / (id + ".json");
+  if (!fs::is_regular_file(file)) return std::nullopt;
+  return file;
+}
+
+std::string ids_in(const fs::path& folder) {
+  std::vector<std::string> ids;
+  std::error_code ignored;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder, ignored)) {
+    if (file.path().extension() == ".json") ids.push_back(file.path().stem().string());
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids.empty() ? "none" : joined(ids);
+}
+
+bool is_suite_file(const fs::path& file) {
+  const std::string document = "scene file " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
+  return value.kind == JsonValue::Kind::kObject && value.find("scenes") != nullptr;
+}
+
+}  // namespace
+
+fs::path fixtures_directory() {
+  const char* own = std::getenv("CONTACTCHECK_FIXTURES");
+  return own != nullptr && *own != '\0' ? own : CONTACTCHECK_FIXTURES_BUILT_FROM;
+}
+
+std::vector<CatalogueEntry> list_scenes(const fs::path& fixtures) {
+  return list_folder(fixtures / "scenes", "scene");
+}
+
+std::vector<CatalogueEntry> list_suites(const fs::path& fixtures) {
+  return list_folder(fixtures / "suites", "suite");
+}
+
+Target find_target(const std::string& name, const fs::path& fixtures) {
+  if (const auto suite = file_of_id(fixtures / "suites", name)) {
+    return {TargetKind::kSuite, *suite};
+  }
+  if (const auto scene = file_of_id(fixtures / "scenes", name)) {
+    return {TargetKind::kScene, *scene};
+  }
+  const fs::path file(name);
+  if (file.extension() == ".ccr" && fs::exists(file)) return {TargetKind::kRecording, file};
+  if (file.extension() == ".json" && fs::exists(file)) {
+    return {is_suite_file(file) ? TargetKind::kSuite : TargetKind::kScene, file};
+  }
+  throw InputError(in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +
+                   ") nor a scene (" + ids_in(fixtures / "scenes") +
+                   ") nor an existing .json or .ccr file.");
+}
+
+fs::path find_scene(const std::string& id, const fs::path& fixtures) {
+  if (const auto file = file_of_id(fixtures / "scenes", id)) return *file;
+  throw InputError("there is no scene " + in_quotes(id) + "; the scenes are " +
+                   ids_in(fixtures / "scenes") + ".");
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,31 @@
+// How a scene file describes a body's lattice, and building the shape in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "core/deform/body.h"
+#include "reference/scene/json_field.h"
+
+namespace contactcheck {
+
+/// The "lattice" of a body. Equal specs over equal meshes give equal shapes.
+struct LatticeSpec {
+  enum class Kind { kNone, kCells, kKept };
+
+  Kind kind = Kind::kNone;
+  std::array<std::size_t, 3> cells = {};  ///< kCells: per axis
+  std::size_t kept = 0;                   ///< kKept: wanted number of kept cells
+  double padding = 0.0;                   ///< fraction of the largest side, on each side
+
+  bool operator==(const LatticeSpec&) const = default;
+};
+
+LatticeSpec parse_lattice_spec(const JsonField& field);
+
+/// @throws InputError when the mesh has a fatal defect
+std::shared_ptr<const BodyShape> build_shape(TriangleMesh mesh, const LatticeSpec& spec);
+
+}  // namespace contactcheck

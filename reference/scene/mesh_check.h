@@ -1,0 +1,30 @@
+// What a mesh file's bytes themselves tell: where a number is not finite, and how many faces the
+// file claims. Readers fail without a reason or lose faces; these checks find the place.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "reference/scene/polygon_soup.h"
+
+namespace contactcheck {
+
+/// The first coordinate of a text file that is no finite number, as the end of a sentence:
+/// "vertex 17 has the coordinate nan (line 19); coordinates must be finite numbers". For binary
+/// STL, names triangle and corner. Empty when none is found. Assumes one vertex per line.
+std::string coordinate_fault(SoupFormat format, const std::string& bytes);
+
+struct SoupCounts {
+  std::size_t vertices = 0, faces = 0;
+};
+
+/// The numbers of vertices and faces that an ASCII OFF or PLY file's header claims; nothing for
+/// other formats and for headers of another form.
+std::optional<SoupCounts> claimed_counts(SoupFormat format, const std::string& bytes);
+
+/// The first OBJ face line whose number of corners is not what was read: its line number. Zero when
+/// all agree, or for other formats. CGAL's OBJ reader stops silently in the middle of a face.
+std::size_t face_line_fault(SoupFormat format, const std::string& bytes, const PolygonSoup& soup);
+
+}  // namespace contactcheck

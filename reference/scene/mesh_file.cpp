@@ -1,0 +1,121 @@
+#include "reference/scene/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "core/types/check.h"
+#include "reference/scene/assimp_reader.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/mesh_check.h"
+
+namespace contactcheck {
+namespace {
+
+std::optional<SoupFormat> format_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".obj") return SoupFormat::kObj;
+  if (extension == ".off") return SoupFormat::kOff;
+  if (extension == ".ply") return SoupFormat::kPly;
+  if (extension == ".stl") return SoupFormat::kStl;
+  return std::nullopt;
+}
+
+void refuse_lying_counts(SoupFormat format, const std::string& bytes, const std::string& name) {
+  const std::optional<SoupCounts> counts = claimed_counts(format, bytes);
+  if (!counts) return;
+  // A vertex or face takes at least two bytes: a larger number would only exhaust the memory.
+  if (counts->vertices > bytes.size() || counts->faces > bytes.size()) {
+    throw InputError(name + " claims " + std::to_string(counts->vertices) + " vertices and " +
+                     std::to_string(counts->faces) + " faces, more than its " +
+                     std::to_string(bytes.size()) + " bytes can hold.");
+  }
+}
+
+void refuse_lost_parts(SoupFormat format, const std::string& bytes, const std::string& name,
+                       const PolygonSoup& soup) {
+  const std::optional<SoupCounts> counts = claimed_counts(format, bytes);
+  if (counts && (counts->vertices != soup.points.size() || counts->faces != soup.polygons.size())) {
+    throw InputError(name + " claims " + std::to_string(counts->vertices) + " vertices and " +
+                     std::to_string(counts->faces) + " faces but holds " +
+                     std::to_string(soup.points.size()) + " and " +
+                     std::to_string(soup.polygons.size()) + ".");
+  }
+  if (const std::size_t line = face_line_fault(format, bytes, soup)) {
+    throw InputError(name + " has a face on line " + std::to_string(line) +
+                     " whose vertex indices cannot all be read.");
+  }
+}
+
+void refuse_bad_values(const PolygonSoup& soup, const std::string& name) {
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    if (soup.points[v].allFinite()) continue;
+    throw InputError(name + ": vertex " + std::to_string(v) +
+                     " has a coordinate that is not a finite number.");
+  }
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    for (const std::uint32_t index : soup.polygons[f]) {
+      if (index < soup.points.size()) continue;
+      throw InputError(name + ": face " + std::to_string(f) + " names a vertex outside the " +
+                       std::to_string(soup.points.size()) + " vertices of the file.");
+    }
+  }
+}
+
+// Fans round each polygon's first corner.
+LoadedMesh triangulated(const PolygonSoup& soup) {
+  LoadedMesh out;
+  out.mesh.vertices = soup.points;
+  std::size_t split = 0, dropped = 0;
+  for (const std::vector<std::uint32_t>& polygon : soup.polygons) {
+    split += polygon.size() > 3 ? 1 : 0;
+    dropped += polygon.size() < 3 ? 1 : 0;
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+      out.mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
+    }
+  }
+  if (split > 0) add_note(out.notes, std::to_string(split) + " polygons split into triangles");
+  if (dropped > 0) {
+    add_note(out.notes, std::to_string(dropped) + " faces with fewer than three corners left out");
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_note(std::string& notes, const std::string& note) {
+  if (note.empty()) return;
+  notes += (notes.empty() ? "" : "; ") + note;
+}
+
+LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const std::string& name) {
+  refuse_lying_counts(format, bytes, name);
+  // Checked first: CGAL would weld a NaN of a binary STL to any other vertex.
+  if (format == SoupFormat::kStl) {
+    const std::string fault = coordinate_fault(format, bytes);
+    if (!fault.empty()) throw InputError(name + ": " + fault + ".");
+  }
+  PolygonSoup soup;
+  if (!read_polygon_soup(format, bytes, soup)) {
+    const std::string fault = coordinate_fault(format, bytes);
+    if (!fault.empty()) throw InputError(name + ": " + fault + ".");
+    throw InputError(name + " cannot be read as " + name_of(format) + ".");
+  }
+  refuse_lost_parts(format, bytes, name, soup);
+  refuse_bad_values(soup, name);
+  LoadedMesh out = triangulated(soup);
+  if (out.mesh.triangles.empty()) throw InputError(name + " holds no triangle.");
+  if (format == SoupFormat::kStl) add_note(out.notes, "STL: corners at equal places joined");
+  return out;
+}
+
+LoadedMesh read_mesh_file(const std::filesystem::path& file) {
+  const std::string bytes = read_file_bytes(file, "mesh file");
+  const std::optional<SoupFormat> format = format_of(file);
+  if (!format) return read_with_assimp(file);
+  return read_mesh_bytes(*format, bytes, "mesh file " + in_quotes(file.string()));
+}
+
+}  // namespace contactcheck

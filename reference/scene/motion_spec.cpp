@@ -1,0 +1,204 @@
+#include "reference/scene/motion_spec.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace contactcheck {
+namespace {
+
+// Far outside any real motion; keeps sums and products finite.
+constexpr NumberRange kTime = {0.0, false, 1e9, false};     // seconds
+constexpr NumberRange kLength = {-1e6, false, 1e6, false};  // metres
+constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
+constexpr NumberRange kTaperAmount = {-100.0, false, 100.0, false};
+constexpr NumberRange kStretchAmount = {-1.0, true, 100.0, false};
+
+// The time of a key, which must be above that of the key before.
+double key_time(const JsonField& field, std::size_t index, double before) {
+  const double time = field.number(kTime);
+  if (index > 0 && !(time > before)) {
+    field.refuse("above " + shown(before) + ", the time of the key before");
+  }
+  return time;
+}
+
+// Time and value of [time, value].
+std::pair<JsonField, JsonField> key_parts(const JsonField& field) {
+  if (!field.is(JsonValue::Kind::kArray) || field.value().items.size() != 2) {
+    field.refuse("a key: an array of a time and a value");
+  }
+  std::vector<JsonField> parts = field.items();
+  return {parts[0], parts[1]};
+}
+
+// A number, or keys [[time, number], ...].
+Curve parse_curve(const JsonField& field, const NumberRange& range, bool smooth) {
+  Curve curve;
+  curve.smooth = smooth;
+  if (field.is(JsonValue::Kind::kNumber)) {
+    curve.keys.push_back({0.0, field.number(range)});
+    return curve;
+  }
+  if (!field.is(JsonValue::Kind::kArray)) field.refuse("a number or an array of keys");
+  const std::vector<JsonField> keys = field.items(1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto [time, value] = key_parts(keys[i]);
+    const double before = i > 0 ? curve.keys.back().time : 0.0;
+    curve.keys.push_back({key_time(time, i, before), value.number(range)});
+  }
+  return curve;
+}
+
+std::array<Curve, 3> constant_curves(const Vec3& value) {
+  std::array<Curve, 3> curves;
+  for (int k = 0; k < 3; ++k) curves[k].keys.push_back({0.0, value[k]});
+  return curves;
+}
+
+bool all_numbers(const JsonValue& value) {
+  return std::all_of(value.items.begin(), value.items.end(),
+                     [](const JsonValue& item) { return item.kind == JsonValue::Kind::kNumber; });
+}
+
+// [x, y, z], or keys [[time, [x, y, z]], ...].
+std::array<Curve, 3> parse_position(const JsonField& field, bool smooth) {
+  if (!field.is(JsonValue::Kind::kArray)) field.refuse("[x, y, z] or an array of keys");
+  if (all_numbers(field.value())) return constant_curves(field.vector(kLength));
+  std::array<Curve, 3> curves;
+  for (Curve& curve : curves) curve.smooth = smooth;
+  const std::vector<JsonField> keys = field.items(1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto [time_field, value] = key_parts(keys[i]);
+    const double time = key_time(time_field, i, i > 0 ? curves[0].keys.back().time : 0.0);
+    const Vec3 position = value.vector(kLength);
+    for (int k = 0; k < 3; ++k) curves[k].keys.push_back({time, position[k]});
+  }
+  return curves;
+}
+
+int parse_axis(const JsonField& field) { return field.one_of({"x", "y", "z"})[0] - 'x'; }
+
+// "x", "y", "z", or a vector that is not zero.
+Vec3 parse_direction(const JsonField& field) {
+  if (field.is(JsonValue::Kind::kText)) return Vec3::Unit(parse_axis(field));
+  if (!field.is(JsonValue::Kind::kArray)) field.refuse("x, y, z, or an array of three numbers");
+  const Vec3 direction = field.vector(kLength);
+  if (!(direction.norm() > 1e-9)) field.fail("is too short; it must not be zero");
+  return direction;
+}
+
+Deformer parse_bend(const JsonField& field, bool smooth) {
+  field.only_keys({"axis", "toward", "degrees"});
+  Bend bend;
+  bend.axis = parse_axis(field.at("axis"));
+  bend.toward = parse_axis(field.at("toward"));
+  if (bend.toward == bend.axis) field.at("toward").refuse("another axis than \"axis\"");
+  bend.angle = parse_curve(field.at("degrees"), kDegrees, smooth);
+  return bend;
+}
+
+Deformer parse_twist(const JsonField& field, bool smooth) {
+  field.only_keys({"axis", "degrees"});
+  return Twist{parse_axis(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
+}
+
+Deformer parse_taper(const JsonField& field, bool smooth) {
+  field.only_keys({"axis", "amount"});
+  return Taper{parse_axis(field.at("axis")), parse_curve(field.at("amount"), kTaperAmount, smooth)};
+}
+
+Deformer parse_stretch(const JsonField& field, bool smooth) {
+  field.only_keys({"axis", "amount"});
+  return Stretch{parse_axis(field.at("axis")),
+                 parse_curve(field.at("amount"), kStretchAmount, smooth)};
+}
+
+GridIndex parse_node(const JsonField& field, const Lattice& lattice) {
+  if (!field.is(JsonValue::Kind::kArray) || field.value().items.size() != 3) {
+    field.refuse("an array of three whole numbers");
+  }
+  const std::vector<JsonField> parts = field.items();
+  GridIndex node;
+  for (std::size_t k = 0; k < 3; ++k) {
+    node[k] = static_cast<std::uint32_t>(parts[k].whole(0, lattice.lines[k].size() - 1));
+  }
+  if (std::find(lattice.nodes.begin(), lattice.nodes.end(), node) == lattice.nodes.end()) {
+    field.fail("is no node of the body's lattice; only cells that hold surface are kept");
+  }
+  return node;
+}
+
+// [[time, [{"node": [i, j, k], "offset": [x, y, z]}, ...]], ...]
+Deformer parse_nodes(const JsonField& field, const BodyShape& shape) {
+  if (!shape.lattice) field.fail("needs a lattice; this body has none");
+  NodeKeys out;
+  const std::vector<JsonField> keys = field.items(1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto [time, list] = key_parts(keys[i]);
+    NodeKeys::Key key;
+    key.time = key_time(time, i, i > 0 ? out.keys.back().time : 0.0);
+    std::set<GridIndex> seen;
+    for (const JsonField& entry : list.items()) {
+      entry.only_keys({"node", "offset"});
+      const GridIndex node = parse_node(entry.at("node"), *shape.lattice);
+      if (!seen.insert(node).second) entry.at("node").fail("is named twice in this key");
+      key.offsets.emplace_back(node, entry.at("offset").vector(kLength));
+    }
+    out.keys.push_back(std::move(key));
+  }
+  return out;
+}
+
+Deformer parse_deformer(const JsonField& field, const BodyShape& shape, bool smooth) {
+  const std::vector<std::string> kinds = {"twist", "bend", "taper", "stretch", "nodes"};
+  field.only_keys(kinds);
+  const std::string kind = field.exactly_one_of(kinds);
+  const JsonField inner = field.at(kind);
+  if (kind == "twist") return parse_twist(inner, smooth);
+  if (kind == "bend") return parse_bend(inner, smooth);
+  if (kind == "taper") return parse_taper(inner, smooth);
+  if (kind == "stretch") return parse_stretch(inner, smooth);
+  return parse_nodes(inner, shape);
+}
+
+RigidPath::Spin parse_spin(const JsonField& field, bool smooth) {
+  field.only_keys({"axis", "degrees"});
+  return {parse_direction(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
+}
+
+}  // namespace
+
+Motion parse_motion(const JsonField& field, const BodyShape& shape) {
+  field.only_keys({"ease", "position", "spins", "deformers"});
+  const bool smooth =
+      field.has("ease") && field.at("ease").one_of({"linear", "smooth"}) == "smooth";
+  Motion motion;
+  if (field.has("deformers")) {
+    for (const JsonField& item : field.at("deformers").items()) {
+      motion.deformers.push_back(parse_deformer(item, shape, smooth));
+    }
+  }
+  if (field.has("spins")) {
+    for (const JsonField& item : field.at("spins").items()) {
+      motion.path.spins.push_back(parse_spin(item, smooth));
+    }
+  }
+  if (field.has("position")) {
+    motion.path.position = parse_position(field.at("position"), smooth);
+  } else if (!motion.deformers.empty() || !motion.path.spins.empty()) {
+    motion.path.position = constant_curves(bounding_box(shape.mesh.vertices).center());
+  }
+  return motion;
+}
+
+bool is_rest(const Motion& motion) {
+  return motion.deformers.empty() && motion.path.spins.empty() &&
+         std::all_of(motion.path.position.begin(), motion.path.position.end(),
+                     [](const Curve& curve) { return curve.keys.empty(); });
+}
+
+}  // namespace contactcheck

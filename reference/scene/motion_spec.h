@@ -1,0 +1,18 @@
+// How a scene file describes a body's motion (fixtures/README.md, "Scenes").
+#pragma once
+
+#include "core/deform/body.h"
+#include "core/deform/motion.h"
+#include "reference/scene/json_field.h"
+
+namespace contactcheck {
+
+/// The motion of a body with this shape. Where no position is given, the body's rest box keeps its
+/// place.
+/// @throws InputError
+Motion parse_motion(const JsonField& field, const BodyShape& shape);
+
+/// No deformer, no spin, no position: the body rests, bit for bit.
+bool is_rest(const Motion& motion);
+
+}  // namespace contactcheck

@@ -1,0 +1,67 @@
+#include "reference/scene/scene.h"
+
+#include <algorithm>
+
+#include "core/deform/recording.h"
+#include "core/types/check.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/motion_spec.h"
+
+namespace contactcheck {
+namespace {
+
+std::vector<Vec3> rest_nodes(const BodyShape& shape) {
+  return shape.lattice ? shape.lattice->rest_nodes() : shape.mesh.vertices;
+}
+
+}  // namespace
+
+bool Scene::judges(Level level) const {
+  return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
+  CONTACTCHECK_INVARIANT(scripted(), "a recording has frames, not times");
+  std::vector<std::vector<Vec3>> nodes;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyShape& shape = *bodies[b].shape;
+    // A resting body keeps the bits of its mesh: moving there and back would round.
+    nodes.push_back(is_rest(motions[b]) ? rest_nodes(shape)
+                                        : contactcheck::nodes_at(shape, motions[b], time));
+  }
+  return nodes;
+}
+
+std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
+  CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
+  return scripted() ? nodes_at(time_of(frame)) : recorded[frame];
+}
+
+double Scene::size() const {
+  double largest = 0.0;
+  for (const Body& body : bodies) {
+    largest = std::max(largest, bounding_box(body.shape->mesh.vertices).extent().maxCoeff());
+  }
+  return largest;
+}
+
+Scene load_recording(const std::filesystem::path& file) {
+  Recording recording = read_recording(file);
+  if (recording.frames.empty()) {
+    throw InputError("recording " + in_quotes(file.string()) + " holds no frame.");
+  }
+  Scene scene;
+  scene.id = recording.scene;
+  scene.title = "Recording of " + recording.scene;
+  scene.bodies = std::move(recording.bodies);
+  scene.frames = recording.frames.size();
+  scene.time_step = recording.time_step;
+  scene.levels = {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle};
+  scene.recorded = std::move(recording.frames);
+  for (const Body& body : scene.bodies) {
+    scene.origins.push_back({body.name, "recording", describe(body.shape->topology)});
+  }
+  return scene;
+}
+
+}  // namespace contactcheck

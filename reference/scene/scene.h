@@ -1,0 +1,54 @@
+// A scene: named bodies, how they move, and what is to be judged.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/deform/motion.h"
+#include "core/types/semantics.h"
+
+namespace contactcheck {
+
+/// Where and how a body's mesh came to be; goes into the results.
+struct MeshOrigin {
+  std::string body;
+  std::string
+      source;  ///< "libcgal-demo:bunny00.off simplified to 5914 triangles", "box", a path, ...
+  std::string notes;  ///< defects found, "read as float", ...; empty when there is nothing to say
+};
+
+struct Scene {
+  std::string id;
+  std::string title;  ///< one line
+  std::vector<Body> bodies;
+  std::vector<MeshOrigin> origins;  ///< per body
+  std::size_t frames = 0;
+  double time_step = 0.0;       ///< seconds
+  std::vector<Level> levels;    ///< to be judged; nothing else is computed
+  std::vector<Motion> motions;  ///< per body; empty for a recording
+  /// Recorded nodes [frame][body]; empty for a scripted scene.
+  std::vector<std::vector<std::vector<Vec3>>> recorded;
+
+  bool scripted() const { return recorded.empty(); }
+  bool judges(Level level) const;
+  double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
+  /// Lattice nodes of every body. @pre scripted()
+  std::vector<std::vector<Vec3>> nodes_at(double time) const;
+  /// Lattice nodes of every body at a frame, scripted or recorded.
+  std::vector<std::vector<Vec3>> nodes_of_frame(std::size_t frame) const;
+  /// The largest side of any body's rest box, metres: tolerances are relative to it.
+  double size() const;
+};
+
+/// Reads a scene file (JSON). `wanted_frames` above 0 replaces the file's frame count, keeping the
+/// duration.
+/// @throws InputError, one sentence: file, path of the field, value, what is allowed
+Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
+
+/// A scene out of a recording (.ccr), judged at the levels body, cell, box and triangle.
+Scene load_recording(const std::filesystem::path& file);
+
+}  // namespace contactcheck

@@ -1,0 +1,130 @@
+// Scene files (JSON), described in fixtures/README.md, "Scenes".
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "core/deform/name_check.h"
+#include "core/types/check.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/id_check.h"
+#include "reference/scene/json_field.h"
+#include "reference/scene/lattice_spec.h"
+#include "reference/scene/mesh_spec.h"
+#include "reference/scene/motion_spec.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::size_t kMostFrames = 100'000;
+constexpr double kLongest = 1e6;  // seconds
+constexpr NumberRange kSeconds = {0.0, true, kLongest, false};
+
+// Builds each distinct mesh and each distinct shape once.
+class Workshop {
+ public:
+  struct Made {
+    MeshSpec mesh;
+    LatticeSpec lattice;
+    std::shared_ptr<const BodyShape> shape;
+    std::string notes;
+  };
+
+  const Made& shape(const MeshSpec& mesh, const LatticeSpec& lattice, const JsonField& body) {
+    for (const Made& made : made_) {
+      if (made.mesh == mesh && made.lattice == lattice) return made;
+    }
+    const LoadedMesh& loaded = loaded_mesh(mesh, body.at("mesh"));
+    Made made{mesh, lattice, nullptr, loaded.notes};
+    try {
+      made.shape = build_shape(loaded.mesh, lattice);
+    } catch (const InputError& error) {
+      body.at("mesh").fail("cannot be used: " + without_full_stop(error.what()));
+    }
+    add_note(made.notes, describe(made.shape->topology));
+    return made_.emplace_back(std::move(made));
+  }
+
+ private:
+  const LoadedMesh& loaded_mesh(const MeshSpec& spec, const JsonField& field) {
+    for (const auto& [known, mesh] : loaded_) {
+      if (known == spec) return mesh;
+    }
+    return loaded_.emplace_back(spec, build_mesh(spec, field)).second;
+  }
+
+  std::deque<Made> made_;
+  std::deque<std::pair<MeshSpec, LoadedMesh>> loaded_;
+};
+
+std::vector<Level> parse_levels(const JsonField& field) {
+  // `near` needs a margin, which scene files do not carry.
+  const std::vector<std::string> allowed = {"body", "containment", "cell",
+                                            "box",  "triangle",    "vertex"};
+  std::vector<Level> levels;
+  for (const JsonField& item : field.items(1)) {
+    const Level level = *level_from_name(item.one_of(allowed));
+    if (std::find(levels.begin(), levels.end(), level) != levels.end()) {
+      item.refuse("named once only");
+    }
+    levels.push_back(level);
+  }
+  return levels;
+}
+
+void parse_times(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
+  const std::size_t frames = root.at("frames").whole(1, kMostFrames);
+  const std::string key = root.exactly_one_of({"duration", "time_step"});
+  const double value = root.at(key).number(kSeconds);
+  const double duration = key == "duration" ? value : value * static_cast<double>(frames);
+  scene.frames = wanted_frames > 0 ? wanted_frames : frames;
+  scene.time_step = key == "time_step" && scene.frames == frames
+                        ? value
+                        : duration / static_cast<double>(scene.frames);
+}
+
+std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
+  const std::string name = field.text();
+  const std::string fault = name_fault(name);
+  if (!fault.empty()) field.fail(fault + " and cannot be a name");
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].name != name) continue;
+    field.refuse("different from bodies[" + std::to_string(b) + "].name");
+  }
+  return name;
+}
+
+void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
+                Scene& scene) {
+  field.only_keys({"name", "mesh", "lattice", "motion"});
+  const std::string name = parse_body_name(field.at("name"), scene.bodies);
+  const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
+  const LatticeSpec lattice =
+      field.has("lattice") ? parse_lattice_spec(field.at("lattice")) : LatticeSpec{};
+  const Workshop::Made& made = workshop.shape(mesh, lattice, field);
+  scene.bodies.push_back({name, made.shape});
+  scene.origins.push_back({name, described_source(mesh), made.notes});
+  scene.motions.push_back(field.has("motion") ? parse_motion(field.at("motion"), *made.shape)
+                                              : Motion{});
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
+  const std::string document = "scene file " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
+  const JsonField root(value, document);
+  root.only_keys({"id", "title", "frames", "duration", "time_step", "levels", "bodies"});
+  Scene scene;
+  scene.id = parse_id(root.at("id"));
+  scene.title = root.has("title") ? root.at("title").text() : scene.id;
+  parse_times(root, wanted_frames, scene);
+  scene.levels = parse_levels(root.at("levels"));
+  Workshop workshop;
+  for (const JsonField& body : root.at("bodies").items(1)) {
+    parse_body(body, file.parent_path(), workshop, scene);
+  }
+  return scene;
+}
+
+}  // namespace contactcheck

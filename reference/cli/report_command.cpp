@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/report/markdown.h"
@@ -40,7 +41,7 @@ int report_command(const std::filesystem::path& file, const std::vector<std::str
   }
   std::error_code error;
   std::filesystem::create_directories(out, error);
-  write_text_file(out / "report.md", text);
+  write_file_atomically(out / "report.md", text);
   std::printf("%s\n", (out / "report.md").c_str());
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
@@ -122,7 +123,7 @@ int run_command(const RunArguments& arguments) {
   const Json results = run_suite(
       request, [&](const SuiteProgress& progress) { display.show(progress); }, &outcome);
   display.finish();
-  write_text_file(arguments.out / "report.md", markdown_report(results));
+  write_file_atomically(arguments.out / "report.md", markdown_report(results));
   print_outcome(arguments, results);
   return outcome.any_error ? 3 : 0;
 }

@@ -19,14 +19,6 @@ bool all_in_lattices(const std::vector<Body>& bodies) {
                      [](const Body& b) { return b.shape->lattice.has_value(); });
 }
 
-std::string obstacle(Level level, const std::vector<Body>& bodies) {
-  const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
-  if (needs_solid && !all_solid(bodies)) return "not judged: open";
-  const bool needs_lattice = level == Level::kCell || level == Level::kBox;
-  if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
-  return "";
-}
-
 ElementPair as_pair(const ElementPair& p) { return p; }
 ElementPair as_pair(const BodyPair& p) { return {p.a, p.b, 0, 0}; }
 ElementPair as_pair(const VertexInBody& v) { return {v.body, v.in, v.vertex, 0}; }
@@ -39,13 +31,21 @@ Level finest(const std::vector<Level>& levels) {
 
 }  // namespace
 
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies) {
+  const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
+  if (needs_solid && !all_solid(bodies)) return "not judged: open";
+  const bool needs_lattice = level == Level::kCell || level == Level::kBox;
+  if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
+  return "";
+}
+
 std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged) {
   std::vector<Level> out;
   for (Level level : semantics.levels) {
     if (std::find(wanted.begin(), wanted.end(), level) == wanted.end()) continue;
-    const std::string why = obstacle(level, bodies);
+    const std::string why = obstacle_to_judging(level, bodies);
     if (why.empty()) {
       out.push_back(level);
     } else if (not_judged != nullptr) {

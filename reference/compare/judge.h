@@ -13,6 +13,9 @@
 
 namespace contactcheck {
 
+/// Why a level cannot be judged on these bodies ("not judged: open"), or "".
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
+
 /// The levels at which an answer is held against the truth: claimed and wanted by the scene.
 /// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
 std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,

@@ -23,8 +23,7 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 int projected_orientation(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
-  return static_cast<int>(
-      CGAL::orientation(project(a, axis), project(b, axis), project(c, axis)));
+  return static_cast<int>(CGAL::orientation(project(a, axis), project(b, axis), project(c, axis)));
 }
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {

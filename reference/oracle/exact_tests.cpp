@@ -71,8 +71,7 @@ bool segment_meets_proper(const Segment& s, const TriangleCorners& t) {
   if (same_strict_side(from, to)) return false;
   if (from == 0 && to == 0) return coplanar_segment_meets_triangle(s, t);
   if (from != 0 && to != 0) return line_pierces_triangle(s, t);
-  return coplanar_point_on_triangle(from == 0 ? s.from : s.to, t,
-                                    injective_axis(t[0], t[1], t[2]));
+  return coplanar_point_on_triangle(from == 0 ? s.from : s.to, t, injective_axis(t[0], t[1], t[2]));
 }
 
 }  // namespace

@@ -51,9 +51,7 @@ class QuadrupleSigns {
 
  private:
   std::int8_t& at(int i, int j, int k, int l) { return signs_[((i * 8 + j) * 8 + k) * 8 + l]; }
-  std::int8_t at(int i, int j, int k, int l) const {
-    return signs_[((i * 8 + j) * 8 + k) * 8 + l];
-  }
+  std::int8_t at(int i, int j, int k, int l) const { return signs_[((i * 8 + j) * 8 + k) * 8 + l]; }
   std::array<std::int8_t, 4096> signs_;
   bool has_volume_ = false;
 };
@@ -111,11 +109,10 @@ bool holds(const ConvexHull& hull, const Vec3& point) {
 // True when some face plane of `hull` has all of `other` strictly outside.
 bool separated_by_face(const ConvexHull& hull, const ConvexHull& other) {
   if (!hull.has_volume) return false;
-  return std::any_of(
-      hull.surface.begin(), hull.surface.end(), [&](const TriangleCorners& face) {
-        return std::all_of(other.points.begin(), other.points.end(),
-                           [&](const Vec3& p) { return side_of(face, p) > 0; });
-      });
+  return std::any_of(hull.surface.begin(), hull.surface.end(), [&](const TriangleCorners& face) {
+    return std::all_of(other.points.begin(), other.points.end(),
+                       [&](const Vec3& p) { return side_of(face, p) > 0; });
+  });
 }
 
 bool holds_a_point(const ConvexHull& hull, const ConvexHull& other) {

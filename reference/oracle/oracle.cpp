@@ -23,8 +23,7 @@ struct Oracle::Impl {
   void judge_pair(const Frame& frame, BodyPair pair, const WantedTruth& wanted, Truth& truth);
   bool judge_surfaces(BodyPair pair, bool all, Truth& truth) const;
   bool holds(const Frame& frame, std::uint32_t outer, std::uint32_t inner) const;
-  void judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in,
-                      Truth& truth) const;
+  void judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in, Truth& truth) const;
   void update_boxes(const Frame& frame);
   void judge_boxes(BodyPair pair, Truth& truth);
 

@@ -70,12 +70,12 @@ class Search {
   const SurfaceTree& tree_a() const { return *a_.tree; }
   const SurfaceTree& tree_b() const { return *b_.tree; }
 
-  // Not farther than the best upper bound, which holds its rounding, so its square does not underflow.
+  // Not farther than the best upper bound, which holds its rounding, so its square does not
+  // underflow.
   bool worth(double squared) const { return squared <= upper_ * upper_; }
 
   void descend(std::uint32_t i, std::uint32_t j);
-  void descend_nearer_first(std::uint32_t i1, std::uint32_t j1, std::uint32_t i2,
-                            std::uint32_t j2);
+  void descend_nearer_first(std::uint32_t i1, std::uint32_t j1, std::uint32_t i2, std::uint32_t j2);
   void measure_leaves(const SurfaceTree::Node& x, const SurfaceTree::Node& y);
   void measure(std::uint32_t a, std::uint32_t b);
   DistanceBounds refine();
@@ -92,8 +92,8 @@ void Search::descend(std::uint32_t i, std::uint32_t j) {
   const SurfaceTree::Node& y = tree_b().node(j);
   if (touching_ || !worth(squared_gap(x.box, y.box))) return;
   if (x.is_leaf() && y.is_leaf()) return measure_leaves(x, y);
-  const bool split_a = y.is_leaf() || (!x.is_leaf() && x.box.extent().maxCoeff() >=
-                                                           y.box.extent().maxCoeff());
+  const bool split_a =
+      y.is_leaf() || (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
   if (split_a) {
     descend_nearer_first(i + 1, j, x.second, j);
   } else {
@@ -131,8 +131,8 @@ void Search::measure(std::uint32_t a, std::uint32_t b) {
   const DistanceBounds bounds = distance_bounds(tree_a().corners(a), tree_b().corners(b));
   if (bounds.lower > upper_) return;
   if (bounds.lower == 0) {
-    touching_ = triangles_intersect(tree_a().corners(a, a_.vertices),
-                                    tree_b().corners(b, b_.vertices));
+    touching_ =
+        triangles_intersect(tree_a().corners(a, a_.vertices), tree_b().corners(b, b_.vertices));
   }
   upper_ = std::min(upper_, bounds.upper);
   near_.push_back({a, b, bounds});
@@ -173,9 +173,8 @@ DistanceInterval unscaled(const DistanceBounds& bounds, int exponent) {
 }  // namespace
 
 DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
-  const double largest =
-      std::max({largest_coordinate(a.vertices), largest_coordinate(b.vertices),
-                std::numeric_limits<double>::denorm_min()});
+  const double largest = std::max({largest_coordinate(a.vertices), largest_coordinate(b.vertices),
+                                   std::numeric_limits<double>::denorm_min()});
   const int exponent = std::ilogb(largest) + 1;
   scale(a, -exponent);
   scale(b, -exponent);

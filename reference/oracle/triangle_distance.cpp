@@ -3,13 +3,13 @@
 // the two triangles, however rounded its parameters: its distance bounds the true one from above.
 // From below: for any direction, the gap between the triangles' extents along it.
 //
-// Rounding, with e = 2^-53 and |coordinates| <= 1. A computed point a + (b - a) s + (c - a) t is off
-// by less than 17 e per coordinate (2e per difference, 2e more per product, 3e and 4e for the sums,
-// and s + t may exceed 1 by e), so by 30 e in length; the distance of two such points by 60 e, plus
-// 4 e for the differences and 7 e * 3.5 for the square root of the sum of squares: below 100 e. A
-// slab: each dot product with a unit vector (off by 4 e) is within 12 e, their difference within
-// 30 e, and the length of the vector, above 1 by less than 8 e, changes a gap of at most 3.5 by 28
-// e: below 100 e. Underflow adds less than 2^-1000.
+// Rounding, with e = 2^-53 and |coordinates| <= 1. A computed point a + (b - a) s + (c - a) t is
+// off by less than 17 e per coordinate (2e per difference, 2e more per product, 3e and 4e for the
+// sums, and s + t may exceed 1 by e), so by 30 e in length; the distance of two such points by 60
+// e, plus 4 e for the differences and 7 e * 3.5 for the square root of the sum of squares: below
+// 100 e. A slab: each dot product with a unit vector (off by 4 e) is within 12 e, their difference
+// within 30 e, and the length of the vector, above 1 by less than 8 e, changes a gap of at most 3.5
+// by 28 e: below 100 e. Underflow adds less than 2^-1000.
 #include "reference/oracle/triangle_distance.h"
 
 #include <algorithm>
@@ -48,7 +48,8 @@ Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return a + d * clamp_to_unit(d.dot(p - a) / length2);
 }
 
-// If p projects into the face, that point; false otherwise (an edge is nearer, or it is degenerate).
+// If p projects into the face, that point; false otherwise (an edge is nearer, or it is
+// degenerate).
 bool nearest_in_face(const Vec3& p, const TriangleCorners& t, Vec3& out) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();

@@ -70,8 +70,7 @@ void offer_edges(const Point& a, const Point& b, const Point& c, const Point& d,
 
 void offer_corners(const Corners3& p, const Corners3& q, Minimum& best) {
   for (const Point& corner : p) {
-    for (int k = 0; k < 3; ++k)
-      best.offer(squared_to_segment(corner, q[k], q[(k + 1) % 3]));
+    for (int k = 0; k < 3; ++k) best.offer(squared_to_segment(corner, q[k], q[(k + 1) % 3]));
     offer_face(corner, q, best);
   }
 }
@@ -92,8 +91,7 @@ DistanceBounds exact_distance_bounds(const TriangleCorners& p, const TriangleCor
   offer_corners(a, b, best);
   offer_corners(b, a, best);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      offer_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], best);
+    for (int j = 0; j < 3; ++j) offer_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], best);
   return root_of(best.value());
 }
 

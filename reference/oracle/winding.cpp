@@ -14,8 +14,8 @@ namespace {
 int sign(double a, double b) { return (a > b) - (a < b); }
 
 // The side of the displaced point (y + e, z + e^2) of the directed edge a -> b, seen against x: the
-// sign of (b.y - a.y)(z - a.z) - (b.z - a.z)(y - a.y), then of its derivatives by y and by z. 0 only
-// when the edge runs along x.
+// sign of (b.y - a.y)(z - a.z) - (b.z - a.z)(y - a.y), then of its derivatives by y and by z. 0
+// only when the edge runs along x.
 int side_of_displaced(const Vec3& a, const Vec3& b, const Vec3& point) {
   if (const int side = projected_orientation(a, b, point, 0)) return side;
   if (const int by_y = sign(a.z(), b.z())) return by_y;

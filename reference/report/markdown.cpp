@@ -54,6 +54,15 @@ std::string bodies_table(const Json& scene) {
   return out + "\n";
 }
 
+// "body 12, triangle 334, vertex not judged: open"
+std::string truth_line(const Json& scene) {
+  std::string out;
+  for (const auto& [level, count] : scene.at("truth").items())
+    out += (out.empty() ? "" : ", ") + level + " " +
+           (count.is_string() ? count.get<std::string>() : format_count(count));
+  return "True contacts, summed over frames: " + out + ".\n\n";
+}
+
 std::string result_table(const std::vector<Json>& runs) {
   std::vector<std::string> titles;
   std::string rule = "|";
@@ -122,8 +131,8 @@ std::string scene_section(const Json& results, const Json& scene) {
                      scene.at("title").get<std::string>(), scene.at("frames").get<std::size_t>(),
                      scene.at("contact_frames").get<std::size_t>(),
                      format_number(scene.at("size"))) +
-         bodies_table(scene) + result_table(runs) + stages_table(runs) + times_table(runs) +
-         disagreements_list(results, id);
+         bodies_table(scene) + truth_line(scene) + result_table(runs) + stages_table(runs) +
+         times_table(runs) + disagreements_list(results, id);
 }
 
 std::string legend() {

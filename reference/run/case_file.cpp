@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/deform/atomic_file.h"
 #include "core/deform/lattice.h"
 #include "reference/run/job.h"
 
@@ -70,7 +71,7 @@ void write_case(const std::filesystem::path& file, const JudgedScene& judged,
                     {"kind", d.kind},
                     {"first", element(judged, d, d.pair.body_a, d.pair.a)},
                     {"second", element(judged, d, d.pair.body_b, d.pair.b)}};
-  write_text_file(file, out.dump(1) + "\n");
+  write_file_atomically(file, out.dump(1) + "\n");
 }
 
 }  // namespace contactcheck

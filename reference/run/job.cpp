@@ -1,13 +1,12 @@
 #include "reference/run/job.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 
 namespace contactcheck {
@@ -48,7 +47,7 @@ void write_job(const std::filesystem::path& file, const Job& job) {
                   {"prefixes", job.prefixes},
                   {"answer_file", job.answer_file.string()},
                   {"recording_file", job.recording_file.string()}};
-  write_text_file(file, j.dump());
+  write_file_atomically(file, j.dump());
 }
 
 Job read_job(const std::filesystem::path& file) {
@@ -63,20 +62,6 @@ Job read_job(const std::filesystem::path& file) {
   job.answer_file = j.at("answer_file").get<std::string>();
   job.recording_file = j.at("recording_file").get<std::string>();
   return job;
-}
-
-void write_text_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, file, error);
-  if (!out || error) {
-    const std::string why = error ? error.message() : std::strerror(errno);
-    std::filesystem::remove(temporary, error);
-    throw InputError("cannot write " + file.string() + ": " + why);
-  }
 }
 
 std::string read_text_file(const std::filesystem::path& file) {

@@ -41,8 +41,7 @@ struct Job {
 void write_job(const std::filesystem::path& file, const Job& job);
 Job read_job(const std::filesystem::path& file);
 
-/// Writes under a temporary name and renames. @throws InputError when the folder cannot be written
-void write_text_file(const std::filesystem::path& file, const std::string& text);
+/// @throws InputError with the path when it cannot be read
 std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace contactcheck

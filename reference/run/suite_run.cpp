@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/compare/run_result_json.h"
@@ -102,10 +103,23 @@ class SceneRunner {
     const auto contact = answers.front().at("contact_frames").get<std::vector<bool>>();
     for (auto& [position, run] : runs)
       if (samples.count(position)) add_times(times_of(position, samples, contact), run);
+    add_reference_options(runs);
     Json out = Json::array();
     for (std::uint32_t i = 0; i < task_.detectors.size(); ++i)
       out.push_back(broken_.count(i) ? broken_run(i, answers.front()) : std::move(runs.at(i)));
     return out;
+  }
+
+  // A speed-up says against which options of the reference it was measured.
+  void add_reference_options(std::map<std::uint32_t, Json>& runs) const {
+    for (auto& [position, run] : runs) {
+      if (!run.contains("speedup")) continue;
+      for (auto& by_reference : run["speedup"])
+        for (auto& [name, speedup] : by_reference.items())
+          for (const auto& [other, reference] : runs)
+            if (task_.detectors[other] == name)
+              speedup["reference_options"] = reference.at("options");
+    }
   }
 
   void collect(const std::vector<Json>& answers, std::map<std::uint32_t, Json>& runs,
@@ -233,7 +247,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                   {"scenes", scenes},
                   {"runs", runs},
                   {"disagreements", disagreements}};
-  write_text_file(request.out / "results.json", results.dump(1) + "\n");
+  write_file_atomically(request.out / "results.json", results.dump(1) + "\n");
   return results;
 }
 

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
+#include "reference/compare/judge.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
@@ -189,6 +192,25 @@ class Worker {
     write_recording(job_.recording_file, recording);
   }
 
+  // What is really there, summed over frames; levels that the scene does not ask for are absent.
+  Json truth_json() const {
+    std::map<Level, std::size_t> sums;
+    for (const Truth& t : judged_.truth) {
+      sums[Level::kBody] += t.surface.bodies.size();
+      sums[Level::kContainment] += t.containment.size();
+      sums[Level::kBox] += t.boxes.size();
+      sums[Level::kTriangle] += t.surface.triangles.size();
+      sums[Level::kVertex] += t.surface.vertices.size();
+    }
+    Json out = Json::object();
+    for (const auto& [level, sum] : sums) {
+      if (!scene_.judges(level)) continue;
+      const std::string why = obstacle_to_judging(level, scene_.bodies);
+      out[name_of(level)] = why.empty() ? Json(sum) : Json(why);
+    }
+    return out;
+  }
+
   Json scene_json() const {
     Json bodies = Json::array();
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
@@ -208,6 +230,7 @@ class Worker {
             {"size", scene_.size()},
             {"contact_frames",
              std::count(judged_.contact_frames.begin(), judged_.contact_frames.end(), true)},
+            {"truth", truth_json()},
             {"bodies", bodies}};
   }
 
@@ -235,7 +258,7 @@ class Worker {
                          {"order", job_.order},
                          {"prefixes", job_.prefixes},
                          {"runs", runs}};
-    write_text_file(job_.answer_file, answer.dump());
+    write_file_atomically(job_.answer_file, answer.dump());
   }
 
   Job job_;

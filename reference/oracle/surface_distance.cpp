@@ -128,7 +128,9 @@ void Search::measure_leaves(const SurfaceTree::Node& x, const SurfaceTree::Node&
 }
 
 void Search::measure(std::uint32_t a, std::uint32_t b) {
-  const DistanceBounds bounds = distance_bounds(tree_a().corners(a), tree_b().corners(b));
+  const TriangleCorners p = tree_a().corners(a), q = tree_b().corners(b);
+  if (slab_bound(p, q) > upper_) return;
+  const DistanceBounds bounds = distance_bounds(p, q);
   if (bounds.lower > upper_) return;
   if (bounds.lower == 0) {
     touching_ =

@@ -59,8 +59,7 @@ class SurfaceTree {
 /// Calls `visit(triangle)` for every triangle whose closed box satisfies `meets(box)`; `meets` must
 /// hold for a box whenever it holds for a box inside it. Stops and returns true when `visit` does.
 template <typename Meets, typename Visit>
-bool any_triangle(const SurfaceTree& tree, Meets&& meets, Visit&& visit,
-                  std::uint32_t index = 0) {
+bool any_triangle(const SurfaceTree& tree, Meets&& meets, Visit&& visit, std::uint32_t index = 0) {
   const SurfaceTree::Node& node = tree.node(index);
   if (!meets(node.box)) return false;
   if (!node.is_leaf()) {
@@ -100,8 +99,7 @@ bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std
     return surface_tree_detail::any_leaf_pair(a, b, x, y, visit);
   }
   const bool split_first =
-      y.is_leaf() ||
-      (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
+      y.is_leaf() || (!x.is_leaf() && x.box.extent().maxCoeff() >= y.box.extent().maxCoeff());
   if (split_first) {
     return any_box_pair(a, b, visit, i + 1, j) || any_box_pair(a, b, visit, x.second, j);
   }

@@ -22,6 +22,9 @@ namespace {
 // Bounds the rounding of a distance or gap, more than twofold; part of every interval's width.
 constexpr double kRounding = 256 * 0x1p-53;
 
+// Below, the squares of a vector would underflow and its direction be lost.
+constexpr double kShortestDirection = 0x1p-400;
+
 struct ClosestPoints {
   Vec3 on_p, on_q;
   Vec3 normal = Vec3::Zero();  // of the features, where they are a corner and a face or two edges
@@ -101,19 +104,20 @@ ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q)
 
 // The gap between the two along a direction of any length, in either sense.
 double gap_along(const Vec3& direction, const TriangleCorners& p, const TriangleCorners& q) {
-  // Lengthened by a power of two first, so that the squares of a short one do not underflow.
-  const double largest = direction.cwiseAbs().maxCoeff();
-  if (!(largest > 0)) return 0.0;
-  const Vec3 longer = direction * std::ldexp(1.0, -std::max(std::ilogb(largest), -1000));
-  const double length = longer.norm();
-  if (!(length > 0.5)) return 0.0;  // shorter than 2^-1000: no direction
-  const Vec3 unit = longer / length;
+  const double length = direction.norm();
+  if (!(length > kShortestDirection)) return 0.0;
+  const Vec3 unit = direction / length;
   const auto [p_low, p_high] = std::minmax({unit.dot(p[0]), unit.dot(p[1]), unit.dot(p[2])});
   const auto [q_low, q_high] = std::minmax({unit.dot(q[0]), unit.dot(q[1]), unit.dot(q[2])});
   return std::max(p_low - q_high, q_low - p_high);
 }
 
 }  // namespace
+
+double slab_bound(const TriangleCorners& p, const TriangleCorners& q) {
+  return std::max(
+      {0.0, gap_along(normal_of(p), p, q) - kRounding, gap_along(normal_of(q), p, q) - kRounding});
+}
 
 DistanceBounds distance_bounds(const TriangleCorners& p, const TriangleCorners& q) {
   const ClosestPoints best = closest_points(p, q);

@@ -16,8 +16,12 @@ struct DistanceBounds {
 /// @pre all |coordinates| <= 1
 DistanceBounds distance_bounds(const TriangleCorners& p, const TriangleCorners& q);
 
+/// A quick lower bound, from slabs along the two face normals; often 0. Certified likewise.
+/// @pre all |coordinates| <= 1
+double slab_bound(const TriangleCorners& p, const TriangleCorners& q);
+
 /// Bounds around the exact rational distance, a few units in the last place wide (2e-154 at most
-/// below 1e-150); exactly [0, 0] for triangles that share a point. About a thousand times slower.
+/// below 1e-150); exactly [0, 0] for triangles that share a point. Some hundred times slower.
 /// @pre all |coordinates| <= 1
 DistanceBounds exact_distance_bounds(const TriangleCorners& p, const TriangleCorners& q);
 

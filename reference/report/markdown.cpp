@@ -7,6 +7,7 @@
 #include "reference/report/claims.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
+#include "reference/report/summary.h"
 
 namespace contactcheck {
 namespace {
@@ -63,15 +64,28 @@ std::string truth_line(const Json& scene) {
   return "True contacts, summed over frames: " + out + ".\n\n";
 }
 
-std::string result_table(const std::vector<Json>& runs) {
+std::string table_head(const std::vector<Column>& columns) {
   std::vector<std::string> titles;
   std::string rule = "|";
-  for (const Column& c : result_columns()) {
+  for (const Column& c : columns) {
     titles.emplace_back(c.title);
     rule += c.left ? "---|" : "--:|";
   }
-  std::string out = table_line(titles) + rule + "\n";
+  return table_line(titles) + rule + "\n";
+}
+
+std::string result_table(const std::vector<Json>& runs) {
+  std::string out = table_head(result_columns());
   for (const Json& run : runs) out += table_line(result_cells(run));
+  return out + "\n";
+}
+
+std::string summary_section(const Json& results) {
+  std::string out =
+      "## Summary\n\nSums over scenes; speed-ups are the smallest and the largest of any "
+      "scene.\n\n" +
+      table_head(summary_columns());
+  for (const auto& cells : summary_lines(results)) out += table_line(cells);
   return out + "\n";
 }
 
@@ -144,7 +158,8 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out = "# contactcheck report\n\n" + machine_section(results);
+  std::string out =
+      "# contactcheck report\n\n" + machine_section(results) + summary_section(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   for (const Json& scene : results.at("scenes")) out += scene_section(results, scene);

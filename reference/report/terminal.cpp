@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/run_row.h"
+#include "reference/report/summary.h"
 
 namespace contactcheck {
 namespace {
@@ -15,16 +16,18 @@ using Line = std::vector<std::string>;
 constexpr const char* kRed = "\x1b[31m";
 constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kReset = "\x1b[0m";
-constexpr std::size_t kStatus = 1, kMessage = 2, kMissed = 4, kSpurious = 5;
+constexpr std::size_t kStatus = 1, kMessage = 2;
 
-bool is_ok(const Line& line) { return !line[kStatus + 2].empty(); }
+// A run that is not `ok` has a message where others have a row of figures.
+bool is_message(const Line& line) { return line.back().empty(); }
 
-std::vector<std::size_t> widths_of(const std::vector<Line>& lines) {
+std::vector<std::size_t> widths_of(const std::vector<Column>& columns,
+                                   const std::vector<Line>& lines) {
   std::vector<std::size_t> widths;
-  for (const Column& c : result_columns()) widths.push_back(std::string(c.title).size());
+  for (const Column& c : columns) widths.push_back(std::string(c.title).size());
   for (const Line& line : lines) {
     widths[0] = std::max(widths[0], line[0].size());
-    for (std::size_t i = 1; is_ok(line) && i < line.size(); ++i)
+    for (std::size_t i = 1; !is_message(line) && i < line.size(); ++i)
       widths[i] = std::max(widths[i], line[i].size());
   }
   return widths;
@@ -38,18 +41,29 @@ std::string paint(const std::string& text, const char* code, bool color) {
   return color ? code + text + kReset : text;
 }
 
-bool is_bad_count(std::size_t column, const std::string& cell) {
-  return (column == kMissed || column == kSpurious) && cell != "0" && cell != "-";
+bool is_bad_count(const Column& column, const std::string& cell) {
+  const std::string title = column.title;
+  return (title == "missed" || title == "spurious") && cell != "0" && cell != "-";
 }
 
-std::string line_text(const Line& line, const std::vector<std::size_t>& widths, bool color) {
+std::string line_text(const std::vector<Column>& columns, const Line& line,
+                      const std::vector<std::size_t>& widths, bool color) {
   std::string out = "  " + aligned(line[0], widths[0], true);
-  if (!is_ok(line))
+  if (is_message(line))
     return out + "  " + paint(line[kStatus], kRed, color) + "  " + line[kMessage] + "\n";
   for (std::size_t i = 1; i < line.size(); ++i) {
-    const std::string cell = aligned(line[i], widths[i], result_columns()[i].left);
-    out += "  " + (is_bad_count(i, line[i]) ? paint(cell, kRed, color) : cell);
+    const std::string cell = aligned(line[i], widths[i], columns[i].left);
+    out += "  " + (is_bad_count(columns[i], line[i]) ? paint(cell, kRed, color) : cell);
   }
+  return out + "\n";
+}
+
+std::string table(const std::vector<Column>& columns, const std::vector<Line>& lines, bool color) {
+  const std::vector<std::size_t> widths = widths_of(columns, lines);
+  Line titles;
+  for (const Column& c : columns) titles.emplace_back(c.title);
+  std::string out = line_text(columns, titles, widths, false);
+  for (const Line& line : lines) out += line_text(columns, line, widths, color);
   return out + "\n";
 }
 
@@ -78,13 +92,12 @@ std::string terminal_tables(const Json& results, bool color) {
     std::vector<Line> lines;
     for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
       lines.push_back(result_cells(run));
-    const std::vector<std::size_t> widths = widths_of(lines);
-    Line titles;
-    for (const Column& c : result_columns()) titles.emplace_back(c.title);
-    out += scene_head(scene, color) + line_text(titles, widths, false);
-    for (const Line& line : lines) out += line_text(line, widths, color);
-    out += "\n";
+    out += scene_head(scene, color) + table(result_columns(), lines, color);
   }
+  if (results.at("scenes").size() > 1)
+    out += paint("all scenes", kBold, color) +
+           "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
+           table(summary_columns(), summary_lines(results), color);
   return out + legend();
 }
 

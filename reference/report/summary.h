@@ -1,0 +1,19 @@
+// The whole suite, one line per detector.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "reference/report/run_row.h"
+
+namespace contactcheck {
+
+/// Columns of the summary, in order.
+const std::vector<Column>& summary_columns();
+
+/// One line of cells per detector, in the order of its first run: counts summed over its scenes
+/// with status `ok`, the worst hover gap, and the range of its speed-ups over scenes.
+std::vector<std::vector<std::string>> summary_lines(const nlohmann::ordered_json& results);
+
+}  // namespace contactcheck

@@ -31,7 +31,7 @@ void BoxPairFinder::find(const std::vector<OwnedBox>& boxes, const BoxPairSettin
 
 void BoxPairFinder::hash_boxes(const std::vector<OwnedBox>& boxes,
                                const BoxPairSettings& settings) {
-  hash_ = SpatialHash(settings.table_size);
+  hash_.clear(settings.table_size);
   oversize_.clear();
   is_oversize_.assign(boxes.size(), 0);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
@@ -57,9 +57,9 @@ void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double 
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const OwnedBox& first = boxes[entries[i].id];
       for (std::size_t j = i + 1; j < entries.size(); ++j) {
+        if (entries[i].key != entries[j].key) continue;
         const OwnedBox& second = boxes[entries[j].id];
         if (first.body == second.body || !first.box.overlaps(second.box)) continue;
-        if (entries[i].key != entries[j].key) continue;
         // floor is monotone: the key of the intersection's lower corner lies in both boxes' ranges.
         const Vec3 corner = first.box.lo.cwiseMax(second.box.lo);
         if (grid_key(corner, cell_size) == entries[i].key)

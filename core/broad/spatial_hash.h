@@ -3,6 +3,7 @@
 // Collision Detection of Deformable Objects, VMV 2003: hash = (x p1) xor (y p2) xor (z p3) mod n.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -19,7 +20,18 @@ struct GridKey {
   auto operator<=>(const GridKey&) const = default;
 };
 
-GridKey grid_key(const Vec3& p, double cell_size);
+inline std::int64_t grid_coordinate(double x, double cell_size) {
+  constexpr double kLimit = 0x1p62;
+  const double q = std::clamp(x / cell_size, -kLimit, kLimit);
+  // floor() without the library call that it is on plain x86-64; the conversions are exact.
+  const auto cut = static_cast<std::int64_t>(q);
+  return cut - (static_cast<double>(cut) > q ? 1 : 0);
+}
+
+inline GridKey grid_key(const Vec3& p, double cell_size) {
+  return {grid_coordinate(p.x(), cell_size), grid_coordinate(p.y(), cell_size),
+          grid_coordinate(p.z(), cell_size)};
+}
 
 /// A table built once per frame. Keys that fall into one bucket are told apart by their
 /// coordinates, so what lookups find does not depend on the table's size.
@@ -34,12 +46,17 @@ class SpatialHash {
   /// rounded up to a power of two.
   explicit SpatialHash(std::uint32_t table_size = 0) : wanted_size_(table_size) {}
 
+  /// Keeps the memory, so a table reused from frame to frame does not allocate.
   void clear() { entries_.clear(); }
+  void clear(std::uint32_t table_size) {
+    clear();
+    wanted_size_ = table_size;
+  }
   void insert(const GridKey& key, std::uint32_t id) { entries_.push_back({key, id}); }
   /// To be called between the last insert and the first lookup.
   void build();
   /// Entries of one bucket: those with other keys are the caller's to skip.
-  std::span<const Entry> bucket(const GridKey& key) const;
+  std::span<const Entry> bucket(const GridKey& key) const { return bucket_at(slot(key)); }
 
   template <typename Visit>
   void for_each(const GridKey& key, Visit&& visit) const {
@@ -53,7 +70,11 @@ class SpatialHash {
   }
 
  private:
-  std::uint32_t slot(const GridKey& key) const;
+  std::uint32_t slot(const GridKey& key) const {
+    // Unsigned, so that large coordinates wrap instead of overflowing.
+    const auto low = [](std::int64_t v) { return static_cast<std::uint32_t>(v); };
+    return ((low(key.x) * 73856093u) ^ (low(key.y) * 19349663u) ^ (low(key.z) * 83492791u)) & mask_;
+  }
 
   std::uint32_t wanted_size_;
   std::uint32_t mask_ = 0;

@@ -22,4 +22,7 @@ bool collide_safe(const Sphere& a, const Sphere& b);
 /// ball holds the exact points moved by at most `slack` each.
 double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack);
 
+/// The same from the largest squared distance to a point, as squaredNorm() computes it.
+double covering_radius(double largest_squared_distance, double slack);
+
 }  // namespace contactcheck

@@ -58,7 +58,7 @@ void sort_by_cell(std::size_t cells, Embedding& out) {
     out.cell_order[next[out.home_cell[v]]++] = v;
   }
   for (int k = 0; k < 3; ++k) {
-    out.sorted_local[k].resize(out.cell_order.size());
+    out.sorted_local[k].assign(out.cell_order.size() + kEmbeddingPadding, 0.0);
     for (std::size_t i = 0; i < out.cell_order.size(); ++i)
       out.sorted_local[k][i] = out.local[out.cell_order[i]][k];
   }

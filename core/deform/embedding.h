@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "core/types/mesh.h"
 
 namespace contactcheck {
+
+/// Doubles that a vector may read beyond the last one; at least the lanes of the widest vector.
+inline constexpr std::size_t kEmbeddingPadding = 8;
 
 struct Embedding {
   std::vector<std::uint32_t> home_cell;  ///< per vertex: index of a kept cell
@@ -22,9 +26,10 @@ struct Embedding {
   std::vector<std::uint32_t> label_cells;
 
   /// Vertices sorted by home cell, in blocks, for the batch mapping (see mapping.h).
-  std::vector<std::uint32_t> cell_order;            ///< vertex indices
-  std::vector<std::uint32_t> cell_begin;            ///< size: kept cells + 1; range in cell_order
-  std::array<std::vector<double>, 3> sorted_local;  ///< local coordinates in cell_order, per axis
+  std::vector<std::uint32_t> cell_order;  ///< vertex indices
+  std::vector<std::uint32_t> cell_begin;  ///< size: kept cells + 1; range in cell_order
+  /// Local coordinates in cell_order, per axis, and kEmbeddingPadding zeros.
+  std::array<std::vector<double>, 3> sorted_local;
 
   std::span<const std::uint32_t> cells_of_triangle(std::uint32_t triangle) const {
     return std::span(label_cells)

@@ -84,13 +84,9 @@ std::vector<Aabb> ffd_aabbs(const TriangleMesh& mesh, const Lattice& lattice,
 
 Corners mapped_box(const Lattice& lattice, std::uint32_t cell, const Aabb& local,
                    std::span<const Vec3> nodes) {
-  const Corners corners = corners_of(lattice, cell, nodes);
+  const LocalBox box{cell, local};
   Corners out;
-  for (int c = 0; c < 8; ++c) {
-    const Vec3 at((c & 1) ? local.hi.x() : local.lo.x(), (c & 2) ? local.hi.y() : local.lo.y(),
-                  (c & 4) ? local.hi.z() : local.lo.z());
-    out[c] = map_point(corners, at);
-  }
+  map_boxes(lattice, std::span(&box, 1), nodes, std::span(&out, 1));
   return out;
 }
 

@@ -131,7 +131,8 @@ Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, do
   const double largest = extent.maxCoeff();
   const auto resolution_at = [&](int divisions) {
     const auto cells = [&](double side) {
-      return static_cast<std::uint32_t>(side > 0.0 ? std::max(1.0, std::round(side / largest * divisions)) : 1.0);
+      return static_cast<std::uint32_t>(
+          side > 0.0 ? std::max(1.0, std::round(side / largest * divisions)) : 1.0);
     };
     return Resolution{cells(extent.x()), cells(extent.y()), cells(extent.z())};
   };

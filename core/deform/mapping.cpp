@@ -42,18 +42,21 @@ struct CellBatch {
   std::size_t count;
 };
 
-// One full vector of vertices. `lanes` of them are stored: the rest repeat valid memory's values.
 template <class D>
-HWY_INLINE void map_lanes(D d, const CellBatch& batch, const double* s, const double* t,
-                          const double* u, std::size_t first, std::size_t lanes, Vec3* out) {
+HWY_INLINE LocalLanes<D> local_lanes(D d, hn::Vec<D> s, hn::Vec<D> t, hn::Vec<D> u) {
   const auto one = hn::Set(d, 1.0);
-  LocalLanes<D> w;
-  w.s = hn::LoadU(d, s);
-  w.t = hn::LoadU(d, t);
-  w.u = hn::LoadU(d, u);
-  w.one_minus_s = hn::Sub(one, w.s);
-  w.one_minus_t = hn::Sub(one, w.t);
-  w.one_minus_u = hn::Sub(one, w.u);
+  return {s, t, u, hn::Sub(one, s), hn::Sub(one, t), hn::Sub(one, u)};
+}
+
+// Maps one vector of vertices. The last vector of a cell runs on into its neighbour's coordinates,
+// or into the padding at the end (embedding.h): those lanes are not stored.
+// (Three plain stores per vertex beat StoreInterleaved3 and copies: Highway 1.0.3, November 2026.)
+template <class D>
+HWY_INLINE void map_lanes(D d, const CellBatch& batch, std::size_t first, std::size_t lanes,
+                          Vec3* out) {
+  const auto w =
+      local_lanes(d, hn::LoadU(d, batch.local[0] + first), hn::LoadU(d, batch.local[1] + first),
+                  hn::LoadU(d, batch.local[2] + first));
   HWY_ALIGN double mapped[3][hn::MaxLanes(d)];
   for (int k = 0; k < 3; ++k) hn::Store(map_axis(d, batch.corners[k], w), d, mapped[k]);
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -63,17 +66,16 @@ HWY_INLINE void map_lanes(D d, const CellBatch& batch, const double* s, const do
 }
 
 void map_cell(const CellBatch& batch, Vec3* out) {
-  const hn::ScalableTag<double> d;
+  const hn::CappedTag<double, kEmbeddingPadding> d;
   const std::size_t n = hn::Lanes(d);
-  std::size_t i = 0;
-  for (; i + n <= batch.count; i += n) {
-    map_lanes(d, batch, batch.local[0] + i, batch.local[1] + i, batch.local[2] + i, i, n, out);
-  }
-  if (i == batch.count) return;
-  HWY_ALIGN double rest[3][hn::MaxLanes(d)] = {};
-  for (int k = 0; k < 3; ++k)
-    for (std::size_t j = i; j < batch.count; ++j) rest[k][j - i] = batch.local[k][j];
-  map_lanes(d, batch, rest[0], rest[1], rest[2], i, batch.count - i, out);
+  std::size_t first = 0;
+  for (; first + n <= batch.count; first += n) map_lanes(d, batch, first, n, out);
+  if (first < batch.count) map_lanes(d, batch, first, batch.count - first, out);
+}
+
+HWY_INLINE void gather_corners(const CornerIds& ids, const Vec3* nodes, double (&corners)[3][8]) {
+  for (int c = 0; c < 8; ++c)
+    for (int k = 0; k < 3; ++k) corners[k][c] = nodes[ids[c]][k];
 }
 
 void map_all(const Lattice& lattice, const Embedding& embedding, const Vec3* nodes, Vec3* out) {
@@ -82,11 +84,33 @@ void map_all(const Lattice& lattice, const Embedding& embedding, const Vec3* nod
     CellBatch batch;
     batch.count = embedding.cell_begin[cell + 1] - begin;
     if (batch.count == 0) continue;
-    for (int c = 0; c < 8; ++c)
-      for (int k = 0; k < 3; ++k) batch.corners[k][c] = nodes[lattice.cell_nodes[cell][c]][k];
+    gather_corners(lattice.cell_nodes[cell], nodes, batch.corners);
     for (int k = 0; k < 3; ++k) batch.local[k] = embedding.sorted_local[k].data() + begin;
     batch.vertices = embedding.cell_order.data() + begin;
     map_cell(batch, out);
+  }
+}
+
+// The lanes are the corners of one box.
+void map_all_boxes(const Lattice& lattice, const LocalBox* boxes, std::size_t count,
+                   const Vec3* nodes, Corners* out) {
+  const hn::CappedTag<double, 8> d;
+  const std::size_t n = hn::Lanes(d);
+  for (std::size_t i = 0; i < count; ++i) {
+    double corners[3][8];
+    gather_corners(lattice.cell_nodes[boxes[i].home], nodes, corners);
+    HWY_ALIGN double sides[3][8];
+    for (int c = 0; c < 8; ++c)
+      for (int k = 0; k < 3; ++k)
+        sides[k][c] = (c >> k & 1) ? boxes[i].local.hi[k] : boxes[i].local.lo[k];
+    for (std::size_t first = 0; first < 8; first += n) {
+      const auto w = local_lanes(d, hn::Load(d, sides[0] + first), hn::Load(d, sides[1] + first),
+                                 hn::Load(d, sides[2] + first));
+      HWY_ALIGN double mapped[3][hn::MaxLanes(d)];
+      for (int k = 0; k < 3; ++k) hn::Store(map_axis(d, corners[k], w), d, mapped[k]);
+      for (std::size_t c = 0; c < n; ++c)
+        for (int k = 0; k < 3; ++k) out[i][first + c][k] = mapped[k][c];
+    }
   }
 }
 
@@ -99,6 +123,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace contactcheck {
 HWY_EXPORT(map_all);
+HWY_EXPORT(map_all_boxes);
 HWY_EXPORT(target_name);
 
 const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
@@ -106,6 +131,12 @@ const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out) {
   HWY_DYNAMIC_DISPATCH(map_all)(lattice, embedding, nodes.data(), out.data());
+}
+
+void map_boxes(const Lattice& lattice, std::span<const LocalBox> boxes, std::span<const Vec3> nodes,
+               std::span<Corners> out) {
+  HWY_DYNAMIC_DISPATCH(map_all_boxes)
+  (lattice, boxes.data(), boxes.size(), nodes.data(), out.data());
 }
 
 }  // namespace contactcheck

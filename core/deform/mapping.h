@@ -5,6 +5,7 @@
 // bits of map_point on every instruction set (test: Mapping.BatchGivesTheBitsOfThePointVersion).
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/deform/embedding.h"
@@ -33,6 +34,17 @@ inline Vec3 map_point(const Corners& c, const Vec3& local) {
 /// the order of the mesh. SIMD with run-time dispatch.
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out);
+
+/// A box in local coordinates of a kept cell.
+struct LocalBox {
+  std::uint32_t home = 0;
+  Aabb local;
+};
+
+/// Maps the eight corners of every box, with the bits of map_point. `out`: one per box. SIMD with
+/// run-time dispatch.
+void map_boxes(const Lattice& lattice, std::span<const LocalBox> boxes, std::span<const Vec3> nodes,
+               std::span<Corners> out);
 
 /// Name of the instruction set that map_vertices runs on here: "AVX3", "AVX2", "SSE4", ...
 const char* simd_target();

@@ -74,7 +74,10 @@ void add_safe_pieces(const BodyShape& shape, CellVolume volume, std::uint32_t ce
 
 void index_pieces(std::size_t kept, FfdModel& model) {
   model.piece_begin.assign(kept + 1, 0);
-  for (const FfdPiece& p : model.pieces) ++model.piece_begin[p.cell + 1];
+  for (const FfdPiece& p : model.pieces) {
+    ++model.piece_begin[p.cell + 1];
+    model.piece_boxes.push_back({p.home, p.local});
+  }
   std::partial_sum(model.piece_begin.begin(), model.piece_begin.end(), model.piece_begin.begin());
   for (std::uint32_t cell = 0; cell < kept; ++cell)
     if (model.piece_begin[cell] < model.piece_begin[cell + 1]) model.cells.push_back(cell);
@@ -88,10 +91,9 @@ void find_node_cells(const Lattice& lattice, FfdModel& model) {
 }
 
 std::vector<Corners> rest_corners(const FfdModel& model) {
-  const std::vector<Vec3> nodes = model.shape->lattice->rest_nodes();
-  std::vector<Corners> corners;
-  for (const FfdPiece& p : model.pieces)
-    corners.push_back(mapped_box(*model.shape->lattice, p.home, p.local, nodes));
+  const Lattice& lattice = *model.shape->lattice;
+  std::vector<Corners> corners(model.pieces.size());
+  map_boxes(lattice, model.piece_boxes, lattice.rest_nodes(), corners);
   return corners;
 }
 
@@ -102,6 +104,19 @@ double mean_edge_of(const std::vector<Corners>& boxes) {
       for (int axis = 1; axis <= 4; axis *= 2)
         if (!(c & axis)) sum += (box[c | axis] - box[c]).norm();
   return boxes.empty() ? 0.0 : sum / (12.0 * static_cast<double>(boxes.size()));
+}
+
+// Of what the safe reading hashes: one box per owner, round all its pieces. (The pieces' own edges
+// are far shorter, most being points, and would make every box meet hundreds of buckets.)
+double mean_owner_edge(const FfdModel& model, const std::vector<Corners>& corners) {
+  double sum = 0.0;
+  for (std::uint32_t cell : model.cells) {
+    Aabb box;
+    for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
+      for (const Vec3& corner : corners[p]) box.extend(corner);
+    sum += box.extent().sum();
+  }
+  return model.cells.empty() ? 0.0 : sum / (3.0 * static_cast<double>(model.cells.size()));
 }
 
 double rest_radius(const FfdModel& model, const std::vector<Corners>& corners,
@@ -146,7 +161,8 @@ FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config) {
   index_pieces(kept, model);
   find_node_cells(*shape.lattice, model);
   const std::vector<Corners> corners = rest_corners(model);
-  model.mean_edge = mean_edge_of(corners);
+  model.mean_edge = config.bounds == BoundsReading::kSafe ? mean_owner_edge(model, corners)
+                                                          : mean_edge_of(corners);
   if (config.sphere_levels > 0) {
     model.spheres =
         make_sphere_tree(*shape.lattice, model.cells, config.sphere_levels, config.spheres);

@@ -26,6 +26,7 @@
 
 #include "core/broad/sphere_tree.h"
 #include "core/deform/body.h"
+#include "core/deform/mapping.h"
 #include "core/detect/ffd_config.h"
 
 namespace contactcheck {
@@ -48,6 +49,7 @@ struct Rows {
 struct FfdModel {
   const BodyShape* shape = nullptr;
   std::vector<FfdPiece> pieces;            ///< ascending by cell
+  std::vector<LocalBox> piece_boxes;       ///< the same boxes, for map_boxes
   std::vector<std::uint32_t> piece_begin;  ///< per kept cell, size + 1
   std::vector<std::uint32_t> cells;        ///< cells that have pieces
   Rows triangles;                          ///< per kept cell: labelled (paper) or owned (safe)
@@ -55,7 +57,7 @@ struct FfdModel {
   Rows node_cells;                         ///< per lattice node: the kept cells around it
   SphereTree spheres;                      ///< no levels without spheres
   std::vector<std::vector<double>> rest_radius;  ///< per level and sphere, metres
-  double mean_edge = 0.0;                        ///< of the boxes at rest, metres
+  double mean_edge = 0.0;  ///< metres, at rest: of the boxes (paper), of owners' AABBs (safe)
 
   std::span<const FfdPiece> pieces_of(std::uint32_t cell) const {
     return std::span(pieces).subspan(piece_begin[cell], piece_begin[cell + 1] - piece_begin[cell]);

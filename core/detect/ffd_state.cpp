@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/deform/ffd_aabb.h"
 #include "core/deform/mapping.h"
 
 namespace contactcheck {
@@ -16,47 +15,55 @@ double largest_coordinate(std::span<const Vec3> points) {
   return largest;
 }
 
-void map_pieces(const FfdModel& model, std::span<const Vec3> nodes, std::vector<Corners>& out) {
-  out.resize(model.pieces.size());
-  const Lattice& lattice = *model.shape->lattice;
-  for (std::size_t p = 0; p < model.pieces.size(); ++p)
-    out[p] = mapped_box(lattice, model.pieces[p].home, model.pieces[p].local, nodes);
-}
-
 Aabb scaled(const Aabb& box, double share) {
   if (share == 1.0) return box;
   const Vec3 c = box.center();
   return {c + (box.lo - c) * share, c + (box.hi - c) * share};
 }
 
+void find_hulls(const FfdModel& model, FfdState& state) {
+  state.hull.resize(model.piece_begin.size() - 1);
+  for (std::size_t cell = 0; cell < state.hull.size(); ++cell) {
+    Aabb hull;
+    for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
+      for (const Vec3& corner : state.corners[p]) hull.extend(corner);
+    state.hull[cell] = hull;
+  }
+}
+
 // Derivation: header of ffd_model.h. The final addition and subtraction round once more: 1 ulp of
 // the coordinate, covered by the third error unit.
 void bound_cells(const FfdModel& model, const FfdConfig& config, double error, FfdState& state) {
-  state.cell_box.assign(model.piece_begin.size() - 1, Aabb{});
+  state.cell_box.assign(state.hull.size(), Aabb{});
   for (std::uint32_t cell : model.cells) {
-    Aabb box;
-    for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
-      for (const Vec3& corner : state.corners[p]) box.extend(corner);
+    Aabb box = state.hull[cell];
     box.lo.array() -= 3.0 * error;
     box.hi.array() += 3.0 * error;
     state.cell_box[cell] = scaled(box, config.faults.cell_box);
   }
 }
 
-Vec3 box_center(const std::vector<Corners>& corners) {
+Vec3 body_center(const FfdState& state) {
   Aabb box;
-  for (const Corners& c : corners)
-    for (const Vec3& p : c) box.extend(p);
+  for (const Aabb& hull : state.hull) box.extend(hull);
   return box.center();
 }
 
-double safe_radius(const FfdModel& model, const FfdState& state, const SphereNode& sphere,
-                   const Vec3& center, double slack) {
-  double radius = 0.0;
-  for (std::uint32_t cell : sphere.cells)
+// The largest squared distance from `center` to a corner of the sphere's cells. A cell is skipped
+// when the farthest corner of its hull is no farther than what was found: rounding is monotone, so
+// the distances computed for corners inside the hull are no larger, and the result is the same.
+double farthest_squared(const FfdModel& model, const FfdState& state, const SphereNode& sphere,
+                        const Vec3& center) {
+  double largest = 0.0;
+  for (std::uint32_t cell : sphere.cells) {
+    const Aabb& hull = state.hull[cell];
+    const Vec3 reach = (hull.lo - center).cwiseAbs().cwiseMax((hull.hi - center).cwiseAbs());
+    if (reach.squaredNorm() <= largest) continue;
     for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
-      radius = std::max(radius, covering_radius(center, state.corners[p], slack));
-  return radius;
+      for (const Vec3& corner : state.corners[p])
+        largest = std::max(largest, (corner - center).squaredNorm());
+  }
+  return largest;
 }
 
 void place_spheres(const FfdModel& model, const FfdConfig& config, double error, FfdState& state) {
@@ -67,10 +74,11 @@ void place_spheres(const FfdModel& model, const FfdConfig& config, double error,
     state.spheres[level].resize(rest.size());
     for (std::size_t s = 0; s < rest.size(); ++s) {
       Sphere& sphere = state.spheres[level][s];
-      sphere.center = level == 0 ? box_center(state.corners) : state.nodes[rest[s].center_node];
-      sphere.radius = config.bounds == BoundsReading::kPaper
-                          ? model.rest_radius[level][s]
-                          : safe_radius(model, state, rest[s], sphere.center, slack);
+      sphere.center = level == 0 ? body_center(state) : state.nodes[rest[s].center_node];
+      sphere.radius =
+          config.bounds == BoundsReading::kPaper
+              ? model.rest_radius[level][s]
+              : covering_radius(farthest_squared(model, state, rest[s], sphere.center), slack);
       sphere.radius *= config.faults.sphere_radius;
     }
   }
@@ -85,8 +93,10 @@ bool holds(const Sphere& sphere, const Vec3& p) {
 void update_state(const FfdModel& model, const FfdConfig& config, const BodyState& body,
                   FfdState& state) {
   state.nodes = body.nodes;
-  map_pieces(model, body.nodes, state.corners);
+  state.corners.resize(model.pieces.size());
+  map_boxes(*model.shape->lattice, model.piece_boxes, body.nodes, state.corners);
   const double error = mapping_error_bound(largest_coordinate(body.nodes));
+  find_hulls(model, state);
   if (config.bounds == BoundsReading::kSafe) bound_cells(model, config, error, state);
   place_spheres(model, config, error, state);
 }

@@ -17,6 +17,7 @@ namespace contactcheck {
 struct FfdState {
   std::span<const Vec3> nodes;   ///< the frame's; valid until the next update
   std::vector<Corners> corners;  ///< per piece
+  std::vector<Aabb> hull;        ///< per kept cell: exactly round the corners of its pieces
   std::vector<Aabb> cell_box;    ///< per kept cell; safe only; empty boxes without pieces
   std::vector<std::vector<Sphere>> spheres;  ///< per level
 };

@@ -24,14 +24,58 @@ bool in_any_pair(const SphereSurvivors& survivors, std::uint32_t body) {
   return false;
 }
 
-bool inside_active_sphere(const FfdState& state, const std::vector<char>& sphere_active,
-                          std::size_t level, const Vec3& p) {
-  for (std::size_t s = 0; s < sphere_active.size(); ++s) {
-    if (!sphere_active[s]) continue;
-    const Sphere& sphere = state.spheres[level][s];
-    if ((p - sphere.center).norm() < sphere.radius) return true;
+// The finest spheres of a body that collide; asks whether a point lies strictly inside one.
+class ActiveSpheres {
+ public:
+  ActiveSpheres(const std::vector<Sphere>& spheres, const std::vector<char>& active) {
+    for (std::size_t s = 0; s < active.size(); ++s)
+      if (active[s]) spheres_.push_back(spheres[s]);
   }
-  return false;
+  /// Begins with the sphere that held the last point: neighbouring points share one.
+  bool hold(const Vec3& p) {
+    if (spheres_.empty()) return false;
+    if (holds(spheres_[last_], p)) return true;
+    for (std::size_t s = 0; s < spheres_.size(); ++s) {
+      if (!holds(spheres_[s], p)) continue;
+      last_ = s;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static bool holds(const Sphere& sphere, const Vec3& p) {
+    return (p - sphere.center).norm() < sphere.radius;
+  }
+
+  std::vector<Sphere> spheres_;
+  std::size_t last_ = 0;
+};
+
+// The parts of space where a body can meet its partners: the common parts of their boxes.
+using Regions = std::vector<std::vector<Aabb>>;
+
+void find_regions(const std::vector<FfdState>& states,
+                  const std::vector<std::vector<char>>& active_cells,
+                  const SphereSurvivors& survivors, Regions& out) {
+  std::vector<Aabb> bounds(states.size());
+  for (std::size_t body = 0; body < states.size(); ++body)
+    for (std::size_t cell = 0; cell < active_cells[body].size(); ++cell)
+      if (active_cells[body][cell]) bounds[body].extend(states[body].cell_box[cell]);
+  out.resize(states.size());
+  for (std::vector<Aabb>& regions : out) regions.clear();
+  for (const BodyPair& pair : survivors.body_pairs) {
+    if (!bounds[pair.a].overlaps(bounds[pair.b])) continue;
+    const Aabb common{bounds[pair.a].lo.cwiseMax(bounds[pair.b].lo),
+                      bounds[pair.a].hi.cwiseMin(bounds[pair.b].hi)};
+    out[pair.a].push_back(common);
+    out[pair.b].push_back(common);
+  }
+}
+
+bool meets_any(const std::vector<Aabb>& regions, const Aabb& box) {
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](const Aabb& region) { return region.overlaps(box); });
 }
 
 }  // namespace
@@ -44,24 +88,41 @@ std::vector<std::vector<char>> ProbeHashStage::active_probes(const std::vector<F
                                                              const std::vector<FfdState>& states,
                                                              const FfdConfig& config,
                                                              const SphereSurvivors& survivors) {
-  std::vector<std::vector<char>> active(models.size());
-  for (std::uint32_t body = 0; body < models.size(); ++body) {
-    const std::uint32_t probes = probe_count(models[body], config.volume);
-    active[body].assign(probes, in_any_pair(survivors, body));
-    if (config.sphere_levels < 2 || !in_any_pair(survivors, body)) continue;
-    for (std::uint32_t p = 0; p < probes; ++p) {
-      active[body][p] = inside_active_sphere(states[body], survivors.sphere_active[body],
-                                             config.sphere_levels - 1,
-                                             probe_position(states[body], config.volume, p));
-    }
-  }
+  std::vector<std::vector<char>> active;
+  find_active_probes(models, states, config, survivors, active);
   return active;
 }
 
-void ProbeHashStage::hash_boxes(const std::vector<FfdModel>& models,
-                                const std::vector<FfdState>& states, const FfdConfig& config,
-                                const std::vector<std::vector<char>>& active, double cell_size) {
-  hash_ = SpatialHash(config.table_size);
+void ProbeHashStage::find_active_probes(const std::vector<FfdModel>& models,
+                                        const std::vector<FfdState>& states,
+                                        const FfdConfig& config, const SphereSurvivors& survivors,
+                                        std::vector<std::vector<char>>& active) {
+  active.resize(models.size());
+  for (std::uint32_t body = 0; body < models.size(); ++body) {
+    const std::uint32_t probes = probe_count(models[body], config.volume);
+    const bool in_pair = in_any_pair(survivors, body);
+    active[body].assign(probes, in_pair);
+    if (config.sphere_levels < 2 || !in_pair) continue;
+    ActiveSpheres spheres(states[body].spheres[config.sphere_levels - 1],
+                          survivors.sphere_active[body]);
+    for (std::uint32_t p = 0; p < probes; ++p)
+      active[body][p] = spheres.hold(probe_position(states[body], config.volume, p));
+  }
+}
+
+void ProbeHashStage::find_keys(const std::vector<FfdState>& states, CellVolume volume,
+                               double cell_size) {
+  keys_.resize(active_.size());
+  for (std::size_t body = 0; body < active_.size(); ++body) {
+    keys_[body].resize(active_[body].size());
+    for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe)
+      if (active_[body][probe])
+        keys_[body][probe] = grid_key(probe_position(states[body], volume, probe), cell_size);
+  }
+}
+
+void ProbeHashStage::hash_boxes(const std::vector<FfdModel>& models, const FfdConfig& config) {
+  hash_.clear(config.table_size);
   boxes_.clear();
   for (std::uint32_t body = 0; body < models.size(); ++body) {
     for (std::uint32_t cell : models[body].cells) {
@@ -69,14 +130,14 @@ void ProbeHashStage::hash_boxes(const std::vector<FfdModel>& models,
       std::size_t count = 0;
       for (int c = 0; c < 8; ++c) {
         const std::uint32_t probe = probe_of_corner(models[body], config.volume, cell, c);
-        if (!active[body][probe]) continue;
-        keys[count++] = grid_key(probe_position(states[body], config.volume, probe), cell_size);
+        if (!active_[body][probe]) continue;
+        const GridKey& key = keys_[body][probe];
+        const auto end = keys.begin() + count;
+        if (std::find(keys.begin(), end, key) != end) continue;  // a bucket holds the box once
+        keys[count++] = key;
+        hash_.insert(key, static_cast<std::uint32_t>(boxes_.size()));
       }
       if (count == 0) continue;
-      std::sort(keys.begin(), keys.begin() + count);
-      const auto end = std::unique(keys.begin(), keys.begin() + count);
-      for (auto key = keys.begin(); key != end; ++key)
-        hash_.insert(*key, static_cast<std::uint32_t>(boxes_.size()));
       boxes_.push_back({body, cell});
     }
   }
@@ -88,13 +149,13 @@ void ProbeHashStage::run(const std::vector<FfdModel>& models, const std::vector<
                          double cell_size, std::vector<ProbeHit>& out) {
   out.clear();
   if (survivors.body_pairs.empty()) return;
-  const auto active = active_probes(models, states, config, survivors);
-  hash_boxes(models, states, config, active, cell_size);
+  find_active_probes(models, states, config, survivors, active_);
+  find_keys(states, config.volume, cell_size);
+  hash_boxes(models, config);
   for (std::uint32_t body = 0; body < models.size(); ++body) {
-    for (std::uint32_t probe = 0; probe < active[body].size(); ++probe) {
-      if (!active[body][probe]) continue;
-      const Vec3 p = probe_position(states[body], config.volume, probe);
-      hash_.for_each(grid_key(p, cell_size), [&](std::uint32_t id) {
+    for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe) {
+      if (!active_[body][probe]) continue;
+      hash_.for_each(keys_[body][probe], [&](std::uint32_t id) {
         const BoxId box = boxes_[id];
         if (box.body != body && survivors.active(body, box.body))
           out.push_back({body, probe, box.body, box.cell});
@@ -129,10 +190,12 @@ void BoxHashStage::run(const std::vector<FfdModel>& models, const std::vector<Ff
   out.clear();
   if (survivors.body_pairs.empty()) return;
   const auto active = active_cells(models, config, survivors);
+  find_regions(states, active, survivors, regions_);
   boxes_.clear();
   for (std::uint32_t body = 0; body < models.size(); ++body)
     for (std::uint32_t cell : models[body].cells)
-      if (active[body][cell]) boxes_.push_back({states[body].cell_box[cell], body, cell});
+      if (active[body][cell] && meets_any(regions_[body], states[body].cell_box[cell]))
+        boxes_.push_back({states[body].cell_box[cell], body, cell});
   pairs_.clear();
   BoxPairSettings settings;
   settings.cell_size = cell_size;

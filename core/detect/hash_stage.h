@@ -50,16 +50,22 @@ class ProbeHashStage {
   struct BoxId {
     std::uint32_t body, cell;
   };
-  void hash_boxes(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                  const FfdConfig& config, const std::vector<std::vector<char>>& active,
-                  double cell_size);
+  static void find_active_probes(const std::vector<FfdModel>& models,
+                                 const std::vector<FfdState>& states, const FfdConfig& config,
+                                 const SphereSurvivors& survivors,
+                                 std::vector<std::vector<char>>& active);
+  void find_keys(const std::vector<FfdState>& states, CellVolume volume, double cell_size);
+  void hash_boxes(const std::vector<FfdModel>& models, const FfdConfig& config);
 
+  std::vector<std::vector<char>> active_;   // per body and probe
+  std::vector<std::vector<GridKey>> keys_;  // the same; of active probes
   SpatialHash hash_;
   std::vector<BoxId> boxes_;
 };
 
 /// Reading `safe`: the AABB of an owner cell goes into every bucket it meets; survivors are all
-/// pairs of owner cells, of colliding finest spheres, whose AABBs overlap.
+/// pairs of owner cells, of colliding finest spheres, whose AABBs overlap. (Owners outside the
+/// common part of their body's bounds with every partner's have no such pair and are not hashed.)
 class BoxHashStage {
  public:
   void run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
@@ -70,6 +76,7 @@ class BoxHashStage {
                                                      const SphereSurvivors& survivors);
 
  private:
+  std::vector<std::vector<Aabb>> regions_;  // per body
   BoxPairFinder finder_;
   std::vector<OwnedBox> boxes_;
   std::vector<BoxPairFinder::Pair> pairs_;

@@ -1,6 +1,6 @@
 // The three kinds of checks of this code base.
 //
-//   InputError, RefusedInput: the user's data is bad; a sentence names place and value (exit code 2)
+//   InputError, RefusedInput: the user's data is bad; a sentence names place and value
 //   CONTACTCHECK_INVARIANT: a promise of our own code is broken; aborts in every build
 //   CONTACTCHECK_DCHECK: the same in hot loops; Debug builds only
 #pragma once

@@ -15,14 +15,18 @@ struct HalfEdge {
   bool forward;  // runs from low to high
 };
 
+bool has_repeated_index(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
 std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
   std::vector<HalfEdge> edges;
   edges.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& tri = mesh.triangles[t];
+    // A triangle with a repeated index is reported as such; its edges would be false alarms.
+    if (has_repeated_index(tri)) continue;
     for (int e = 0; e < 3; ++e) {
       const std::uint32_t a = tri[e], b = tri[(e + 1) % 3];
-      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
+      edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
@@ -36,8 +40,7 @@ std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
 Vec3 near_unit_size(const Vec3& v) {
   int exponent = 0;
   std::frexp(v.cwiseAbs().maxCoeff(), &exponent);
-  return {std::ldexp(v.x(), -exponent), std::ldexp(v.y(), -exponent),
-          std::ldexp(v.z(), -exponent)};
+  return {std::ldexp(v.x(), -exponent), std::ldexp(v.y(), -exponent), std::ldexp(v.z(), -exponent)};
 }
 
 // In double: the differences and products round, so a triangle within rounding of a line may fall
@@ -69,7 +72,7 @@ void check_vertices_and_indices(const TriangleMesh& mesh, MeshTopology& out) {
 void check_triangles(const TriangleMesh& mesh, MeshTopology& out) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& tri = mesh.triangles[t];
-    if (tri[0] == tri[1] || tri[1] == tri[2] || tri[2] == tri[0]) {
+    if (has_repeated_index(tri)) {
       out.defects.push_back({MeshDefectKind::kRepeatedIndex, t});
     } else if (zero_area(mesh, tri)) {
       out.defects.push_back({MeshDefectKind::kZeroAreaTriangle, t});

@@ -73,8 +73,11 @@ std::vector<SceneTask> make_tasks(const RunArguments& arguments) {
 void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
   std::set<std::string> ids;
   for (SceneTask& task : tasks) {
-    const Scene scene =
-        task.file.extension() == ".ccr" ? load_recording(task.file) : load_scene(task.file, frames);
+    const bool recorded = task.file.extension() == ".ccr";
+    if (recorded && frames > 0)
+      throw InputError("--frames: recording \"" + task.file.string() +
+                       "\" has its own frames and cannot be given others");
+    const Scene scene = recorded ? load_recording(task.file) : load_scene(task.file, frames);
     task.id = scene.id;
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");

@@ -120,8 +120,15 @@ LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& trut
       }
       return compare_sets(level, frame, bodies, reported.bodies);
     }
-    case Level::kContainment:
-      return compare_sets(level, frame, truth.containment, reported.bodies);
+    case Level::kContainment: {
+      // A solid detector has one list for both kinds of contact: a pair whose surfaces truly touch
+      // is the business of the level `body`.
+      std::vector<BodyPair> held;
+      std::set_difference(reported.bodies.begin(), reported.bodies.end(),
+                          truth.surface.bodies.begin(), truth.surface.bodies.end(),
+                          std::back_inserter(held));
+      return compare_sets(level, frame, truth.containment, held);
+    }
     case Level::kCell:
       return judge_cells(frame, truth.surface.triangles, reported.cells);
     case Level::kBox:

@@ -42,8 +42,9 @@ void sweep(const CellHulls& a, const CellHulls& b, Visit&& visit) {
 }  // namespace
 
 CellHulls::CellHulls(std::shared_ptr<const BodyShape> shape) : shape_(std::move(shape)) {
-  if (!shape_->lattice) return;
-  local_ = ffd_aabbs(shape_->mesh, *shape_->lattice, shape_->embedding);
+  const std::optional<Lattice>& lattice = shape_->lattice;
+  if (!lattice) return;
+  local_ = ffd_aabbs(shape_->mesh, *lattice, shape_->embedding);
   corners_.resize(local_.size());
   boxes_.resize(local_.size());
   hulls_.resize(local_.size());
@@ -51,8 +52,10 @@ CellHulls::CellHulls(std::shared_ptr<const BodyShape> shape) : shape_(std::move(
 
 void CellHulls::update(std::span<const Vec3> nodes) {
   bounds_ = Aabb();
+  const std::optional<Lattice>& lattice = shape_->lattice;
+  if (!lattice) return;
   for (std::uint32_t cell = 0; cell < local_.size(); ++cell) {
-    corners_[cell] = mapped_box(*shape_->lattice, cell, local_[cell], nodes);
+    corners_[cell] = mapped_box(*lattice, cell, local_[cell], nodes);
     boxes_[cell] = Aabb();
     for (const Vec3& p : corners_[cell]) boxes_[cell].extend(p);
     bounds_.extend(boxes_[cell]);
@@ -61,8 +64,9 @@ void CellHulls::update(std::span<const Vec3> nodes) {
 }
 
 const ConvexHull& CellHulls::hull(std::uint32_t cell) {
-  if (!hulls_[cell]) hulls_[cell] = make_hull(corners_[cell]);
-  return *hulls_[cell];
+  std::optional<ConvexHull>& made = hulls_[cell];
+  if (!made) made = make_hull(corners_[cell]);
+  return *made;
 }
 
 void overlapping_cells(CellHulls& a, CellHulls& b, std::vector<CellPair>& out) {

@@ -105,7 +105,6 @@ void Oracle::Impl::update_boxes(const Frame& frame) {
   if (hulls.empty())
     for (const auto& shape : shapes) hulls.emplace_back(shape);
   for (std::uint32_t i = 0; i < size(); ++i) {
-    if (!shapes[i]->lattice) continue;
     CONTACTCHECK_INVARIANT(frame.bodies[i].nodes.size() == shapes[i]->node_count(),
                            "the oracle needs every deformed node");
     hulls[i].update(frame.bodies[i].nodes);

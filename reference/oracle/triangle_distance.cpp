@@ -27,7 +27,7 @@ constexpr double kShortestDirection = 0x1p-400;
 
 struct ClosestPoints {
   Vec3 on_p, on_q;
-  Vec3 normal = Vec3::Zero();  // of the features, where they are a corner and a face or two edges
+  Vec3 normal = Vec3::Zero();  // of two edges, where these are nearest; else zero
   double squared = std::numeric_limits<double>::infinity();
 
   bool offer(const Vec3& p, const Vec3& q) {
@@ -88,7 +88,7 @@ void offer_corners(const TriangleCorners& p, const TriangleCorners& q, bool swap
   for (const Vec3& corner : p) {
     for (int k = 0; k < 3; ++k) offer(corner, nearest_on_segment(corner, q[k], q[(k + 1) % 3]));
     Vec3 in_face;
-    if (nearest_in_face(corner, q, in_face) && offer(corner, in_face)) best.normal = normal_of(q);
+    if (nearest_in_face(corner, q, in_face)) offer(corner, in_face);
   }
 }
 
@@ -123,8 +123,8 @@ DistanceBounds distance_bounds(const TriangleCorners& p, const TriangleCorners& 
   const ClosestPoints best = closest_points(p, q);
   const double distance = std::sqrt(best.squared);
   double gap = gap_along(best.on_p - best.on_q, p, q);
-  // The direction between points that nearly touch is mostly rounding: the features' own normals
-  // do not suffer from that.
+  // The direction between points that nearly touch is mostly rounding: the normals of edges and
+  // faces do not suffer from that.
   if (gap < distance - kRounding) gap = std::max(gap, gap_along(best.normal, p, q));
   if (gap < distance - kRounding) {
     gap = std::max({gap, gap_along(normal_of(p), p, q), gap_along(normal_of(q), p, q)});

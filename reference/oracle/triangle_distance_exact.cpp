@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <utility>
 
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/triangle_distance.h"
@@ -27,13 +27,14 @@ Corners3 to_rational(const TriangleCorners& t) {
 
 class Minimum {
  public:
+  explicit Minimum(Rational first) : value_(std::move(first)) {}
   void offer(const Rational& value) {
-    if (!value_ || value < *value_) value_ = value;
+    if (value < value_) value_ = value;
   }
-  const Rational& value() const { return *value_; }
+  const Rational& value() const { return value_; }
 
  private:
-  std::optional<Rational> value_;
+  Rational value_;
 };
 
 Rational squared_to_segment(const Point& p, const Point& a, const Point& b) {
@@ -87,7 +88,7 @@ DistanceBounds root_of(const Rational& squared) {
 DistanceBounds exact_distance_bounds(const TriangleCorners& p, const TriangleCorners& q) {
   if (triangles_intersect(p, q)) return {0.0, 0.0};
   const Corners3 a = to_rational(p), b = to_rational(q);
-  Minimum best;
+  Minimum best((b[0] - a[0]) * (b[0] - a[0]));
   offer_corners(a, b, best);
   offer_corners(b, a, best);
   for (int i = 0; i < 3; ++i)

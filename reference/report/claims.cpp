@@ -47,7 +47,7 @@ std::string hover_claim(const Json& results) {
 std::string errors_at(const Json& run, const char* level) {
   if (run.is_null() || !run.at("levels").contains(level)) return "-";
   const Json& c = run.at("levels").at(level);
-  return format_rate(c.at("recall")) + " / " + format_rate(c.at("spurious_rate"));
+  return format_rate(c.at("recall")) + " / " + format_error_rate(c.at("spurious_rate"));
 }
 
 std::string speed_rows(const Json& results, const char* detector, const char* question,

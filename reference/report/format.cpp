@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace contactcheck {
 namespace {
+
+// Rates are shown with five decimals. The product with 1e5 may fall a rounding step beside a whole
+// number (0.29 gives 28999.999...): a few steps of 2^-53 are forgiven, far below any count's reach.
+constexpr double kRateSteps = 1e5, kSlack = 0x1p-50;
 
 // Three significant digits without exponent in the range people read.
 std::string significant(double value) {
@@ -23,7 +28,16 @@ std::string format_rate(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "-";
   const double rate = value.get<double>();
   if (rate == 1.0 || rate == 0.0) return fmt::format("{:.0f}", rate);
-  return fmt::format("{:.5f}", std::floor(rate * 1e5) / 1e5);
+  const double cut = std::min(std::floor(rate * kRateSteps * (1.0 + kSlack)), kRateSteps - 1.0);
+  return fmt::format("{:.5f}", cut / kRateSteps);
+}
+
+std::string format_error_rate(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return "-";
+  const double rate = value.get<double>();
+  if (rate == 1.0 || rate == 0.0) return fmt::format("{:.0f}", rate);
+  const double raised = std::max(std::ceil(rate * kRateSteps * (1.0 - kSlack)), 1.0);
+  return fmt::format("{:.5f}", raised / kRateSteps);
 }
 
 std::string format_number(const nlohmann::ordered_json& value) {

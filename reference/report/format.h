@@ -9,6 +9,8 @@ namespace contactcheck {
 /// "1" only for exactly 1, otherwise cut (not rounded) to five decimals: 0.99999 never reads as 1.
 /// "-" for null.
 std::string format_rate(const nlohmann::ordered_json& value);
+/// The same for a rate of errors: raised to five decimals, 0.000001 never reads as 0.
+std::string format_error_rate(const nlohmann::ordered_json& value);
 /// Three significant digits, "-" for null.
 std::string format_number(const nlohmann::ordered_json& value);
 /// Whole numbers; "-" for null.

@@ -25,7 +25,7 @@ struct Sums {
   std::string detector, level, question;
   std::size_t scenes = 0, not_ok = 0;
   long long truth = 0, hit = 0, missed = 0, spurious = 0, body_missed = 0, body_spurious = 0;
-  bool has_body = false;
+  bool has_level = false, has_body = false;
   std::optional<double> hover;
   Range aabb, obbrss;
 };
@@ -36,9 +36,9 @@ void add_speed(const Json& run, const char* reference, Range& range) {
 }
 
 void add_levels(const Json& run, Sums& sums) {
-  sums.level = run.at("per_frame").at("level").get<std::string>();
   const Json& levels = run.at("levels");
   if (levels.contains(sums.level)) {
+    sums.has_level = true;
     const Json& c = levels.at(sums.level);
     sums.truth += c.at("truth").get<long long>();
     sums.hit += c.at("hit").get<long long>();
@@ -70,20 +70,39 @@ std::vector<std::string> cells_of(const Sums& s) {
   const Json recall = s.truth == 0
                           ? Json(nullptr)
                           : Json(static_cast<double>(s.hit) / static_cast<double>(s.truth));
+  // Nothing judged is no perfect score.
+  const auto judged = [&](long long n) { return s.has_level ? std::to_string(n) : "-"; };
   const std::string scenes =
       std::to_string(s.scenes) + (s.not_ok ? " (" + std::to_string(s.not_ok) + " not ok)" : "");
   return {s.detector,
           scenes,
           s.level,
-          std::to_string(s.truth),
+          judged(s.truth),
           format_rate(recall),
-          std::to_string(s.missed),
-          std::to_string(s.spurious),
+          judged(s.missed),
+          judged(s.spurious),
           s.has_body ? std::to_string(s.body_missed) + "/" + std::to_string(s.body_spurious) : "-",
           s.hover ? format_millimetres(*s.hover) : "-",
           s.question,
           s.aabb.text(),
           s.obbrss.text()};
+}
+
+// Counts of different levels do not add up: a detector has a line per level. A run that is not `ok`
+// has no level and counts in the detector's first line.
+Sums& line_of(const Json& run, std::vector<Sums>& all) {
+  const auto name = run.at("detector").get<std::string>();
+  const bool ok = run.at("status") == "ok";
+  const std::string level = ok ? run.at("per_frame").at("level").get<std::string>() : "";
+  for (Sums& s : all) {
+    if (s.detector != name || (ok && s.scenes > 0 && s.level != level)) continue;
+    if (ok) s.level = level;
+    return s;
+  }
+  Sums& added = all.emplace_back();
+  added.detector = name;
+  added.level = level;
+  return added;
 }
 
 }  // namespace
@@ -99,16 +118,7 @@ const std::vector<Column>& summary_columns() {
 
 std::vector<std::vector<std::string>> summary_lines(const Json& results) {
   std::vector<Sums> all;
-  for (const Json& run : results.at("runs")) {
-    const auto name = run.at("detector").get<std::string>();
-    auto it =
-        std::find_if(all.begin(), all.end(), [&](const Sums& s) { return s.detector == name; });
-    if (it == all.end()) {
-      it = all.insert(it, Sums{});
-      it->detector = name;
-    }
-    add_run(run, *it);
-  }
+  for (const Json& run : results.at("runs")) add_run(run, line_of(run, all));
   std::vector<std::vector<std::string>> lines;
   for (const Sums& s : all) lines.push_back(cells_of(s));
   return lines;

@@ -12,8 +12,9 @@ namespace contactcheck {
 /// Columns of the summary, in order.
 const std::vector<Column>& summary_columns();
 
-/// One line of cells per detector, in the order of its first run: counts summed over its scenes
-/// with status `ok`, the worst hover gap, and the range of its speed-ups over scenes.
+/// One line of cells per detector and finest level judged, in the order of first runs: counts
+/// summed over its scenes with status `ok`, the worst hover gap, and the range of its speed-ups
+/// over scenes.
 std::vector<std::vector<std::string>> summary_lines(const nlohmann::ordered_json& results);
 
 }  // namespace contactcheck

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/types/check.h"
 #include "reference/compare/episodes.h"
@@ -73,6 +74,62 @@ WantedTruth wanted_truth(const Scene& scene) {
   return wanted;
 }
 
+// An answer that names what is not there must not reach code that looks it up.
+class IdCheck {
+ public:
+  IdCheck(const Scene& scene, std::size_t frame) : scene_(scene), frame_(frame) {}
+
+  void operator()(const ContactSet& contacts) const {
+    for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
+    for (const ElementPair& p : contacts.triangles) {
+      check_element("triangle", p.body_a, p.a, shape(p.body_a).mesh.triangles.size());
+      check_element("triangle", p.body_b, p.b, shape(p.body_b).mesh.triangles.size());
+    }
+    for (const ElementPair& p : contacts.cells) {
+      check_element("cell", p.body_a, p.a, cells_of(p.body_a));
+      check_element("cell", p.body_b, p.b, cells_of(p.body_b));
+    }
+    for (const VertexInBody& v : contacts.vertices) {
+      check_pair(v.body, v.in);
+      check_element("vertex", v.body, v.vertex, shape(v.body).mesh.vertices.size());
+    }
+  }
+
+ private:
+  const BodyShape& shape(std::uint32_t body) const { return *scene_.bodies[body].shape; }
+  std::size_t cells_of(std::uint32_t body) const {
+    return shape(body).lattice ? shape(body).lattice->cells.size() : 0;
+  }
+  // Element pairs imply their body pair (canonicalize), so this sees every body index first.
+  void check_pair(std::uint32_t a, std::uint32_t b) const {
+    const std::size_t count = scene_.bodies.size();
+    if (a >= count || b >= count)
+      fail("body " + std::to_string(std::max(a, b)) + " of " + std::to_string(count) + " bodies");
+    if (a == b) fail("body \"" + scene_.bodies[a].name + "\" in contact with itself");
+  }
+  void check_element(const char* kind, std::uint32_t body, std::uint32_t id,
+                     std::size_t count) const {
+    if (id < count) return;
+    fail(std::string(kind) + " " + std::to_string(id) + " of body \"" + scene_.bodies[body].name +
+         "\", which has " + std::to_string(count));
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error("frame " + std::to_string(frame_) + ": the answer names " + what);
+  }
+
+  const Scene& scene_;
+  std::size_t frame_;
+};
+
+// Asks a question about the frame of the last update; the answer is canonical and names only what
+// is there. Reuses the capacity of `out`.
+void ask(Detector& detector, Question question, const IdCheck& check, ContactSet& out) {
+  out.clear();
+  detector.query(question, out);
+  out.canonicalize();
+  check(out);
+}
+
 // Does the detector report the pair at a time between frames?
 class PairProbe {
  public:
@@ -83,8 +140,7 @@ class PairProbe {
     go_to(time);
     detector_.update(frame_);
     ContactSet contacts;
-    detector_.query(detector_.semantics().questions.front(), contacts);
-    contacts.canonicalize();
+    ask(detector_, detector_.semantics().questions.front(), IdCheck(scene_, 0), contacts);
     return std::binary_search(contacts.bodies.begin(), contacts.bodies.end(), pair_);
   }
   double distance(double time) {
@@ -150,24 +206,33 @@ AccuracyOutcome run_accuracy(const JudgedScene& judged, std::uint32_t position, 
   StageLosses losses(scene.bodies);
   BodyPairsPerFrame truth_pairs, reported_pairs;
   AccuracyOutcome outcome;
-  ContactSet contacts;
+  ContactSet contacts, by_body;
+  const Question own = result.semantics.questions.front();
+  const bool asks_body = own != Question::kBody && result.semantics.answers(Question::kBody);
   for (std::size_t f = 0; f < scene.frames; ++f) {
     const Frame frame = judged.frame(f);
+    const IdCheck check(scene, f);
     contacts.clear();
     const auto start = std::chrono::steady_clock::now();
     progress.enter(position, f, Phase::kUpdate);
     detector.update(frame);
     note_environment(guard, "update", result);
     progress.enter(position, f, Phase::kQuery);
-    detector.query(result.semantics.questions.front(), contacts);
+    detector.query(own, contacts);
     outcome.seconds_per_frame += seconds_since(start) / static_cast<double>(scene.frames);
     note_environment(guard, "query", result);
     contacts.canonicalize();
+    check(contacts);
     if (f == 0) result.memory_bytes = std::max(heap_in_use(), heap_before) - heap_before;
-    judge.add_frame(f, judged.truth[f], contacts);
     result.contact_hash = chain_hash(result.contact_hash, f, contacts);
     truth_pairs.push_back(judged.truth[f].surface.bodies);
     reported_pairs.push_back(contacts.bodies);
+    if (asks_body) {
+      ask(detector, Question::kBody, check, by_body);
+      note_environment(guard, "query", result);
+      contacts.bodies = by_body.bodies;
+    }
+    judge.add_frame(f, judged.truth[f], contacts);
     progress.enter(position, f, Phase::kTrace);
     losses.add_frame(detector.trace(), judged.truth[f].surface.triangles);
   }
@@ -185,6 +250,7 @@ void measure_hover_gaps(const JudgedScene& judged, std::uint32_t position, Detec
                         Oracle& oracle, ProgressWriter& progress, RunResult& result) {
   const Scene& scene = *judged.scene;
   const double tolerance = 1e-6 * scene.size();
+  const FloatEnvironmentGuard guard;
   for (Episode& e : result.episodes) {
     if (!e.first_reported) continue;
     const std::size_t f = *e.first_reported;
@@ -198,7 +264,9 @@ void measure_hover_gaps(const JudgedScene& judged, std::uint32_t position, Detec
         scene.time_of(f - 1), scene.time_of(f), tolerance,
         [&](double t) {
           progress.enter(position, f, Phase::kQuery);
-          return probe.reports(t);
+          const bool reported = probe.reports(t);
+          note_environment(guard, "query", result);
+          return reported;
         },
         [&](double t) { return probe.distance(t); });
   }

@@ -35,7 +35,10 @@ struct AccuracyOutcome {
 };
 
 /// Runs `detector` over all frames and fills levels, stages, episodes, hash, memory and float
-/// environment of `result`. Exceptions of the detector pass through.
+/// environment of `result`. The detector's own question (its first) is judged at every level;
+/// bodies are judged by its answer to the question `body` where it has one: what is timed is
+/// judged. Exceptions of the detector pass through; an answer that names a body or an element that
+/// is not there throws std::runtime_error.
 AccuracyOutcome run_accuracy(const JudgedScene& judged, std::uint32_t position, Detector& detector,
                              ProgressWriter& progress, RunResult& result);
 

@@ -9,10 +9,11 @@
 namespace contactcheck {
 namespace {
 
-constexpr unsigned kFlushToZero = 0x8000u, kDenormalsAreZero = 0x0040u;
-// Rounding control and exception masks are looked at through fegetround or not at all; the sticky
-// exception flags (low six bits) change with every inexact operation.
-constexpr unsigned kWatched = kFlushToZero | kDenormalsAreZero;
+constexpr unsigned kFlushToZero = 0x8000u, kDenormalsAreZero = 0x0040u, kRounding = 0x6000u;
+// Exception masks are not looked at; the sticky exception flags (low six bits) change with every
+// inexact operation. Rounding is watched here too: glibc's fegetround reads the x87 unit alone, and
+// doubles are computed by SSE.
+constexpr unsigned kWatched = kFlushToZero | kDenormalsAreZero | kRounding;
 
 unsigned control_word() {
 #if defined(__SSE__)
@@ -43,7 +44,8 @@ FloatEnvironmentGuard::FloatEnvironmentGuard()
 std::string FloatEnvironmentGuard::check_and_restore() const {
   std::string changed;
   const unsigned now = control_word();
-  if (std::fegetround() != rounding_) add(changed, "rounding mode");
+  if (std::fegetround() != rounding_ || ((now ^ control_) & kRounding))
+    add(changed, "rounding mode");
   if ((now ^ control_) & kFlushToZero) add(changed, "flush-to-zero");
   if ((now ^ control_) & kDenormalsAreZero) add(changed, "denormals-are-zero");
   if (!changed.empty()) {

@@ -65,6 +65,9 @@ Job read_job(const std::filesystem::path& file) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
+  // A folder opens like a file and reads as nothing.
+  if (std::filesystem::is_directory(file))
+    throw InputError("cannot read " + file.string() + ": is a folder");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

@@ -128,18 +128,35 @@ class SceneRunner {
       for (const Json& entry : answer.at("runs")) {
         const auto position = entry.at("position").get<std::uint32_t>();
         if (broken_.count(position)) continue;
+        const bool judged = &answer == &answers.front();
+        if (!judged && !carries_on(entry.at("run"), runs.at(position))) {
+          samples.erase(position);
+          continue;
+        }
         std::vector<ProcessSamples>& by_question = samples[position];
         by_question.resize(entry.at("samples").size());
         for (std::size_t q = 0; q < entry.at("samples").size(); ++q)
           by_question[q].push_back(samples_from_json(entry.at("samples")[q]));
         if (by_question.empty()) samples.erase(position);
-        if (&answer != &answers.front()) continue;
+        if (!judged) continue;
         runs[position] = entry.at("run");
         if (fs::exists(recording()))
           runs[position]["recording"] = "recordings/" + task_.id + ".ccr";
         for (const Json& d : entry.at("disagreements")) disagreements.push_back(d);
       }
     }
+  }
+
+  // Did a detector that worked in the first process work in a later one too? Otherwise its result
+  // becomes that one's.
+  static bool carries_on(const Json& later, Json& run) {
+    const char* const ok = name_of(RunStatus::kOk);
+    if (run.at("status") == ok && later.at("status") != ok) {
+      const Json contact_frames = run.at("contact_frames");
+      run = later;
+      run["contact_frames"] = contact_frames;
+    }
+    return run.at("status") == ok;
   }
 
   fs::path recording() const { return request_.out / "recordings" / (task_.id + ".ccr"); }
@@ -210,7 +227,19 @@ void make_folders(const fs::path& out) {
     fs::create_directories(out / folder, error);
     if (error) throw InputError("cannot write in " + out.string() + ": " + error.message());
   }
-  for (const auto& entry : fs::directory_iterator(out / "cases")) fs::remove(entry.path());
+}
+
+// A case file of an earlier run: NNNN.json. Anything else in the folder is not ours.
+bool is_case_file(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return file.extension() == ".json" && stem.size() >= 4 &&
+         stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+void remove_old_cases(const fs::path& out) {
+  std::error_code ignored;  // what stays is no longer named by any result
+  for (const auto& entry : fs::directory_iterator(out / "cases"))
+    if (entry.is_regular_file() && is_case_file(entry.path())) fs::remove(entry.path(), ignored);
 }
 
 }  // namespace
@@ -235,6 +264,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
     SceneRunner runner(request, task, scratch.path(), report);
     for (Json& run : runner.run(scenes, disagreements)) runs.push_back(std::move(run));
   }
+  remove_old_cases(request.out);
   move_cases(request.out, disagreements);
   outcome->any_error = std::any_of(runs.begin(), runs.end(), [](const Json& run) {
     return run.at("status") == name_of(RunStatus::kError);

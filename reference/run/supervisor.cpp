@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -76,6 +77,12 @@ std::string describe_status(int status) {
   return "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", seconds);
+  return text;
+}
+
 std::optional<std::uint32_t> current_detector(const SharedProgress& progress) {
   const std::uint32_t detector = progress.detector;
   if (detector == SharedProgress::kNoDetector) return std::nullopt;
@@ -84,7 +91,9 @@ std::optional<std::uint32_t> current_detector(const SharedProgress& progress) {
 
 WorkerOutcome outcome_of(const SharedProgress& progress, int status, const std::string& limit) {
   WorkerOutcome out;
-  out.done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  // The phase decides, not the exit code: a library may call exit(0) in the middle, or crash when
+  // it is torn down, after the answer was written.
+  out.done = progress.phase == Phase::kDone;
   out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   if (out.done) return out;
   out.reason = limit.empty() ? describe_status(status) : limit;
@@ -108,7 +117,7 @@ class Watch {
       last_change_ = now;
     }
     if (std::chrono::duration<double>(now - last_change_).count() > settings_.call_limit)
-      return "no progress for " + std::to_string(static_cast<long>(settings_.call_limit)) +
+      return "no progress for " + seconds_text(settings_.call_limit) +
              " s (time limit of one call)";
     if (resident_bytes(child) > settings_.memory_limit)
       return "more than " + std::to_string(settings_.memory_limit >> 20) +

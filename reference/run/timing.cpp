@@ -1,6 +1,9 @@
 #include "reference/run/timing.h"
 
 #include <chrono>
+#include <exception>
+
+#include "reference/run/float_environment.h"
 
 namespace contactcheck {
 namespace {
@@ -39,6 +42,17 @@ PhaseSample run_once(const JudgedScene& judged, std::size_t index, TimedEntry& e
   return sample;
 }
 
+void run_cold_and_hot(const JudgedScene& judged, std::size_t index, TimedEntry& entry,
+                      MappedFrame& mapped, ContactSet& contacts) {
+  try {
+    FrameSamples& samples = entry.samples.frames[index];
+    samples.cold.push_back(run_once(judged, index, entry, mapped, contacts));
+    samples.hot.push_back(run_once(judged, index, entry, mapped, contacts));
+  } catch (const std::exception& e) {
+    entry.error = "frame " + std::to_string(index) + ", while timed: " + e.what();
+  }
+}
+
 void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& mapped) {
   mapped.frame.index = index;
   mapped.frame.time = judged.scene->time_of(index);
@@ -64,6 +78,7 @@ void run_timing(const JudgedScene& judged, const std::vector<std::size_t>& order
   for (const Body& body : judged.scene->bodies)
     mapped.vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
   ContactSet contacts;
+  const FloatEnvironmentGuard guard;
   for (std::size_t place = 0; place < order.size(); ++place) {
     const std::size_t index = order[place];
     point_to_frame(judged, index, mapped);
@@ -71,12 +86,11 @@ void run_timing(const JudgedScene& judged, const std::vector<std::size_t>& order
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
       for (std::size_t i = 0; i < entries.size(); ++i) {
         TimedEntry& entry = entries[(i + repeat) % entries.size()];
-        if (place >= entry.frames) continue;
+        if (place >= entry.frames || !entry.error.empty()) continue;
         progress.enter(entry.position, index, Phase::kQuery);
-        FrameSamples& samples = entry.samples.frames[index];
         sweep.run();
-        samples.cold.push_back(run_once(judged, index, entry, mapped, contacts));
-        samples.hot.push_back(run_once(judged, index, entry, mapped, contacts));
+        run_cold_and_hot(judged, index, entry, mapped, contacts);
+        guard.check_and_restore();  // flush-to-zero would make the next one faster
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/detect/detector.h"
@@ -21,6 +22,7 @@ struct TimedEntry {
   Question question = Question::kTriangles;
   std::size_t frames = 0;   ///< length of its prefix of the timing order
   QuestionSamples samples;  ///< filled
+  std::string error;        ///< what it threw while timed; it is not called again
 };
 
 /// Reads and writes a buffer of stated size, so that the next call finds little of its data in

@@ -17,6 +17,7 @@
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
+#include "reference/run/float_environment.h"
 #include "reference/run/job.h"
 #include "reference/run/samples_json.h"
 #include "reference/run/schedule.h"
@@ -86,6 +87,7 @@ class Worker {
   // What a detector throws is its own result; what the suite throws ends the worker.
   template <typename Work>
   void guarded(Entry& entry, Work&& work) {
+    const FloatEnvironmentGuard guard;
     try {
       work();
     } catch (const RefusedInput& e) {
@@ -95,6 +97,7 @@ class Worker {
       entry.result.status = RunStatus::kError;
       entry.result.message = e.what();
     }
+    guard.check_and_restore();  // whatever a call that threw has left behind
   }
 
   bool judges() const { return job_.process == 0; }
@@ -180,7 +183,18 @@ class Worker {
                progress_);
     for (TimedEntry& t : timed)
       for (Entry& entry : entries_)
-        if (entry.position == t.position) entry.samples.push_back(std::move(t.samples));
+        if (entry.position == t.position) take_samples(t, entry);
+  }
+
+  static void take_samples(TimedEntry& timed, Entry& entry) {
+    if (!entry.usable()) return;  // another question of this detector threw
+    if (timed.error.empty()) {
+      entry.samples.push_back(std::move(timed.samples));
+      return;
+    }
+    entry.result.status = RunStatus::kError;
+    entry.result.message = timed.error;
+    entry.samples.clear();
   }
 
   void record() {
@@ -211,6 +225,14 @@ class Worker {
     return out;
   }
 
+  // A detector that finds exactly the true pairs of triangles has this contact_hash.
+  std::uint64_t truth_hash() const {
+    std::uint64_t hash = 0;
+    for (std::size_t f = 0; f < judged_.truth.size(); ++f)
+      hash = chain_hash(hash, f, judged_.truth[f].surface);
+    return hash;
+  }
+
   Json scene_json() const {
     Json bodies = Json::array();
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
@@ -231,6 +253,7 @@ class Worker {
             {"contact_frames",
              std::count(judged_.contact_frames.begin(), judged_.contact_frames.end(), true)},
             {"truth", truth_json()},
+            {"truth_hash", hex(truth_hash())},
             {"bodies", bodies}};
   }
 

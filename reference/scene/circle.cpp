@@ -1,5 +1,6 @@
 #include "reference/scene/circle.h"
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -27,7 +28,10 @@ CirclePoint circle_point(std::size_t k, std::size_t n) {
   // Odd octants run backwards from the next quarter, so that mirrored points get mirrored bits.
   const std::size_t part = octant % 2 == 0 ? rest : n - rest;
   const double fraction = static_cast<double>(part) / static_cast<double>(n);
-  CirclePoint p = small_angle(0.25 * std::numbers::pi * fraction);
+  // On a diagonal the series would give two values an ulp apart.
+  const double diagonal = std::sqrt(0.5);
+  CirclePoint p =
+      part == n ? CirclePoint{diagonal, diagonal} : small_angle(0.25 * std::numbers::pi * fraction);
   if (octant % 4 == 1 || octant % 4 == 2) std::swap(p.cosine, p.sine);
   if (octant >= 2 && octant <= 5) p.cosine = -p.cosine;
   if (octant >= 4) p.sine = -p.sine;

@@ -32,7 +32,7 @@ std::filesystem::path find_package_file(const std::vector<std::filesystem::path>
                                         const std::string& package, const std::string& path) {
   std::string searched;
   for (const std::filesystem::path& root : roots) {
-    const std::filesystem::path file = root / path;
+    std::filesystem::path file = root / path;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored)) return file;
     searched += (searched.empty() ? "" : " or ") + in_quotes(file.string());

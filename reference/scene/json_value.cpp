@@ -15,6 +15,11 @@ namespace {
 // Scene files are four levels deep; unbounded nesting would only exhaust the stack.
 constexpr std::size_t kDeepest = 64;
 
+// What nlohmann read last; a text brings its own quotes.
+std::string shown_token(const std::string& token) {
+  return !token.empty() && token[0] == '"' ? token.substr(0, 40) : in_quotes(token, 40);
+}
+
 // Builds the value bottom-up: open arrays and objects wait on a stack.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -61,13 +66,18 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::json::exception&) override {
-    const std::size_t end = std::min(position > 0 ? position - 1 : 0, text_.size());
-    const std::size_t line_start = end == 0 ? std::string::npos : text_.rfind('\n', end - 1);
-    const auto line =
-        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    const std::size_t column = line_start == std::string::npos ? end + 1 : end - line_start;
-    throw InputError(document_ + " is not valid JSON at line " + std::to_string(line) +
-                     ", column " + std::to_string(column) + ", near " + in_quotes(token, 40) + ".");
+    const std::size_t at = std::min(position > 0 ? position - 1 : 0, text_.size());
+    const std::string before = text_.substr(0, at);
+    const std::size_t line_end = before.rfind('\n');
+    const std::size_t column = line_end == std::string::npos ? at + 1 : at - line_end;
+    const std::string place = "line " +
+                              std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+                              ", column " + std::to_string(column);
+    if (at == text_.size()) {
+      throw InputError(document_ + " is not valid JSON: it ends too early, at " + place + ".");
+    }
+    throw InputError(document_ + " is not valid JSON at " + place + ", near " + shown_token(token) +
+                     ".");
   }
 
  private:

@@ -85,7 +85,7 @@ class Extrusion {
   Extrusion(const Glyph& glyph, double depth, std::size_t divisions)
       : glyph_(glyph), depth_(depth), divisions_(divisions) {
     const double pixel = 1.0 / static_cast<double>(kRows * divisions);
-    layers_ = std::max<std::size_t>(1, static_cast<std::size_t>(depth / pixel + 0.5));
+    layers_ = static_cast<std::size_t>(std::max(1.0, std::round(depth / pixel)));
     numbers_.assign((width() + 1) * (height() + 1) * (layers_ + 1), kNone);
   }
 

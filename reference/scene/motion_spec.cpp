@@ -86,7 +86,7 @@ int parse_axis(const JsonField& field) { return field.one_of({"x", "y", "z"})[0]
 Vec3 parse_direction(const JsonField& field) {
   if (field.is(JsonValue::Kind::kText)) return Vec3::Unit(parse_axis(field));
   if (!field.is(JsonValue::Kind::kArray)) field.refuse("x, y, z, or an array of three numbers");
-  const Vec3 direction = field.vector(kLength);
+  Vec3 direction = field.vector(kLength);
   if (!(direction.norm() > 1e-9)) field.fail("is too short; it must not be zero");
   return direction;
 }

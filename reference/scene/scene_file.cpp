@@ -59,11 +59,14 @@ class Workshop {
 
 std::vector<Level> parse_levels(const JsonField& field) {
   // `near` needs a margin, which scene files do not carry.
-  const std::vector<std::string> allowed = {"body", "containment", "cell",
-                                            "box",  "triangle",    "vertex"};
+  const std::vector<Level> known = {Level::kBody, Level::kContainment, Level::kCell,
+                                    Level::kBox,  Level::kTriangle,    Level::kVertex};
+  std::vector<std::string> names;
+  for (const Level level : known) names.emplace_back(name_of(level));
   std::vector<Level> levels;
   for (const JsonField& item : field.items(1)) {
-    const Level level = *level_from_name(item.one_of(allowed));
+    const auto name = std::find(names.begin(), names.end(), item.one_of(names));
+    const Level level = known[static_cast<std::size_t>(name - names.begin())];
     if (std::find(levels.begin(), levels.end(), level) != levels.end()) {
       item.refuse("named once only");
     }
@@ -84,7 +87,7 @@ void parse_times(const JsonField& root, std::size_t wanted_frames, Scene& scene)
 }
 
 std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
-  const std::string name = field.text();
+  std::string name = field.text();
   const std::string fault = name_fault(name);
   if (!fault.empty()) field.fail(fault + " and cannot be a name");
   for (std::size_t b = 0; b < bodies.size(); ++b) {

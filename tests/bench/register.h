@@ -1,0 +1,12 @@
+// One function per file of benchmarks; main.cpp calls them all.
+#pragma once
+
+namespace contactcheck::bench {
+
+void register_mapping_benchmarks();
+void register_narrow_benchmarks();
+void register_broad_benchmarks();
+void register_pipeline_benchmarks();
+void register_oracle_benchmarks();
+
+}  // namespace contactcheck::bench

@@ -1,0 +1,67 @@
+#include "core/deform/body.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "core/types/check.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+std::string error_of(const TriangleMesh& mesh) {
+  try {
+    make_shape(mesh, {2, 2, 2});
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(Body, BareShapeHasItsVerticesAsNodes) {
+  const auto shape = make_bare_shape(test::unit_box_mesh(2));
+  EXPECT_FALSE(shape->lattice.has_value());
+  EXPECT_EQ(shape->node_count(), shape->mesh.vertices.size());
+  EXPECT_TRUE(shape->topology.solid);
+  std::vector<Vec3> nodes = shape->mesh.vertices, mapped(nodes.size());
+  nodes[5] = Vec3(7, 8, 9);
+  map_body(*shape, nodes, mapped);
+  EXPECT_EQ(mapped, nodes);
+}
+
+TEST(Body, EmbeddedShapeHasTheNodesOfItsLattice) {
+  const auto shape = make_shape(test::unit_box_mesh(2), {3, 2, 2});
+  EXPECT_EQ(shape->node_count(), shape->lattice->nodes.size());
+  EXPECT_EQ(shape->embedding.home_cell.size(), shape->mesh.vertices.size());
+  std::vector<Vec3> mapped(shape->mesh.vertices.size());
+  map_body(*shape, test::rest_nodes_at(*shape, {100, 0, 0}), mapped);
+  for (std::size_t v = 0; v < mapped.size(); ++v)
+    EXPECT_LT((mapped[v] - shape->mesh.vertices[v] - Vec3(100, 0, 0)).norm(), 1e-13);
+}
+
+TEST(Body, MeshWithAFatalDefectIsRefusedByNameAndIndex) {
+  TriangleMesh nan = test::unit_box_mesh(1), range = nan;
+  nan.vertices[3].x() = std::numeric_limits<double>::quiet_NaN();
+  range.triangles[4][2] = 99;
+  EXPECT_EQ(error_of(nan), "the mesh cannot be used: 1 non-finite-vertex (vertex 3)");
+  EXPECT_EQ(error_of(range), "the mesh cannot be used: 1 index-out-of-range (triangle 4)");
+  EXPECT_EQ(error_of({}), "the mesh cannot be used: 1 empty-mesh");
+  EXPECT_THROW(make_bare_shape(range), InputError);
+}
+
+TEST(Body, OpenAndDegenerateMeshesAreAccepted) {
+  EXPECT_FALSE(
+      make_shape(test::triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), {1, 1, 1})->topology.solid);
+  const Vec3 p(1, 2, 3);
+  EXPECT_EQ(make_shape(test::triangle_mesh(p, p, p), {1, 1, 1})->lattice->cells.size(), 1u);
+}
+
+TEST(BodyDeathTest, WrongNumberOfNodesBreaksAPromise) {
+  const auto shape = make_shape(test::unit_box_mesh(1), {2, 2, 2});
+  std::vector<Vec3> nodes(shape->node_count() - 1), out(shape->mesh.vertices.size());
+  EXPECT_DEATH(map_body(*shape, nodes, out), "one position per node");
+}
+
+}  // namespace
+}  // namespace contactcheck

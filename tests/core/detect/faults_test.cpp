@@ -1,0 +1,94 @@
+// Every bound of the safe reading is needed: shrunk by 1 %, each one loses a contact that the
+// faultless detector finds.
+
+#include <gtest/gtest.h>
+
+#include "core/detect/ffd_detector.h"
+#include "tests/core/detect/scenes.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Scene;
+
+// Two triangles, mirror images about the corner in which they touch: that corner is the extreme
+// point of both their boxes and both their spheres. All numbers are short binary fractions.
+Scene touching_corners() {
+  Scene scene;
+  scene.bodies = {
+      test::make_body("left", test::triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), {1, 1, 1}, 0.5),
+      test::make_body("right", test::triangle_mesh({2, 0, 0}, {1, 0, 0}, {2, -1, 0}), {1, 1, 1},
+                      0.5)};
+  // x = 1 goes to 171/128: just above a line of the hash grid, whose cell is 2/3.
+  const Vec3 shift(0.3359375, 0, 0);
+  scene.frames.push_back(
+      test::make_frame(scene.bodies, {test::rest_nodes_at(*scene.bodies[0].shape, shift),
+                                      test::rest_nodes_at(*scene.bodies[1].shape, shift)}));
+  return scene;
+}
+
+FfdConfig config_with(int sphere_levels, const SeededFaults& faults) {
+  FfdConfig config;
+  config.sphere_levels = sphere_levels;
+  config.element = ElementTest::kTriangle;
+  config.bounds = BoundsReading::kSafe;
+  config.faults = faults;
+  return config;
+}
+
+std::vector<ElementPair> found(const FfdConfig& config) {
+  const Scene scene = touching_corners();
+  FfdDetector detector(config);
+  detector.prepare(scene.bodies);
+  return test::answer(detector, scene.frames[0]).triangles;
+}
+
+// validate()'s sentence for the first body.
+std::string promise(const FfdConfig& config) {
+  const Scene scene = touching_corners();
+  FfdDetector detector(config);
+  detector.prepare(scene.bodies);
+  const Frame frame = scene.frames[0].frame();
+  detector.update(frame);
+  return validate(detector.models()[0], detector.states()[0], scene.frames[0].vertices[0]);
+}
+
+TEST(SeededFaults, WithoutFaultTheTouchIsFound) {
+  const Scene scene = touching_corners();
+  const std::vector<ElementPair> truth = {{0, 1, 0, 0}};
+  EXPECT_EQ(test::true_pairs(scene, scene.frames[0]), truth);
+  for (int levels : {0, 1, 2, 3}) {
+    EXPECT_EQ(found(config_with(levels, {})), truth) << levels;
+    EXPECT_EQ(promise(config_with(levels, {})), "") << levels;
+  }
+}
+
+TEST(SeededFaults, SmallerSpheresLoseTheTouchAndAreReported) {
+  SeededFaults faults;
+  faults.sphere_radius = 0.99;
+  for (int levels : {1, 2, 3}) {
+    EXPECT_TRUE(found(config_with(levels, faults)).empty()) << levels;
+    EXPECT_EQ(promise(config_with(levels, faults)), "triangle 0 leaves its sphere of level 1");
+  }
+}
+
+TEST(SeededFaults, SmallerCellBoxesLoseTheTouchAndAreReported) {
+  SeededFaults faults;
+  faults.cell_box = 0.99;
+  for (int levels : {0, 1, 2}) {
+    EXPECT_TRUE(found(config_with(levels, faults)).empty()) << levels;
+    EXPECT_EQ(promise(config_with(levels, faults)), "triangle 0 leaves its owner's box");
+  }
+}
+
+TEST(SeededFaults, FewerBucketsLoseTheTouch) {
+  SeededFaults faults;
+  faults.buckets = 0.99;
+  for (int levels : {0, 1, 2}) {
+    EXPECT_TRUE(found(config_with(levels, faults)).empty()) << levels;
+    EXPECT_EQ(promise(config_with(levels, faults)), "");  // not a bound that validate() sees
+  }
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "core/types/check.h"
+#include "tests/core/detect/scenes.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Scene;
+
+Scene with_bare_body() {
+  Scene scene = test::approach({601, 0.0}, 1);
+  scene.bodies[1] = {"the statue", make_bare_shape(test::unit_box_mesh(1))};
+  return scene;
+}
+
+TEST(Refusal, OfABodyWithoutALatticeNamesTheBody) {
+  const Scene scene = with_bare_body();
+  for (const std::string& name : test::family_with_triangles()) {
+    try {
+      test::prepared(name, scene);
+      FAIL() << name << " took a body without a lattice";
+    } catch (const RefusedInput& e) {
+      EXPECT_STREQ(e.what(),
+                   "body \"the statue\": the FFD-AABB family needs a lattice for every body");
+    }
+  }
+}
+
+TEST(SmallScenes, OfNoOrOneBodyHaveNoContact) {
+  Scene none, one = test::approach({602, 0.3}, 1);
+  none.frames.emplace_back();
+  one.bodies.resize(1);
+  one.frames[0] = test::make_frame(one.bodies, {one.frames[0].nodes[0]});
+  for (const std::string& id : test::family())
+    for (const char* variant : {"", "+tri", "+tri:bounds=paper"})
+      for (const Scene* scene : {&none, &one}) {
+        const auto detector = test::prepared(id + variant, *scene);
+        const ContactSet found = test::answer(*detector, scene->frames[0]);
+        EXPECT_TRUE(found.bodies.empty() && found.cells.empty() && found.triangles.empty());
+      }
+}
+
+TEST(FrameDeathTest, OfAnotherSizeThanTheSceneBreaksAPromise) {
+  const Scene scene = test::approach({603, 0.3}, 1);
+  const auto detector = test::prepared("ffd-aabb+tri", scene);
+  Frame missing_body = scene.frames[0].frame(), missing_node = missing_body,
+        missing_vertices = missing_body;
+  missing_body.bodies.pop_back();
+  missing_node.bodies[0].nodes = missing_node.bodies[0].nodes.first(3);
+  missing_vertices.bodies[1].vertices = {};
+  EXPECT_DEATH(detector->update(missing_body), "one state per prepared body");
+  EXPECT_DEATH(detector->update(missing_node), "one position per node");
+  EXPECT_DEATH(detector->update(missing_vertices), "one position per vertex");
+}
+
+}  // namespace
+}  // namespace contactcheck

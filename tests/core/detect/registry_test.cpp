@@ -1,0 +1,174 @@
+#include "core/detect/registry.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "core/types/check.h"
+#include "tests/core/detect/scenes.h"
+
+namespace contactcheck {
+namespace {
+
+using ::testing::ElementsAre;
+
+const DetectorCatalog& core_catalog() {
+  static const DetectorCatalog catalog = [] {
+    DetectorCatalog c;
+    register_core_detectors(c);
+    return c;
+  }();
+  return catalog;
+}
+
+std::string canonical(const std::string& text) { return core_catalog().parse(text).name; }
+
+std::string error_of(const std::string& text) {
+  try {
+    core_catalog().parse(text);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(DetectorCatalog, HoldsTheFamilyWithoutAndWithTriangles) {
+  std::vector<std::string> ids;
+  for (const DetectorInfo& info : core_catalog().all()) {
+    ids.push_back(info.id);
+    EXPECT_FALSE(info.summary.empty());
+    EXPECT_TRUE(info.absent_because.empty());
+    for (const OptionInfo& option : info.options) EXPECT_FALSE(option.help.empty());
+  }
+  EXPECT_THAT(ids,
+              ElementsAre("ffd-grid", "ffd-aabb", "ffd-aabb-sphere", "ffd-aabb-sphere2",
+                          "ffd-aabb-sphereN", "ffd-grid+tri", "ffd-aabb+tri", "ffd-aabb-sphere+tri",
+                          "ffd-aabb-sphere2+tri", "ffd-aabb-sphereN+tri"));
+}
+
+TEST(DetectorCatalog, DefaultBoundsArePaperAndSafeWithTriangles) {
+  for (const std::string& id : test::family()) {
+    EXPECT_EQ(core_catalog().parse(id).options.at("bounds"), "paper") << id;
+    EXPECT_EQ(core_catalog().parse(id + "+tri").options.at("bounds"), "safe") << id;
+  }
+}
+
+TEST(DetectorCatalog, ParseCompletesTheOptions) {
+  const DetectorSpec spec = core_catalog().parse("ffd-aabb-sphere2+tri:spheres=8");
+  EXPECT_EQ(spec.id, "ffd-aabb-sphere2+tri");
+  EXPECT_EQ(spec.options,
+            (Options{{"bounds", "safe"}, {"cell", "1"}, {"spheres", "8"}, {"table", "0"}}));
+}
+
+TEST(DetectorCatalog, CanonicalNamesLeaveDefaultsOutAndSortTheRest) {
+  EXPECT_EQ(canonical("ffd-aabb"), "ffd-aabb");
+  EXPECT_EQ(canonical("ffd-aabb:bounds=paper"), "ffd-aabb");
+  EXPECT_EQ(canonical("ffd-aabb:bounds=safe"), "ffd-aabb:bounds=safe");
+  EXPECT_EQ(canonical("ffd-aabb+tri:bounds=safe"), "ffd-aabb+tri");
+  EXPECT_EQ(canonical("ffd-aabb+tri:bounds=paper"), "ffd-aabb+tri:bounds=paper");
+  EXPECT_EQ(canonical("ffd-aabb-sphere2:table=8,spheres=4,cell=2"),
+            "ffd-aabb-sphere2:cell=2,spheres=4,table=8");
+  EXPECT_EQ(canonical("ffd-aabb-sphere2:spheres=16"), "ffd-aabb-sphere2");
+  EXPECT_EQ(canonical("ffd-aabb-sphereN:spheres=16,levels=3"), "ffd-aabb-sphereN:spheres=16");
+}
+
+TEST(DetectorCatalog, NumbersHaveOneSpelling) {
+  EXPECT_EQ(canonical("ffd-aabb:cell=1.000"), "ffd-aabb");
+  EXPECT_EQ(canonical("ffd-aabb:cell=1e0"), "ffd-aabb");
+  EXPECT_EQ(canonical("ffd-aabb:table=-0"), "ffd-aabb");
+  EXPECT_EQ(canonical("ffd-aabb:cell=2.50"), "ffd-aabb:cell=2.5");
+  EXPECT_EQ(canonical("ffd-aabb:cell=0.1"), "ffd-aabb:cell=0.1");
+}
+
+TEST(DetectorCatalog, CanonicalNamesReadBack) {
+  for (const char* text : {"ffd-grid:cell=0.30000000000000004", "ffd-aabb:table=100000",
+                           "ffd-aabb-sphereN+tri:bounds=paper,levels=8"}) {
+    const DetectorSpec spec = core_catalog().parse(text);
+    EXPECT_EQ(core_catalog().parse(spec.name).options, spec.options) << spec.name;
+    EXPECT_EQ(canonical(spec.name), spec.name);
+  }
+}
+
+TEST(DetectorCatalog, DefaultsSpelledOtherwiseAreStillLeftOut) {
+  DetectorCatalog catalog;
+  DetectorInfo info;
+  info.id = "other";
+  info.options.push_back({"margin", "0.00010", {}, 0.0, 1.0, false, "metres"});
+  catalog.add(info);
+  EXPECT_EQ(catalog.parse("other:margin=0.0001").name, "other");
+  EXPECT_EQ(catalog.parse("other:margin=1e-4").name, "other");
+  EXPECT_EQ(catalog.parse("other:margin=0.001").name, "other:margin=0.001");
+}
+
+TEST(DetectorCatalog, UnknownDetectorIsNamed) {
+  EXPECT_EQ(error_of("ffd-abab:cell=2"),
+            "unknown detector \"ffd-abab\"; `contactcheck list` names all");
+  EXPECT_EQ(error_of(""), "unknown detector \"\"; `contactcheck list` names all");
+  EXPECT_EQ(error_of("ffd-aabb+TRI"),
+            "unknown detector \"ffd-aabb+TRI\"; `contactcheck list` names all");
+}
+
+TEST(DetectorCatalog, UnknownOptionIsNamedWithThoseThatExist) {
+  EXPECT_EQ(error_of("ffd-aabb:sphere=2"),
+            "detector \"ffd-aabb:sphere=2\": unknown option \"sphere\"; ffd-aabb knows bounds, "
+            "cell, table");
+  EXPECT_EQ(error_of("ffd-aabb-sphere:spheres=2"),
+            "detector \"ffd-aabb-sphere:spheres=2\": unknown option \"spheres\"; ffd-aabb-sphere "
+            "knows bounds, cell, table");
+  EXPECT_THAT(error_of("ffd-aabb:=2"), ::testing::HasSubstr("unknown option \"\""));
+  DetectorCatalog catalog;
+  DetectorInfo plain;
+  plain.id = "plain";
+  catalog.add(plain);
+  EXPECT_THROW(catalog.parse("plain:a=1"), InputError);
+}
+
+TEST(DetectorCatalog, PartThatIsNoAssignmentIsNamed) {
+  EXPECT_EQ(error_of("ffd-aabb:cell"),
+            "detector \"ffd-aabb:cell\": \"cell\" is not of the form option=value");
+  EXPECT_EQ(error_of("ffd-aabb:"), "detector \"ffd-aabb:\": \"\" is not of the form option=value");
+  EXPECT_EQ(error_of("ffd-aabb:cell=2,"),
+            "detector \"ffd-aabb:cell=2,\": \"\" is not of the form option=value");
+}
+
+TEST(DetectorCatalog, NumberOutOfRangeIsNamedWithItsRange) {
+  for (const char* bad : {"0", "-1", "1000.5", "nan", "inf", "1e999", "2x", "", "0x10", " 1"})
+    EXPECT_EQ(error_of(std::string("ffd-aabb:cell=") + bad),
+              std::string("detector \"ffd-aabb:cell=") + bad + "\": option cell is \"" + bad +
+                  "\"; allowed: a number from 0.001 to 1000");
+  for (const char* bad : {"1.5", "-1", "16777217", "nan", "inf", "1e300"})
+    EXPECT_EQ(error_of(std::string("ffd-aabb:table=") + bad),
+              std::string("detector \"ffd-aabb:table=") + bad + "\": option table is \"" + bad +
+                  "\"; allowed: a whole number from 0 to 16777216");
+  EXPECT_EQ(error_of("ffd-aabb:cell=0.001"), "no error");
+  EXPECT_EQ(error_of("ffd-aabb:table=16777216"), "no error");
+}
+
+TEST(DetectorCatalog, WordNotAllowedIsNamedWithThoseThatAre) {
+  EXPECT_EQ(error_of("ffd-grid:bounds=Safe"),
+            "detector \"ffd-grid:bounds=Safe\": option bounds is \"Safe\"; allowed: paper, safe");
+}
+
+TEST(DetectorCatalog, OptionGivenTwiceIsNamed) {
+  EXPECT_EQ(error_of("ffd-aabb:cell=2,table=4,cell=3"),
+            "detector \"ffd-aabb:cell=2,table=4,cell=3\": option cell is given twice");
+}
+
+TEST(DetectorCatalogDeathTest, IdsAreUniqueAndAbsentDetectorsAreNotMade) {
+  DetectorCatalog catalog;
+  DetectorInfo info;
+  info.id = "twice";
+  info.absent_because = "not built";
+  catalog.add(info);
+  EXPECT_DEATH(catalog.add(info), "detector ids are unique: twice");
+  EXPECT_DEATH(catalog.make(catalog.parse("twice")), "only built detectors are made");
+}
+
+TEST(NumberOption, ReadsWhatParseWrote) {
+  const DetectorSpec spec = core_catalog().parse("ffd-aabb:cell=0.1,table=100000");
+  EXPECT_EQ(number_option(spec.options, "cell"), 0.1);
+  EXPECT_EQ(number_option(spec.options, "table"), 100000.0);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,211 @@
+#include "core/deform/recording.h"
+
+#include <gmock/gmock.h>
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstring>
+#include <limits>
+
+#include "core/types/check.h"
+#include "tests/core/recording/recording_samples.h"
+
+namespace contactcheck {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// Bits, not values: -0.0 and 0.0 differ.
+void expect_same_points(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  if (a.empty()) return;  // memcmp may not be given null
+  EXPECT_EQ(0, std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)));
+}
+
+void expect_same_shape(const BodyShape& a, const BodyShape& b) {
+  expect_same_points(a.mesh.vertices, b.mesh.vertices);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  EXPECT_EQ(a.topology.solid, b.topology.solid);
+  EXPECT_EQ(a.topology.component_of_vertex, b.topology.component_of_vertex);
+  ASSERT_EQ(a.lattice.has_value(), b.lattice.has_value());
+  if (a.lattice) {
+    EXPECT_EQ(a.lattice->lines, b.lattice->lines);
+    EXPECT_EQ(a.lattice->cells, b.lattice->cells);
+    EXPECT_EQ(a.lattice->nodes, b.lattice->nodes);
+    EXPECT_EQ(a.lattice->cell_nodes, b.lattice->cell_nodes);
+  }
+  EXPECT_EQ(a.embedding.home_cell, b.embedding.home_cell);
+  expect_same_points(a.embedding.local, b.embedding.local);
+  EXPECT_EQ(a.embedding.label_begin, b.embedding.label_begin);
+  EXPECT_EQ(a.embedding.label_cells, b.embedding.label_cells);
+  EXPECT_EQ(a.embedding.cell_order, b.embedding.cell_order);
+  EXPECT_EQ(a.embedding.cell_begin, b.embedding.cell_begin);
+  EXPECT_EQ(a.embedding.sorted_local, b.embedding.sorted_local);
+}
+
+TEST(Recording, RoundTripKeepsEveryBit) {
+  const Recording in = sample_recording();
+  const Recording out = recording_of(bytes_of(in));
+  EXPECT_EQ(out.scene, in.scene);
+  EXPECT_EQ(out.time_step, in.time_step);
+  ASSERT_EQ(out.bodies.size(), 3u);
+  for (std::size_t b = 0; b < 3; ++b) {
+    EXPECT_EQ(out.bodies[b].name, in.bodies[b].name);
+    expect_same_shape(*out.bodies[b].shape, *in.bodies[b].shape);
+  }
+  ASSERT_EQ(out.frames.size(), 2u);
+  for (std::size_t f = 0; f < 2; ++f) {
+    ASSERT_EQ(out.frames[f].size(), 3u);
+    for (std::size_t b = 0; b < 3; ++b) expect_same_points(out.frames[f][b], in.frames[f][b]);
+  }
+}
+
+TEST(Recording, RewritingGivesTheSameFile) {
+  const std::string first = bytes_of(sample_recording());
+  EXPECT_EQ(bytes_of(recording_of(first)), first);
+}
+
+TEST(Recording, ReplacesAnOlderFileAndLeavesNoOther) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "a.ccr";
+  write_recording(file, sample_recording());
+  write_recording(file, bare_recording());
+  EXPECT_EQ(read_recording(file).scene, "flag");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(Recording, SharedShapesStayShared) {
+  const Recording out = recording_of(bytes_of(sample_recording()));
+  EXPECT_EQ(out.bodies[0].shape, out.bodies[2].shape);
+  EXPECT_NE(out.bodies[0].shape, out.bodies[1].shape);
+}
+
+TEST(Recording, EqualShapesOfTwoObjectsBecomeOne) {
+  Recording in = bare_recording();
+  in.bodies.push_back({"twin", make_bare_shape(one_triangle())});
+  in.frames[0].push_back(in.frames[0][0]);
+  ASSERT_NE(in.bodies[0].shape, in.bodies[1].shape);
+  const Recording out = recording_of(bytes_of(in));
+  EXPECT_EQ(out.bodies[0].shape, out.bodies[1].shape);
+}
+
+TEST(Recording, ShapesThatDifferInTheLatticeAloneStayTwo) {
+  const TriangleMesh mesh = box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  Recording in;
+  in.scene = "pair";
+  in.bodies = {{"coarse", make_shape(mesh, {1, 1, 1})}, {"fine", make_shape(mesh, {2, 2, 2})}};
+  in.frames = {
+      {in.bodies[0].shape->lattice->rest_nodes(), in.bodies[1].shape->lattice->rest_nodes()}};
+  const Recording out = recording_of(bytes_of(in));
+  EXPECT_NE(out.bodies[0].shape, out.bodies[1].shape);
+}
+
+TEST(Recording, WithoutFramesIsKept) {
+  Recording in = bare_recording();
+  in.frames.clear();
+  EXPECT_TRUE(recording_of(bytes_of(in)).frames.empty());
+}
+
+// The whole file of a bare triangle, put together from the description in fixtures/README.md.
+TEST(Recording, HasTheDocumentedBytes) {
+  std::string shape = u64_bytes(3);
+  for (double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.1, 0.0}) shape += f64_bytes(x);
+  shape += u64_bytes(1) + u32_bytes(0) + u32_bytes(1) + u32_bytes(2) + std::string(4, '\0');
+  shape += u64_bytes(0);
+  std::string file(
+      "\x89"
+      "CCR\r\n\x1a\n",
+      8);
+  file += u64_bytes(1) + u64_bytes(0) + f64_bytes(0.5);
+  file += u64_bytes(4) + "flag" + std::string(4, '\0');
+  file += u64_bytes(1) + u64_bytes(reference_hash(shape)) + shape;
+  file += u64_bytes(1) + u64_bytes(5) + "cloth" + std::string(3, '\0') + u64_bytes(0);
+  file += u64_bytes(1);
+  for (double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.1, 0.0}) file += f64_bytes(x);
+  file += u64_bytes(0);
+  seal(file);
+  EXPECT_EQ(bytes_of(bare_recording()), file);
+}
+
+TEST(Recording, UnwritableFolderIsNamed) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "missing" / "a.ccr";
+  EXPECT_THAT(
+      [&] { write_recording(file, bare_recording()); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr(file.string()), HasSubstr("No such file"))));
+  EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(Recording, FailedRenameLeavesNothing) {
+  const ScratchFolder folder;
+  const std::filesystem::path taken = folder.path() / "a.ccr";
+  std::filesystem::create_directories(taken / "inside");
+  EXPECT_THAT([&] { write_recording(taken, bare_recording()); },
+              ThrowsMessage<InputError>(HasSubstr(taken.string())));
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+// Limits the size of files this process may write, as a full disk would.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limited = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_ = {};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(Recording, FailureHalfWayKeepsTheOlderFileAndNothingElse) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "a.ccr";
+  write_recording(file, bare_recording());
+  {
+    const FileSizeLimit limit(100);
+    EXPECT_THAT([&] { write_recording(file, sample_recording()); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr("cannot write"), HasSubstr("a.ccr"))));
+  }
+  EXPECT_EQ(read_recording(file).scene, "flag");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(Recording, NonFiniteNodeIsNamedAndNothingWritten) {
+  const ScratchFolder folder;
+  Recording in = sample_recording();
+  in.frames[1][2][3].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT([&] { write_recording(folder.path() / "a.ccr", in); },
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("node 3"), HasSubstr("\"box b\""), HasSubstr("frame 1"))));
+  EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(Recording, NamesThatEscapeTheFolderAreRefused) {
+  const ScratchFolder folder;
+  for (const char* scene : {"../up", "a\\b", "..", ".", "", "line\nbreak", "\xff", "\xc0\x80"}) {
+    Recording in = bare_recording();
+    in.scene = scene;
+    EXPECT_THROW(write_recording(folder.path() / "a.ccr", in), InputError) << scene;
+  }
+}
+
+TEST(Recording, MissingFileAndFolderAreRefused) {
+  const ScratchFolder folder;
+  EXPECT_THAT([&] { read_recording(folder.path() / "none.ccr"); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("none.ccr"), HasSubstr("No such file"))));
+  EXPECT_THAT([&] { read_recording(folder.path()); },
+              ThrowsMessage<InputError>(HasSubstr("not a regular file")));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,48 @@
+#include "core/types/semantics.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace contactcheck {
+namespace {
+
+TEST(Level, NamesAreTheDesignsAndReadBack) {
+  std::set<std::string> names;
+  for (Level level : {Level::kBody, Level::kContainment, Level::kCell, Level::kBox,
+                      Level::kTriangle, Level::kVertex, Level::kNear}) {
+    names.insert(name_of(level));
+    EXPECT_EQ(level_from_name(name_of(level)), level);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"body", "containment", "cell", "box", "triangle",
+                                          "vertex", "near"}));
+  EXPECT_EQ(level_from_name("Body"), std::nullopt);
+  EXPECT_EQ(level_from_name(""), std::nullopt);
+}
+
+TEST(Question, NamesAreTheDesigns) {
+  EXPECT_STREQ(name_of(Question::kTriangles), "triangles");
+  EXPECT_STREQ(name_of(Question::kBody), "body");
+  EXPECT_STREQ(name_of(Question::kCells), "cells");
+}
+
+TEST(Precision, NamesAreTheDesigns) {
+  EXPECT_STREQ(name_of(Precision::kDouble), "double");
+  EXPECT_STREQ(name_of(Precision::kSingle), "single");
+  EXPECT_STREQ(name_of(DepthKind::kNone), "none");
+  EXPECT_STREQ(name_of(DepthKind::kVertexSurface), "vertex-surface");
+  EXPECT_STREQ(name_of(DepthKind::kConvexPair), "convex-pair");
+}
+
+TEST(Semantics, ClaimsAndAnswersOnlyWhatIsListed) {
+  Semantics s;
+  s.levels = {Level::kBody, Level::kTriangle};
+  s.questions = {Question::kTriangles};
+  EXPECT_TRUE(s.claims(Level::kTriangle));
+  EXPECT_FALSE(s.claims(Level::kCell));
+  EXPECT_TRUE(s.answers(Question::kTriangles));
+  EXPECT_FALSE(s.answers(Question::kBody));
+}
+
+}  // namespace
+}  // namespace contactcheck

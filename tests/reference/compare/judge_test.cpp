@@ -1,0 +1,231 @@
+#include "reference/compare/judge.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/reference/compare/labelled_bodies.h"
+
+namespace contactcheck {
+namespace {
+
+using test::labelled_bodies;
+using test::labelled_body;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::uint64_t> numbers(const LevelCounts& c) {
+  return {c.truth, c.reported, c.hit, c.missed, c.spurious};
+}
+
+ElementPair pair(std::uint32_t a, std::uint32_t b) { return {0, 1, a, b}; }
+
+Truth truth_of(std::vector<ElementPair> triangles) {
+  Truth truth;
+  truth.surface.triangles = std::move(triangles);
+  truth.surface.canonicalize();
+  return truth;
+}
+
+ContactSet answer_of(std::vector<ElementPair> triangles) {
+  ContactSet answer;
+  answer.triangles = std::move(triangles);
+  answer.canonicalize();
+  return answer;
+}
+
+ContactSet cells_of(std::vector<ElementPair> cells) {
+  ContactSet answer;
+  answer.cells = std::move(cells);
+  answer.canonicalize();
+  return answer;
+}
+
+ContactSet bodies_of(std::vector<BodyPair> bodies) {
+  ContactSet answer;
+  answer.bodies = std::move(bodies);
+  answer.canonicalize();
+  return answer;
+}
+
+LevelCounts judged(Level level, const Truth& truth, const ContactSet& answer,
+                   Semantics semantics = {}) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, semantics, {level});
+  judge.add_frame(0, truth, answer);
+  return judge.levels().at(level);
+}
+
+TEST(Judge, EqualCountsOfDifferentPairsAreMissedAndSpurious) {
+  const LevelCounts counts = judged(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1)}),
+                                    answer_of({pair(0, 0), pair(2, 3)}));
+  EXPECT_THAT(numbers(counts), ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, AnsweringTheTruthIsPerfectAtEveryLevel) {
+  const Truth truth = truth_of({pair(0, 0), pair(2, 3)});
+  EXPECT_THAT(numbers(judged(Level::kTriangle, truth, truth.surface)), ElementsAre(2, 2, 2, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, truth.surface)), ElementsAre(1, 1, 1, 0, 0));
+}
+
+TEST(Judge, SilenceMissesAllAndIsNotSpurious) {
+  const LevelCounts counts =
+      judged(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), ContactSet{});
+  EXPECT_THAT(numbers(counts), ElementsAre(3, 0, 0, 3, 0));
+}
+
+TEST(Judge, CellLevelCountsTrianglePairsOfTruthAndCellPairsOfTheAnswer) {
+  // Cells (0, 0) cover the pairs (0, 0), (0, 1) and (1, 1); cells (0, 1) cover (0, 1), (1, 1) and
+  // nothing else of the truth; (1, 0) covers (1, 1). (2, 2) needs cells (1, 1).
+  const Truth truth = truth_of({pair(0, 0), pair(0, 1), pair(1, 1), pair(2, 2)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0)}))),
+              ElementsAre(4, 1, 3, 1, 0));
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
+              ElementsAre(4, 2, 4, 0, 0));
+}
+
+TEST(Judge, CellPairThatCoversNoTruePairIsSpurious) {
+  const Truth truth = truth_of({pair(0, 0)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
+              ElementsAre(1, 2, 1, 0, 1));
+}
+
+TEST(Judge, CellPairOfOtherBodiesCoversNothing) {
+  const Truth truth = truth_of({pair(0, 0)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({ElementPair{0, 2, 0, 0}}))),
+              ElementsAre(1, 1, 0, 1, 1));
+}
+
+TEST(Judge, BoxLevelComparesCellPairsWithOverlappingBoxes) {
+  Truth truth;
+  truth.boxes = {pair(0, 1), pair(1, 0)};
+  EXPECT_THAT(numbers(judged(Level::kBox, truth, cells_of({pair(0, 1), pair(1, 1)}))),
+              ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, VertexLevelComparesBodyHolderAndVertex) {
+  Truth truth;
+  truth.surface.vertices = {{0, 1, 5}, {1, 0, 5}};
+  ContactSet answer;
+  answer.vertices = {{0, 1, 5}, {1, 2, 5}};
+  EXPECT_THAT(numbers(judged(Level::kVertex, truth, answer)), ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, SurfaceDetectorThatReportsContainmentIsSpurious) {
+  Truth truth;
+  truth.containment = {{0, 2}};
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 2}}))),
+              ElementsAre(0, 1, 0, 0, 1));
+}
+
+TEST(Judge, SolidDetectorMustReportContainmentToo) {
+  Truth truth;
+  truth.surface.bodies = {{0, 1}};
+  truth.containment = {{0, 2}};
+  Semantics solid;
+  solid.solid = true;
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 1}, {0, 2}}), solid)),
+              ElementsAre(2, 2, 2, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 1}}), solid)),
+              ElementsAre(2, 1, 1, 1, 0));
+}
+
+TEST(Judge, SurfaceContactIsNotSpuriousAtContainment) {
+  Truth truth;
+  truth.surface.bodies = {{0, 1}};
+  truth.containment = {{0, 2}};
+  EXPECT_THAT(numbers(judged(Level::kContainment, truth, bodies_of({{0, 1}, {0, 2}}))),
+              ElementsAre(1, 1, 1, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kContainment, truth, bodies_of({{0, 1}, {1, 2}}))),
+              ElementsAre(1, 1, 0, 1, 1));
+}
+
+TEST(Judge, CountsAreSumsOverFrames) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, {}, {Level::kTriangle});
+  judge.add_frame(0, truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  judge.add_frame(1, truth_of({pair(0, 0), pair(1, 1)}), answer_of({pair(1, 1)}));
+  judge.add_frame(2, truth_of({}), answer_of({pair(3, 3)}));
+  EXPECT_THAT(numbers(judge.levels().at(Level::kTriangle)), ElementsAre(3, 3, 2, 1, 1));
+  EXPECT_THAT(judge.per_frame().truth, ElementsAre(1, 2, 0));
+  EXPECT_THAT(judge.per_frame().missed, ElementsAre(0, 1, 0));
+  EXPECT_THAT(judge.per_frame().spurious, ElementsAre(0, 0, 1));
+}
+
+TEST(Judge, SeriesPerFrameIsOfTheFinestLevel) {
+  const std::vector<Body> bodies = labelled_bodies();
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kTriangle}).per_frame().level, "triangle");
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kBox, Level::kCell}).per_frame().level, "cell");
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody}).per_frame().level, "body");
+  Judge judge(bodies, {}, {Level::kBody, Level::kTriangle});
+  judge.add_frame(0, truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), answer_of({pair(0, 0)}));
+  EXPECT_THAT(judge.per_frame().truth, ElementsAre(3));
+  EXPECT_THAT(judge.per_frame().missed, ElementsAre(2));
+}
+
+TEST(Judge, KeepsTheFirstDisagreementOfEachKindAndLevel) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, {}, {Level::kBody, Level::kTriangle});
+  judge.add_frame(3, truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  judge.add_frame(4, truth_of({pair(0, 0), pair(1, 2)}), answer_of({pair(0, 0)}));
+  judge.add_frame(5, truth_of({pair(0, 0), pair(2, 2)}), answer_of({pair(0, 0), pair(3, 1)}));
+  judge.add_frame(6, truth_of({pair(0, 0)}), answer_of({}));
+  ASSERT_EQ(judge.disagreements().size(), 3u);
+  const auto& d = judge.disagreements();
+  EXPECT_EQ(d[0].level + " " + d[0].kind, "triangle missed");
+  EXPECT_EQ(d[0].frame, 4u);
+  EXPECT_EQ(d[0].pair, pair(1, 2));
+  EXPECT_EQ(d[1].level + " " + d[1].kind, "triangle spurious");
+  EXPECT_EQ(d[1].frame, 5u);
+  EXPECT_EQ(d[1].pair, pair(3, 1));
+  EXPECT_EQ(d[2].level + " " + d[2].kind, "body missed");
+  EXPECT_EQ(d[2].frame, 6u);
+  EXPECT_EQ(d[2].pair, pair(0, 0));
+}
+
+TEST(Judge, MissedAtCellLevelNamesTrianglesAndSpuriousNamesCells) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, {}, {Level::kCell});
+  judge.add_frame(0, truth_of({pair(3, 3)}), cells_of({pair(0, 1)}));
+  ASSERT_EQ(judge.disagreements().size(), 2u);
+  EXPECT_EQ(judge.disagreements()[0].kind, "missed");
+  EXPECT_EQ(judge.disagreements()[0].pair, pair(3, 3));
+  EXPECT_EQ(judge.disagreements()[1].kind, "spurious");
+  EXPECT_EQ(judge.disagreements()[1].pair, pair(0, 1));
+}
+
+TEST(JudgedLevels, AreThoseClaimedAndWanted) {
+  Semantics semantics;
+  semantics.levels = {Level::kBody, Level::kTriangle};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(
+      judged_levels(labelled_bodies(), semantics, {Level::kTriangle, Level::kCell}, &not_judged),
+      ElementsAre(Level::kTriangle));
+  EXPECT_THAT(not_judged, IsEmpty());
+}
+
+TEST(JudgedLevels, OneOpenBodyStopsContainmentAndVertexWithAReason) {
+  std::vector<Body> bodies = labelled_bodies();
+  bodies.push_back(labelled_body("open", false));
+  Semantics semantics;
+  semantics.levels = {Level::kBody, Level::kContainment, Level::kVertex, Level::kCell};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+              ElementsAre(Level::kBody, Level::kCell));
+  EXPECT_EQ(not_judged.size(), 2u);
+  EXPECT_EQ(not_judged[Level::kContainment], "not judged: open");
+  EXPECT_EQ(not_judged[Level::kVertex], "not judged: open");
+}
+
+TEST(JudgedLevels, OneBodyWithoutLatticeStopsCellAndBoxWithAReason) {
+  std::vector<Body> bodies = labelled_bodies();
+  bodies.push_back(labelled_body("bare", true, false));
+  Semantics semantics;
+  semantics.levels = {Level::kCell, Level::kBox, Level::kTriangle};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+              ElementsAre(Level::kTriangle));
+  EXPECT_EQ(not_judged[Level::kCell], "not judged: a body has no lattice");
+  EXPECT_EQ(not_judged[Level::kBox], "not judged: a body has no lattice");
+}
+
+}  // namespace
+}  // namespace contactcheck

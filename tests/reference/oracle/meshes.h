@@ -1,0 +1,93 @@
+// Closed meshes and moves for the oracle's tests; no libm on the way to a coordinate.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/types/mesh.h"
+#include "tests/support/random_triangles.h"
+
+namespace contactcheck::test {
+
+/// Points on the unit circle by rational parametrisation, counter-clockwise from (1, 0).
+inline std::vector<Eigen::Vector2d> circle_points(int count) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < count; ++i) {
+    // s in [-1, 1) round each half: (1 - s^2, 2 s) / (1 + s^2) covers the right half, its mirror
+    // image the left one.
+    const double turn = 4.0 * i / count;
+    const double s = turn < 2 ? turn - 1 : turn - 3, scale = 1 / (1 + s * s);
+    const Eigen::Vector2d p((1 - s * s) * scale, 2 * s * scale);
+    points.push_back(turn < 2 ? p : Eigen::Vector2d(-p));
+  }
+  return points;
+}
+
+/// A torus about the z axis: `around` x `across` quads of two triangles, outward-oriented.
+inline TriangleMesh torus_mesh(double ring, double tube, int around, int across) {
+  TriangleMesh mesh;
+  const auto big = circle_points(around), small = circle_points(across);
+  for (const auto& u : big)
+    for (const auto& v : small) {
+      const double r = ring + tube * v.x();
+      mesh.vertices.emplace_back(r * u.x(), r * u.y(), tube * v.y());
+    }
+  const auto at = [&](int i, int j) {
+    return static_cast<std::uint32_t>((i % around) * across + j % across);
+  };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return mesh;
+}
+
+/// Both meshes in one, each keeping its vertices.
+inline TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Triangle& t : other.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  return mesh;
+}
+
+/// The same surface with its inside out.
+inline TriangleMesh reversed(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// A rotation from a random quaternion; orthogonal up to rounding.
+inline Eigen::Matrix3d random_rotation(TriangleSource& source) {
+  const double w = source.unit(), x = source.unit(), y = source.unit();
+  return Eigen::Quaterniond(w, x, y, source.unit()).normalized().toRotationMatrix();
+}
+
+inline std::vector<Vec3> moved(std::span<const Vec3> points, const Eigen::Matrix3d& linear,
+                               const Vec3& offset) {
+  std::vector<Vec3> out;
+  for (const Vec3& p : points) out.push_back(linear * p + offset);
+  return out;
+}
+
+inline std::vector<Vec3> scaled(std::span<const Vec3> points, double factor) {
+  std::vector<Vec3> out;
+  for (const Vec3& p : points) out.push_back(p * factor);
+  return out;
+}
+
+/// Pasteable: hexadecimal floating point keeps every bit.
+inline std::string hex_points(std::span<const Vec3> points) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  for (const Vec3& c : points) out << "{" << c.x() << ", " << c.y() << ", " << c.z() << "}, ";
+  return out.str();
+}
+
+}  // namespace contactcheck::test

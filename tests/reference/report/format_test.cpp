@@ -1,0 +1,79 @@
+#include "reference/report/format.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+TEST(FormatRate, IsOneOnlyWhenItIsOne) {
+  EXPECT_EQ(format_rate(1.0), "1");
+  EXPECT_EQ(format_rate(0.99999999), "0.99999");
+  EXPECT_EQ(format_rate(std::nextafter(1.0, 0.0)), "0.99999");
+  EXPECT_EQ(format_rate(0.999995), "0.99999");
+}
+
+TEST(FormatRate, IsCutAndNotRounded) {
+  EXPECT_EQ(format_rate(0.0), "0");
+  EXPECT_EQ(format_rate(0.666669), "0.66666");
+  EXPECT_EQ(format_rate(2.0 / 3.0), "0.66666");
+  EXPECT_EQ(format_rate(0.000001), "0.00000");
+}
+
+TEST(FormatRate, KeepsDecimalsThatAreExact) {
+  EXPECT_EQ(format_rate(0.29), "0.29000");
+  EXPECT_EQ(format_rate(0.57), "0.57000");
+  EXPECT_EQ(format_rate(0.99999), "0.99999");
+}
+
+TEST(FormatRate, OfNullIsADash) { EXPECT_EQ(format_rate(nullptr), "-"); }
+
+TEST(FormatErrorRate, IsNoughtOnlyWhenItIsNought) {
+  EXPECT_EQ(format_error_rate(0.0), "0");
+  EXPECT_EQ(format_error_rate(1e-12), "0.00001");
+  EXPECT_EQ(format_error_rate(nullptr), "-");
+}
+
+TEST(FormatErrorRate, IsRaisedAndNeverBetterThanItIs) {
+  EXPECT_EQ(format_error_rate(1.0 / 3.0), "0.33334");
+  EXPECT_EQ(format_error_rate(0.29), "0.29000");
+  EXPECT_EQ(format_error_rate(0.1), "0.10000");
+  EXPECT_EQ(format_error_rate(1.0), "1");
+  EXPECT_EQ(format_error_rate(0.9999999), "1.00000");
+}
+
+TEST(FormatNumber, ShowsThreeDigits) {
+  EXPECT_EQ(format_number(0.0), "0");
+  EXPECT_EQ(format_number(12.345), "12.3");
+  EXPECT_EQ(format_number(1234.5), "1234");
+  EXPECT_EQ(format_number(0.0123456), "0.0123");
+  EXPECT_EQ(format_number(-0.5), "-0.500");
+  EXPECT_EQ(format_number(1.5e-7), "1.50e-07");
+  EXPECT_EQ(format_number(2.5e9), "2.50e+09");
+  EXPECT_EQ(format_number(nullptr), "-");
+}
+
+TEST(FormatCount, ShowsWholeNumbersAndSigns) {
+  EXPECT_EQ(format_count(0), "0");
+  EXPECT_EQ(format_count(-3), "-3");
+  EXPECT_EQ(format_count(12345678901LL), "12345678901");
+  EXPECT_EQ(format_count(nullptr), "-");
+}
+
+TEST(FormatMillimetres, TurnsMetresIntoMillimetres) {
+  EXPECT_EQ(format_millimetres(0.0021), "2.10");
+  EXPECT_EQ(format_millimetres(0.0), "0");
+  EXPECT_EQ(format_millimetres(nullptr), "-");
+}
+
+TEST(FormatRatio, ShowsTheIntervalWhereWanted) {
+  const nlohmann::ordered_json ratio = {{"ratio", 12.34}, {"low", 11.8}, {"high", 12.9}};
+  EXPECT_EQ(format_ratio(ratio, true), "12.3x [11.8, 12.9]");
+  EXPECT_EQ(format_ratio(ratio, false), "12.3x");
+  EXPECT_EQ(format_ratio(nullptr, true), "-");
+}
+
+}  // namespace
+}  // namespace contactcheck

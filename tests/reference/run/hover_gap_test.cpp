@@ -1,0 +1,100 @@
+// End to end from script to gap: two boxes in undeformed lattices, whose first reports have a
+// closed form.
+#include <gtest/gtest.h>
+
+#include "core/detect/registry.h"
+#include "reference/adapters/register.h"
+#include "reference/run/accuracy.h"
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr double kPadding = 0.1, kSize = 1.0;
+constexpr double kTolerance = 2e-6 * kSize;  // the bisection's, and rounding
+
+// The moving box's centre is at 1.53 - 0.05 per frame; its surface touches the other's at 1, and
+// its lattice, which sticks out by the padding, at 1.2. Frame 7 is the first below 1.2, frame 11
+// the first below 1. The shift across keeps nodes off the planes of the other's cells.
+Scene boxes() {
+  const auto box = test::make_body("", test::box_mesh(Vec3::Constant(-0.5), Vec3::Constant(0.5), 3),
+                                   {3, 3, 3}, kPadding)
+                       .shape;
+  return test::approach_scene(box, box, {{0.0, 1.53}, {16.0, 0.73}}, 0.07, 0.05, 16, 1.0,
+                              {Level::kBody});
+}
+
+RunResult measured(const Scene& scene, const std::string& name) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  register_reference_detectors(catalog);
+  const auto detector = catalog.make(catalog.parse(name));
+  SharedProgress page;
+  ProgressWriter progress(&page);
+  Oracle oracle(scene.bodies);
+  const JudgedScene judged = judge_scene(scene, true, progress);
+  RunResult result;
+  run_accuracy(judged, 0, *detector, progress, result);
+  measure_hover_gaps(judged, 0, *detector, oracle, progress, result);
+  return result;
+}
+
+TEST(HoverGap, OfFfdGridIsTwicePadding) {
+  const RunResult result = measured(boxes(), "ffd-grid");
+  ASSERT_EQ(result.episodes.size(), 1u);
+  EXPECT_EQ(result.episodes[0].first_reported, 7u);
+  EXPECT_EQ(result.episodes[0].first_true, 11u);
+  EXPECT_EQ(result.late_frames_worst(), -4);
+  ASSERT_TRUE(result.hover_gap_max());
+  EXPECT_NEAR(*result.hover_gap_max(), 2.0 * kPadding * kSize, kTolerance);
+}
+
+TEST(HoverGap, OfFfdAabbIsZeroForBoxes) {
+  const RunResult result = measured(boxes(), "ffd-aabb");
+  EXPECT_EQ(result.late_frames_worst(), 0);
+  ASSERT_TRUE(result.hover_gap_max());
+  EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance);
+}
+
+TEST(HoverGap, OfAnExactDetectorIsZero) {
+  for (const char* name : {"fcl-aabb", "ffd-aabb-sphere2+tri"}) {
+    const RunResult result = measured(boxes(), name);
+    EXPECT_EQ(result.late_frames_worst(), 0) << name;
+    ASSERT_TRUE(result.hover_gap_max()) << name;
+    EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance) << name;
+  }
+}
+
+TEST(HoverGap, OfARecordingIsTheDistanceInTheFirstReportedFrame) {
+  Scene scene = boxes();
+  scene.recorded = test::recorded_frames(scene);
+  scene.motions.clear();
+  const RunResult result = measured(scene, "ffd-grid");
+  ASSERT_TRUE(result.hover_gap_max());
+  EXPECT_NEAR(*result.hover_gap_max(), 1.53 - 7 * 0.05 - 1.0, 1e-9);
+}
+
+TEST(HoverGap, OfAContactFromTheFirstFrameIsTheDistanceThere) {
+  Scene scene = boxes();
+  scene.motions[1].path.position[0].keys = {{0.0, 1.15}};
+  scene.frames = 2;
+  const RunResult result = measured(scene, "ffd-grid");
+  ASSERT_EQ(result.episodes.size(), 1u);
+  EXPECT_EQ(result.episodes[0].first_reported, 0u);
+  EXPECT_EQ(result.episodes[0].late_frames, std::nullopt);
+  ASSERT_TRUE(result.hover_gap_max());
+  EXPECT_NEAR(*result.hover_gap_max(), 0.15, 1e-9);
+}
+
+TEST(HoverGap, IsNullWithoutAReport) {
+  Scene scene = boxes();
+  scene.motions[1].path.position[0].keys = {{0.0, 1.5}};
+  const RunResult result = measured(scene, "ffd-grid");
+  EXPECT_TRUE(result.episodes.empty());
+  EXPECT_EQ(result.hover_gap_max(), std::nullopt);
+  EXPECT_EQ(result.late_frames_worst(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,106 @@
+#include "reference/run/job.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/run/samples_json.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Scratch;
+using test::sentence_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Every field differs from its default.
+Job full_job() {
+  Job job;
+  job.scene_file = "/a folder/scene \"x\".json";
+  job.settings.detectors = {"fcl-aabb", "ffd-aabb:bounds=safe"};
+  job.settings.frames = 7;
+  job.settings.repeats = 9;
+  job.settings.processes = 3;
+  job.settings.time_budget = 0.1;
+  job.settings.fewest_timed_frames = 2;
+  job.settings.sweep_bytes = 12345;
+  job.settings.timing = false;
+  job.settings.call_limit = 1.0 / 3.0;
+  job.settings.memory_limit = std::uint64_t{1} << 40;
+  job.skip = {1, 4};
+  job.process = 2;
+  job.order = {3, 0, 2};
+  job.prefixes = {3, 0};
+  job.answer_file = "/tmp/answer";
+  job.recording_file = "/tmp/x.ccr";
+  return job;
+}
+
+TEST(Job, ReadsBackAsItWasWritten) {
+  const Scratch scratch;
+  const Job out = full_job();
+  write_job(scratch.folder() / "job", out);
+  const Job in = read_job(scratch.folder() / "job");
+  EXPECT_EQ(in.scene_file, out.scene_file);
+  EXPECT_EQ(in.settings.detectors, out.settings.detectors);
+  EXPECT_EQ(in.settings.frames, 7u);
+  EXPECT_EQ(in.settings.repeats, 9u);
+  EXPECT_EQ(in.settings.processes, 3u);
+  EXPECT_EQ(in.settings.time_budget, 0.1);
+  EXPECT_EQ(in.settings.fewest_timed_frames, 2u);
+  EXPECT_EQ(in.settings.sweep_bytes, 12345u);
+  EXPECT_FALSE(in.settings.timing);
+  EXPECT_EQ(in.settings.call_limit, 1.0 / 3.0);
+  EXPECT_EQ(in.settings.memory_limit, std::uint64_t{1} << 40);
+  EXPECT_THAT(in.skip, ElementsAre(1, 4));
+  EXPECT_EQ(in.process, 2u);
+  EXPECT_THAT(in.order, ElementsAre(3, 0, 2));
+  EXPECT_THAT(in.prefixes, ElementsAre(3, 0));
+  EXPECT_EQ(in.answer_file, "/tmp/answer");
+  EXPECT_EQ(in.recording_file, "/tmp/x.ccr");
+}
+
+TEST(Job, TextOfAMissingFileIsRefusedWithItsPath) {
+  EXPECT_THAT(sentence_of([] { read_text_file("/nonexistent/job"); }),
+              HasSubstr("/nonexistent/job"));
+}
+
+TEST(Job, TextOfAFolderIsRefused) {
+  const Scratch scratch;
+  EXPECT_THAT(sentence_of([&] { read_text_file(scratch.folder()); }),
+              HasSubstr(scratch.folder().string()));
+}
+
+TEST(Job, TextOfAnEmptyFileIsEmpty) {
+  const Scratch scratch;
+  EXPECT_EQ(read_text_file(scratch.write("empty", "")), "");
+}
+
+TEST(Samples, ReadBackBitForBit) {
+  QuestionSamples out;
+  out.question = Question::kBody;
+  out.lazy_map = true;
+  out.frames[4].cold = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0}};
+  out.frames[4].hot = {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}};
+  out.frames[17].cold = out.frames[17].hot = {{1.5, 2.5, 3.5}, {0.0, 0.0, 0.0}};
+  const QuestionSamples in =
+      samples_from_json(nlohmann::ordered_json::parse(samples_to_json(out).dump()));
+  EXPECT_EQ(in.question, Question::kBody);
+  EXPECT_TRUE(in.lazy_map);
+  ASSERT_EQ(in.frames.size(), 2u);
+  for (const auto& [frame, samples] : out.frames)
+    for (const auto mode : {&FrameSamples::cold, &FrameSamples::hot}) {
+      const auto& read = in.frames.at(frame).*mode;
+      ASSERT_EQ(read.size(), 2u);
+      for (std::size_t r = 0; r < 2; ++r) {
+        EXPECT_EQ(read[r].map, (samples.*mode)[r].map);
+        EXPECT_EQ(read[r].update, (samples.*mode)[r].update);
+        EXPECT_EQ(read[r].query, (samples.*mode)[r].query);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace contactcheck

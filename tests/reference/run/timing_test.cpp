@@ -1,0 +1,115 @@
+#include "reference/run/timing.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+using testing::ElementsAre;
+
+struct Call {
+  char detector;
+  std::size_t frame;
+  bool operator==(const Call&) const = default;
+};
+
+void PrintTo(const Call& c, std::ostream* out) { *out << c.detector << c.frame; }
+
+// Writes down when it is called.
+class Diary : public Detector {
+ public:
+  Diary(char name, bool vertices, std::vector<Call>& calls)
+      : name_(name), needs_vertices_(vertices), calls_(calls) {
+    semantics_.questions = {Question::kBody};
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return needs_vertices_; }
+  void prepare(const std::vector<Body>&) override {}
+  void update(const Frame& frame) override {
+    calls_.push_back({name_, frame.index});
+    if (name_ == 'X') throw std::runtime_error("out of order");
+  }
+  void query(Question, ContactSet& out) override {
+    EXPECT_TRUE(out.bodies.empty()) << "an answer begins empty";
+    out.bodies.push_back({0, 1});
+  }
+
+ private:
+  char name_;
+  bool needs_vertices_;
+  std::vector<Call>& calls_;
+  Semantics semantics_;
+};
+
+class Timing : public testing::Test {
+ protected:
+  Timing()
+      : scene_(test::approach_scene(test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
+                                    test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
+                                    {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody})),
+        judged_(judge_scene(scene_, false, progress_)) {}
+
+  TimedEntry entry(Detector& detector, std::size_t frames) {
+    TimedEntry e;
+    e.detector = &detector;
+    e.frames = frames;
+    return e;
+  }
+
+  std::vector<Call> calls_;
+  SharedProgress page_;
+  ProgressWriter progress_{&page_};
+  Scene scene_;
+  JudgedScene judged_;
+};
+
+TEST_F(Timing, RotatesTheDetectorsFromRepeatToRepeatColdThenHot) {
+  Diary a('A', true, calls_), b('B', true, calls_), c('C', true, calls_);
+  std::vector<TimedEntry> entries = {entry(a, 1), entry(b, 1), entry(c, 1)};
+  run_timing(judged_, {2, 0, 1}, 2, 1 << 12, entries, progress_);
+  EXPECT_THAT(calls_, ElementsAre(Call{'A', 2}, Call{'A', 2}, Call{'B', 2}, Call{'B', 2},
+                                  Call{'C', 2}, Call{'C', 2},  //
+                                  Call{'B', 2}, Call{'B', 2}, Call{'C', 2}, Call{'C', 2},
+                                  Call{'A', 2}, Call{'A', 2}));
+}
+
+TEST_F(Timing, TimesEachEntryOnItsPrefixOfTheOrder) {
+  Diary a('A', true, calls_), b('B', true, calls_);
+  std::vector<TimedEntry> entries = {entry(a, 3), entry(b, 1)};
+  run_timing(judged_, {2, 0, 1}, 5, 1 << 12, entries, progress_);
+  ASSERT_EQ(entries[0].samples.frames.size(), 3u);
+  ASSERT_EQ(entries[1].samples.frames.size(), 1u);
+  EXPECT_EQ(entries[1].samples.frames.begin()->first, 2u);
+  for (const TimedEntry& e : entries)
+    for (const auto& [frame, samples] : e.samples.frames) {
+      EXPECT_EQ(samples.cold.size(), 5u);
+      EXPECT_EQ(samples.hot.size(), 5u);
+    }
+}
+
+TEST_F(Timing, MapsForThoseWhoNeedVerticesAlone) {
+  Diary eager('A', true, calls_), lazy('B', false, calls_);
+  std::vector<TimedEntry> entries = {entry(eager, 1), entry(lazy, 1)};
+  run_timing(judged_, {0}, 1, 1 << 12, entries, progress_);
+  EXPECT_GT(entries[0].samples.frames.at(0).cold.at(0).map, 0.0);
+  EXPECT_EQ(entries[1].samples.frames.at(0).cold.at(0).map, 0.0);
+}
+
+TEST_F(Timing, DetectorThatThrowsIsNotCalledAgainAndStopsNobodyElse) {
+  Diary a('A', true, calls_), broken('X', true, calls_);
+  std::vector<TimedEntry> entries = {entry(a, 2), entry(broken, 2)};
+  run_timing(judged_, {1, 0}, 3, 1 << 12, entries, progress_);
+  EXPECT_EQ(
+      std::count_if(calls_.begin(), calls_.end(), [](const Call& c) { return c.detector == 'X'; }),
+      1);
+  EXPECT_THAT(entries[1].error, testing::HasSubstr("frame 1"));
+  EXPECT_THAT(entries[1].error, testing::HasSubstr("out of order"));
+  EXPECT_EQ(entries[0].error, "");
+  EXPECT_EQ(entries[0].samples.frames.at(0).cold.size(), 3u);
+}
+
+}  // namespace
+}  // namespace contactcheck

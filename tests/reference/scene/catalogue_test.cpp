@@ -1,0 +1,145 @@
+// The fixtures that come with contactcheck, each scene as a test of its own.
+#include "reference/scene/catalogue.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "reference/scene/data_package.h"
+#include "reference/scene/scene.h"
+#include "reference/scene/suite_file.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+
+// Names the test in place of its parameter's bytes.
+void PrintTo(const CatalogueEntry& entry, std::ostream* out) { *out << entry.id; }
+
+namespace {
+
+using test::Environment;
+using test::Scratch;
+using test::sentence_of;
+
+const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
+
+bool data_installed() {
+  return sentence_of([] {
+           find_package_file(data_roots(), "", "usr/share/doc/libcgal-demo/data.tar.gz");
+           find_package_file(data_roots(), "",
+                             "usr/share/doc/povray/examples/advanced/teapot/teapot.inc");
+         })
+      .empty();
+}
+
+class FixtureScene : public ::testing::TestWithParam<CatalogueEntry> {};
+
+TEST_P(FixtureScene, LoadsAndMovesFinitely) {
+  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  const Scene scene = load_scene(GetParam().file);
+  EXPECT_EQ(scene.id, GetParam().id);
+  EXPECT_EQ(scene.frames, 60u);
+  EXPECT_TRUE(scene.judges(Level::kTriangle));
+  std::size_t triangles = 0;
+  for (const Body& body : scene.bodies) triangles += body.shape->mesh.triangles.size();
+  EXPECT_GE(triangles, 5000u);
+  EXPECT_LE(triangles, 20000u);
+  for (std::size_t frame = 0; frame < scene.frames; frame += 5) {
+    for (const std::vector<Vec3>& nodes : scene.nodes_of_frame(frame)) {
+      EXPECT_TRUE(std::all_of(nodes.begin(), nodes.end(),
+                              [](const Vec3& p) { return p.allFinite() && p.norm() < 10.0; }));
+    }
+  }
+}
+
+TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
+  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  const Scene scene = load_scene(GetParam().file);
+  const std::vector<std::vector<Vec3>> start = scene.nodes_of_frame(0),
+                                       middle = scene.nodes_of_frame(30);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    ASSERT_TRUE(scene.bodies[b].shape->lattice.has_value());
+    EXPECT_GE(scene.bodies[b].shape->lattice->cells.size(), 90u);
+    EXPECT_LE(scene.bodies[b].shape->lattice->cells.size(), 230u);
+    // A rigid motion keeps the distance of two nodes; these change by centimetres.
+    double largest = 0.0;
+    for (std::size_t n = 1; n < start[b].size(); ++n) {
+      largest = std::max(largest, std::abs((start[b][n] - start[b][0]).norm() -
+                                           (middle[b][n] - middle[b][0]).norm()));
+    }
+    EXPECT_GT(largest, 0.03) << scene.bodies[b].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, FixtureScene, ::testing::ValuesIn(list_scenes(kFixtures)),
+                         [](const auto& test) {
+                           std::string name = test.param.id;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(Catalogue, HasTheScenesOfTheDefaultSuite) {
+  const Suite suite = load_suite(kFixtures / "suites" / "default.json");
+  EXPECT_GE(suite.scenes.size(), 6u);
+  for (const std::string& id : suite.scenes) {
+    EXPECT_EQ(find_scene(id, kFixtures), kFixtures / "scenes" / (id + ".json"));
+  }
+}
+
+TEST(Catalogue, NoIdIsBothSuiteAndScene) {
+  std::set<std::string> ids;
+  const std::vector<CatalogueEntry> scenes = list_scenes(kFixtures),
+                                    suites = list_suites(kFixtures);
+  for (const CatalogueEntry& entry : scenes) ids.insert(entry.id);
+  for (const CatalogueEntry& entry : suites) ids.insert(entry.id);
+  EXPECT_EQ(ids.size(), scenes.size() + suites.size());
+  EXPECT_GE(suites.size(), 1u);
+}
+
+TEST(Catalogue, FindsSuitesScenesAndFiles) {
+  const Scratch scratch;
+  EXPECT_EQ(find_target("default", kFixtures).kind, TargetKind::kSuite);
+  EXPECT_EQ(find_target("letters", kFixtures).kind, TargetKind::kScene);
+  EXPECT_EQ(find_target(scratch.write("a.json", R"({"bodies": []})").string(), kFixtures).kind,
+            TargetKind::kScene);
+  EXPECT_EQ(find_target(scratch.write("b.json", R"({"scenes": []})").string(), kFixtures).kind,
+            TargetKind::kSuite);
+  EXPECT_EQ(find_target(scratch.write("c.ccr", "x").string(), kFixtures).kind,
+            TargetKind::kRecording);
+}
+
+TEST(Catalogue, UnknownNamesListWhatThereIs) {
+  const Scratch scratch;
+  scratch.write("scenes/one.json", "{}");
+  scratch.write("scenes/two.json", "{}");
+  scratch.write("suites/all.json", "{}");
+  EXPECT_EQ(sentence_of([&] { find_target("three", scratch.folder()); }),
+            "\"three\" is neither a suite (all) nor a scene (one, two) nor an existing .json or "
+            ".ccr file.");
+  EXPECT_EQ(sentence_of([&] { find_scene("three", scratch.folder()); }),
+            "there is no scene \"three\"; the scenes are one, two.");
+}
+
+TEST(Catalogue, IdMustBeTheFilesName) {
+  const Scratch scratch;
+  const auto file = scratch.write("scenes/one.json", R"({"id": "two"})");
+  EXPECT_EQ(sentence_of([&] { list_scenes(scratch.folder()); }),
+            "scene file \"" + file.string() +
+                "\": id is \"two\"; it must be the file's name without its extension, \"one\".");
+}
+
+TEST(Catalogue, FolderFollowsTheEnvironment) {
+  {
+    const Environment own("CONTACTCHECK_FIXTURES", "/elsewhere");
+    EXPECT_EQ(fixtures_directory(), "/elsewhere");
+    EXPECT_EQ(sentence_of([] { list_suites(fixtures_directory()); }),
+              "folder \"/elsewhere/suites\" with the suites does not exist; $CONTACTCHECK_FIXTURES "
+              "says where fixtures are.");
+  }
+  const Environment empty("CONTACTCHECK_FIXTURES", "");
+  EXPECT_EQ(fixtures_directory(), kFixtures);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,205 @@
+#include "reference/scene/mesh_file.h"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <limits>
+
+#include "core/types/mesh_topology.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Scratch;
+using test::sentence_of;
+using ::testing::HasSubstr;
+
+// A float cannot hold this; 17 digits name the double.
+constexpr double kFine = 0.12345678901234567;
+const std::string kFineText = "0.12345678901234567";
+
+const std::string kOff = "OFF # a tetrahedron\n4 4 0\n" + kFineText +
+                         " 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+const std::string kObj = "# a tetrahedron\no tetra\nv " + kFineText +
+                         " 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nl 1 2\nf 1 3 2\nf 1/1/1 2/2/2 4/3/3\n"
+                         "f 2 3 4\nf -4 -1 -2\n";
+const std::string kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+    "property double z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n" +
+    kFineText + " 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+std::string facet(const std::string& a, const std::string& b, const std::string& c) {
+  return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+         "\nendloop\nendfacet\n";
+}
+const std::string kP = kFineText + " 0 0", kX = "1 0 0", kY = "0 1 0", kZ = "0 0 1";
+const std::string kStl = "solid t\n" + facet(kP, kY, kX) + facet(kP, kX, kZ) + facet(kX, kY, kZ) +
+                         facet(kP, kZ, kY) + "endsolid t\n";
+
+void append(std::string& bytes, std::uint32_t value) {
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+std::string binary_stl(float first) {
+  const float p[4][3] = {{first, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int facets[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  std::string bytes(80, ' ');
+  append(bytes, 4);
+  for (const auto& f : facets) {
+    bytes += std::string(12, '\0');
+    for (const int v : f) {
+      for (const float x : p[v]) append(bytes, std::bit_cast<std::uint32_t>(x));
+    }
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+struct Format {
+  std::string name, bytes;
+};
+void PrintTo(const Format& p, std::ostream* out) { *out << p.name; }
+
+class MeshFormat : public ::testing::TestWithParam<Format> {};
+
+TEST_P(MeshFormat, KeepsDoublesAndGivesASolid) {
+  const Scratch scratch;
+  const LoadedMesh loaded = read_mesh_file(scratch.write(GetParam().name, GetParam().bytes));
+  ASSERT_EQ(loaded.mesh.vertices.size(), 4u);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 4u);
+  EXPECT_EQ(loaded.mesh.vertices[0].x(), kFine);
+  EXPECT_TRUE(analyse_topology(loaded.mesh).solid);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFormat,
+                         ::testing::Values(Format{"t.off", kOff}, Format{"t.obj", kObj},
+                                           Format{"t.ply", kPly}, Format{"T.STL", kStl}),
+                         [](const auto& test) { return test.param.name.substr(2); });
+
+TEST(MeshFile, IndicesStayInTheOrderOfTheFile) {
+  const Scratch scratch;
+  const TriangleMesh mesh = read_mesh_file(scratch.write("t.off", kOff)).mesh;
+  EXPECT_EQ(mesh.triangles[0], (Triangle{0, 2, 1}));
+  EXPECT_EQ(mesh.triangles[3], (Triangle{0, 3, 2}));
+  const TriangleMesh obj = read_mesh_file(scratch.write("t.obj", kObj)).mesh;
+  EXPECT_EQ(obj.triangles, mesh.triangles);
+}
+
+TEST(MeshFile, BinaryStlIsWelded) {
+  const Scratch scratch;
+  const LoadedMesh loaded = read_mesh_file(scratch.write("t.stl", binary_stl(0.25f)));
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4u);
+  EXPECT_TRUE(analyse_topology(loaded.mesh).solid);
+  EXPECT_EQ(loaded.notes, "STL: corners at equal places joined");
+}
+
+TEST(MeshFile, PolygonsBecomeFansAndAreNoted) {
+  const Scratch scratch;
+  const LoadedMesh loaded = read_mesh_file(
+      scratch.write("p.off", "OFF\n5 1 0\n0 0 0\n2 0 0\n3 1 0\n1 2 0\n-1 1 0\n5 0 1 2 3 4\n"));
+  EXPECT_THAT(loaded.mesh.triangles,
+              ::testing::ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
+  EXPECT_EQ(loaded.notes, "1 polygons split into triangles");
+}
+
+TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
+  const Scratch scratch;
+  // Two triangles of a square, six vertices, as exporters split them; a node moves it by (1, 2, 3).
+  std::string buffer;
+  for (const float x : {0.1f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f,  //
+                        0.1f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) {
+    append(buffer, std::bit_cast<std::uint32_t>(x));
+  }
+  scratch.write("square.bin", buffer);
+  const LoadedMesh loaded = read_mesh_file(scratch.write("square.gltf", R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "translation": [1, 2, 3]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 72}],
+    "buffers": [{"uri": "square.bin", "byteLength": 72}]})"));
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4u);
+  EXPECT_EQ(loaded.mesh.triangles.size(), 2u);
+  EXPECT_EQ(loaded.mesh.vertices[0].x(), static_cast<double>(0.1f + 1.0f));
+  EXPECT_EQ(loaded.mesh.vertices[0].z(), 3.0);
+  EXPECT_EQ(loaded.notes, "read as float by assimp; 2 vertices at equal places joined");
+}
+
+struct BadMesh {
+  std::string name, file, bytes, sentence;  // the sentence after: mesh file "PATH"
+};
+void PrintTo(const BadMesh& p, std::ostream* out) { *out << p.name; }
+
+class BadMeshFile : public ::testing::TestWithParam<BadMesh> {};
+
+TEST_P(BadMeshFile, IsRefusedWithOneSentence) {
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.write(GetParam().file, GetParam().bytes);
+  EXPECT_EQ(sentence_of([&] { read_mesh_file(file); }),
+            "mesh file \"" + file.string() + "\"" + GetParam().sentence);
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Defects, BadMeshFile,
+    ::testing::Values(
+        BadMesh{"Empty", "a.obj", "", " is empty."},
+        BadMesh{"OffNan", "a.off", with(kOff, "\n1 0 0", "\n1 nan 0"),
+                ": vertex 1 (line 4) has the coordinate \"nan\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"OffInfinity", "a.off", with(kOff, "0 0 1\n", "0 0 -inf\n"),
+                ": vertex 3 (line 6) has the coordinate \"-inf\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"ObjOverflow", "a.obj", with(kObj, "v 0 1 0", "v 0 1e999 0"),
+                ": vertex 2 (line 5) has the coordinate \"1e999\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"ObjWord", "a.obj", with(kObj, "v 0 1 0", "v 0 one 0"),
+                ": vertex 2 (line 5) has the coordinate \"one\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"ObjShortVertex", "a.obj", with(kObj, "v 0 1 0", "v 0 1"),
+                ": vertex 2 (line 5) has fewer than three coordinates."},
+        BadMesh{"PlyNan", "a.ply", with(kPly, "\n0 1 0", "\n0 nan 0"),
+                ": vertex 2 (line 12) has the coordinate \"nan\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"StlNan", "a.stl", with(kStl, "vertex 0 1 0", "vertex 0 nan 0"),
+                ": vertex 1 (line 5) has the coordinate \"nan\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"BinaryStlNan", "a.stl", binary_stl(std::numeric_limits<float>::quiet_NaN()),
+                ": corner 0 of triangle 0 has the coordinate nan; coordinates must be finite "
+                "numbers."},
+        BadMesh{"OffIndex", "a.off", with(kOff, "3 0 3 2", "3 0 3 9"), " cannot be read as OFF."},
+        BadMesh{"ObjIndex", "a.obj", with(kObj, "f 2 3 4", "f 2 3 5"),
+                ": face 2 names a vertex outside the 4 vertices of the file."},
+        BadMesh{"ObjIndexZero", "a.obj", with(kObj, "f 2 3 4", "f 2 3 0"),
+                ": face 2 names a vertex outside the 4 vertices of the file."},
+        BadMesh{"ObjFaceCutShort", "a.obj", with(kObj, "f 2 3 4", "f 2 3 x"),
+                " has a face on line 10 whose vertex indices cannot all be read."},
+        BadMesh{"OffTruncated", "a.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n", " cannot be read as OFF."},
+        BadMesh{"OffLyingHeader", "a.off", "OFF\n4000000000 4 0\n0 0 0\n",
+                " claims 4000000000 vertices and 4 faces, more than its 25 bytes can hold."},
+        BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
+        BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(MeshFile, UnknownFormatSaysThatAssimpRefused) {
+  const Scratch scratch;
+  EXPECT_THAT(sentence_of([&] { read_mesh_file(scratch.write("a.txt", "hello")); }),
+              HasSubstr("a.txt\" cannot be read by assimp: "));
+}
+
+TEST(MeshFile, MissingFileAndFolderAreNamed) {
+  const Scratch scratch;
+  const std::string missing = (scratch.folder() / "no.obj").string();
+  EXPECT_EQ(sentence_of([&] { read_mesh_file(missing); }),
+            "mesh file \"" + missing + "\" does not exist.");
+  EXPECT_EQ(sentence_of([&] { read_mesh_file(scratch.folder()); }),
+            "mesh file \"" + scratch.folder().string() + "\" is a folder, not a file.");
+}
+
+}  // namespace
+}  // namespace contactcheck

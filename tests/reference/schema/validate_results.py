@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Checks results.json files: validate_results.py RESULTS...
+
+First against fixtures/results.schema.json, then what a schema cannot state: sums, rates, lengths
+and references. Prints one line per error (file, place, what). Exit code: 0 all valid, 1 any error,
+2 bad usage or a file that cannot be read as JSON.
+"""
+
+import json
+import pathlib
+import sys
+
+try:
+    from jsonschema import Draft202012Validator
+except ImportError:
+    sys.exit("validate_results.py needs jsonschema: apt-get install python3-jsonschema")
+
+SCHEMA_FILE = pathlib.Path(__file__).resolve().parents[3] / "fixtures" / "results.schema.json"
+
+# Rates are written with 17 digits and divided once: what differs by more was computed otherwise.
+RATE_TOLERANCE = 1e-12
+
+LONGEST_MESSAGE = 200  # characters; a validator quotes whole runs
+
+
+class UnreadableFile(Exception):
+    """The file is not there or not strict JSON."""
+
+
+def refuse_constant(name):
+    raise UnreadableFile(f"{name} is not JSON")
+
+
+def object_without_repeats(pairs):
+    names = [name for name, _ in pairs]
+    for name in names:
+        if names.count(name) > 1:
+            raise UnreadableFile(f'the key "{name}" stands twice in one object')
+    return dict(pairs)
+
+
+def load(path):
+    try:
+        text = pathlib.Path(path).read_text(encoding="utf-8")
+        return json.loads(text, parse_constant=refuse_constant,
+                          object_pairs_hook=object_without_repeats)
+    except (OSError, ValueError, UnreadableFile) as error:
+        raise UnreadableFile(f"{path}: {error}") from error
+
+
+def schema_errors(results, schema):
+    """(place, message) of every violation, in the order of places."""
+    validator = Draft202012Validator(schema)
+    found = []
+    for error in validator.iter_errors(results):
+        place = "/" + "/".join(str(step) for step in error.absolute_path)
+        found.append((place, error.message))
+    return sorted(found)
+
+
+def rate_errors(place, name, rate, part, whole):
+    if whole == 0:
+        if rate is not None:
+            yield f"{place}/{name}", f"is {rate} over nothing; it must be null"
+    elif rate is None or abs(rate - part / whole) > RATE_TOLERANCE:
+        yield f"{place}/{name}", f"is {rate}, but {part} / {whole} is {part / whole}"
+
+
+def level_errors(place, level):
+    if level["hit"] + level["missed"] != level["truth"]:
+        yield place, (f"hit {level['hit']} + missed {level['missed']} is not "
+                      f"truth {level['truth']}")
+    if level["spurious"] > level["reported"]:
+        yield place, f"spurious {level['spurious']} exceeds reported {level['reported']}"
+    yield from rate_errors(place, "recall", level["recall"], level["hit"], level["truth"])
+    yield from rate_errors(place, "spurious_rate", level["spurious_rate"], level["spurious"],
+                           level["reported"])
+
+
+def per_frame_errors(place, run):
+    per_frame = run["per_frame"]
+    for name in ("truth", "missed", "spurious", "frame_ms"):
+        values = per_frame.get(name)
+        if values is not None and len(values) not in (0, run["frames"]):
+            yield f"{place}/{name}", f"has {len(values)} entries for {run['frames']} frames"
+    level = run["levels"].get(per_frame.get("level"))
+    if level is None:
+        return
+    for name in ("truth", "missed", "spurious"):
+        if sum(per_frame[name]) != level[name]:
+            yield f"{place}/{name}", f"adds up to {sum(per_frame[name])}, not {level[name]}"
+
+
+def speedup_errors(place, speedup):
+    for question, references in speedup.items():
+        for reference, ratios in references.items():
+            for name in ("cold", "hot", "contact_frames", "without_map"):
+                ratio = ratios[name]
+                if ratio and not ratio["low"] <= ratio["ratio"] <= ratio["high"]:
+                    yield f"{place}/{question}/{reference}/{name}", "lies outside its interval"
+
+
+def run_errors(place, run):
+    if run["status"] != "ok":
+        return
+    if run["contact_frames"] > run["frames"]:
+        yield place, f"{run['contact_frames']} contact frames of {run['frames']} frames"
+    for levels in ("levels", "levels_rounded"):
+        for name, level in run.get(levels, {}).items():
+            yield from level_errors(f"{place}/{levels}/{name}", level)
+    yield from per_frame_errors(f"{place}/per_frame", run)
+    yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
+    if run["time_ms"].get("timed_frames", 0) > run["frames"]:
+        yield f"{place}/time_ms/timed_frames", f"exceeds the run's {run['frames']} frames"
+
+
+def consistency_errors(results):
+    """What a schema cannot state. Expects results that satisfy the schema."""
+    runs = {}
+    for number, run in enumerate(results["runs"]):
+        place = f"/runs/{number}"
+        key = (run["scene"], run["detector"])
+        if key in runs:
+            yield place, f"scene {key[0]} with detector {key[1]} stands twice"
+        runs[key] = run
+        yield from run_errors(place, run)
+    for number, disagreement in enumerate(results["disagreements"]):
+        place = f"/disagreements/{number}"
+        run = runs.get((disagreement["scene"], disagreement["detector"]))
+        if run is None:
+            yield place, "belongs to no run"
+        elif disagreement["frame"] >= run.get("frames", 0):
+            yield f"{place}/frame", f"is {disagreement['frame']} of {run.get('frames', 0)} frames"
+
+
+def errors_of(results, schema):
+    return schema_errors(results, schema) or list(consistency_errors(results))
+
+
+def one_line(text):
+    text = " ".join(text.split())
+    return text if len(text) <= LONGEST_MESSAGE else text[:LONGEST_MESSAGE] + " ..."
+
+
+def main(paths):
+    if not paths or paths[0] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if paths else 2
+    any_error = False
+    try:
+        schema = load(SCHEMA_FILE)
+        for path in paths:
+            for place, message in errors_of(load(path), schema):
+                any_error = True
+                print(f"{path}: {place}: {one_line(message)}")
+    except UnreadableFile as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 1 if any_error else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""The example is valid; every single mutation of it is refused, at the place that was changed."""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import validate_results
+
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLE = HERE / "example_results.json"
+
+REMOVED = object()
+
+# Place in the example, what is put there, and a part of the line that must be printed.
+MUTATIONS = [
+    ("schema", "contactcheck-results/2", "was expected"),
+    ("schema", REMOVED, "'schema' is a required property"),
+    ("command", 7, "is not of type 'string'"),
+    ("machine/cores", "2", "is not of type 'integer'"),
+    ("machine/isa", REMOVED, "'isa' is a required property"),
+    ("libraries/fcl", 0.7, "is not of type 'string'"),
+    ("runs", {}, "is not of type 'array'"),
+    ("runs/0/scene", "", "'' "),
+    ("runs/0/detector", REMOVED, "'detector' is a required property"),
+    ("runs/0/status", "crashed", "'crashed' is not one of"),
+    ("runs/0/status", REMOVED, "'status' is a required property"),
+    ("runs/0/frames", -1, "less than the minimum"),
+    ("runs/0/frames", 3.5, "is not of type 'integer'"),
+    ("runs/0/contact_frames", 4, "4 contact frames of 3 frames"),
+    ("runs/0/semantics/levels/0", "bodies", "is not one of"),
+    ("runs/0/semantics/questions/0", "all", "is not one of"),
+    ("runs/0/options", REMOVED, "'options' is a required property"),
+    ("runs/0/recording", REMOVED, "'recording' is a required property"),
+    ("runs/0/per_frame", REMOVED, "'per_frame' is a required property"),
+    ("runs/0/per_frame/frame_ms", REMOVED, "'frame_ms' is a required property"),
+    ("runs/0/per_frame/frame_ms/0", -0.5, "is not valid"),
+    ("runs/0/per_frame/missed/1", None, "is not of type 'integer'"),
+    ("runs/0/per_frame/missed/1", 2, "adds up to 2, not 1"),
+    ("runs/0/per_frame/truth", [4, 6], "has 2 entries for 3 frames"),
+    ("runs/0/levels", REMOVED, "'levels' is a required property"),
+    ("runs/0/levels/triangles", {}, "is not one of"),
+    ("runs/0/levels/body/recall", 1.5, "greater than the maximum"),
+    ("runs/0/levels/body/recall", REMOVED, "'recall' is a required property"),
+    ("runs/0/levels/body/recall", "1", "is not of type"),
+    ("runs/0/levels/body/recall", 0.99, "but 2 / 2 is 1.0"),
+    ("runs/0/levels/body/recall", None, "is None, but 2 / 2 is 1.0"),
+    ("runs/0/levels/body/hit", 1, "hit 1 + missed 0 is not truth 2"),
+    ("runs/0/levels/body/spurious", 4, "spurious 4 exceeds reported 3"),
+    ("runs/0/levels/containment/recall", 0, "must be null"),
+    ("runs/0/levels/containment/spurious_rate", 0, "must be null"),
+    ("runs/1/levels/near/margin", REMOVED, "'margin' is a required property"),
+    ("runs/1/levels_rounded/near/truth", 1, "is not truth 1"),
+    ("runs/0/geometry/late_frames", 0.5, "is not of type"),
+    ("runs/0/geometry/depth_kind", "deep", "is not one of"),
+    ("runs/0/geometry/covered_length_fraction", 1.01, "greater than the maximum"),
+    ("runs/0/geometry/hover_gap_max", REMOVED, "'hover_gap_max' is a required property"),
+    ("runs/0/stages/1/missed", REMOVED, "'missed' is a required property"),
+    ("runs/0/stages/1/out", -8, "less than the minimum"),
+    ("runs/0/time_ms/prepare", REMOVED, "'prepare' is a required property"),
+    ("runs/0/time_ms/question", "pairs", "is not one of"),
+    ("runs/0/time_ms/question", REMOVED, "'question' is a dependency of"),
+    ("runs/0/time_ms/hot", REMOVED, "'hot' is a dependency of"),
+    ("runs/0/time_ms/cold/update", None, "is not of type 'number'"),
+    ("runs/0/time_ms/cold/map", REMOVED, "'map' is a required property"),
+    ("runs/0/time_ms/timed_frames", 4, "exceeds the run's 3 frames"),
+    ("runs/0/speedup", REMOVED, "'speedup' is a required property"),
+    ("runs/0/speedup/pairs", {}, "is not one of"),
+    ("runs/0/speedup/body/fcl-aabb/cold/low", REMOVED, "'low' is a required property"),
+    ("runs/0/speedup/body/fcl-aabb/cold/low", 12.5, "lies outside its interval"),
+    ("runs/0/speedup/body/fcl-aabb/hot", None, "is not of type 'object'"),
+    ("runs/0/speedup/body/fcl-aabb/reference_options", REMOVED, "is a required property"),
+    ("runs/0/memory_bytes", -1, "less than the minimum"),
+    ("runs/0/contact_hash", REMOVED, "'contact_hash' is a required property"),
+    ("runs/1/detector", "ffd-aabb-sphere2", "stands twice"),
+    ("runs/2/message", "", "'' "),
+    ("runs/3/message", REMOVED, "'message' is a required property"),
+    ("runs/3/status", "ok", "is a required property"),
+    ("disagreements", REMOVED, "'disagreements' is a required property"),
+    ("disagreements/0/level", "edge", "is not one of"),
+    ("disagreements/0/kind", "wrong", "is not one of"),
+    ("disagreements/0/case", REMOVED, "'case' is a required property"),
+    ("disagreements/0/scene", "elsewhere", "belongs to no run"),
+    ("disagreements/0/frame", 3, "is 3 of 3 frames"),
+]
+
+
+def mutated(example, place, value):
+    results = copy.deepcopy(example)
+    *parents, last = [int(s) if s.isdigit() else s for s in place.split("/")]
+    node = results
+    for step in parents:
+        node = node[step]
+    if value is REMOVED:
+        del node[last]
+    else:
+        node[last] = value
+    return results
+
+
+def run_program(*arguments):
+    command = [sys.executable, "-B", str(HERE / "validate_results.py"), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+class ResultsSchema(unittest.TestCase):
+    def setUp(self):
+        self.schema = validate_results.load(validate_results.SCHEMA_FILE)
+        self.example = validate_results.load(EXAMPLE)
+
+    def test_schema_itself_is_valid(self):
+        validate_results.Draft202012Validator.check_schema(self.schema)
+
+    def test_example_is_accepted(self):
+        self.assertEqual(validate_results.errors_of(self.example, self.schema), [])
+
+    def test_added_fields_are_accepted(self):
+        for place in ("extra", "machine/extra", "runs/0/extra", "runs/0/levels/body/extra",
+                      "runs/0/time_ms/extra", "disagreements/0/extra"):
+            with self.subTest(place=place):
+                results = mutated(self.example, place, {"any": 1})
+                self.assertEqual(validate_results.errors_of(results, self.schema), [])
+
+    def test_every_mutation_is_refused(self):
+        for place, value, expected in MUTATIONS:
+            with self.subTest(place=place, value="removed" if value is REMOVED else value):
+                results = mutated(self.example, place, value)
+                errors = validate_results.errors_of(results, self.schema)
+                self.assertTrue(any(expected in message for _, message in errors), errors)
+                step = "/" + place.split("/")[0]
+                self.assertTrue(any(p.startswith(step) or p == "/" for p, _ in errors), errors)
+
+
+class Program(unittest.TestCase):
+    def test_valid_file_exits_0_without_a_word(self):
+        done = run_program(EXAMPLE)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_errors_are_one_line_each_and_exit_1(self):
+        results = mutated(validate_results.load(EXAMPLE), "runs/0/levels/body/recall", 1.5)
+        results["runs"][0]["status"] = "crashed"
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "results.json"
+            file.write_text(json.dumps(results), encoding="utf-8")
+            done = run_program(EXAMPLE, file)
+        self.assertEqual(done.returncode, 1)
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 2, done.stdout)
+        self.assertIn(f"{file}: /runs/0/levels/body/recall: 1.5", done.stdout)
+
+    def test_unreadable_files_exit_2(self):
+        broken = {"none": None, "cut": '{"schema": ', "nan": '{"version": NaN}',
+                  "twice": '{"a": 1, "a": 2}', "binary": b"\xff\xfe"}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, content in broken.items():
+                with self.subTest(name=name):
+                    file = pathlib.Path(folder) / name
+                    if content is not None:
+                        data = content if isinstance(content, bytes) else content.encode()
+                        file.write_bytes(data)
+                    done = run_program(file)
+                    self.assertEqual(done.returncode, 2)
+                    self.assertIn(str(file), done.stderr)
+
+    def test_no_file_is_bad_usage(self):
+        self.assertEqual(run_program().returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

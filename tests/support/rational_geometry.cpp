@@ -1,0 +1,161 @@
+#include "tests/support/rational_geometry.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tests/support/rational_simplex.h"
+
+namespace contactcheck::test {
+namespace {
+
+using RationalTriangle = std::array<RationalPoint, 3>;
+
+RationalTriangle rational_corners(const TriangleCorners& t) {
+  return {to_rational(t[0]), to_rational(t[1]), to_rational(t[2])};
+}
+
+RationalPoint operator-(const RationalPoint& a, const RationalPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// point + factor * direction
+RationalPoint along(const RationalPoint& point, const mpq_class& factor,
+                    const RationalPoint& direction) {
+  return {point[0] + factor * direction[0], point[1] + factor * direction[1],
+          point[2] + factor * direction[2]};
+}
+
+mpq_class dot(const RationalPoint& a, const RationalPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+mpq_class squared_distance(const RationalPoint& a, const RationalPoint& b) {
+  const RationalPoint difference = a - b;
+  return dot(difference, difference);
+}
+
+/// The foot of the perpendicular from p on the line, where it falls on the segment ab.
+std::optional<RationalPoint> foot_on_segment(const RationalPoint& p, const RationalPoint& a,
+                                             const RationalPoint& b) {
+  const RationalPoint edge = b - a;
+  const mpq_class length = dot(edge, edge);
+  if (length == 0) return std::nullopt;
+  const mpq_class s = dot(p - a, edge) / length;
+  if (s < 0 || s > 1) return std::nullopt;
+  return along(a, s, edge);
+}
+
+/// The foot of the perpendicular from p on the plane, where it falls on the triangle.
+std::optional<RationalPoint> foot_on_triangle(const RationalPoint& p, const RationalTriangle& t) {
+  const RationalPoint u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+  const mpq_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const mpq_class gram = uu * vv - uv * uv;
+  if (gram == 0) return std::nullopt;
+  const mpq_class r = (vv * uw - uv * vw) / gram, s = (uu * vw - uv * uw) / gram;
+  if (r < 0 || s < 0 || r + s > 1) return std::nullopt;
+  return along(along(t[0], r, u), s, v);
+}
+
+/// Squared distance of the two lines, where the closest points fall on the segments.
+std::optional<mpq_class> between_segments(const RationalPoint& a, const RationalPoint& b,
+                                          const RationalPoint& c, const RationalPoint& d) {
+  const RationalPoint u = b - a, v = d - c, w = c - a;
+  const mpq_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+  const mpq_class gram = uu * vv - uv * uv;
+  if (gram == 0) return std::nullopt;
+  const mpq_class s = (vv * uw - uv * vw) / gram, r = (uv * uw - uu * vw) / gram;
+  if (s < 0 || s > 1 || r < 0 || r > 1) return std::nullopt;
+  return squared_distance(along(a, s, u), along(c, r, v));
+}
+
+void lower(mpq_class& best, const mpq_class& candidate) {
+  if (candidate < best) best = candidate;
+}
+
+/// Corners of p against corners, edges and face of q.
+void lower_by_corners(mpq_class& best, const RationalTriangle& p, const RationalTriangle& q) {
+  for (const RationalPoint& corner : p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      lower(best, squared_distance(corner, q[i]));
+      if (const auto foot = foot_on_segment(corner, q[i], q[(i + 1) % 3]))
+        lower(best, squared_distance(corner, *foot));
+    }
+    if (const auto foot = foot_on_triangle(corner, q)) lower(best, squared_distance(corner, *foot));
+  }
+}
+
+void lower_by_edges(mpq_class& best, const RationalTriangle& p, const RationalTriangle& q) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (const auto d = between_segments(p[i], p[(i + 1) % 3], q[j], q[(j + 1) % 3]))
+        lower(best, *d);
+}
+
+}  // namespace
+
+RationalPoint to_rational(const Vec3& point) {
+  return {mpq_class(point.x()), mpq_class(point.y()), mpq_class(point.z())};
+}
+
+int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const RationalPoint origin = to_rational(a);
+  const RationalPoint u = to_rational(b) - origin, v = to_rational(c) - origin;
+  return sgn(dot(cross(u, v), to_rational(d) - origin));
+}
+
+int rational_orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
+  const RationalPoint origin = to_rational(a);
+  const RationalPoint normal = cross(to_rational(b) - origin, to_rational(c) - origin);
+  return sgn(normal[static_cast<std::size_t>(axis)]);
+}
+
+bool rational_triangles_intersect(const TriangleCorners& p, const TriangleCorners& q) {
+  // Six barycentric coordinates >= 0: sum p_i x_i = sum q_j y_j, sum x_i = 1, sum y_j = 1.
+  const RationalTriangle rp = rational_corners(p), rq = rational_corners(q);
+  std::vector<RationalEquation> equations;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    equations.push_back({{rp[0][axis], rp[1][axis], rp[2][axis], mpq_class(-rq[0][axis]),
+                          mpq_class(-rq[1][axis]), mpq_class(-rq[2][axis])},
+                         0});
+  equations.push_back({{1, 1, 1, 0, 0, 0}, 1});
+  equations.push_back({{0, 0, 0, 1, 1, 1}, 1});
+  return has_nonnegative_solution(std::move(equations));
+}
+
+bool rational_triangle_meets_box(const TriangleCorners& triangle, const Aabb& box) {
+  if (box.empty()) return false;
+  // Three barycentric coordinates, and per axis the distances from both faces, all >= 0:
+  // sum p_i x_i - below = lo, sum p_i x_i + above = hi, sum x_i = 1.
+  const RationalTriangle t = rational_corners(triangle);
+  std::vector<RationalEquation> equations;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::vector<mpq_class> row(9);
+      for (std::size_t i = 0; i < 3; ++i) row[i] = t[i][axis];
+      row[3 + 2 * axis + side] = side == 0 ? -1 : 1;
+      const Vec3& bound = side == 0 ? box.lo : box.hi;
+      equations.push_back({std::move(row), mpq_class(bound[static_cast<int>(axis)])});
+    }
+  }
+  equations.push_back({{1, 1, 1, 0, 0, 0, 0, 0, 0}, 1});
+  return has_nonnegative_solution(std::move(equations));
+}
+
+mpq_class rational_squared_distance(const TriangleCorners& p, const TriangleCorners& q) {
+  if (rational_triangles_intersect(p, q)) return 0;
+  // The closest points of two disjoint triangles lie on a corner and a face, edge or corner, or on
+  // two edges: the smallest over all those pairs is the distance, degenerate triangles included.
+  const RationalTriangle rp = rational_corners(p), rq = rational_corners(q);
+  mpq_class best = squared_distance(rp[0], rq[0]);
+  lower_by_corners(best, rp, rq);
+  lower_by_corners(best, rq, rp);
+  lower_by_edges(best, rp, rq);
+  return best;
+}
+
+}  // namespace contactcheck::test

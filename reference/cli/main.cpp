@@ -91,6 +91,12 @@ int main_with_errors(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
+    // CLI11 would say that a subcommand is missing, and not which word it does not know.
+    if (app.get_subcommands().empty() && !app.remaining().empty()) {
+      std::fprintf(stderr, "contactcheck: unknown command \"%s\"; contactcheck --help names all\n",
+                   app.remaining().front().c_str());
+      return kBadUsage;
+    }
     std::fprintf(stderr, "contactcheck: %s\n", e.what());
     return kBadUsage;
   }

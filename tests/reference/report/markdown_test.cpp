@@ -11,7 +11,146 @@ using test::sample_results;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(Markdown, PRINT) { std::puts(markdown_report(sample_results()).c_str()); }
+TEST(Markdown, IsThisText) {
+  EXPECT_EQ(markdown_report(sample_results()),
+            R"(# contactcheck report
+
+- command: `contactcheck run hello`
+- machine: A CPU, 2 cores, AVX2, Debian 12
+- built with g++ 12, Release
+- libraries: eigen 3.4.0, fcl 0.7.0
+- contactcheck 0.1.0, schema contactcheck-results/1
+
+## Summary
+
+Sums over scenes; speed-ups are the smallest and the largest of any scene.
+
+| detector | scenes | level | truth | recall | missed | spurious | body m/s | hover mm | question | vs fcl-aabb | vs fcl-obbrss |
+|---|--:|---|--:|--:|--:|--:|--:|--:|---|--:|--:|
+| fcl-aabb | 1 | triangle | 200000 | 1 | 0 | 0 | 0/0 | 0 | triangles | 1.00 to 1.00x | - |
+| ffd-aabb-sphere2+tri | 1 | triangle | 200000 | 0.99999 | 1 | 2 | 0/2 | 2.10 | triangles | 4.00 to 4.00x | - |
+| fcl-obbrss | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - |
+| embree | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - |
+| ffd-grid | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - |
+
+## What the results say
+
+### ffd-aabb-sphere2+tri against FCL, question `triangles`
+
+Errors are recall / spurious rate at level `triangle`; a speed-up is FCL's time divided by this detector's, cold, with its 95 % interval.
+
+| scene | errors | errors of fcl-aabb | speed-up | errors of fcl-obbrss | speed-up |
+|---|--:|--:|--:|--:|--:|
+| hello | 0.99999 / 0.00001 | 1 / 0 | 4.00x [3.50, 4.25] | - | - |
+
+## hello
+
+Two | one bodies meet. 60 frames, 13 with contact, size 1.50 m.
+
+| body | mesh | vertices | triangles | cells | solid | notes |
+|---|---|--:|--:|--:|---|---|
+| left | box | 8 | 12 | 27 | no | 3 boundary-edge \| open |
+| right | sphere | 66 | 128 | 26 | yes |  |
+
+True contacts, summed over frames: body 13, triangle 200000, vertex not judged: open.
+
+| detector | level | truth | recall | missed | spurious | body m/s | hover mm | late | ms/frame | question | vs fcl-aabb | vs fcl-obbrss |
+|---|---|--:|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|
+| fcl-aabb | triangle | 200000 | 1 | 0 | 0 | 0/0 | 0 | 0 | 2.00 | triangles | 1.00x | - |
+| ffd-aabb-sphere2+tri | triangle | 200000 | 0.99999 | 1 | 2 | 0/2 | 2.10 | -1 | 0.500 | triangles | 4.00x | - |
+| fcl-obbrss | error | scene hello, frame 7, phase query: signal 11 (Segmentation fault) \| core |  |  |  |  |  |  |  |  |  |  |
+| embree | absent | not built |  |  |  |  |  |  |  |  |  |  |
+| ffd-grid | refused | body "left" has no lattice |  |  |  |  |  |  |  |  |  |  |
+
+Which stage lost which true triangle pairs (sums over frames):
+
+| detector | stage | unit | in | out | missed |
+|---|---|---|--:|--:|--:|
+| ffd-aabb-sphere2+tri | hash | cell pairs | 900 | 30 | 1 |
+
+Times in milliseconds per frame (medians over repeats; cold unless said):
+
+| detector | question | prepare | map | update | query | frame | contact frame | frame, hot | timed frames | repeats | memory, MiB |
+|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|
+| fcl-aabb | triangles | 12.0 | 0.250 | 0.500 | 1.25 | 2.00 | 3.00 | 1.50 | 60 | 5 | 1.00 |
+| ffd-aabb-sphere2+tri | triangles | 8.00 | - | 0.125 | 0.375 | 0.500 | - | 0.250 | 60 | 5 | 0.500 |
+
+Disagreements with the truth (first of each kind):
+
+- ffd-aabb-sphere2+tri: first missed at level triangle in frame 17: `cases/0001.json`
+
+## How to read the result table
+
+- **detector**: as given to --detector
+- **level**: finest level judged
+- **truth**: true contacts at that level, over all frames
+- **recall**: hit / truth, cut, not rounded
+- **missed**: true contacts not reported
+- **spurious**: reported, not true
+- **body m/s**: pairs of bodies missed / spurious, over all frames
+- **hover mm**: largest true distance at the moment contact is first reported
+- **late**: frames reported after (+) or before (-) the truth, worst episode
+- **ms/frame**: map + update + query, cold median, own question
+- **question**: question in which the next two columns compare
+- **vs fcl-aabb**: time of fcl-aabb / time of this detector, cold
+- **vs fcl-obbrss**: time of fcl-obbrss / time of this detector, cold
+)");
+}
+
+TEST(Markdown, BarsAndLineBreaksDoNotEndACell) {
+  auto results = sample_results();
+  results["runs"][2]["message"] = "one | two\nthree";
+  EXPECT_THAT(markdown_report(results), HasSubstr("| error | one \\| two three |"));
+}
+
+TEST(Markdown, ScenesWithoutTimesOrDisagreementsHaveNoEmptyTables) {
+  auto results = sample_results();
+  results["disagreements"] = nlohmann::ordered_json::array();
+  for (auto& run : results["runs"])
+    if (run["status"] == "ok") {
+      run["time_ms"] = {{"prepare", 1.0}};
+      run.erase("speedup");
+      run["stages"] = nlohmann::ordered_json::array();
+    }
+  const std::string text = markdown_report(results);
+  EXPECT_THAT(text, Not(HasSubstr("Times in milliseconds")));
+  EXPECT_THAT(text, Not(HasSubstr("Which stage lost")));
+  EXPECT_THAT(text, Not(HasSubstr("Disagreements with")));
+}
+
+// Two detectors of the paper's first claim, with these gaps.
+nlohmann::ordered_json hovering(nlohmann::ordered_json grid, nlohmann::ordered_json aabb) {
+  auto results = sample_results();
+  auto run = results["runs"][0];
+  results["runs"] = nlohmann::ordered_json::array();
+  run["detector"] = "ffd-grid";
+  run["geometry"]["hover_gap_max"] = std::move(grid);
+  results["runs"].push_back(run);
+  run["detector"] = "ffd-aabb";
+  run["geometry"]["hover_gap_max"] = std::move(aabb);
+  results["runs"].push_back(run);
+  return results;
+}
+
+TEST(Markdown, SaysWhereTheClaimAboutHoverHolds) {
+  EXPECT_THAT(markdown_report(hovering(0.02, 0.01)), HasSubstr("| hello | 20.0 | 10.0 | holds |"));
+  EXPECT_THAT(markdown_report(hovering(0.01, 0.02)),
+              HasSubstr("| hello | 10.0 | 20.0 | does not hold |"));
+  EXPECT_THAT(markdown_report(hovering(0.01, 0.01)), HasSubstr("| hello | 10.0 | 10.0 | equal |"));
+  EXPECT_THAT(markdown_report(hovering(0.01, nullptr)),
+              HasSubstr("| hello | 10.0 | - | no episode |"));
+}
+
+TEST(Markdown, ScenesWithoutContactSayNothingAboutHover) {
+  auto results = hovering(0.02, 0.01);
+  results["scenes"][0]["contact_frames"] = 0;
+  EXPECT_THAT(markdown_report(results), Not(HasSubstr("the paper's claim")));
+}
+
+TEST(Markdown, NeverShowsANumberThatIsNone) {
+  const std::string text = markdown_report(sample_results());
+  EXPECT_THAT(text, Not(testing::ContainsRegex("[Nn]a[Nn]|null|[^a-z]inf[^a-z]")));
+}
 
 }  // namespace
 }  // namespace contactcheck

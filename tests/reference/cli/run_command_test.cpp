@@ -1,0 +1,224 @@
+// Whole runs of the built program on a scene of two boxes.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/reference/cli/program.h"
+#include "tests/reference/cli/tiny_scene.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::contactcheck_program;
+using test::Outcome;
+using test::Scratch;
+using test::tiny_scene;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> out;
+  for (const auto& entry : fs::directory_iterator(folder)) out.insert(entry.path().filename());
+  return out;
+}
+
+std::map<std::string, std::string> hashes_of(const json& results) {
+  std::map<std::string, std::string> out;
+  for (const json& run : results.at("runs"))
+    out[run.at("detector")] = run.at("contact_hash").get<std::string>();
+  return out;
+}
+
+class RunCommand : public testing::Test {
+ protected:
+  RunCommand() { scene_ = scratch_.write("tiny.json", tiny_scene()); }
+
+  // Runs into a folder of this name; expects it to end well and to satisfy the schema.
+  json run(const std::string& name, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--out", (scratch_.folder() / name).string()});
+    last_ = contactcheck_program(arguments);
+    EXPECT_EQ(last_.exit_code, 0) << last_.err;
+    const fs::path file = scratch_.folder() / name / "results.json";
+    const Outcome valid =
+        test::run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, file.string()});
+    EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
+    return json::parse(text_of(file));
+  }
+
+  Scratch scratch_;
+  fs::path scene_;
+  Outcome last_;
+};
+
+TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
+  const json results = run("out", {scene_, "--no-timing"});
+  const fs::path out = scratch_.folder() / "out";
+  EXPECT_THAT(names_in(out), ElementsAre("cases", "recordings", "report.md", "results.json"));
+  EXPECT_THAT(names_in(out / "recordings"), ElementsAre("tiny.ccr"));
+  EXPECT_THAT(text_of(out / "report.md"), HasSubstr("## tiny"));
+  EXPECT_THAT(last_.out, HasSubstr("results.json"));
+  std::set<std::string> cases;
+  for (const json& d : results.at("disagreements")) cases.insert(d.at("case"));
+  std::set<std::string> files;
+  for (const std::string& name : names_in(out / "cases")) files.insert("cases/" + name);
+  EXPECT_EQ(cases, files);
+  for (const std::string& file : files) EXPECT_TRUE(json::accept(text_of(out / file))) << file;
+}
+
+TEST_F(RunCommand, ExactDetectorsAreExactAndTheResultsSayWhatWasThere) {
+  const json results = run("out", {scene_, "--no-timing"});
+  const json& scene = results.at("scenes").at(0);
+  EXPECT_EQ(scene.at("frames"), 5);
+  EXPECT_GT(scene.at("contact_frames"), 0);
+  EXPECT_GT(scene.at("truth").at("triangle"), 0);
+  std::size_t exact = 0;
+  for (const json& run : results.at("runs")) {
+    EXPECT_EQ(run.at("status"), "ok") << run.at("detector") << run.at("message");
+    EXPECT_EQ(run.at("recording"), "recordings/tiny.ccr");
+    if (!run.at("semantics").at("exact").get<bool>() && run.at("detector") != "fcl-aabb") continue;
+    ++exact;
+    EXPECT_EQ(run.at("levels").at("triangle").at("recall"), 1.0) << run.at("detector");
+    EXPECT_EQ(run.at("levels").at("triangle").at("spurious"), 0) << run.at("detector");
+  }
+  EXPECT_GE(exact, 6u) << "fcl-aabb and the five with +tri";
+}
+
+TEST_F(RunCommand, TimedRunHasTimesAndSpeedUps) {
+  const json results = run("out", {scene_, "--detector", "fcl-aabb", "--detector",
+                                   "ffd-aabb-sphere2+tri", "--repeat", "3", "--quiet"});
+  EXPECT_EQ(last_.err, "");
+  ASSERT_EQ(results.at("runs").size(), 2u);
+  for (const json& run : results.at("runs")) {
+    EXPECT_EQ(run.at("time_ms").at("question"), "triangles");
+    EXPECT_EQ(run.at("time_ms").at("repeats"), 3);
+    EXPECT_GT(run.at("time_ms").at("cold").at("frame"), 0.0);
+    EXPECT_EQ(run.at("per_frame").at("frame_ms").size(), 5u);
+  }
+  const json& speedup = results.at("runs").at(1).at("speedup");
+  EXPECT_GT(speedup.at("triangles").at("fcl-aabb").at("cold").at("ratio"), 0.0);
+  EXPECT_TRUE(speedup.contains("body"));
+  EXPECT_FALSE(speedup.at("triangles").contains("fcl-obbrss")) << "it was not run";
+  const json& own = results.at("runs").at(0).at("speedup").at("triangles").at("fcl-aabb");
+  EXPECT_EQ(own.at("cold").at("low"), 1.0);
+  EXPECT_EQ(own.at("cold").at("high"), 1.0);
+}
+
+TEST_F(RunCommand, ProcessesPoolTheirRepeats) {
+  const json results = run(
+      "out", {scene_, "--detector", "fcl-aabb", "--repeat", "3", "--processes", "2", "--quiet"});
+  EXPECT_EQ(results.at("runs").at(0).at("time_ms").at("repeats"), 6);
+}
+
+TEST_F(RunCommand, RecordingReplaysToTheSameContacts) {
+  const json first = run("out", {scene_, "--no-timing", "--quiet"});
+  const fs::path recording = scratch_.folder() / "out" / "recordings" / "tiny.ccr";
+  const json again = run("again", {recording, "--no-timing", "--quiet"});
+  EXPECT_GE(hashes_of(first).size(), 13u);
+  EXPECT_EQ(hashes_of(first), hashes_of(again));
+  EXPECT_EQ(text_of(recording), text_of(scratch_.folder() / "again" / "recordings" / "tiny.ccr"));
+}
+
+TEST_F(RunCommand, ReplayIntoItsOwnFolderKeepsTheRecording) {
+  run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  const fs::path recording = scratch_.folder() / "out" / "recordings" / "tiny.ccr";
+  const std::string before = text_of(recording);
+  run("out", {recording, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  EXPECT_EQ(text_of(recording), before);
+}
+
+TEST_F(RunCommand, RecordingHasItsOwnFrames) {
+  run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  const Outcome outcome =
+      contactcheck_program({"run", scratch_.folder() / "out" / "recordings" / "tiny.ccr",
+                            "--frames", "3", "--out", scratch_.folder() / "again"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--frames"));
+  EXPECT_FALSE(fs::exists(scratch_.folder() / "again"));
+}
+
+TEST_F(RunCommand, TwiceGivesTheSameContacts) {
+  EXPECT_EQ(hashes_of(run("one", {scene_, "--no-timing", "--quiet"})),
+            hashes_of(run("two", {scene_, "--no-timing", "--quiet"})));
+}
+
+TEST_F(RunCommand, DetectorNamedTwiceRunsOnce) {
+  const json results =
+      run("out", {scene_, "--no-timing", "--quiet", "--detector", "ffd-aabb", "--detector",
+                  "ffd-aabb:bounds=paper", "--detector", "ffd-aabb"});
+  ASSERT_EQ(results.at("runs").size(), 1u);
+  EXPECT_EQ(results.at("runs").at(0).at("detector"), "ffd-aabb");
+}
+
+TEST_F(RunCommand, FramesReplaceThoseOfTheScene) {
+  const json results =
+      run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb", "--frames", "7"});
+  EXPECT_EQ(results.at("scenes").at(0).at("frames"), 7);
+  EXPECT_EQ(results.at("runs").at(0).at("frames"), 7);
+  EXPECT_EQ(results.at("runs").at(0).at("per_frame").at("truth").size(), 7u);
+  EXPECT_DOUBLE_EQ(results.at("scenes").at(0).at("time_step"), 1.0 / 7.0);
+}
+
+TEST_F(RunCommand, OnlyCasesOfEarlierRunsAreRemoved) {
+  const fs::path cases = scratch_.folder() / "out" / "cases";
+  scratch_.write("out/cases/9999.json", "{}");
+  scratch_.write("out/cases/notes.json", "mine");
+  scratch_.write("out/cases/2024/0001.json", "mine");
+  run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  EXPECT_THAT(names_in(cases), ElementsAre("2024", "notes.json"));
+}
+
+TEST_F(RunCommand, DetectorThatNeedsALatticeIsRefusedWithoutOne) {
+  const fs::path bare = scratch_.write("bare.json", R"({"id": "bare", "frames": 2, "duration": 1,
+    "levels": ["body", "cell", "triangle"], "bodies": [
+    {"name": "a", "mesh": {"shape": "box"}},
+    {"name": "b", "mesh": {"shape": "box", "center": [0.9, 0.1, 0.1]}}]})");
+  const json results = run("out", {bare, "--detector", "ffd-aabb", "--detector", "fcl-aabb"});
+  EXPECT_EQ(results.at("runs").at(0).at("status"), "refused");
+  EXPECT_THAT(results.at("runs").at(0).at("message").get<std::string>(), HasSubstr("\"a\""));
+  EXPECT_FALSE(results.at("runs").at(0).contains("levels"));
+  EXPECT_EQ(results.at("runs").at(1).at("status"), "ok");
+  EXPECT_THAT(last_.out, HasSubstr("refused"));
+}
+
+TEST_F(RunCommand, OpenBodiesAreNotJudgedWhereInsideIsNotDefined) {
+  const fs::path file = scratch_.write("open.json", R"({"id": "open", "frames": 1, "duration": 1,
+    "levels": ["triangle", "vertex", "containment"], "bodies": [
+    {"name": "a", "mesh": {"file": "open.obj"}},
+    {"name": "b", "mesh": {"shape": "box", "center": [0.5, 0.1, 0.1]}}]})");
+  scratch_.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const json results = run("out", {file, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  const json& truth = results.at("scenes").at(0).at("truth");
+  EXPECT_EQ(truth.at("vertex"), "not judged: open");
+  EXPECT_EQ(truth.at("containment"), "not judged: open");
+  EXPECT_GT(truth.at("triangle"), 0);
+}
+
+TEST_F(RunCommand, ScenesRunInTheOrderGivenWithRunningCaseNumbers) {
+  const fs::path second = scratch_.write("second.json", tiny_scene("second", "3"));
+  const json results = run("out", {second, scene_, "--no-timing", "--detector", "ffd-aabb"});
+  EXPECT_EQ(results.at("scenes").at(0).at("id"), "second");
+  EXPECT_EQ(results.at("scenes").at(1).at("id"), "tiny");
+  std::size_t number = 0;
+  for (const json& d : results.at("disagreements")) {
+    char name[32];
+    std::snprintf(name, sizeof name, "cases/%04zu.json", ++number);
+    EXPECT_EQ(d.at("case"), name);
+    EXPECT_EQ(json::parse(text_of(scratch_.folder() / "out" / name)).at("scene"), d.at("scene"));
+  }
+  EXPECT_THAT(last_.err, HasSubstr("scene 1 of 2: second\n"));
+  EXPECT_THAT(last_.out, HasSubstr("all scenes"));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -138,6 +138,21 @@ std::string disagreements_list(const Json& results, const std::string& scene) {
   return out.empty() ? "" : "Disagreements with the truth (first of each kind):\n\n" + out + "\n";
 }
 
+// What a reader must know about single runs and no table shows.
+std::string notes_list(const std::vector<Json>& runs) {
+  std::string out;
+  for (const Json& run : runs) {
+    if (run.at("status") != "ok") continue;
+    const auto detector = run.at("detector").get<std::string>();
+    for (const Json& note : run.value("float_environment", Json::array()))
+      out += fmt::format("- {}: {}\n", detector, note.get<std::string>());
+    const Json not_judged = run.value("not_judged", Json::object());
+    for (const auto& [level, why] : not_judged.items())
+      out += fmt::format("- {}: level {} {}\n", detector, level, why.get<std::string>());
+  }
+  return out.empty() ? "" : "Notes:\n\n" + out + "\n";
+}
+
 std::string scene_section(const Json& results, const Json& scene) {
   const auto id = scene.at("id").get<std::string>();
   const std::vector<Json> runs = runs_of_scene(results, id);
@@ -146,7 +161,7 @@ std::string scene_section(const Json& results, const Json& scene) {
                      scene.at("contact_frames").get<std::size_t>(),
                      format_number(scene.at("size"))) +
          bodies_table(scene) + truth_line(scene) + result_table(runs) + stages_table(runs) +
-         times_table(runs) + disagreements_list(results, id);
+         times_table(runs) + notes_list(runs) + disagreements_list(results, id);
 }
 
 std::string legend() {

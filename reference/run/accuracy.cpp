@@ -256,6 +256,7 @@ void measure_hover_gaps(const JudgedScene& judged, std::uint32_t position, Detec
     const std::size_t f = *e.first_reported;
     progress.enter(position, f, Phase::kUpdate);
     if (!scene.scripted() || f == 0) {
+      progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
       e.hover_gap = oracle.distance(judged.frame(f), e.bodies).upper;
       continue;
     }
@@ -268,7 +269,10 @@ void measure_hover_gaps(const JudgedScene& judged, std::uint32_t position, Detec
           note_environment(guard, "query", result);
           return reported;
         },
-        [&](double t) { return probe.distance(t); });
+        [&](double t) {
+          progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
+          return probe.distance(t);
+        });
   }
 }
 

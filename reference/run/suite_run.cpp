@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
@@ -29,7 +31,8 @@ constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss"};
 class ScratchFolder {
  public:
   explicit ScratchFolder(const fs::path& parent)
-      : path_(parent / (".work" + std::to_string(getpid()))) {
+      : path_(parent / (kPrefix + std::to_string(getpid()))) {
+    remove_abandoned(parent);
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) throw InputError("cannot write in " + parent.string() + ": " + error.message());
@@ -43,6 +46,20 @@ class ScratchFolder {
   const fs::path& path() const { return path_; }
 
  private:
+  static constexpr const char* kPrefix = ".work";
+
+  // A run that was interrupted leaves its folder behind; its process is gone.
+  static void remove_abandoned(const fs::path& parent) {
+    for (const auto& entry : fs::directory_iterator(parent)) {
+      const std::string name = entry.path().filename().string();
+      const std::string digits =
+          name.rfind(kPrefix, 0) == 0 ? name.substr(std::strlen(kPrefix)) : "";
+      if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) continue;
+      std::error_code ignored;
+      if (!fs::exists("/proc/" + digits)) fs::remove_all(entry.path(), ignored);
+    }
+  }
+
   fs::path path_;
 };
 
@@ -90,10 +107,13 @@ class SceneRunner {
   }
 
   [[noreturn]] void throw_for_scene(const WorkerOutcome& outcome) const {
-    // The worker has said on stderr what is wrong; a bad scene was found before any run.
-    throw InputError("scene \"" + task_.id + "\" ended in " + outcome.reason + ", phase " +
-                     name_of(outcome.phase) + ", frame " + std::to_string(outcome.frame) +
-                     ", outside any detector");
+    const std::string what = "scene \"" + task_.id + "\" ended in " + outcome.reason + ", phase " +
+                             name_of(outcome.phase) + ", frame " + std::to_string(outcome.frame) +
+                             ", outside any detector";
+    // The worker has said on stderr what is wrong. Exit code 2 is the input's fault, such as a
+    // scene file that changed under our feet; anything else is ours.
+    if (outcome.exit_code == 2) throw InputError(what);
+    throw std::runtime_error(what);
   }
 
   Json assemble(const std::vector<Json>& answers, Json& disagreements) {

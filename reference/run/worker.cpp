@@ -261,6 +261,7 @@ class Worker {
   }
 
   void write_answer() {
+    progress_.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
     Json runs = Json::array();
     for (Entry& entry : entries_) {
       Json samples = Json::array();

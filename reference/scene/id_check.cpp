@@ -15,7 +15,7 @@ bool is_id(const std::string& text) {
 }
 
 std::string parse_id(const JsonField& field) {
-  const std::string id = field.text();
+  std::string id = field.text();
   if (!is_id(id)) {
     field.refuse("letters, digits, '-', '_' and '.', beginning with a letter or digit, at most " +
                  std::to_string(kLongestId));

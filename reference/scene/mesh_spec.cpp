@@ -1,5 +1,6 @@
 #include "reference/scene/mesh_spec.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -39,10 +40,10 @@ const ShapeRule& rule_of(const JsonField& shape) {
   std::vector<std::string> names;
   for (const ShapeRule& rule : shape_rules()) names.emplace_back(rule.name);
   const std::string name = shape.one_of(names);
-  for (const ShapeRule& rule : shape_rules()) {
-    if (name == rule.name) return rule;
-  }
-  CONTACTCHECK_INVARIANT(false, "one_of allows known shapes alone");
+  const auto rule = std::find_if(shape_rules().begin(), shape_rules().end(),
+                                 [&](const ShapeRule& r) { return name == r.name; });
+  CONTACTCHECK_INVARIANT(rule != shape_rules().end(), "one_of allows known shapes alone");
+  return *rule;
 }
 
 char parse_letter(const JsonField& field) {

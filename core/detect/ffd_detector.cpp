@@ -25,17 +25,6 @@ Semantics semantics_of(const FfdConfig& config) {
   return s;
 }
 
-void sort_unique(std::vector<ElementPair>& pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-}
-
-void canonicalize(std::vector<ElementPair>& pairs) {
-  for (ElementPair& p : pairs)
-    if (p.body_a > p.body_b) p = {p.body_b, p.body_a, p.b, p.a};
-  sort_unique(pairs);
-}
-
 }  // namespace
 
 FfdDetector::FfdDetector(const FfdConfig& config)

@@ -41,6 +41,11 @@ void hash_pairs(Fnv1a& hash, const std::vector<ElementPair>& pairs) {
 
 }  // namespace
 
+void canonicalize(std::vector<ElementPair>& pairs) {
+  for (ElementPair& p : pairs) orient(p);
+  sort_unique(pairs);
+}
+
 void ContactSet::clear() {
   bodies.clear();
   cells.clear();
@@ -49,11 +54,9 @@ void ContactSet::clear() {
 }
 
 void ContactSet::canonicalize() {
-  for (ElementPair& p : cells) orient(p);
-  for (ElementPair& p : triangles) orient(p);
+  contactcheck::canonicalize(cells);
+  contactcheck::canonicalize(triangles);
   for (BodyPair& p : bodies) orient(p);
-  sort_unique(cells);
-  sort_unique(triangles);
   sort_unique(vertices);
   add_implied_bodies(cells, bodies);
   add_implied_bodies(triangles, bodies);

@@ -20,6 +20,9 @@ struct ElementPair {
   auto operator<=>(const ElementPair&) const = default;
 };
 
+/// Makes pairs a set: orients each (lower body first), sorts, removes repeats.
+void canonicalize(std::vector<ElementPair>& pairs);
+
 /// A vertex of `body` with the solid body `in` that holds it strictly inside.
 struct VertexInBody {
   std::uint32_t body = 0, in = 0, vertex = 0;

@@ -24,6 +24,7 @@ double buckets_met(const GridKey& lo, const GridKey& hi) {
 
 void BoxPairFinder::find(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings,
                          std::vector<Pair>& out) {
+  visited_ = 0;
   hash_boxes(boxes, settings);
   pairs_in_buckets(boxes, settings.cell_size, out);
   pairs_of_oversize(boxes, out);
@@ -54,6 +55,7 @@ void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double 
                                      std::vector<Pair>& out) {
   for (std::size_t b = 0; b < hash_.bucket_count(); ++b) {
     const auto entries = hash_.bucket_at(b);
+    if (!entries.empty()) visited_ += entries.size() * (entries.size() - 1) / 2;
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const OwnedBox& first = boxes[entries[i].id];
       for (std::size_t j = i + 1; j < entries.size(); ++j) {
@@ -71,6 +73,7 @@ void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double 
 }
 
 void BoxPairFinder::pairs_of_oversize(const std::vector<OwnedBox>& boxes, std::vector<Pair>& out) {
+  visited_ += oversize_.size() * boxes.size();
   for (std::uint32_t big : oversize_) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
       if (is_oversize_[i] && i <= big) continue;  // two oversize boxes meet once

@@ -35,6 +35,9 @@ class BoxPairFinder {
   /// Appends every closed overlap of boxes of different bodies.
   void find(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings,
             std::vector<Pair>& out);
+  /// Comparisons of the last find(): of two entries of a bucket, and of an oversize box with each
+  /// box.
+  std::uint64_t visited() const { return visited_; }
 
  private:
   void hash_boxes(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings);
@@ -45,6 +48,7 @@ class BoxPairFinder {
   SpatialHash hash_;
   std::vector<std::uint32_t> oversize_;
   std::vector<char> is_oversize_;
+  std::uint64_t visited_ = 0;
 };
 
 }  // namespace contactcheck

@@ -27,6 +27,9 @@ struct StageRecord {
   std::string unit;  ///< what `in` and `out` count: "body pairs", "sphere pairs", ...
   std::uint64_t in = 0;
   std::uint64_t out = 0;
+  /// What the stage looked at on the way ("node pairs", "bucket entries"); empty unit: not counted.
+  std::uint64_t visited = 0;
+  std::string visited_unit;
   Kind kind = Kind::kBodies;
   std::vector<BodyPair> bodies;
   std::vector<ElementPair> elements;
@@ -40,7 +43,8 @@ struct StageTrace {
 
 /// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
 /// frames may come in any order and repeat. A detector holds no state that changes the answer to a
-/// later frame. Exceptions are recorded as status `error` (RefusedInput: `refused`).
+/// later frame. Two detectors (also of one kind) may be used by two threads at once. Exceptions are
+/// recorded as status `error` (RefusedInput: `refused`).
 class Detector {
  public:
   Detector() = default;
@@ -48,6 +52,7 @@ class Detector {
   Detector& operator=(const Detector&) = delete;
   virtual ~Detector() = default;
 
+  /// Final once prepare() has run: a scale may be taken from the bodies.
   virtual const Semantics& semantics() const = 0;
   /// True when update() reads BodyState::vertices; the mapping is then timed as phase `map`.
   virtual bool needs_vertices() const = 0;
@@ -59,6 +64,10 @@ class Detector {
   virtual void query(Question question, ContactSet& out) = 0;
   /// The stages of the last updated frame; empty for detectors without stages. Untimed.
   virtual StageTrace trace() { return {}; }
+  /// What a reader must know about the answer to the last updated frame: limits that were reached,
+  /// triangles that the library cannot see. One sentence each, the same words for the same fact in
+  /// every frame, without numbers that change from frame to frame. Untimed.
+  virtual std::vector<std::string> notes() { return {}; }
 };
 
 }  // namespace contactcheck

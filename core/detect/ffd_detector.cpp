@@ -16,11 +16,14 @@ Semantics semantics_of(const FfdConfig& config) {
     s.exact = config.bounds == BoundsReading::kSafe;
   } else {
     s.levels = {Level::kBody, Level::kCell};
-    // What node tests on FFD-AABBs literally claim; a lattice cell is no FFD-AABB, and an owner's
-    // boxes under `safe` are not the box of the level.
-    if (config.volume == CellVolume::kFfdAabb && config.bounds == BoundsReading::kPaper)
-      s.levels.push_back(Level::kBox);
     s.questions = {Question::kCells, Question::kBody};
+    // What node tests on FFD-AABBs literally claim; a lattice cell is no FFD-AABB, and an owner's
+    // boxes under `safe` are not the box of the level. Depths are those of these boxes, too.
+    if (config.volume == CellVolume::kFfdAabb && config.bounds == BoundsReading::kPaper) {
+      s.levels.push_back(Level::kBox);
+      s.questions.push_back(Question::kContacts);
+      s.depth = DepthKind::kConvexPair;
+    }
   }
   return s;
 }
@@ -95,12 +98,15 @@ void FfdDetector::test_elements(bool first_only, std::vector<ElementPair>& out) 
 }
 
 void FfdDetector::query(Question question, ContactSet& out) {
+  CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
   find_candidates();
   const bool boolean = question == Question::kBody;
   std::vector<ElementPair>& elements =
       config_.element == ElementTest::kTriangle ? out.triangles : out.cells;
   if (!boolean) {
     test_elements(false, elements);
+    if (question == Question::kContacts)
+      node_plane_.run_contacts(models_, states_, hits_, out.piece_contacts);
     return;
   }
   std::vector<ElementPair> found;

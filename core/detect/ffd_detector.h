@@ -6,6 +6,10 @@
 // Guarantee: with bounds `safe` and the triangle test it reports exactly the intersecting pairs of
 // triangles, for all finite frames. With bounds `paper` it may miss: measuring what, and at which
 // stage, is what this suite is for.
+//
+// Members that claim the level `box` answer the question `contacts` too: per node inside a box the
+// distance to the nearest of its planes, in metres, and the unit normal (see node_plane_stage.h).
+// That takes this node out, not the whole box: a lower bound for parting the boxes that way.
 #pragma once
 
 #include <vector>

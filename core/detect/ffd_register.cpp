@@ -1,5 +1,6 @@
+#include "core/detect/ffd_register.h"
 #include "core/detect/ffd_detector.h"
-#include "core/detect/registry.h"
+#include "core/detect/option_info.h"
 
 namespace contactcheck {
 namespace {
@@ -23,39 +24,19 @@ constexpr Member kFamily[] = {
     {"ffd-aabb-sphereN", "FFD-AABB behind a deeper hierarchy of spheres", CellVolume::kFfdAabb, 0,
      true}};
 
-OptionInfo choice(std::string name, std::string value, std::vector<std::string> choices,
-                  std::string help) {
-  OptionInfo o;
-  o.name = std::move(name);
-  o.default_value = std::move(value);
-  o.choices = std::move(choices);
-  o.help = std::move(help);
-  return o;
-}
-
-OptionInfo number(std::string name, std::string value, double min, double max, bool integer,
-                  std::string help) {
-  OptionInfo o;
-  o.name = std::move(name);
-  o.default_value = std::move(value);
-  o.min = min;
-  o.max = max;
-  o.integer = integer;
-  o.help = std::move(help);
-  return o;
-}
-
 std::vector<OptionInfo> options_of(const Member& member, ElementTest element) {
   std::vector<OptionInfo> options;
-  options.push_back(choice("bounds", element == ElementTest::kTriangle ? "safe" : "paper",
-                           {"paper", "safe"}, "how open points of the paper are read"));
+  options.push_back(choice_option("bounds", element == ElementTest::kTriangle ? "safe" : "paper",
+                                  {"paper", "safe"}, "how open points of the paper are read"));
+  options.push_back(numeric_option("cell", "1", 1e-3, 1e3, false,
+                                   "hash grid cell, in mean edges of the boxes at rest"));
   options.push_back(
-      number("cell", "1", 1e-3, 1e3, false, "hash grid cell, in mean edges of the boxes at rest"));
-  options.push_back(number("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"));
+      numeric_option("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"));
   if (member.sphere_levels > 1 || member.deep)
-    options.push_back(number("spheres", member.deep ? "4" : "16", 1, 1024, true,
-                             "spheres into which one is split at the next level"));
-  if (member.deep) options.push_back(number("levels", "3", 1, 8, true, "levels of spheres"));
+    options.push_back(numeric_option("spheres", member.deep ? "4" : "16", 1, 1024, true,
+                                     "spheres into which one is split at the next level"));
+  if (member.deep)
+    options.push_back(numeric_option("levels", "3", 1, 8, true, "levels of spheres"));
   return options;
 }
 
@@ -75,7 +56,7 @@ FfdConfig config_of(const Member& member, ElementTest element, const Options& op
 
 }  // namespace
 
-void register_core_detectors(DetectorCatalog& catalog) {
+void register_ffd_detectors(DetectorCatalog& catalog) {
   for (ElementTest element : {ElementTest::kNodePlane, ElementTest::kTriangle}) {
     for (const Member& member : kFamily) {
       const bool triangles = element == ElementTest::kTriangle;

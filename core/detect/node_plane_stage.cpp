@@ -37,6 +37,23 @@ void NodePlaneStage::run_probes(const std::vector<FfdModel>& models,
   }
 }
 
+void NodePlaneStage::run_contacts(const std::vector<FfdModel>& models,
+                                  const std::vector<FfdState>& states,
+                                  const std::vector<ProbeHit>& hits,
+                                  std::vector<PieceContact>& out) {
+  constexpr CellVolume kVolume = CellVolume::kFfdAabb;
+  for (const ProbeHit& hit : hits) {
+    const Vec3 p = probe_position(states[hit.body_a], kVolume, hit.probe);
+    const BoxPlanes& box = planes(states, hit.body_b, hit.cell_b);
+    if (!node_inside(box, p)) continue;
+    const NodeDepth way_out = node_depth(box, p);
+    if (way_out.outward.isZero(0.0)) continue;
+    for_cells_of_probe(models[hit.body_a], kVolume, hit.probe, [&](std::uint32_t cell) {
+      out.push_back({{hit.body_a, hit.body_b, cell, hit.cell_b}, way_out.depth, -way_out.outward});
+    });
+  }
+}
+
 bool NodePlaneStage::any_corner_inside(const std::vector<FfdModel>& models,
                                        const std::vector<FfdState>& states, std::uint32_t body_a,
                                        std::uint32_t cell_a, std::uint32_t body_b,

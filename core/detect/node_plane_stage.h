@@ -20,6 +20,13 @@ class NodePlaneStage {
   void run_probes(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
                   CellVolume volume, const std::vector<ProbeHit>& hits, bool first_only,
                   std::vector<ElementPair>& out);
+  /// The hits that run_probes() reports, each with its depth and the normal that parts the two
+  /// boxes: one contact per probe inside a box, from the nearest plane of that box. A box of which
+  /// no face has an area gives none. The normal is that of the pair as appended (moving the box by
+  /// depth * normal, or the probe by the opposite, brings the probe onto that plane).
+  /// @pre probes are corners of FFD-AABBs
+  void run_contacts(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                    const std::vector<ProbeHit>& hits, std::vector<PieceContact>& out);
   /// Reading `safe`: every corner of the boxes of one owner cell against the boxes of the other,
   /// both ways.
   void run_cells(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,

@@ -2,7 +2,9 @@
 // Source: Jeon, Hong, Choi, Jeong 2013, "each node against each plane of the boxes in its bucket".
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/types/vec3.h"
 
@@ -37,6 +39,31 @@ inline bool node_inside(const BoxPlanes& planes, const Vec3& node) {
     if (planes.normal[f].dot(node - planes.point[f]) > 0.0) return false;
   }
   return true;
+}
+
+/// The way out of a box that node_inside() says holds a node.
+struct NodeDepth {
+  double depth = 0.0;           ///< metres to the nearest plane, never negative
+  Vec3 outward = Vec3::Zero();  ///< unit normal of that plane; zero: no plane has a normal
+};
+
+/// By the same planes, those without area left out: moving the node by depth * outward takes it
+/// onto the nearest one. Exact for parallelepipeds up to rounding; for other boxes it inherits what
+/// their planes are, approximations. No verdict hangs on it.
+/// @pre node_inside(planes, node)
+inline NodeDepth node_depth(const BoxPlanes& planes, const Vec3& node) {
+  NodeDepth nearest;
+  for (int f = 0; f < 6; ++f) {
+    const double largest = planes.normal[f].cwiseAbs().maxCoeff();
+    if (!(largest > 0.0) || largest > std::numeric_limits<double>::max()) continue;
+    // Scaled first: squares of a small face's normal underflow.
+    const Vec3 scaled = planes.normal[f] / largest;
+    const Vec3 unit = scaled / scaled.norm();
+    const double depth = std::max(0.0, unit.dot(planes.point[f] - node));
+    if (!nearest.outward.isZero(0.0) && depth >= nearest.depth) continue;
+    nearest = {depth, unit};
+  }
+  return nearest;
 }
 
 }  // namespace contactcheck

@@ -24,12 +24,34 @@ void orient(ElementPair& pair) {
   std::swap(pair.a, pair.b);
 }
 
-void add_implied_bodies(const std::vector<ElementPair>& pairs, std::vector<BodyPair>& bodies) {
+BodyPair bodies_of(const ElementPair& p) { return {p.body_a, p.body_b}; }
+BodyPair bodies_of(const NearPair& p) {
+  return {std::min(p.body, p.other), std::max(p.body, p.other)};
+}
+
+template <typename Pair>
+void add_implied_bodies(const std::vector<Pair>& pairs, std::vector<BodyPair>& bodies) {
   BodyPair last{~0u, ~0u};
-  for (const ElementPair& p : pairs) {
-    const BodyPair body{p.body_a, p.body_b};
+  for (const Pair& p : pairs) {
+    const BodyPair body = bodies_of(p);
     if (body != last) bodies.push_back(last = body);
   }
+}
+
+void sort_contacts(std::vector<PieceContact>& contacts) {
+  for (PieceContact& c : contacts) {
+    if (c.pieces.body_a > c.pieces.body_b) c.normal = -c.normal;
+    orient(c.pieces);
+  }
+  std::stable_sort(
+      contacts.begin(), contacts.end(),
+      [](const PieceContact& x, const PieceContact& y) { return x.pieces < y.pieces; });
+}
+
+void sort_contacts(std::vector<VertexContact>& contacts) {
+  std::stable_sort(
+      contacts.begin(), contacts.end(),
+      [](const VertexContact& x, const VertexContact& y) { return x.where < y.where; });
 }
 
 void hash_pairs(Fnv1a& hash, const std::vector<ElementPair>& pairs) {
@@ -51,6 +73,9 @@ void ContactSet::clear() {
   cells.clear();
   triangles.clear();
   vertices.clear();
+  near.clear();
+  piece_contacts.clear();
+  vertex_contacts.clear();
 }
 
 void ContactSet::canonicalize() {
@@ -58,8 +83,12 @@ void ContactSet::canonicalize() {
   contactcheck::canonicalize(triangles);
   for (BodyPair& p : bodies) orient(p);
   sort_unique(vertices);
+  sort_unique(near);
+  sort_contacts(piece_contacts);
+  sort_contacts(vertex_contacts);
   add_implied_bodies(cells, bodies);
   add_implied_bodies(triangles, bodies);
+  add_implied_bodies(near, bodies);
   sort_unique(bodies);
 }
 
@@ -77,6 +106,10 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   hash.value(static_cast<std::uint64_t>(contacts.vertices.size()));
   for (const VertexInBody& v : contacts.vertices) {
     for (std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
+  }
+  // Only where there are some: sets without keep the hash they had before margins were known.
+  for (const NearPair& p : contacts.near) {
+    for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
   }
   return hash.digest();
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/types/vec3.h"
+
 namespace contactcheck {
 
 /// Two bodies; canonical when a < b.
@@ -29,6 +31,28 @@ struct VertexInBody {
   auto operator<=>(const VertexInBody&) const = default;
 };
 
+/// A vertex of `body` nearer than a margin to a triangle of `other`.
+struct NearPair {
+  std::uint32_t body = 0, other = 0, vertex = 0, triangle = 0;
+  auto operator<=>(const NearPair&) const = default;
+};
+
+/// Two convex pieces in contact (triangles or mapped FFD-AABB boxes, by what the detector claims)
+/// and how to part them: depth kind `convex-pair`.
+struct PieceContact {
+  ElementPair pieces;
+  double depth = 0.0;          ///< metres
+  Vec3 normal = Vec3::Zero();  ///< unit; moving piece b by depth * normal parts them
+};
+
+/// A vertex in contact with the surface of another body and the way out: depth kind
+/// `vertex-surface`.
+struct VertexContact {
+  VertexInBody where;
+  double depth = 0.0;          ///< metres: how far the vertex has to go
+  Vec3 normal = Vec3::Zero();  ///< unit; moving the vertex by depth * normal takes it out
+};
+
 /// What was reported for one frame. A detector appends in any order and orientation and may repeat
 /// itself; canonicalize() makes it a set.
 struct ContactSet {
@@ -36,15 +60,21 @@ struct ContactSet {
   std::vector<ElementPair> cells;
   std::vector<ElementPair> triangles;
   std::vector<VertexInBody> vertices;
+  std::vector<NearPair> near;
+  /// For the question `contacts`, beside the sets above: several per pair or vertex are allowed.
+  std::vector<PieceContact> piece_contacts;
+  std::vector<VertexContact> vertex_contacts;
 
   /// Keeps the capacity, so a reused set does not allocate.
   void clear();
-  /// Orients every pair (lower body first), sorts, removes repeats. Element and cell pairs imply
-  /// their body pair: it is added.
+  /// Orients every pair (lower body first), sorts, removes repeats. Element, cell and near pairs
+  /// imply their body pair: it is added. Contacts are oriented (a normal turns with its pair) and
+  /// sorted by their pair or vertex; none is removed.
   void canonicalize();
 };
 
-/// Order-free hash of a canonical set, chained over frames: feed the previous frame's value.
+/// Order-free hash of a canonical set, chained over frames: feed the previous frame's value. Depths
+/// and normals are no part of it.
 std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const ContactSet& contacts);
 
 }  // namespace contactcheck

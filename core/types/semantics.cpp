@@ -37,6 +37,8 @@ const char* name_of(Question question) {
       return "body";
     case Question::kCells:
       return "cells";
+    case Question::kContacts:
+      return "contacts";
   }
   return "unknown";
 }

@@ -15,7 +15,8 @@ enum class Level { kBody, kContainment, kCell, kBox, kTriangle, kVertex, kNear }
 enum class Question {
   kTriangles,  ///< all pairs of intersecting triangles
   kBody,       ///< pairs of bodies in contact; early-out allowed
-  kCells       ///< all pairs of colliding FFD cells
+  kCells,      ///< all pairs of colliding FFD cells
+  kContacts    ///< all contacts with depth and normal, of the detector's kind of depth
 };
 
 enum class Precision { kDouble, kSingle };
@@ -29,16 +30,22 @@ std::optional<Level> level_from_name(std::string_view name);
 
 struct Semantics {
   std::vector<Level> levels;        ///< levels it claims to answer, all of which are judged
+  std::vector<Level> informative;   ///< levels that are shown too, but no claim and never gated
   std::vector<Question> questions;  ///< first one: its own question; never empty
   bool solid = false;               ///< true: containment counts as contact; false: surfaces only
   bool closed = true;               ///< true: touching is contact
   bool exact = false;               ///< true: it claims no miss and nothing spurious at its levels
-  double margin = 0.0;              ///< metres; 0 without a margin
+  double margin = 0.0;              ///< metres; near = closer than this, strictly; 0 without one
   Precision precision = Precision::kDouble;
+  double scale = 1.0;  ///< with single precision it is fed fed_value(x, scale) and not x
   DepthKind depth = DepthKind::kNone;
+  std::string means;  ///< what it calls contact, where that is not contact of the surfaces
 
   bool claims(Level level) const;
   bool answers(Question question) const;
 };
+
+/// A coordinate as a detector in single precision is fed it: scaled in double, then rounded once.
+inline float fed_value(double x, double scale) { return static_cast<float>(scale * x); }
 
 }  // namespace contactcheck

@@ -1,0 +1,66 @@
+// What a BD-tree prepares once per shape: for every sphere the lattice nodes that move it, with the
+// weights of its centre and the largest weight differences of its vertices. See bd_tree.h for what
+// is made of it, and why it holds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/broad/reference_map.h"
+#include "core/broad/triangle_tree.h"
+#include "core/deform/body.h"
+
+namespace contactcheck {
+
+/// How one lattice node moves one sphere.
+struct BdInfluence {
+  std::uint32_t node = 0;
+  double weight = 0.0;  ///< of the centre: a multiple of 2^-50; those of a sphere sum to 1 exactly
+  double spread = 0.0;  ///< not below |weight of a vertex - weight|, over the sphere's vertices
+};
+
+struct BdSphere {
+  std::uint32_t first = 0, count = 0;  ///< its influences
+  Vec3 rest_center = Vec3::Zero();     ///< metres; of the nodes at rest, by the weights
+  double rest_radius = 0.0;            ///< metres; round that, and round the exact one
+  /// Of the sum of (r - c)(r - c)^T over its nodes at rest; makes a least-squares map of a moment.
+  Eigen::Matrix3d inverse_moment = Eigen::Matrix3d::Zero();
+};
+
+struct BdModel {
+  const BodyShape* shape = nullptr;
+  TriangleTree tree;
+  ReferenceFit reference;         ///< of the lattice's nodes
+  std::vector<BdSphere> spheres;  ///< as tree.nodes
+  std::vector<BdInfluence> influences;
+
+  std::span<const BdInfluence> influences_of(std::uint32_t node) const {
+    return std::span(influences).subspan(spheres[node].first, spheres[node].count);
+  }
+};
+
+/// The eight trilinear weights of local coordinates, in the order of a cell's corners. Each is
+/// within 6 * 2^-53 of the exact weight.
+std::array<double, 8> corner_weights(const Vec3& local);
+
+/// Bound on |computed - exact| per coordinate of the sum of weight * position over `count` nodes,
+/// with weights >= 0 that sum to 1 and coordinates up to `largest`: `count` products and additions,
+/// each within 2^-53 of a value that stays below `largest` (twice that covers their compound), and
+/// products that may underflow.
+inline double blend_error_bound(std::size_t count, double largest) {
+  return static_cast<double>(count) * 0x1p-52 * largest + 0x1p-1000;
+}
+
+/// @throws RefusedInput when the shape has no lattice
+/// @pre leaf_size >= 1, the mesh has a triangle
+std::shared_ptr<const BdModel> make_bd_model(const BodyShape& shape, std::uint32_t leaf_size);
+
+/// One model per body; bodies of one shape share theirs.
+/// @throws RefusedInput naming the first body without a lattice
+std::vector<std::shared_ptr<const BdModel>> make_bd_models(const std::vector<Body>& bodies,
+                                                           std::uint32_t leaf_size);
+
+}  // namespace contactcheck

@@ -1,0 +1,130 @@
+// BD-trees: spheres over the triangles of deforming bodies whose centres and radii follow from the
+// body's reduced coordinates, here the nodes of its lattice. A sphere is computed when a traversal
+// first asks for it, from the nodes alone, whatever became of the spheres above and below and of
+// the vertices inside: the cost follows the contact and not the mesh.
+// Source: James & Pai: BD-Tree: Output-Sensitive Collision Detection for Reduced Deformable Models,
+// ACM TOG 23(3), 2004.
+//
+// Notation. Lattice nodes r_j at rest and n_j now; w_ij the exact trilinear weights of vertex i
+// from its stored local coordinates (w_ij >= 0, sum_j w_ij = 1); p_i = sum_j w_ij n_j its exact
+// position and q_i = sum_j w_ij r_j the same at rest (no mesh coordinate enters). The sphere of a
+// set of vertices has centre weights m_j >= 0 that sum to 1 exactly (multiples of 2^-50), hence
+// centres c = sum_j m_j n_j now and g = sum_j m_j r_j at rest; s_j >= |w_ij - m_j| for every vertex
+// of the set; R >= |q_i - g|. For any affine map T(x) = A (x - o) + b, with d_j = n_j - T(r_j):
+//
+//   p_i - c = sum_j (w_ij - m_j) n_j = A (q_i - g) + sum_j (w_ij - m_j) d_j              (1)
+//
+// since the differences of weights sum to 0 and so take o and b with them. Hence
+//   paper  |p_i - c| <= |A|_2 R + sum_j s_j |d_j|
+// which is James & Pai's bound, with one T for the whole body in the place of their rest pose.
+// Weights of a lattice are local: for a sphere over many cells the s_j are near 1 and the sum
+// counts every displacement. And in a bent or twisted body every part has turned away from T, which
+// small spheres pay for. Two bounds of ours stand beside it, and the least of the three is taken:
+//   hull   |p_i - c| <= max_j |n_j - c|
+//          p_i is a mean of the n_j
+//   local  |p_i - c| <= |A|_2 R + min(sum_j s_j |d_j|, max_j |d_j|)
+//          T fitted to the sphere's own nodes, with T(g) = c: then p_i = T(q_i) + sum_j w_ij d_j
+// Every one costs a few operations per node that moves the sphere, and none touches a vertex.
+//
+// Rounding. u = 2^-53, N nodes move the sphere, M = largest |n_j| coordinate, per coordinate:
+// - computed c errs by at most blend_error_bound(N, M), a mapped vertex (map_point) by
+//   mapping_error_bound(M); q_i and g err likewise with the nodes at rest, which rest_radius has in
+//   it (R holds for the exact and for the computed g), as the s_j have the 6 u of computed weights
+// - T of the body: computed d_j err by at most 16 u (P + M) + 2^-1000, P = largest value met in
+//   T(r_j): six roundings, each of a value up to P + M
+// - T of the sphere is defined by the computed c and g; its d_j err by six roundings of values up
+//   to V = |n_j - c| + sqrt(3) |A|_2 |r_j - g|: at most 16 u V
+//
+// A length errs by sqrt(3) < 2 times as much: the slacks. Norms are rounded up by
+// covering_radius(), which also pays for squares that underflow; sums of up to N + 4 terms >= 0 by
+// 1 + (N + 8) 2^-52, twice what their roundings can take. No product of theirs underflows: spreads
+// are at least 2^-50, norms and radii at least 2^-500.
+//
+// So the closed ball of the stored centre and radius, both doubles, holds every mapped vertex of
+// the set, and their triangles with them; two triangles that share a point have spheres that share
+// it, at every level, and collide_safe() keeps those.
+//
+// Overflow: a map that overflows is replaced by zero (body) or left out (sphere), so that no NaN
+// hides in a maximum. A centre beyond the doubles is infinite, a radius infinite: collide_safe()
+// then excludes nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/broad/bd_model.h"
+#include "core/broad/sphere.h"
+#include "core/broad/triangle_tree.h"
+#include "core/deform/body.h"
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+struct BdSettings {
+  std::uint32_t leaf_size = 4;
+  ReferenceKind reference = ReferenceKind::kAffine;
+  bool paper_bound = false;  ///< true: James & Pai's bound alone; false: the least of three
+  /// Seeded fault for the tests: every radius is multiplied by this. 1 in every real run.
+  double fault_radius = 1.0;
+};
+
+/// The spheres of one body. Not for two threads at once: const members fill caches.
+class BdTree {
+ public:
+  BdTree(std::shared_ptr<const BdModel> model, const BdSettings& settings);
+
+  /// Fits the reference map and measures the displacements: O(lattice nodes). Reads nothing of an
+  /// earlier call. The nodes must outlive what is asked about them.
+  /// @pre one finite position per lattice node
+  void begin_frame(std::span<const Vec3> nodes);
+
+  const TriangleTree& tree() const { return model_->tree; }
+  const Sphere& sphere(std::uint32_t node) const {
+    if (sphere_frame_[node] != frame_) evaluate(node);
+    return spheres_[node];
+  }
+  bool overlap(std::uint32_t node, const BdTree& other, std::uint32_t other_node) const {
+    return collide_safe(sphere(node), other.sphere(other_node));
+  }
+  double size(std::uint32_t node) const { return sphere(node).radius; }
+  /// A vertex of the mesh with the bits of map_point.
+  const Vec3& vertex(std::uint32_t v) const {
+    if (vertex_frame_[v] != frame_) map_vertex(v);
+    return vertices_[v];
+  }
+
+  /// How many spheres were computed and vertices mapped since begin_frame().
+  std::size_t evaluated_spheres() const { return evaluated_spheres_; }
+  std::size_t mapped_vertices() const { return mapped_vertices_; }
+  /// "" or which sphere does not hold one of its vertices. Computes everything; slow: for tests.
+  std::string validate() const;
+
+ private:
+  void evaluate(std::uint32_t node) const;
+  double paper_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
+                      double errors) const;
+  double hull_radius(std::span<const BdInfluence> influences, const Vec3& center,
+                     double errors) const;
+  double local_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
+                      const Vec3& center, double errors) const;
+  void map_vertex(std::uint32_t v) const;
+
+  std::shared_ptr<const BdModel> model_;
+  BdSettings settings_;
+
+  std::span<const Vec3> nodes_;
+  double stretch_ = 1.0;                // |A|_2, rounded up
+  double largest_ = 0.0;                // |coordinate| of the nodes
+  std::vector<double> residual_norms_;  // rounded up
+
+  std::uint64_t frame_ = 0;  // caches of another frame are stale
+  mutable std::vector<std::uint64_t> sphere_frame_, vertex_frame_;
+  mutable std::vector<Sphere> spheres_;
+  mutable std::vector<Vec3> vertices_;
+  mutable std::size_t evaluated_spheres_ = 0, mapped_vertices_ = 0;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,67 @@
+// The affine map that carries a lattice from rest to where it is now, as nearly as one affine map
+// can, and what is left over. Bounds that follow it need to pay for the residual displacements
+// only: a body that flies and turns has none.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// Which map is fitted. Every one is sound: it decides how tight the bounds are.
+enum class ReferenceKind {
+  kAffine,  ///< least squares over the nodes
+  kRigid,   ///< the least-squares rotation and translation
+  kNone     ///< the identity: displacements are counted from where the body was at rest
+};
+
+/// T(x) = linear * (x - origin) + offset. Its doubles are its definition.
+struct AffineMap {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Zero();
+  Vec3 origin = Vec3::Zero();  ///< metres, at rest
+  Vec3 offset = Vec3::Zero();  ///< metres, now
+};
+
+/// Not below the spectral norm of the matrix, and above it by 0.3 % at most (and 2^-500, so that
+/// products with it do not underflow); infinite where it overflows.
+/// Why: X <- X^T X squares the spectral norm s. In floating point every entry errs by at most
+/// g (|X|^T |X|) with g < 3.01 * 2^-53, so the norm by g |X|_F^2 <= 3 g s^2: after a squaring at
+/// least s^2 (1 - h) is left, h = 3 g < 10 * 2^-53. k squarings and k square roots of
+/// |X_k|_F >= s(X_k) then give at least s (1 - h)^(1/2 + 1/4 + ...) > s (1 - h) and at most
+/// 3^(1 / 2^(k + 1)) s, which is 1.0022 s for k = 8. The roots err by 2^-53 each and halve what
+/// came before; 32 * 2^-53 pays for all. The matrix is first scaled by a power of two so that its
+/// largest entry lies in [1/2, 1): s is in [1/2, 3] and s^256 far from both ends of the doubles.
+/// @pre no NaN
+double spectral_norm_bound(const Eigen::Matrix3d& matrix);
+
+/// Fits maps to the nodes of one lattice; made once per shape.
+class ReferenceFit {
+ public:
+  ReferenceFit() = default;
+  /// @pre finite nodes, at least one
+  explicit ReferenceFit(std::vector<Vec3> rest);
+
+  /// The map of the kind asked for; the zero map (linear and offset 0) where that could overflow:
+  /// T(rest node) and its difference from the node are always finite.
+  /// @pre `nodes`: one per rest node, finite
+  AffineMap fit(ReferenceKind kind, std::span<const Vec3> nodes) const;
+
+  /// Not below the largest |coordinate| of any intermediate value of T(rest node).
+  double largest_value(const AffineMap& map) const;
+  const std::vector<Vec3>& rest() const { return rest_; }
+
+ private:
+  Eigen::Matrix3d fitted_linear(ReferenceKind kind, std::span<const Vec3> nodes,
+                                const Vec3& center) const;
+
+  std::vector<Vec3> rest_;
+  Vec3 center_ = Vec3::Zero();                                // of the rest nodes
+  Vec3 reach_ = Vec3::Zero();                                 // largest |rest - center_|, per axis
+  Eigen::Matrix3d inverse_moment_ = Eigen::Matrix3d::Zero();  // of sum (r - c)(r - c)^T
+};
+
+}  // namespace contactcheck

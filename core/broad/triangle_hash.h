@@ -1,0 +1,75 @@
+// Spatial hashing of the boxes of triangles of deforming bodies, anew in every frame.
+// Source: Teschner, Heidelberger, Mueller, Pomeranets, Gross: Optimized Spatial Hashing for
+// Collision Detection of Deformable Objects, VMV 2003, there for vertices against tetrahedra; here
+// both sides are triangles, each in every bucket that its box meets.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/broad/box_pairs.h"
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+struct TriangleHashSettings {
+  double cell = 2.0;  ///< edge of the hash grid, in mean edges of the triangles' boxes at rest
+  std::uint32_t table_size = 0;  ///< see SpatialHash
+};
+
+/// The broad phase of a TrianglePairDetector. Candidates: pairs of triangles whose boxes overlap,
+/// each exactly once, pairs of bodies mixed. Triangles outside the common part of their body's
+/// bounds with every other body's have no such pair and are not hashed.
+class TriangleHash {
+ public:
+  static constexpr const char* kName = "spatial-hash";
+  static constexpr const char* kVisitedUnit = "bucket entries";
+  static constexpr bool kBoxesOverlap = true;
+
+  explicit TriangleHash(const TriangleHashSettings& settings) : settings_(settings) {}
+
+  void prepare(const std::vector<Body>& bodies);
+  /// Fits the boxes to the frame. Hashing is left to the traversal: which triangles take part is
+  /// known here, but a table would be of no use to a frame that nobody asks about.
+  void update(const Frame& frame);
+  /// Calls `visit(ElementPair)`. The table is walked to its end whatever `visit` returns: all pairs
+  /// are found first, as the method has no order of bodies.
+  template <typename Visit>
+  void visit_candidates(Visit&& visit);
+  /// Entries that the last traversal compared with another one of their bucket.
+  std::uint64_t visited() const { return visited_; }
+
+  double cell_size() const { return cell_size_; }  ///< metres
+  /// Triangles that the last update put up for hashing.
+  std::size_t hashed() const { return boxes_.size(); }
+
+ private:
+  void fit_bounds(const Frame& frame);
+  void collect_boxes(std::uint32_t body, std::span<const Vec3> vertices);
+  void find_pairs();
+
+  TriangleHashSettings settings_;
+  double cell_size_ = 1.0;
+  std::vector<const TriangleMesh*> meshes_;
+  std::vector<Aabb> bounds_;                // per body
+  std::vector<std::vector<Aabb>> regions_;  // per body: its common parts with others
+  std::vector<OwnedBox> boxes_;             // `cell` is the triangle
+  BoxPairFinder finder_;
+  std::vector<BoxPairFinder::Pair> pairs_;
+  std::uint64_t visited_ = 0;
+};
+
+template <typename Visit>
+void TriangleHash::visit_candidates(Visit&& visit) {
+  find_pairs();
+  for (const auto& [i, j] : pairs_) {
+    const OwnedBox &a = boxes_[i], &b = boxes_[j];
+    visit(ElementPair{a.body, b.body, a.cell, b.cell});
+  }
+}
+
+}  // namespace contactcheck

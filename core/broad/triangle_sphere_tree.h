@@ -1,0 +1,131 @@
+// Trees of bounding spheres over the triangles of deforming bodies: built once at rest, refitted
+// from the leaves up in every frame, traversed two at a time.
+// Sources: Quinlan: Efficient Distance Computation between Non-Convex Objects, ICRA 1994; Hubbard:
+// Approximating Polyhedra with Spheres for Time-Critical Collision Detection, ACM TOG 1996 (spheres
+// over the surface's parts, each level round the one below).
+//
+// A parent takes the smaller of two spheres: the smallest one round its children's, and the one
+// round the box of everything below. The first alone grows from level to level: at the root of a
+// finely divided ball it is more than twice as large as the ball.
+//
+// Rounding loses no pair. Let B(s) be the exact closed ball of a sphere's centre and radius, both
+// doubles. Each B holds all triangles below its node:
+// 1. Leaf: covering_radius() is at least the exact distance from the centre, whatever double that
+//    is, to every vertex; so B holds the vertices and, being convex, their triangles.
+// 2. Parent round children: its radius is at least |c - c_i| + r_i, exactly, for both children i
+//    (again whatever c is: rounding of c costs tightness, not safety); by the triangle inequality
+//    B holds both children's balls, which hold their triangles.
+// 3. Parent round a box: minima and maxima of doubles are exact, so the box holds all vertices
+//    below; its radius is at least the exact distance to the box's farthest corner, as in 1.
+// Two triangles that share a point x lie in balls that all hold x, in their leaves and above, and
+// collide_safe() is true for every two balls that share a point. Hence no pair of nodes above them
+// is ever dropped.
+// Overflow makes a radius infinite, which holds everything: every step takes maxima and sums of
+// values that are >= 0, and no centre is ever infinite, so no NaN arises.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/broad/sphere.h"
+#include "core/broad/triangle_tree.h"
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+/// A sphere that holds both, rounded outward: the smallest one up to rounding, or one round the
+/// centre of `a` where the distance of the centres overflows.
+/// @pre finite centres, radii >= 0 (infinite ones are allowed)
+Sphere enclosing_sphere(const Sphere& a, const Sphere& b);
+
+/// A sphere that holds the box, rounded outward: the smallest one up to rounding.
+/// @pre lo <= hi, all finite
+Sphere enclosing_sphere(const Aabb& box);
+
+/// The spheres of one body.
+class TriangleSphereTree {
+ public:
+  explicit TriangleSphereTree(std::shared_ptr<const TriangleTree> tree);
+
+  /// Fits all spheres to the positions. Reads nothing of an earlier call.
+  /// @pre one finite position per vertex of the mesh
+  void refit(std::span<const Vec3> vertices);
+
+  const TriangleTree& tree() const { return *tree_; }
+  const Sphere& sphere(std::uint32_t node) const { return nodes_[node]; }
+
+  bool overlap(std::uint32_t node, const TriangleSphereTree& other,
+               std::uint32_t other_node) const {
+    return collide_safe(nodes_[node], other.nodes_[other_node]);
+  }
+  double size(std::uint32_t node) const { return nodes_[node].radius; }
+
+ private:
+  void fit_leaf(std::size_t node, std::span<const Vec3> vertices);
+  void fit_parent(std::size_t node);
+
+  std::shared_ptr<const TriangleTree> tree_;
+  std::vector<Sphere> nodes_;  // as tree_->nodes
+  std::vector<Aabb> boxes_;    // the same
+};
+
+/// One tree per body; the broad phase of a TrianglePairDetector. Candidates: all pairs of triangles
+/// of two leaves whose spheres overlap, each pair exactly once.
+class TriangleSphereTrees {
+ public:
+  static constexpr const char* kName = "sphere-tree";
+  static constexpr const char* kVisitedUnit = "sphere pairs";
+  static constexpr bool kBoxesOverlap = false;
+
+  explicit TriangleSphereTrees(std::uint32_t leaf_size) : leaf_size_(leaf_size) {}
+
+  void prepare(const std::vector<Body>& bodies);
+  void update(const Frame& frame);
+  /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
+  template <typename Visit>
+  void visit_candidates(Visit&& visit);
+  /// Pairs of spheres that the last traversal compared.
+  std::uint64_t visited() const { return visited_; }
+
+  const TriangleSphereTree& tree(std::size_t body) const { return trees_[body]; }
+
+ private:
+  template <typename Visit>
+  bool visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
+                    Visit& visit) const;
+
+  std::uint32_t leaf_size_;
+  std::vector<TriangleSphereTree> trees_;
+  std::vector<NodePair> stack_;
+  std::uint64_t visited_ = 0;
+};
+
+template <typename Visit>
+void TriangleSphereTrees::visit_candidates(Visit&& visit) {
+  visited_ = 0;
+  for (std::uint32_t a = 0; a < trees_.size(); ++a)
+    for (std::uint32_t b = a + 1; b < trees_.size(); ++b)
+      traverse_pairs(trees_[a], trees_[b], stack_, visited_,
+                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                       return visit_leaves({a, b}, leaf_a, leaf_b, visit);
+                     });
+}
+
+template <typename Visit>
+bool TriangleSphereTrees::visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
+                                       Visit& visit) const {
+  const TriangleTree &a = trees_[bodies.a].tree(), &b = trees_[bodies.b].tree();
+  const TriangleTree::Node node_a = a.nodes[leaf_a], node_b = b.nodes[leaf_b];
+  for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
+    for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
+      if (visit(ElementPair{bodies.a, bodies.b, a.ids[i], b.ids[j]})) return true;
+  return false;
+}
+
+}  // namespace contactcheck

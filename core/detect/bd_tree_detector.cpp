@@ -1,0 +1,138 @@
+#include "core/detect/bd_tree_detector.h"
+
+#include <utility>
+
+#include "core/detect/triangle_pair_detector.h"
+#include "core/narrow/triangle_triangle.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+TrianglePoints points_of(const BdTree& tree, std::uint32_t slot) {
+  const Triangle& t = tree.tree().corners[slot];
+  return {tree.vertex(t[0]), tree.vertex(t[1]), tree.vertex(t[2])};
+}
+
+Aabb box_of(const TrianglePoints& p) {
+  return {p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
+}
+
+}  // namespace
+
+BdTreeDetector::BdTreeDetector(const BdSettings& settings)
+    : settings_(settings), semantics_(exact_triangle_semantics()) {}
+
+void BdTreeDetector::prepare(const std::vector<Body>& bodies) {
+  trees_.clear();
+  triangles_.clear();
+  for (const auto& model : make_bd_models(bodies, settings_.leaf_size)) {
+    triangles_.push_back(model->tree.ids.size());
+    trees_.emplace_back(model, settings_);
+  }
+}
+
+void BdTreeDetector::update(const Frame& frame) {
+  CONTACTCHECK_INVARIANT(frame.bodies.size() == trees_.size(), "one state per prepared body");
+  for (std::size_t body = 0; body < trees_.size(); ++body)
+    trees_[body].begin_frame(frame.bodies[body].nodes);
+}
+
+template <typename Visit>
+void BdTreeDetector::visit_leaves(Visit&& visit) {
+  visited_ = 0;
+  for (std::uint32_t a = 0; a < trees_.size(); ++a)
+    for (std::uint32_t b = a + 1; b < trees_.size(); ++b)
+      traverse_pairs(trees_[a], trees_[b], stack_, visited_,
+                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                       return visit(Leaves{a, b, leaf_a, leaf_b});
+                     });
+}
+
+// Calls `found(ElementPair)` for every intersecting pair of triangles until it returns true.
+template <typename Found>
+bool BdTreeDetector::test_leaves(const Leaves& leaves, Found&& found) {
+  const BdTree &a = trees_[leaves.body_a], &b = trees_[leaves.body_b];
+  const TriangleTree::Node node_a = a.tree().nodes[leaves.leaf_a];
+  const TriangleTree::Node node_b = b.tree().nodes[leaves.leaf_b];
+  for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
+    const TrianglePoints p = points_of(a, i);
+    const Aabb box = box_of(p);
+    for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j) {
+      const TrianglePoints q = points_of(b, j);
+      if (!box.overlaps(box_of(q)) || !triangles_intersect(p, q)) continue;
+      if (found(ElementPair{leaves.body_a, leaves.body_b, a.tree().ids[i], b.tree().ids[j]}))
+        return true;
+    }
+  }
+  return false;
+}
+
+void BdTreeDetector::find_triangles(std::vector<ElementPair>& out) {
+  visit_leaves([&](const Leaves& leaves) {
+    return test_leaves(leaves, [&](const ElementPair& pair) {
+      out.push_back(pair);
+      return false;
+    });
+  });
+}
+
+void BdTreeDetector::find_bodies(std::vector<BodyPair>& out) {
+  visit_leaves([&](const Leaves& leaves) {
+    return test_leaves(leaves, [&](const ElementPair& pair) {
+      out.push_back({pair.body_a, pair.body_b});
+      return true;
+    });
+  });
+}
+
+void BdTreeDetector::query(Question question, ContactSet& out) {
+  CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  if (question == Question::kBody) {
+    find_bodies(out.bodies);
+  } else {
+    find_triangles(out.triangles);
+  }
+}
+
+StageRecord BdTreeDetector::trace_spheres() {
+  StageRecord record;
+  record.name = "spheres";
+  record.unit = "triangle pairs";
+  record.kind = StageRecord::Kind::kTriangles;
+  std::uint64_t before = 0;
+  for (std::uint64_t count : triangles_) {
+    record.in += before * count;
+    before += count;
+  }
+  visit_leaves([&](const Leaves& leaves) {
+    const TriangleTree &a = trees_[leaves.body_a].tree(), &b = trees_[leaves.body_b].tree();
+    const TriangleTree::Node node_a = a.nodes[leaves.leaf_a], node_b = b.nodes[leaves.leaf_b];
+    for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
+      for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
+        record.elements.push_back({leaves.body_a, leaves.body_b, a.ids[i], b.ids[j]});
+    return false;
+  });
+  record.visited = visited_;
+  record.visited_unit = "sphere pairs";
+  canonicalize(record.elements);
+  record.out = record.elements.size();
+  return record;
+}
+
+StageTrace BdTreeDetector::trace() {
+  StageTrace out;
+  out.stages.push_back(trace_spheres());
+  StageRecord exact;
+  exact.name = "triangles";
+  exact.unit = "triangle pairs";
+  exact.kind = StageRecord::Kind::kTriangles;
+  exact.in = out.stages[0].out;
+  find_triangles(exact.elements);
+  canonicalize(exact.elements);
+  exact.out = exact.elements.size();
+  out.stages.push_back(std::move(exact));
+  return out;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,35 @@
+// Short ways to describe an option of a detector.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/detect/registry.h"
+
+namespace contactcheck {
+
+inline OptionInfo choice_option(std::string name, std::string value,
+                                std::vector<std::string> choices, std::string help) {
+  OptionInfo o;
+  o.name = std::move(name);
+  o.default_value = std::move(value);
+  o.choices = std::move(choices);
+  o.help = std::move(help);
+  return o;
+}
+
+/// A number in [min, max]; `integer`: a whole one.
+inline OptionInfo numeric_option(std::string name, std::string value, double min, double max,
+                                 bool integer, std::string help) {
+  OptionInfo o;
+  o.name = std::move(name);
+  o.default_value = std::move(value);
+  o.min = min;
+  o.max = max;
+  o.integer = integer;
+  o.help = std::move(help);
+  return o;
+}
+
+}  // namespace contactcheck

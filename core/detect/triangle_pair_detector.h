@@ -1,0 +1,185 @@
+// A detector made of two parts: a broad phase that names candidate pairs of triangles, and a test
+// of two triangles.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/detect/node_plane_stage.h"
+#include "core/narrow/triangle_triangle.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+
+/// Core's exact test of two triangles: closed, for all finite doubles.
+struct ExactTriangles {
+  bool operator()(const TrianglePoints& p, const TrianglePoints& q) const {
+    return triangles_intersect(p, q);
+  }
+};
+
+/// What an exact detector of triangle pairs claims.
+inline Semantics exact_triangle_semantics() {
+  Semantics s;
+  s.levels = {Level::kBody, Level::kTriangle};
+  s.questions = {Question::kTriangles, Question::kBody};
+  s.exact = true;
+  return s;
+}
+
+/// Broad:
+///   kName, kVisitedUnit           texts for the stage trace
+///   kBoxesOverlap                 true: every candidate's two AABBs are known to overlap
+///   prepare(bodies), update(frame)
+///   visit_candidates(visit)       calls bool visit(const ElementPair&) for a superset of the
+///                                 intersecting pairs of triangles of different bodies; once it has
+///                                 returned true the rest of these two bodies may be left out
+///   visited()                     what the last visit_candidates looked at
+/// Narrow:
+///   bool operator()(p, q)         two triangles whose AABBs overlap
+///   begin_frame()                 optional; called by every update
+///   notes()                       optional; see Detector::notes
+/// Exact when Narrow is, since nothing else decides: AABBs of doubles are exact.
+/// @pre the frame's vertices outlive the queries that follow update
+template <typename Broad, typename Narrow = ExactTriangles>
+class TrianglePairDetector : public Detector {
+ public:
+  TrianglePairDetector(Broad broad, Narrow narrow, Semantics semantics)
+      : broad_(std::move(broad)), narrow_(std::move(narrow)), semantics_(std::move(semantics)) {}
+
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return true; }
+
+  void prepare(const std::vector<Body>& bodies) override {
+    shapes_.clear();
+    vertices_.clear();
+    for (const Body& body : bodies) shapes_.push_back(body.shape.get());
+    broad_.prepare(bodies);
+  }
+
+  void update(const Frame& frame) override {
+    CONTACTCHECK_INVARIANT(frame.bodies.size() == shapes_.size(), "one state per prepared body");
+    vertices_.clear();
+    for (std::size_t b = 0; b < shapes_.size(); ++b) {
+      CONTACTCHECK_INVARIANT(frame.bodies[b].vertices.size() == shapes_[b]->mesh.vertices.size(),
+                             "one position per vertex");
+      vertices_.push_back(frame.bodies[b].vertices);
+    }
+    broad_.update(frame);
+    if constexpr (requires { narrow_.begin_frame(); }) narrow_.begin_frame();
+  }
+
+  void query(Question question, ContactSet& out) override {
+    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+    if (question == Question::kBody) {
+      find_bodies(out.bodies);
+    } else {
+      find_triangles(out.triangles);
+    }
+  }
+
+  StageTrace trace() override {
+    StageTrace out;
+    out.stages.push_back(trace_broad());
+    StageRecord exact;
+    exact.name = "triangles";
+    exact.unit = "triangle pairs";
+    exact.kind = StageRecord::Kind::kTriangles;
+    exact.in = out.stages[0].out;
+    find_triangles(exact.elements);
+    canonicalize(exact.elements);
+    exact.out = exact.elements.size();
+    out.stages.push_back(std::move(exact));
+    return out;
+  }
+
+  std::vector<std::string> notes() override {
+    if constexpr (requires {
+                    { narrow_.notes() } -> std::convertible_to<std::vector<std::string>>;
+                  }) {
+      return narrow_.notes();
+    } else {
+      return {};
+    }
+  }
+
+ protected:
+  Broad& broad() { return broad_; }
+  Narrow& narrow() { return narrow_; }
+
+ private:
+  TrianglePoints points(std::uint32_t body, std::uint32_t triangle) const {
+    const Triangle& t = shapes_[body]->mesh.triangles[triangle];
+    const std::span<const Vec3> v = vertices_[body];
+    return {v[t[0]], v[t[1]], v[t[2]]};
+  }
+
+  static Aabb box_of(const TrianglePoints& p) {
+    return {p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
+  }
+
+  bool intersect(const ElementPair& pair) {
+    const TrianglePoints p = points(pair.body_a, pair.a), q = points(pair.body_b, pair.b);
+    if constexpr (!Broad::kBoxesOverlap)
+      if (!box_of(p).overlaps(box_of(q))) return false;
+    return narrow_(p, q);
+  }
+
+  void find_triangles(std::vector<ElementPair>& out) {
+    broad_.visit_candidates([&](const ElementPair& pair) {
+      if (intersect(pair)) out.push_back(pair);
+      return false;
+    });
+  }
+
+  void find_bodies(std::vector<BodyPair>& out) {
+    // A broad phase may go on with two bodies after their first hit, and mix pairs of bodies.
+    SeenPairs found(shapes_.size());
+    broad_.visit_candidates([&](const ElementPair& pair) {
+      if (found.seen(pair.body_a, pair.body_b)) return true;
+      if (!intersect(pair)) return false;
+      found.mark(pair.body_a, pair.body_b);
+      out.push_back({pair.body_a, pair.body_b});
+      return true;
+    });
+  }
+
+  std::uint64_t brute_force_pairs() const {
+    std::uint64_t pairs = 0, before = 0;
+    for (const BodyShape* shape : shapes_) {
+      pairs += before * shape->mesh.triangles.size();
+      before += shape->mesh.triangles.size();
+    }
+    return pairs;
+  }
+
+  StageRecord trace_broad() {
+    StageRecord record;
+    record.name = Broad::kName;
+    record.unit = "triangle pairs";
+    record.kind = StageRecord::Kind::kTriangles;
+    record.in = brute_force_pairs();
+    broad_.visit_candidates([&](const ElementPair& pair) {
+      record.elements.push_back(pair);
+      return false;
+    });
+    record.visited = broad_.visited();
+    record.visited_unit = Broad::kVisitedUnit;
+    canonicalize(record.elements);
+    record.out = record.elements.size();
+    return record;
+  }
+
+  Broad broad_;
+  Narrow narrow_;
+  Semantics semantics_;
+  std::vector<const BodyShape*> shapes_;
+  std::vector<std::span<const Vec3>> vertices_;
+};
+
+}  // namespace contactcheck

@@ -1,12 +1,14 @@
 #include "reference/oracle/oracle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/types/check.h"
 #include "reference/oracle/cell_hulls.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point_guard.h"
+#include "reference/oracle/near_pairs.h"
 #include "reference/oracle/surface_distance.h"
 #include "reference/oracle/surface_tree.h"
 #include "reference/oracle/winding.h"
@@ -146,6 +148,30 @@ DistanceInterval Oracle::distance(const Frame& frame, BodyPair pair) {
   impl_->scaled_a.vertices = frame.bodies[pair.a].vertices;
   impl_->scaled_b.vertices = frame.bodies[pair.b].vertices;
   return surface_distance(impl_->scaled_a, impl_->scaled_b);
+}
+
+std::vector<NearPair> Oracle::near(const Frame& frame, double margin) {
+  const FloatingPointGuard guard;
+  impl_->check(frame);
+  CONTACTCHECK_INVARIANT(std::isfinite(margin) && margin >= 0, "a margin is finite, at least 0");
+  std::vector<NearPair> out;
+  if (margin == 0) return out;
+  // Of all vertices: the trees know only those of triangles.
+  std::vector<Aabb> boxes(impl_->size());
+  for (std::uint32_t i = 0; i < impl_->size(); ++i)
+    for (const Vec3& p : frame.bodies[i].vertices) boxes[i].extend(p);
+  for (std::uint32_t other = 0; other < impl_->size(); ++other) {
+    bool fitted = false;
+    for (std::uint32_t body = 0; body < impl_->size(); ++body) {
+      if (body == other || !boxes_within(margin, boxes[body], boxes[other])) continue;
+      if (!fitted) impl_->trees[other].refit(frame.bodies[other].vertices);
+      fitted = true;
+      append_near_pairs({body, other}, frame.bodies[body].vertices, impl_->trees[other], margin,
+                        out);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace contactcheck

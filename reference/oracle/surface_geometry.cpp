@@ -1,0 +1,191 @@
+#include "reference/oracle/surface_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/types/check.h"
+#include "reference/oracle/cell_hulls.h"
+#include "reference/oracle/convex_parting.h"
+#include "reference/oracle/exact_tests.h"
+#include "reference/oracle/floating_point_guard.h"
+#include "reference/oracle/intersection_length.h"
+#include "reference/oracle/nearest_surface.h"
+#include "reference/oracle/scaling.h"
+#include "reference/oracle/surface_tree.h"
+#include "reference/oracle/triangle_distance.h"
+
+namespace contactcheck {
+
+using namespace oracle;
+
+namespace {
+
+// In fractions of the body size: ways out that differ by less are equally short.
+constexpr double kAsShort = 1e-9;
+
+// Relative width of a distance interval above which it is computed in rationals.
+constexpr double kDistanceWidth = 1e-9;
+
+TriangleCorners scaled_corners(const TriangleCorners& t, int exponent) {
+  return {scaled_by_two_to(exponent, t[0]), scaled_by_two_to(exponent, t[1]),
+          scaled_by_two_to(exponent, t[2])};
+}
+
+std::vector<TriangleCorners> scaled_surface(PieceSurface surface, int exponent) {
+  std::vector<TriangleCorners> out;
+  for (const TriangleCorners& t : surface) out.push_back(scaled_corners(t, exponent));
+  return out;
+}
+
+WayOut unscaled(WayOut way, int exponent) {
+  way.depth = std::ldexp(way.depth, exponent);
+  return way;
+}
+
+}  // namespace
+
+// One body in the frame; what costs time is made when it is first asked for.
+struct BodyGeometry {
+  explicit BodyGeometry(std::shared_ptr<const BodyShape> s) : shape(std::move(s)) {}
+
+  std::shared_ptr<const BodyShape> shape;
+  BodyState state;
+  double largest = 0.0, side = 0.0;  // coordinate; side of the box of all vertices
+  std::optional<SurfaceTree> tree;
+  std::vector<Vec3> scaled;  // what the tree is fitted to
+  int tree_exponent = 0;
+  bool tree_fitted = false;
+  std::optional<CellHulls> hulls;
+  bool hulls_fitted = false;
+
+  void set(const BodyState& now);
+  TriangleCorners corners(std::uint32_t triangle) const;
+  const SurfaceTree& fitted_tree(int exponent);
+  const ConvexHull& hull(std::uint32_t cell);
+};
+
+void BodyGeometry::set(const BodyState& now) {
+  CONTACTCHECK_INVARIANT(now.vertices.size() == shape->mesh.vertices.size(),
+                         "the oracle needs every deformed vertex");
+  state = now;
+  largest = largest_coordinate(now.vertices);
+  side = std::min(largest_side(now.vertices), std::numeric_limits<double>::max());
+  tree_fitted = hulls_fitted = false;
+}
+
+TriangleCorners BodyGeometry::corners(std::uint32_t triangle) const {
+  CONTACTCHECK_INVARIANT(triangle < shape->mesh.triangles.size(), "a triangle of the body");
+  const Triangle& t = shape->mesh.triangles[triangle];
+  return {state.vertices[t[0]], state.vertices[t[1]], state.vertices[t[2]]};
+}
+
+const SurfaceTree& BodyGeometry::fitted_tree(int exponent) {
+  if (!tree) tree.emplace(shape->mesh);
+  if (tree_fitted && tree_exponent == exponent) return *tree;
+  scaled.clear();
+  for (const Vec3& p : state.vertices) scaled.push_back(scaled_by_two_to(-exponent, p));
+  tree->refit(scaled);
+  tree_exponent = exponent;
+  tree_fitted = true;
+  return *tree;
+}
+
+const ConvexHull& BodyGeometry::hull(std::uint32_t cell) {
+  if (!hulls) hulls.emplace(shape);
+  CONTACTCHECK_INVARIANT(cell < hulls->size(), "a kept cell of the body");
+  CONTACTCHECK_INVARIANT(state.nodes.size() == shape->node_count(),
+                         "the oracle needs every deformed node");
+  if (!hulls_fitted) hulls->update(state.nodes);
+  hulls_fitted = true;
+  return hulls->hull(cell);
+}
+
+struct SurfaceGeometry::Impl {
+  std::vector<BodyGeometry> bodies;
+
+  BodyGeometry& body(std::uint32_t index);
+  TriangleCorners first(const ElementPair& pair) { return body(pair.body_a).corners(pair.a); }
+  TriangleCorners second(const ElementPair& pair) { return body(pair.body_b).corners(pair.b); }
+  WayOut part(PieceSurface a, PieceSurface b, double body_side) const;
+  double side(std::uint32_t a, std::uint32_t b) { return std::max(body(a).side, body(b).side); }
+};
+
+BodyGeometry& SurfaceGeometry::Impl::body(std::uint32_t index) {
+  CONTACTCHECK_INVARIANT(index < bodies.size(), "a body of the scene");
+  return bodies[index];
+}
+
+// Scaled to at most 1, so that no difference overflows.
+WayOut SurfaceGeometry::Impl::part(PieceSurface a, PieceSurface b, double body_side) const {
+  double largest = 0.0;
+  for (PieceSurface surface : {a, b})
+    for (const TriangleCorners& t : surface) largest = std::max(largest, largest_coordinate(t));
+  const int exponent = exponent_above(largest);
+  const std::vector<TriangleCorners> p = scaled_surface(a, -exponent);
+  const std::vector<TriangleCorners> q = scaled_surface(b, -exponent);
+  return unscaled(part_pieces(p, q, std::ldexp(kAsShort * body_side, -exponent)), exponent);
+}
+
+SurfaceGeometry::SurfaceGeometry(const std::vector<Body>& bodies)
+    : impl_(std::make_unique<Impl>()) {
+  for (const Body& body : bodies) impl_->bodies.emplace_back(body.shape);
+}
+
+SurfaceGeometry::~SurfaceGeometry() = default;
+
+void SurfaceGeometry::set_frame(const Frame& frame) {
+  const FloatingPointGuard guard;
+  CONTACTCHECK_INVARIANT(frame.bodies.size() == impl_->bodies.size(), "one state per body");
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) impl_->bodies[i].set(frame.bodies[i]);
+}
+
+double SurfaceGeometry::intersection_length(const ElementPair& triangles) const {
+  const FloatingPointGuard guard;
+  return oracle::intersection_length(impl_->first(triangles), impl_->second(triangles));
+}
+
+double SurfaceGeometry::triangle_distance(const ElementPair& triangles) const {
+  const FloatingPointGuard guard;
+  const TriangleCorners a = impl_->first(triangles), b = impl_->second(triangles);
+  if (triangles_intersect(a, b)) return 0.0;
+  const int exponent = exponent_above(std::max(largest_coordinate(a), largest_coordinate(b)));
+  const TriangleCorners p = scaled_corners(a, -exponent), q = scaled_corners(b, -exponent);
+  DistanceBounds bounds = distance_bounds(p, q);
+  if (bounds.upper - bounds.lower > kDistanceWidth * bounds.upper)
+    bounds = exact_distance_bounds(p, q);
+  // Scaling may have brought the two together, and the way back may round down.
+  const double upper = std::ldexp(bounds.upper, exponent);
+  return upper < std::numeric_limits<double>::min()
+             ? std::nextafter(upper, std::numeric_limits<double>::max())
+             : upper;
+}
+
+WayOut SurfaceGeometry::vertex_to_surface(const VertexInBody& where) const {
+  const FloatingPointGuard guard;
+  const BodyGeometry& from = impl_->body(where.body);
+  BodyGeometry& to = impl_->body(where.in);
+  CONTACTCHECK_INVARIANT(where.vertex < from.state.vertices.size(), "a vertex of the body");
+  const int exponent = exponent_above(std::max(from.largest, to.largest));
+  const double size = std::ldexp(impl_->side(where.body, where.in), -exponent);
+  const Vec3 vertex = scaled_by_two_to(-exponent, from.state.vertices[where.vertex]);
+  return unscaled(way_to_surface(vertex, to.fitted_tree(exponent), size), exponent);
+}
+
+std::optional<WayOut> SurfaceGeometry::part_triangles(const ElementPair& triangles) const {
+  const FloatingPointGuard guard;
+  const TriangleCorners a = impl_->first(triangles), b = impl_->second(triangles);
+  if (!triangles_intersect(a, b)) return std::nullopt;
+  return impl_->part({&a, 1}, {&b, 1}, impl_->side(triangles.body_a, triangles.body_b));
+}
+
+std::optional<WayOut> SurfaceGeometry::part_boxes(const ElementPair& cells) {
+  const FloatingPointGuard guard;
+  const ConvexHull& a = impl_->body(cells.body_a).hull(cells.a);
+  const ConvexHull& b = impl_->body(cells.body_b).hull(cells.b);
+  if (!hulls_overlap(a, b)) return std::nullopt;
+  return impl_->part(a.surface, b.surface, impl_->side(cells.body_a, cells.body_b));
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,52 @@
+// How much, how far, how deep: the graded truth beside the verdicts, for the deformed doubles of a
+// frame. Doubles of stated accuracy; no contact is decided here.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+
+namespace contactcheck {
+
+/// The shortest way apart.
+struct WayOut {
+  double depth = 0.0;            ///< metres
+  std::vector<Vec3> directions;  ///< unit; every one that is as short within 1e-9 of the body size
+};
+
+class SurfaceGeometry {
+ public:
+  explicit SurfaceGeometry(const std::vector<Body>& bodies);
+  ~SurfaceGeometry();
+  SurfaceGeometry(const SurfaceGeometry&) = delete;
+  SurfaceGeometry& operator=(const SurfaceGeometry&) = delete;
+
+  /// The frame that the questions below are about; its spans must outlive them.
+  void set_frame(const Frame& frame);
+
+  /// Metres: the diameter of the intersection of two closed triangles, which for two that cross is
+  /// the length of the segment they share; 0 where they share one point or none.
+  /// Within 1e-9 of the triangles' size, whatever their position.
+  double intersection_length(const ElementPair& triangles) const;
+  /// Metres: the distance of two triangles, the upper end of a certified interval.
+  double triangle_distance(const ElementPair& triangles) const;
+  /// Metres: the distance of a vertex to the surface of another body (`where.in`), with the
+  /// directions from the vertex to its nearest points there; no directions when it lies on it.
+  WayOut vertex_to_surface(const VertexInBody& where) const;
+  /// The shortest translation of piece b that leaves the two at most touching, by brute force over
+  /// all face normals and products of edges; nothing when they are disjoint. Flat pieces part at 0
+  /// when they lie in one plane.
+  std::optional<WayOut> part_triangles(const ElementPair& triangles) const;
+  /// The same for the mapped FFD-AABB boxes (convex hulls of 8 nodes) of two kept cells.
+  std::optional<WayOut> part_boxes(const ElementPair& cells);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace contactcheck

@@ -5,6 +5,9 @@
 // - A request without contact points (enable_contact = false) still records the two triangles of
 //   every pair, each once, by the same separating-axis test, and does not build the planes that
 //   degenerate triangles lack.
+// - A request with contact points takes a pair's depth along one of the two face normals, the
+//   smaller one, out of the many directions in which two triangles may part; for a triangle
+//   without area the normal is whatever was in memory: no depth is passed on for it.
 // - Errors are return codes, and a call out of sequence leaves the old geometry in place.
 // - The Replace calls fit boxes to the new vertices; the Update calls would fit them to old and new
 //   ones, for continuous collision.
@@ -18,6 +21,7 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -35,8 +39,9 @@ void require_ok(int code, const char* call) {
 Semantics fcl_semantics() {
   Semantics semantics;
   semantics.levels = {Level::kBody, Level::kTriangle};
-  semantics.questions = {Question::kTriangles, Question::kBody};
+  semantics.questions = {Question::kTriangles, Question::kBody, Question::kContacts};
   semantics.closed = true;
+  semantics.depth = DepthKind::kConvexPair;
   return semantics;
 }
 
@@ -44,7 +49,7 @@ fcl::CollisionRequestd request_for(Question question) {
   fcl::CollisionRequestd request;
   request.num_max_contacts =
       question == Question::kBody ? 1 : std::numeric_limits<std::size_t>::max();
-  request.enable_contact = false;
+  request.enable_contact = question == Question::kContacts;
   return request;
 }
 
@@ -153,9 +158,18 @@ class FclDetector final : public Detector {
     }
     for (std::size_t i = 0; i < result_.numContacts(); ++i) {
       const fcl::Contactd& contact = result_.getContact(i);
-      out.triangles.push_back({pair.a, pair.b, static_cast<std::uint32_t>(contact.b1),
-                               static_cast<std::uint32_t>(contact.b2)});
+      const ElementPair triangles{pair.a, pair.b, static_cast<std::uint32_t>(contact.b1),
+                                  static_cast<std::uint32_t>(contact.b2)};
+      out.triangles.push_back(triangles);
+      if (question == Question::kContacts) append_depth(triangles, contact, out);
     }
+  }
+
+  static void append_depth(const ElementPair& triangles, const fcl::Contactd& contact,
+                           ContactSet& out) {
+    const bool unit = std::abs(contact.normal.norm() - 1.0) < 1e-6;  // false for NaN
+    if (!unit || !(contact.penetration_depth >= 0.0)) return;
+    out.piece_contacts.push_back({triangles, contact.penetration_depth, contact.normal});
   }
 
   const Semantics semantics_ = fcl_semantics();

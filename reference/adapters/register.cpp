@@ -2,7 +2,11 @@
 
 #include <Eigen/Core>
 
+#include "reference/adapters/bullet_soft_adapter.h"
+#include "reference/adapters/embree_adapter.h"
 #include "reference/adapters/fcl_adapter.h"
+#include "reference/adapters/gimpact_adapter.h"
+#include "reference/adapters/libccd_adapter.h"
 
 namespace contactcheck {
 namespace {
@@ -14,10 +18,27 @@ std::string eigen_version() {
 
 }  // namespace
 
-void register_reference_detectors(DetectorCatalog& catalog) { register_fcl_detectors(catalog); }
+void register_reference_detectors(DetectorCatalog& catalog) {
+  register_fcl_detectors(catalog);
+  register_embree_detector(catalog);
+  register_bullet_soft_detectors(catalog);
+  register_gimpact_detector(catalog);
+  register_libccd_detectors(catalog);
+}
+
+DetectorCatalog standard_catalog() {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  register_reference_detectors(catalog);
+  return catalog;
+}
 
 std::map<std::string, std::string> library_versions() {
-  return {{"eigen", eigen_version()}, {"fcl", fcl_version()}};
+  return {{"bullet", bullet_version()},
+          {"eigen", eigen_version()},
+          {"embree", embree_version()},
+          {"fcl", fcl_version()},
+          {"libccd", libccd_version()}};
 }
 
 }  // namespace contactcheck

@@ -11,6 +11,9 @@ namespace contactcheck {
 /// Adds every adapted detector to the catalogue.
 void register_reference_detectors(DetectorCatalog& catalog);
 
+/// Every detector of this program: core's and the adapted ones.
+DetectorCatalog standard_catalog();
+
 /// Versions of the libraries that detectors are made of, by library: "fcl" -> "0.7.0".
 std::map<std::string, std::string> library_versions();
 

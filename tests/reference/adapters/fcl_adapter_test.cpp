@@ -152,7 +152,9 @@ INSTANTIATE_TEST_SUITE_P(All, FclDetectors,
 TEST_P(FclDetectors, ClaimClosedSurfacesInDoubleWithoutExactness) {
   const Semantics semantics = make()->semantics();
   EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody, Level::kTriangle));
-  EXPECT_THAT(semantics.questions, ElementsAre(Question::kTriangles, Question::kBody));
+  EXPECT_THAT(semantics.questions,
+              ElementsAre(Question::kTriangles, Question::kBody, Question::kContacts));
+  EXPECT_EQ(semantics.depth, DepthKind::kConvexPair);
   EXPECT_TRUE(semantics.closed);
   EXPECT_FALSE(semantics.solid);
   EXPECT_FALSE(semantics.exact);
@@ -299,6 +301,36 @@ TEST_P(FclDetectors, QueryAppendsToWhatIsThere) {
 TEST_P(FclDetectors, OneBodyHasNoContact) {
   const World world({box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1))});
   EXPECT_THAT(triangles(world), IsEmpty());
+}
+
+// A triangle that hangs 0.125 deep through a large one: the shortest way out is up.
+TEST_P(FclDetectors, ContactsHaveTheDepthAndTheWayOutOfTheSecondBody) {
+  const TriangleMesh floor = {{Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)}, {{0, 1, 2}}};
+  const TriangleMesh spike = {{Vec3(0, 0, -0.125), Vec3(1, 0, 0.875), Vec3(-1, 0, 0.875)},
+                              {{0, 1, 2}}};
+  for (const bool swapped : {false, true}) {
+    const World world(swapped ? std::vector{spike, floor} : std::vector{floor, spike});
+    const ContactSet contacts = ask(*prepared(world), Question::kContacts);
+    EXPECT_THAT(contacts.triangles, ElementsAre(ElementPair{0, 1, 0, 0}));
+    ASSERT_FALSE(contacts.piece_contacts.empty());
+    for (const PieceContact& c : contacts.piece_contacts) {
+      EXPECT_NEAR(c.depth, 0.125, 1e-12);
+      const Vec3 up(0, 0, swapped ? -1 : 1);  // the floor goes down instead
+      EXPECT_NEAR((c.normal - up).norm(), 0.0, 1e-12);
+    }
+  }
+}
+
+TEST_P(FclDetectors, ContactsAreThePairsOfTheOtherQuestionWithUnitNormals) {
+  const World world({sphere_mesh(Vec3(0, 0, 0), 1), sphere_mesh(Vec3(1.3, 0.2, 0.1), 1)});
+  const auto detector = prepared(world);
+  const ContactSet contacts = ask(*detector, Question::kContacts);
+  EXPECT_EQ(contacts.triangles, ask(*detector, Question::kTriangles).triangles);
+  EXPECT_GE(contacts.piece_contacts.size(), contacts.triangles.size());
+  for (const PieceContact& c : contacts.piece_contacts) {
+    EXPECT_NEAR(c.normal.norm(), 1.0, 1e-9);
+    EXPECT_TRUE(std::binary_search(contacts.triangles.begin(), contacts.triangles.end(), c.pieces));
+  }
 }
 
 // A segment and a point written as triangles that lie on the other surface, beside a degenerate

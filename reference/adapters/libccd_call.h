@@ -1,0 +1,78 @@
+// libccd's calls on two convex pieces given by points, with an end that libccd alone lacks.
+//
+// How a loop is ended. EPA and MPR's portal loops run until no point lies further out, and nothing
+// counts their rounds. All of them ask a support function for that point: the ones here count, and
+// past the limit they name a point on the wrong side of the origin. Each loop takes it for "nothing
+// further out", leaves by its own exit and frees what it holds. What it then says is not used.
+//
+// Limits, in support points of the difference (one of each piece), by option `iterations` = n:
+//   GJK  1 + n for the verdict (libccd's own limit), n + 64 more for the depth (EPA: 46 at most to
+//        start its polytope from a segment, then one per round)
+//   MPR  3 + n for the whole call, depth or not (three points make the first portal)
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+enum class CcdAlgorithm { kGjk, kMpr };
+
+struct CcdSettings {
+  CcdAlgorithm algorithm = CcdAlgorithm::kGjk;
+  std::uint32_t iterations = 100;
+  double scale = 1.0;           ///< libccd is fed points times this; its units are metres / scale
+  double epa_tolerance = 1e-4;  ///< square units: EPA compares squared distances with it
+  double mpr_tolerance = 1e-4;  ///< units
+};
+
+/// The hull of these points; not empty.
+using CcdPiece = std::span<const Vec3>;
+
+struct CcdWayOut {
+  double depth = 0.0;          ///< metres
+  Vec3 normal = Vec3::Zero();  ///< unit; moving the second piece by depth * normal parts them
+};
+
+struct CcdPenetration {
+  bool contact = false;
+  std::optional<CcdWayOut> way_out;  ///< none where libccd gave none that is finite and unit
+};
+
+class CcdCaller {
+ public:
+  explicit CcdCaller(const CcdSettings& settings) : settings_(settings) {}
+
+  /// Do they share a point? False too where the limit was reached.
+  bool intersect(CcdPiece a, CcdPiece b);
+  /// The same verdict, and how to part them.
+  /// @throws std::runtime_error when libccd is out of memory
+  CcdPenetration penetrate(CcdPiece a, CcdPiece b);
+
+  /// Forgets what notes() is about.
+  void begin_frame() { verdict_limits_ = depth_limits_ = without_direction_ = 0; }
+  /// Of all calls since begin_frame().
+  std::vector<std::string> notes() const;
+  /// Since the beginning.
+  std::uint64_t support_calls() const { return support_calls_; }
+
+  std::uint64_t verdict_limits() const { return verdict_limits_; }
+  std::uint64_t depth_limits() const { return depth_limits_; }
+  std::uint64_t without_direction() const { return without_direction_; }
+
+ private:
+  CcdPenetration penetrate_gjk(CcdPiece a, CcdPiece b);
+  CcdPenetration penetrate_mpr(CcdPiece a, CcdPiece b);
+  CcdPenetration contact_with(const CcdWayOut& way_out);
+
+  CcdSettings settings_;
+  std::uint64_t support_calls_ = 0;
+  std::uint64_t verdict_limits_ = 0, depth_limits_ = 0, without_direction_ = 0;
+};
+
+}  // namespace contactcheck

@@ -1,11 +1,15 @@
 // The subcommands. Each returns the exit code of the design: 0 the work was done, 2 bad usage or
-// bad input, 3 a detector ended in an error. InputError passes through to main, which makes it 2.
+// bad input, 3 a detector ended in an error. InputError passes through to contactcheck_main, which
+// makes it 2.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "core/detect/registry.h"
 
 namespace contactcheck {
 
@@ -15,11 +19,18 @@ struct RunArguments {
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
   bool timing = true, quiet = false;
+  double call_limit = 60.0;  ///< seconds
+  std::uint64_t memory_limit_mib = 4096;
   std::string command_line;  ///< for the record
 };
 
-int run_command(const RunArguments& arguments);
-int list_command();
+/// What to list; nothing chosen: everything, with one line each.
+struct ListArguments {
+  bool suites = false, scenes = false, detectors = false;
+};
+
+int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
+int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -8,7 +8,6 @@
 #include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
-#include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
 #include "reference/report/markdown.h"
@@ -24,10 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> canonical_detectors(const std::vector<std::string>& names) {
-  DetectorCatalog catalog;
-  register_core_detectors(catalog);
-  register_reference_detectors(catalog);
+std::vector<std::string> canonical_detectors(const std::vector<std::string>& names,
+                                             const DetectorCatalog& catalog) {
   std::vector<std::string> out;
   for (const std::string& name : names) {
     const std::string canonical = catalog.parse(name).name;
@@ -41,13 +38,13 @@ Suite default_suite(const fs::path& fixtures) {
 }
 
 void add_task(const fs::path& file, const std::vector<std::string>& detectors,
-              std::vector<SceneTask>& tasks) {
+              const DetectorCatalog& catalog, std::vector<SceneTask>& tasks) {
   for (const SceneTask& task : tasks)
     if (task.file == file) return;
-  tasks.push_back({"", file, canonical_detectors(detectors)});
+  tasks.push_back({"", file, canonical_detectors(detectors, catalog)});
 }
 
-std::vector<SceneTask> make_tasks(const RunArguments& arguments) {
+std::vector<SceneTask> make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
   const fs::path fixtures = fixtures_directory();
   std::vector<std::string> targets = arguments.targets;
   if (targets.empty()) targets.push_back("default");
@@ -60,10 +57,10 @@ std::vector<SceneTask> make_tasks(const RunArguments& arguments) {
       const Suite suite = load_suite(target.file);
       if (detectors.empty()) detectors = suite.detectors;
       for (const std::string& scene : suite.scenes)
-        add_task(find_scene(scene, fixtures), detectors, tasks);
+        add_task(find_scene(scene, fixtures), detectors, catalog, tasks);
     } else {
       if (detectors.empty()) detectors = default_suite(fixtures).detectors;
-      add_task(target.file, detectors, tasks);
+      add_task(target.file, detectors, catalog, tasks);
     }
   }
   return tasks;
@@ -108,15 +105,17 @@ void print_outcome(const RunArguments& arguments, const Json& results) {
 
 }  // namespace
 
-int run_command(const RunArguments& arguments) {
+int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
-  request.tasks = make_tasks(arguments);
+  request.tasks = make_tasks(arguments, catalog);
   check_scenes(arguments.frames, request.tasks);
   check_out(arguments.out);
   request.settings.frames = arguments.frames;
   request.settings.repeats = arguments.repeats;
   request.settings.processes = arguments.processes;
   request.settings.timing = arguments.timing;
+  request.settings.call_limit = arguments.call_limit;
+  request.settings.memory_limit = arguments.memory_limit_mib << 20;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;

@@ -22,10 +22,15 @@ bool all_in_lattices(const std::vector<Body>& bodies) {
 ElementPair as_pair(const ElementPair& p) { return p; }
 ElementPair as_pair(const BodyPair& p) { return {p.a, p.b, 0, 0}; }
 ElementPair as_pair(const VertexInBody& v) { return {v.body, v.in, v.vertex, 0}; }
+ElementPair as_pair(const NearPair& p) { return {p.body, p.other, p.vertex, p.triangle}; }
 
-Level finest(const std::vector<Level>& levels) {
+bool holds(const std::vector<Level>& levels, Level level) {
+  return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+Level finest(const std::vector<Level>& levels, const Semantics& semantics) {
   for (Level level : {Level::kTriangle, Level::kNear, Level::kVertex, Level::kCell, Level::kBox})
-    if (std::find(levels.begin(), levels.end(), level) != levels.end()) return level;
+    if (holds(levels, level) && !holds(semantics.informative, level)) return level;
   return Level::kBody;
 }
 
@@ -43,8 +48,10 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged) {
   std::vector<Level> out;
-  for (Level level : semantics.levels) {
-    if (std::find(wanted.begin(), wanted.end(), level) == wanted.end()) continue;
+  std::vector<Level> levels = semantics.levels;
+  levels.insert(levels.end(), semantics.informative.begin(), semantics.informative.end());
+  for (Level level : levels) {
+    if (!holds(wanted, level)) continue;
     const std::string why = obstacle_to_judging(level, bodies);
     if (why.empty()) {
       out.push_back(level);
@@ -58,10 +65,11 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
 Judge::Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels)
     : bodies_(bodies), semantics_(semantics), wanted_(std::move(levels)) {
   for (Level level : wanted_) levels_[level];
-  if (!wanted_.empty()) per_frame_.level = name_of(finest(wanted_));
+  if (!wanted_.empty()) per_frame_.level = name_of(finest(wanted_, semantics_));
 }
 
 void Judge::note(Level level, const char* kind, std::size_t frame, const ElementPair& pair) {
+  if (holds(semantics_.informative, level)) return;
   for (const Disagreement& d : disagreements_)
     if (d.level == name_of(level) && d.kind == kind) return;
   Disagreement d;
@@ -110,7 +118,7 @@ LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>
 }
 
 LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& truth,
-                               const ContactSet& reported) {
+                               const ContactSet& reported, const std::vector<NearPair>& near) {
   switch (level) {
     case Level::kBody: {
       std::vector<BodyPair> bodies = truth.surface.bodies;
@@ -138,15 +146,16 @@ LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& trut
     case Level::kVertex:
       return compare_sets(level, frame, truth.surface.vertices, reported.vertices);
     case Level::kNear:
-      break;
+      return compare_sets(level, frame, near, reported.near);
   }
-  CONTACTCHECK_INVARIANT(false, "no detector of this program speaks in margins");
+  CONTACTCHECK_INVARIANT(false, "every level is judged above");
   return {};
 }
 
-void Judge::add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported) {
+void Judge::add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported,
+                      const std::vector<NearPair>& near) {
   for (Level level : wanted_) {
-    const LevelCounts counts = judge_level(level, frame, truth, reported);
+    const LevelCounts counts = judge_level(level, frame, truth, reported, near);
     levels_[level] += counts;
     if (per_frame_.level != name_of(level)) continue;
     per_frame_.truth.push_back(counts.truth);

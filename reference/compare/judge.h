@@ -16,7 +16,8 @@ namespace contactcheck {
 /// Why a level cannot be judged on these bodies ("not judged: open"), or "".
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
 
-/// The levels at which an answer is held against the truth: claimed and wanted by the scene.
+/// The levels at which an answer is held against the truth: claimed (or informative) and wanted by
+/// the scene.
 /// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
 std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
                                  const std::vector<Level>& wanted,
@@ -26,17 +27,20 @@ class Judge {
  public:
   Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels);
 
-  /// @pre both sets are canonical; frames come in order
-  void add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported);
+  /// `near`: the true pairs nearer than the margin of the semantics, for the level `near`.
+  /// @pre all sets are canonical; frames come in order
+  void add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported,
+                 const std::vector<NearPair>& near = {});
 
   const std::map<Level, LevelCounts>& levels() const { return levels_; }
   const PerFrame& per_frame() const { return per_frame_; }
-  /// The first missed and the first spurious contact of each level; scene and detector left empty.
+  /// The first missed and the first spurious contact of each level claimed; scene and detector left
+  /// empty.
   const std::vector<Disagreement>& disagreements() const { return disagreements_; }
 
  private:
   LevelCounts judge_level(Level level, std::size_t frame, const Truth& truth,
-                          const ContactSet& reported);
+                          const ContactSet& reported, const std::vector<NearPair>& near);
   template <typename T>
   LevelCounts compare_sets(Level level, std::size_t frame, const std::vector<T>& truth,
                            const std::vector<T>& reported);

@@ -27,15 +27,35 @@ struct LevelCounts {
   bool perfect() const { return missed == 0 && spurious == 0; }
 };
 
-/// One line per frame, at the finest level judged.
+/// One line per frame, at the finest level claimed and judged.
 struct PerFrame {
   std::string level;
   std::vector<std::uint64_t> truth, missed, spurious;
+  /// The share of the true contact contour that the report covers; none in frames without contour
+  /// and for detectors that report no elements.
+  std::vector<std::optional<double>> covered_length_fraction;
+};
+
+/// Errors over all contacts that could be judged; values only where there was one.
+struct ErrorSpread {
+  std::size_t judged = 0;
+  std::optional<double> max, mean, p95;
+};
+
+/// Graded errors: pair counts depend on tessellation, these do not.
+struct GradedErrors {
+  std::optional<double> missed_length;            ///< metres of contour, summed over frames
+  std::optional<double> covered_length_fraction;  ///< of the contour of all frames
+  std::optional<double> spurious_distance_max;    ///< metres; of spurious triangle pairs
+  ErrorSpread depth;                              ///< metres, |reported - true|
+  ErrorSpread normal_deg;                         ///< degrees, to the nearest of the true ways out
 };
 
 struct StageResult {
   std::string name, unit;
   std::uint64_t in = 0, out = 0, missed = 0;
+  std::uint64_t visited = 0;
+  std::string visited_unit;  ///< empty: the stage does not count what it visits
 };
 
 /// A stretch of frames in which two bodies touch or are said to.
@@ -92,13 +112,16 @@ struct RunResult {
   std::string recording;
   PerFrame per_frame;
   std::map<Level, LevelCounts> levels;
-  std::map<Level, std::string> not_judged;  ///< claimed, but why not judged
+  std::map<Level, LevelCounts> levels_rounded;  ///< against the truth of the values it was fed
+  std::map<Level, std::string> not_judged;      ///< claimed, but why not judged
+  GradedErrors graded;
   std::vector<Episode> episodes;
   std::vector<StageResult> stages;
   double prepare_ms = 0.0;
   std::uint64_t memory_bytes = 0;
   std::uint64_t contact_hash = 0;
   std::vector<std::string> float_environment;  ///< what the detector left changed
+  std::vector<std::string> notes;              ///< what else a reader must know
   std::vector<Disagreement> disagreements;
 
   /// The largest hover gap and the late_frames of largest size over all episodes.

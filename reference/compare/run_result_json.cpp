@@ -23,18 +23,26 @@ Json to_json(const LevelCounts& c) {
           {"spurious_rate", nullable(c.spurious_rate())}};
 }
 
+Json names_json(const std::vector<Level>& levels) {
+  Json names = Json::array();
+  for (Level level : levels) names.push_back(name_of(level));
+  return names;
+}
+
 Json to_json(const Semantics& s) {
-  Json levels = Json::array(), questions = Json::array();
-  for (Level level : s.levels) levels.push_back(name_of(level));
+  Json questions = Json::array();
   for (Question question : s.questions) questions.push_back(name_of(question));
-  return {{"levels", levels},
+  return {{"levels", names_json(s.levels)},
+          {"informative", names_json(s.informative)},
           {"questions", questions},
           {"body", s.solid ? "solid" : "surface"},
           {"touching", s.closed ? "closed" : "open"},
           {"exact", s.exact},
           {"margin", s.margin},
           {"precision", name_of(s.precision)},
-          {"depth_kind", name_of(s.depth)}};
+          {"scale", s.scale},
+          {"depth_kind", name_of(s.depth)},
+          {"means", s.means}};
 }
 
 Json to_json(const PhaseTimes& t) {
@@ -71,39 +79,58 @@ Json episode_json(const Episode& e) {
           {"late_frames", nullable(e.late_frames)}};
 }
 
-// Errors of depth, normal and length are measured for detectors that offer them; a quantity that
-// was not measured is null, never 0.
+// A quantity that was not measured is null, never 0.
 Json geometry_json(const RunResult& run) {
   Json episodes = Json::array();
   for (const Episode& e : run.episodes) episodes.push_back(episode_json(e));
-  return {{"missed_length", nullptr},
-          {"covered_length_fraction", nullptr},
-          {"spurious_distance_max", nullptr},
+  const GradedErrors& g = run.graded;
+  return {{"missed_length", nullable(g.missed_length)},
+          {"covered_length_fraction", nullable(g.covered_length_fraction)},
+          {"spurious_distance_max", nullable(g.spurious_distance_max)},
           {"depth_kind", name_of(run.semantics.depth)},
-          {"depth_error_max", nullptr},
-          {"depth_error_p95", nullptr},
-          {"normal_error_deg_max", nullptr},
+          {"depth_judged", g.depth.judged},
+          {"depth_error_max", nullable(g.depth.max)},
+          {"depth_error_mean", nullable(g.depth.mean)},
+          {"depth_error_p95", nullable(g.depth.p95)},
+          {"normal_judged", g.normal_deg.judged},
+          {"normal_error_deg_max", nullable(g.normal_deg.max)},
+          {"normal_error_deg_mean", nullable(g.normal_deg.mean)},
+          {"normal_error_deg_p95", nullable(g.normal_deg.p95)},
           {"hover_gap_max", nullable(run.hover_gap_max())},
           {"late_frames", nullable(run.late_frames_worst())},
           {"episodes", episodes}};
 }
 
-Json levels_json(const RunResult& run) {
+Json levels_json(const std::map<Level, LevelCounts>& levels, const Semantics& semantics) {
   Json out = Json::object();
-  for (const auto& [level, counts] : run.levels) out[name_of(level)] = to_json(counts);
+  for (const auto& [level, counts] : levels) {
+    Json& entry = out[name_of(level)] = to_json(counts);
+    if (level == Level::kNear) entry["margin"] = semantics.margin;
+    if (!semantics.claims(level)) entry["informative"] = true;
+  }
   return out;
 }
 
 Json stages_json(const RunResult& run) {
   Json out = Json::array();
-  for (const StageResult& s : run.stages)
+  for (const StageResult& s : run.stages) {
     out.push_back(
         {{"name", s.name}, {"unit", s.unit}, {"in", s.in}, {"out", s.out}, {"missed", s.missed}});
+    if (s.visited_unit.empty()) continue;
+    out.back()["visited"] = s.visited;
+    out.back()["visited_unit"] = s.visited_unit;
+  }
   return out;
 }
 
 Json per_frame_json(const PerFrame& f) {
-  return {{"level", f.level}, {"truth", f.truth}, {"missed", f.missed}, {"spurious", f.spurious}};
+  Json covered = Json::array();
+  for (const auto& share : f.covered_length_fraction) covered.push_back(nullable(share));
+  return {{"level", f.level},
+          {"truth", f.truth},
+          {"missed", f.missed},
+          {"spurious", f.spurious},
+          {"covered_length_fraction", covered}};
 }
 
 }  // namespace
@@ -131,7 +158,9 @@ Json to_json(const RunResult& run) {
               {"recording", run.recording}};
   if (run.status != RunStatus::kOk) return out;
   out["per_frame"] = per_frame_json(run.per_frame);
-  out["levels"] = levels_json(run);
+  out["levels"] = levels_json(run.levels, run.semantics);
+  if (!run.levels_rounded.empty())
+    out["levels_rounded"] = levels_json(run.levels_rounded, run.semantics);
   Json not_judged = Json::object();
   for (const auto& [level, why] : run.not_judged) not_judged[name_of(level)] = why;
   out["not_judged"] = not_judged;
@@ -141,6 +170,7 @@ Json to_json(const RunResult& run) {
   out["memory_bytes"] = run.memory_bytes;
   out["contact_hash"] = hex(run.contact_hash);
   out["float_environment"] = run.float_environment;
+  out["notes"] = run.notes;
   return out;
 }
 

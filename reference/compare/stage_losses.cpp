@@ -29,7 +29,8 @@ bool StageLosses::covers(const StageTrace& trace, const StageRecord& stage,
 void StageLosses::add_frame(const StageTrace& trace,
                             const std::vector<ElementPair>& true_triangles) {
   if (stages_.empty()) {
-    for (const StageRecord& s : trace.stages) stages_.push_back({s.name, s.unit, 0, 0, 0});
+    for (const StageRecord& s : trace.stages)
+      stages_.push_back({s.name, s.unit, 0, 0, 0, 0, s.visited_unit});
   }
   CONTACTCHECK_INVARIANT(stages_.size() == trace.stages.size(), "stages do not change over frames");
   std::vector<ElementPair> alive = true_triangles;
@@ -37,6 +38,7 @@ void StageLosses::add_frame(const StageTrace& trace,
     const StageRecord& stage = trace.stages[i];
     stages_[i].in += stage.in;
     stages_[i].out += stage.out;
+    stages_[i].visited += stage.visited;
     const auto lost = std::remove_if(alive.begin(), alive.end(), [&](const ElementPair& pair) {
       return !covers(trace, stage, pair);
     });

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reference/report/bullet_findings.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
@@ -11,12 +12,7 @@ namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-Json find_run(const Json& results, const Json& scene, const std::string& detector) {
-  for (const Json& run : results.at("runs"))
-    if (run.at("scene") == scene && run.at("detector") == detector && run.at("status") == "ok")
-      return run;
-  return nullptr;
-}
+constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss", "embree"};
 
 std::string verdict(const Json& grid, const Json& aabb) {
   if (grid.is_null() || aabb.is_null()) return "no episode";
@@ -27,8 +23,8 @@ std::string verdict(const Json& grid, const Json& aabb) {
 std::string hover_claim(const Json& results) {
   std::string rows;
   for (const Json& scene : results.at("scenes")) {
-    const Json grid = find_run(results, scene.at("id"), "ffd-grid");
-    const Json aabb = find_run(results, scene.at("id"), "ffd-aabb");
+    const Json grid = find_run(results, scene.at("id").get<std::string>(), "ffd-grid");
+    const Json aabb = find_run(results, scene.at("id").get<std::string>(), "ffd-aabb");
     if (grid.is_null() || aabb.is_null()) continue;
     if (scene.at("contact_frames").get<int>() == 0) continue;
     const Json &g = grid.at("geometry").at("hover_gap_max"),
@@ -54,13 +50,13 @@ std::string speed_rows(const Json& results, const char* detector, const char* qu
                        const char* level) {
   std::string rows;
   for (const Json& scene : results.at("scenes")) {
-    const Json run = find_run(results, scene.at("id"), detector);
+    const Json run = find_run(results, scene.at("id").get<std::string>(), detector);
     if (run.is_null()) continue;
     std::string line =
         fmt::format("| {} | {} |", scene.at("id").get<std::string>(), errors_at(run, level));
-    for (const char* reference : {"fcl-aabb", "fcl-obbrss"}) {
+    for (const char* reference : kReferences) {
       const Json s = speedup_of(run, question, reference);
-      const Json peer = find_run(results, scene.at("id"), reference);
+      const Json peer = find_run(results, scene.at("id").get<std::string>(), reference);
       line += fmt::format(" {} | {} |", errors_at(peer, level),
                           s.is_null() ? "-" : format_ratio(s.at("cold"), true));
     }
@@ -74,11 +70,11 @@ std::string speed_claim(const Json& results, const char* detector, const char* q
   const std::string rows = speed_rows(results, detector, question, level);
   if (rows.empty()) return "";
   return fmt::format(
-             "### {} against FCL, question `{}`\n\n"
-             "Errors are recall / spurious rate at level `{}`; a speed-up is FCL's time divided by "
-             "this detector's, cold, with its 95 % interval.\n\n"
-             "| scene | errors | errors of fcl-aabb | speed-up | errors of fcl-obbrss | speed-up "
-             "|\n|---|--:|--:|--:|--:|--:|\n",
+             "### {} against FCL and Embree, question `{}`\n\n"
+             "Errors are recall / spurious rate at level `{}`; a speed-up is the reference's time "
+             "divided by this detector's, cold, with its 95 % interval.\n\n"
+             "| scene | errors | errors of fcl-aabb | speed-up | errors of fcl-obbrss | speed-up | "
+             "errors of embree | speed-up |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
              detector, question, level) +
          rows + "\n";
 }
@@ -88,7 +84,7 @@ std::string speed_claim(const Json& results, const char* detector, const char* q
 std::string claims_markdown(const Json& results) {
   return hover_claim(results) +
          speed_claim(results, "ffd-aabb-sphere2+tri", "triangles", "triangle") +
-         speed_claim(results, "ffd-aabb-sphere2", "body", "body");
+         speed_claim(results, "ffd-aabb-sphere2", "body", "body") + bullet_findings(results);
 }
 
 }  // namespace contactcheck

@@ -3,31 +3,18 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "reference/report/claims.h"
 #include "reference/report/format.h"
+#include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scene_tables.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
-
-// A cell must not end its column or its line.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
-std::string table_line(const std::vector<std::string>& cells) {
-  std::string line = "|";
-  for (const std::string& cell : cells) line += " " + escaped(cell) + " |";
-  return line + "\n";
-}
 
 std::string machine_section(const Json& results) {
   const Json& m = results.at("machine");
@@ -64,16 +51,6 @@ std::string truth_line(const Json& scene) {
   return "True contacts, summed over frames: " + out + ".\n\n";
 }
 
-std::string table_head(const std::vector<Column>& columns) {
-  std::vector<std::string> titles;
-  std::string rule = "|";
-  for (const Column& c : columns) {
-    titles.emplace_back(c.title);
-    rule += c.left ? "---|" : "--:|";
-  }
-  return table_line(titles) + rule + "\n";
-}
-
 std::string result_table(const std::vector<Json>& runs) {
   std::string out = table_head(result_columns());
   for (const Json& run : runs) out += table_line(result_cells(run));
@@ -87,43 +64,6 @@ std::string summary_section(const Json& results) {
       table_head(summary_columns());
   for (const auto& cells : summary_lines(results)) out += table_line(cells);
   return out + "\n";
-}
-
-std::string stages_table(const std::vector<Json>& runs) {
-  std::string rows;
-  for (const Json& run : runs) {
-    if (run.at("status") != "ok") continue;
-    for (const Json& s : run.at("stages"))
-      rows += table_line({run.at("detector").get<std::string>(), s.at("name").get<std::string>(),
-                          s.at("unit").get<std::string>(), format_count(s.at("in")),
-                          format_count(s.at("out")), format_count(s.at("missed"))});
-  }
-  if (rows.empty()) return "";
-  return "Which stage lost which true triangle pairs (sums over frames):\n\n"
-         "| detector | stage | unit | in | out | missed |\n|---|---|---|--:|--:|--:|\n" +
-         rows + "\n";
-}
-
-std::string times_table(const std::vector<Json>& runs) {
-  std::string rows;
-  for (const Json& run : runs) {
-    if (run.at("status") != "ok" || !run.at("time_ms").contains("cold")) continue;
-    const Json& t = run.at("time_ms");
-    rows += table_line(
-        {run.at("detector").get<std::string>(), t.at("question").get<std::string>(),
-         format_number(t.at("prepare")), format_number(t.at("cold").at("map")),
-         format_number(t.at("cold").at("update")), format_number(t.at("cold").at("query")),
-         format_number(t.at("cold").at("frame")), format_number(t.at("cold").at("contact_frame")),
-         format_number(t.at("hot").at("frame")), format_count(t.at("timed_frames")),
-         format_count(t.at("repeats")),
-         format_number(run.at("memory_bytes").get<double>() / 1048576.0)});
-  }
-  if (rows.empty()) return "";
-  return "Times in milliseconds per frame (medians over repeats; cold unless said):\n\n"
-         "| detector | question | prepare | map | update | query | frame | contact frame | frame, "
-         "hot | timed frames | repeats | memory, MiB |\n"
-         "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n" +
-         rows + "\n";
 }
 
 std::string disagreements_list(const Json& results, const std::string& scene) {
@@ -144,8 +84,9 @@ std::string notes_list(const std::vector<Json>& runs) {
   for (const Json& run : runs) {
     if (run.at("status") != "ok") continue;
     const auto detector = run.at("detector").get<std::string>();
-    for (const Json& note : run.value("float_environment", Json::array()))
-      out += fmt::format("- {}: {}\n", detector, note.get<std::string>());
+    for (const char* kind : {"float_environment", "notes"})
+      for (const Json& note : run.value(kind, Json::array()))
+        out += fmt::format("- {}: {}\n", detector, note.get<std::string>());
     const Json not_judged = run.value("not_judged", Json::object());
     for (const auto& [level, why] : not_judged.items())
       out += fmt::format("- {}: level {} {}\n", detector, level, why.get<std::string>());
@@ -160,8 +101,26 @@ std::string scene_section(const Json& results, const Json& scene) {
                      scene.at("title").get<std::string>(), scene.at("frames").get<std::size_t>(),
                      scene.at("contact_frames").get<std::size_t>(),
                      format_number(scene.at("size"))) +
-         bodies_table(scene) + truth_line(scene) + result_table(runs) + stages_table(runs) +
-         times_table(runs) + notes_list(runs) + disagreements_list(results, id);
+         bodies_table(scene) + truth_line(scene) + result_table(runs) + levels_table(runs) +
+         graded_table(runs) + stages_table(runs) + times_table(runs) + speedups_table(runs) +
+         notes_list(runs) + disagreements_list(results, id);
+}
+
+// What each detector claims, from its first run that is `ok`.
+std::string semantics_section(const Json& results) {
+  std::set<std::string> seen;
+  std::string rows;
+  for (const Json& run : results.at("runs")) {
+    const auto detector = run.at("detector").get<std::string>();
+    if (run.at("status") != "ok" || !run.at("semantics").contains("levels")) continue;
+    if (seen.insert(detector).second)
+      rows += table_line(
+          {detector, options_text(run.at("options")), semantics_text(run.at("semantics"))});
+  }
+  if (rows.empty()) return "";
+  return "## What each detector claims\n\nA level that is not claimed is not judged.\n\n" +
+         table_head({{"detector", true, ""}, {"options", true, ""}, {"claims", true, ""}}) + rows +
+         "\n";
 }
 
 std::string legend() {
@@ -178,7 +137,7 @@ std::string markdown_report(const Json& results) {
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   for (const Json& scene : results.at("scenes")) out += scene_section(results, scene);
-  return out + legend();
+  return out + semantics_section(results) + legend();
 }
 
 }  // namespace contactcheck

@@ -45,9 +45,10 @@ const std::vector<Column>& result_columns() {
       {"hover mm", false, "largest true distance at the moment contact is first reported"},
       {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
       {"ms/frame", false, "map + update + query, cold median, own question"},
-      {"question", true, "question in which the next two columns compare"},
+      {"question", true, "question in which the next columns compare"},
       {"vs fcl-aabb", false, "time of fcl-aabb / time of this detector, cold"},
-      {"vs fcl-obbrss", false, "time of fcl-obbrss / time of this detector, cold"}};
+      {"vs fcl-obbrss", false, "time of fcl-obbrss / time of this detector, cold"},
+      {"vs embree", false, "time of embree / time of this detector, cold"}};
   return columns;
 }
 
@@ -78,7 +79,16 @@ std::vector<std::string> result_cells(const Json& run) {
           cold_frame(run),
           compared_question(run),
           speed_cell(run, "fcl-aabb"),
-          speed_cell(run, "fcl-obbrss")};
+          speed_cell(run, "fcl-obbrss"),
+          speed_cell(run, "embree")};
+}
+
+nlohmann::ordered_json find_run(const Json& results, const std::string& scene,
+                                const std::string& detector) {
+  for (const Json& run : results.at("runs"))
+    if (run.at("scene") == scene && run.at("detector") == detector && run.at("status") == "ok")
+      return run;
+  return nullptr;
 }
 
 nlohmann::ordered_json speedup_of(const Json& run, const std::string& question,
@@ -91,6 +101,34 @@ std::string compared_question(const Json& run) {
   const Json& questions = run.at("semantics").at("questions");
   return std::find(questions.begin(), questions.end(), "triangles") != questions.end() ? "triangles"
                                                                                        : "body";
+}
+
+std::string options_text(const Json& options) {
+  std::string text;
+  for (const auto& [name, value] : options.items())
+    text += (text.empty() ? "" : ", ") + name + "=" + value.get<std::string>();
+  return text.empty() ? "-" : text;
+}
+
+std::string semantics_text(const Json& s) {
+  const auto names = [&](const char* key) {
+    std::string text;
+    for (const Json& name : s.value(key, Json::array()))
+      text += (text.empty() ? "" : ", ") + name.get<std::string>();
+    return text;
+  };
+  std::string text = "levels " + names("levels");
+  if (!names("informative").empty()) text += "; informative " + names("informative");
+  text += "; questions " + names("questions") + "; " + s.value("body", "surface") + ", " +
+          s.value("touching", "closed") + ", " + (s.value("exact", false) ? "exact" : "not exact");
+  if (s.value("margin", 0.0) > 0.0)
+    text += "; margin " + format_millimetres(s.at("margin")) + " mm";
+  text += "; " + s.value("precision", "double") + " precision";
+  if (s.value("scale", 1.0) != 1.0) text += ", scale " + format_number(s.at("scale"));
+  if (s.value("depth_kind", "none") != std::string("none"))
+    text += "; depth " + s.value("depth_kind", "none");
+  if (!s.value("means", "").empty()) text += "; " + s.value("means", "");
+  return text;
 }
 
 std::vector<nlohmann::ordered_json> runs_of_scene(const Json& results, const std::string& scene) {

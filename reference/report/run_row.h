@@ -20,11 +20,20 @@ const std::vector<Column>& result_columns();
 /// The cells of one run, one per column. Runs that are not `ok` show their status and message.
 std::vector<std::string> result_cells(const nlohmann::ordered_json& run);
 
+/// The run of a detector on a scene when it is `ok`, else null.
+nlohmann::ordered_json find_run(const nlohmann::ordered_json& results, const std::string& scene,
+                                const std::string& detector);
 /// speedup[question][reference] of a run, or null.
 nlohmann::ordered_json speedup_of(const nlohmann::ordered_json& run, const std::string& question,
                                   const std::string& reference);
 /// The question a run is compared in: triangles where it answers them, else body.
 std::string compared_question(const nlohmann::ordered_json& run);
+
+/// "margin=0.001, scale=0"; "-" without options.
+std::string options_text(const nlohmann::ordered_json& options);
+/// What a detector claims, in words: levels, questions, surface or solid, exactness, margin,
+/// precision, depth.
+std::string semantics_text(const nlohmann::ordered_json& semantics);
 
 /// The runs of one scene, in file order.
 std::vector<nlohmann::ordered_json> runs_of_scene(const nlohmann::ordered_json& results,

@@ -27,7 +27,7 @@ struct Sums {
   long long truth = 0, hit = 0, missed = 0, spurious = 0, body_missed = 0, body_spurious = 0;
   bool has_level = false, has_body = false;
   std::optional<double> hover;
-  Range aabb, obbrss;
+  Range aabb, obbrss, embree;
 };
 
 void add_speed(const Json& run, const char* reference, Range& range) {
@@ -64,6 +64,7 @@ void add_run(const Json& run, Sums& sums) {
   if (!hover.is_null()) sums.hover = std::max(sums.hover.value_or(0.0), hover.get<double>());
   add_speed(run, "fcl-aabb", sums.aabb);
   add_speed(run, "fcl-obbrss", sums.obbrss);
+  add_speed(run, "embree", sums.embree);
 }
 
 std::vector<std::string> cells_of(const Sums& s) {
@@ -85,7 +86,8 @@ std::vector<std::string> cells_of(const Sums& s) {
           s.hover ? format_millimetres(*s.hover) : "-",
           s.question,
           s.aabb.text(),
-          s.obbrss.text()};
+          s.obbrss.text(),
+          s.embree.text()};
 }
 
 // Counts of different levels do not add up: a detector has a line per level. A run that is not `ok`
@@ -112,7 +114,8 @@ const std::vector<Column>& summary_columns() {
       {"detector", true, ""},  {"scenes", false, ""},      {"level", true, ""},
       {"truth", false, ""},    {"recall", false, ""},      {"missed", false, ""},
       {"spurious", false, ""}, {"body m/s", false, ""},    {"hover mm", false, ""},
-      {"question", true, ""},  {"vs fcl-aabb", false, ""}, {"vs fcl-obbrss", false, ""}};
+      {"question", true, ""},  {"vs fcl-aabb", false, ""}, {"vs fcl-obbrss", false, ""},
+      {"vs embree", false, ""}};
   return columns;
 }
 

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <stdexcept>
+#include <optional>
 
-#include "core/types/check.h"
 #include "reference/compare/episodes.h"
+#include "reference/compare/graded_judge.h"
 #include "reference/compare/judge.h"
 #include "reference/compare/stage_losses.h"
-#include "reference/run/float_environment.h"
+#include "reference/run/answer_check.h"
+#include "reference/run/run_notes.h"
 
 namespace contactcheck {
 namespace {
@@ -25,255 +25,169 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
-                 const std::vector<std::vector<Vec3>>& vertices) {
-  Frame frame;
-  frame.index = index;
-  frame.time = time;
-  for (std::size_t b = 0; b < nodes.size(); ++b) frame.bodies.push_back({nodes[b], vertices[b]});
-  return frame;
+// The levels whose truth is made of vertices, which alone are fed in single precision.
+std::vector<Level> vertex_levels(std::vector<Level> levels) {
+  std::erase_if(levels, [](Level level) { return level == Level::kCell || level == Level::kBox; });
+  return levels;
 }
 
-std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
-                                          const std::vector<std::vector<Vec3>>& nodes) {
-  std::vector<std::vector<Vec3>> vertices(nodes.size());
-  for (std::size_t b = 0; b < nodes.size(); ++b) {
-    vertices[b].resize(scene.bodies[b].shape->mesh.vertices.size());
-    map_body(*scene.bodies[b].shape, nodes[b], vertices[b]);
-  }
-  return vertices;
+bool judges_near(const std::vector<Level>& levels) {
+  return std::find(levels.begin(), levels.end(), Level::kNear) != levels.end();
 }
 
-std::string first_non_finite(const Scene& scene, std::size_t frame,
-                             const std::vector<std::vector<Vec3>>& nodes) {
-  for (std::size_t b = 0; b < nodes.size(); ++b)
-    for (std::size_t n = 0; n < nodes[b].size(); ++n)
-      if (!nodes[b][n].allFinite())
-        return "frame " + std::to_string(frame) + ", body \"" + scene.bodies[b].name + "\": node " +
-               std::to_string(n) + " is not finite";
-  return "";
-}
-
-void note_environment(const FloatEnvironmentGuard& guard, const char* call, RunResult& result) {
-  const std::string changed = guard.check_and_restore();
-  if (changed.empty()) return;
-  const std::string text = std::string(call) + " changed " + changed;
-  auto& list = result.float_environment;
-  if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
-}
-
-std::size_t count_contact(const std::vector<bool>& frames) {
-  return static_cast<std::size_t>(std::count(frames.begin(), frames.end(), true));
-}
-
-WantedTruth wanted_truth(const Scene& scene) {
-  WantedTruth wanted;
-  wanted.containment = scene.judges(Level::kContainment);
-  wanted.vertices = scene.judges(Level::kVertex);
-  wanted.boxes = scene.judges(Level::kBox);
-  return wanted;
-}
-
-// An answer that names what is not there must not reach code that looks it up.
-class IdCheck {
+/// One detector on one scene, from prepare to the last frame.
+class AccuracyPass {
  public:
-  IdCheck(const Scene& scene, std::size_t frame) : scene_(scene), frame_(frame) {}
+  AccuracyPass(JudgingTools& tools, std::uint32_t position, Detector& detector,
+               ProgressWriter& progress, RunResult& result)
+      : tools_(tools),
+        scene_(*tools.judged.scene),
+        position_(position),
+        detector_(detector),
+        progress_(progress),
+        result_(result),
+        heap_before_(heap_in_use()) {}
 
-  void operator()(const ContactSet& contacts) const {
-    for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
-    for (const ElementPair& p : contacts.triangles) {
-      check_element("triangle", p.body_a, p.a, shape(p.body_a).mesh.triangles.size());
-      check_element("triangle", p.body_b, p.b, shape(p.body_b).mesh.triangles.size());
-    }
-    for (const ElementPair& p : contacts.cells) {
-      check_element("cell", p.body_a, p.a, cells_of(p.body_a));
-      check_element("cell", p.body_b, p.b, cells_of(p.body_b));
-    }
-    for (const VertexInBody& v : contacts.vertices) {
-      check_pair(v.body, v.in);
-      check_element("vertex", v.body, v.vertex, shape(v.body).mesh.vertices.size());
-    }
+  AccuracyOutcome run() {
+    prepare();
+    make_judges();
+    for (std::size_t f = 0; f < scene_.frames; ++f) add_frame(f);
+    finish();
+    return outcome_;
   }
 
  private:
-  const BodyShape& shape(std::uint32_t body) const { return *scene_.bodies[body].shape; }
-  std::size_t cells_of(std::uint32_t body) const {
-    return shape(body).lattice ? shape(body).lattice->cells.size() : 0;
-  }
-  // Element pairs imply their body pair (canonicalize), so this sees every body index first.
-  void check_pair(std::uint32_t a, std::uint32_t b) const {
-    const std::size_t count = scene_.bodies.size();
-    if (a >= count || b >= count)
-      fail("body " + std::to_string(std::max(a, b)) + " of " + std::to_string(count) + " bodies");
-    if (a == b) fail("body \"" + scene_.bodies[a].name + "\" in contact with itself");
-  }
-  void check_element(const char* kind, std::uint32_t body, std::uint32_t id,
-                     std::size_t count) const {
-    if (id < count) return;
-    fail(std::string(kind) + " " + std::to_string(id) + " of body \"" + scene_.bodies[body].name +
-         "\", which has " + std::to_string(count));
-  }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error("frame " + std::to_string(frame_) + ": the answer names " + what);
+  void prepare() {
+    progress_.enter(position_, 0, Phase::kPrepare);
+    const auto start = std::chrono::steady_clock::now();
+    detector_.prepare(scene_.bodies);
+    result_.prepare_ms = 1e3 * seconds_since(start);
+    note_environment(guard_, "prepare", result_);
+    result_.semantics = detector_.semantics();
   }
 
+  // After prepare(): only then are the semantics final.
+  void make_judges() {
+    const Semantics& semantics = result_.semantics;
+    levels_ = judged_levels(scene_.bodies, semantics, scene_.levels, &result_.not_judged);
+    judge_.emplace(scene_.bodies, semantics, levels_);
+    graded_.emplace(scene_.bodies, semantics, scene_.size());
+    losses_.emplace(scene_.bodies);
+    if (semantics.precision != Precision::kSingle) return;
+    rounded_ = tools_.rounded(semantics.scale);
+    if (rounded_ != nullptr)
+      rounded_judge_.emplace(scene_.bodies, semantics, vertex_levels(levels_));
+  }
+
+  void add_frame(std::size_t f) {
+    const Frame frame = tools_.judged.frame(f);
+    const AnswerCheck check(scene_, f);
+    answer_own_question(frame, check);
+    if (f == 0) result_.memory_bytes = std::max(heap_in_use(), heap_before_) - heap_before_;
+    result_.contact_hash = chain_hash(result_.contact_hash, f, contacts_);
+    truth_pairs_.push_back(tools_.judged.truth[f].surface.bodies);
+    reported_pairs_.push_back(contacts_.bodies);
+    answer_other_questions(check);
+    progress_.enter(position_, f, Phase::kTrace);
+    const StageTrace trace = detector_.trace();
+    notes_.add_frame(detector_.notes());
+    note_environment(guard_, "trace", result_);
+    progress_.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
+    judge_frame(frame);
+    losses_->add_frame(trace, tools_.judged.truth[f].surface.triangles);
+  }
+
+  void answer_own_question(const Frame& frame, const AnswerCheck& check) {
+    contacts_.clear();
+    const auto start = std::chrono::steady_clock::now();
+    progress_.enter(position_, frame.index, Phase::kUpdate);
+    detector_.update(frame);
+    note_environment(guard_, "update", result_);
+    progress_.enter(position_, frame.index, Phase::kQuery);
+    detector_.query(own(), contacts_);
+    outcome_.seconds_per_frame += seconds_since(start) / static_cast<double>(scene_.frames);
+    note_environment(guard_, "query", result_);
+    contacts_.canonicalize();
+    check(contacts_);
+  }
+
+  void answer_other_questions(const AnswerCheck& check) {
+    for (Question question : result_.semantics.questions) {
+      if (question == own()) continue;
+      ask(detector_, question, check, other_);
+      note_environment(guard_, "query", result_);
+      if (question == Question::kBody) contacts_.bodies = other_.bodies;
+      if (question == Question::kContacts) {
+        contacts_.piece_contacts = other_.piece_contacts;
+        contacts_.vertex_contacts = other_.vertex_contacts;
+      }
+    }
+  }
+
+  void judge_frame(const Frame& frame) {
+    const std::size_t f = frame.index;
+    const Truth& truth = tools_.judged.truth[f];
+    std::vector<NearPair> near;
+    if (judges_near(levels_)) near = tools_.oracle.near(frame, result_.semantics.margin);
+    judge_->add_frame(f, truth, contacts_, near);
+    tools_.geometry.set_frame(frame);
+    graded_->add_frame(truth, tools_.judged.contour[f], contacts_, tools_.geometry);
+    covered_.push_back(graded_->last_covered_fraction());
+    if (rounded_judge_) judge_rounded(f);
+  }
+
+  void judge_rounded(std::size_t f) {
+    const Truth& truth = rounded_->truth(f, tools_.oracle);
+    std::vector<NearPair> near;
+    if (judges_near(levels_))
+      near = tools_.oracle.near(rounded_->frame(f),
+                                result_.semantics.margin * result_.semantics.scale);
+    rounded_judge_->add_frame(f, truth, contacts_, near);
+  }
+
+  void finish() {
+    const std::vector<bool>& contact = tools_.judged.contact_frames;
+    result_.frames = scene_.frames;
+    result_.contact_frames =
+        static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
+    result_.levels = judge_->levels();
+    if (rounded_judge_) result_.levels_rounded = rounded_judge_->levels();
+    result_.per_frame = judge_->per_frame();
+    result_.per_frame.covered_length_fraction = covered_;
+    result_.graded = graded_->errors();
+    result_.disagreements = judge_->disagreements();
+    result_.stages = losses_->stages();
+    result_.episodes = find_episodes(truth_pairs_, reported_pairs_);
+    for (const std::string& note : notes_.summary()) result_.notes.push_back(note);
+  }
+
+  Question own() const { return result_.semantics.questions.front(); }
+
+  JudgingTools& tools_;
   const Scene& scene_;
-  std::size_t frame_;
-};
-
-// Asks a question about the frame of the last update; the answer is canonical and names only what
-// is there. Reuses the capacity of `out`.
-void ask(Detector& detector, Question question, const IdCheck& check, ContactSet& out) {
-  out.clear();
-  detector.query(question, out);
-  out.canonicalize();
-  check(out);
-}
-
-// Does the detector report the pair at a time between frames?
-class PairProbe {
- public:
-  PairProbe(const JudgedScene& judged, Detector& detector, Oracle& oracle, BodyPair pair)
-      : scene_(*judged.scene), detector_(detector), oracle_(oracle), pair_(pair) {}
-
-  bool reports(double time) {
-    go_to(time);
-    detector_.update(frame_);
-    ContactSet contacts;
-    ask(detector_, detector_.semantics().questions.front(), IdCheck(scene_, 0), contacts);
-    return std::binary_search(contacts.bodies.begin(), contacts.bodies.end(), pair_);
-  }
-  double distance(double time) {
-    go_to(time);
-    return oracle_.distance(frame_, pair_).upper;
-  }
-
- private:
-  void go_to(double time) {
-    if (time == time_) return;
-    time_ = time;
-    nodes_ = scene_.nodes_at(time);
-    vertices_ = map_bodies(scene_, nodes_);
-    frame_ = make_frame(0, time, nodes_, vertices_);
-  }
-
-  const Scene& scene_;
+  std::uint32_t position_;
   Detector& detector_;
-  Oracle& oracle_;
-  BodyPair pair_;
-  double time_ = std::nan("");
-  std::vector<std::vector<Vec3>> nodes_, vertices_;
-  Frame frame_;
+  ProgressWriter& progress_;
+  RunResult& result_;
+  std::uint64_t heap_before_;
+  const FloatEnvironmentGuard guard_;
+  std::vector<Level> levels_;
+  std::optional<Judge> judge_, rounded_judge_;
+  std::optional<GradedJudge> graded_;
+  std::optional<StageLosses> losses_;
+  RoundedScene* rounded_ = nullptr;
+  ContactSet contacts_, other_;
+  BodyPairsPerFrame truth_pairs_, reported_pairs_;
+  std::vector<std::optional<double>> covered_;
+  FrameNotes notes_;
+  AccuracyOutcome outcome_;
 };
 
 }  // namespace
 
-Frame JudgedScene::frame(std::size_t index) const {
-  return make_frame(index, scene->time_of(index), nodes[index], vertices[index]);
-}
-
-JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& progress) {
-  JudgedScene judged;
-  judged.scene = &scene;
-  Oracle oracle(scene.bodies);
-  for (std::size_t f = 0; f < scene.frames; ++f) {
-    progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-    judged.nodes.push_back(scene.nodes_of_frame(f));
-    judged.refused = first_non_finite(scene, f, judged.nodes.back());
-    if (!judged.refused.empty()) return judged;
-    judged.vertices.push_back(map_bodies(scene, judged.nodes.back()));
-    if (!truth_wanted) continue;
-    judged.truth.push_back(oracle.judge(judged.frame(f), wanted_truth(scene)));
-    judged.contact_frames.push_back(!judged.truth.back().surface.bodies.empty());
-  }
-  return judged;
-}
-
-AccuracyOutcome run_accuracy(const JudgedScene& judged, std::uint32_t position, Detector& detector,
+AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
                              ProgressWriter& progress, RunResult& result) {
-  const Scene& scene = *judged.scene;
-  const FloatEnvironmentGuard guard;
-  const std::uint64_t heap_before = heap_in_use();
-  progress.enter(position, 0, Phase::kPrepare);
-  const auto prepare_start = std::chrono::steady_clock::now();
-  detector.prepare(scene.bodies);
-  result.prepare_ms = 1e3 * seconds_since(prepare_start);
-  note_environment(guard, "prepare", result);
-
-  result.semantics = detector.semantics();
-  Judge judge(scene.bodies, result.semantics,
-              judged_levels(scene.bodies, result.semantics, scene.levels, &result.not_judged));
-  StageLosses losses(scene.bodies);
-  BodyPairsPerFrame truth_pairs, reported_pairs;
-  AccuracyOutcome outcome;
-  ContactSet contacts, by_body;
-  const Question own = result.semantics.questions.front();
-  const bool asks_body = own != Question::kBody && result.semantics.answers(Question::kBody);
-  for (std::size_t f = 0; f < scene.frames; ++f) {
-    const Frame frame = judged.frame(f);
-    const IdCheck check(scene, f);
-    contacts.clear();
-    const auto start = std::chrono::steady_clock::now();
-    progress.enter(position, f, Phase::kUpdate);
-    detector.update(frame);
-    note_environment(guard, "update", result);
-    progress.enter(position, f, Phase::kQuery);
-    detector.query(own, contacts);
-    outcome.seconds_per_frame += seconds_since(start) / static_cast<double>(scene.frames);
-    note_environment(guard, "query", result);
-    contacts.canonicalize();
-    check(contacts);
-    if (f == 0) result.memory_bytes = std::max(heap_in_use(), heap_before) - heap_before;
-    result.contact_hash = chain_hash(result.contact_hash, f, contacts);
-    truth_pairs.push_back(judged.truth[f].surface.bodies);
-    reported_pairs.push_back(contacts.bodies);
-    if (asks_body) {
-      ask(detector, Question::kBody, check, by_body);
-      note_environment(guard, "query", result);
-      contacts.bodies = by_body.bodies;
-    }
-    judge.add_frame(f, judged.truth[f], contacts);
-    progress.enter(position, f, Phase::kTrace);
-    losses.add_frame(detector.trace(), judged.truth[f].surface.triangles);
-  }
-  result.frames = scene.frames;
-  result.contact_frames = count_contact(judged.contact_frames);
-  result.levels = judge.levels();
-  result.per_frame = judge.per_frame();
-  result.disagreements = judge.disagreements();
-  result.stages = losses.stages();
-  result.episodes = find_episodes(truth_pairs, reported_pairs);
-  return outcome;
-}
-
-void measure_hover_gaps(const JudgedScene& judged, std::uint32_t position, Detector& detector,
-                        Oracle& oracle, ProgressWriter& progress, RunResult& result) {
-  const Scene& scene = *judged.scene;
-  const double tolerance = 1e-6 * scene.size();
-  const FloatEnvironmentGuard guard;
-  for (Episode& e : result.episodes) {
-    if (!e.first_reported) continue;
-    const std::size_t f = *e.first_reported;
-    progress.enter(position, f, Phase::kUpdate);
-    if (!scene.scripted() || f == 0) {
-      progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-      e.hover_gap = oracle.distance(judged.frame(f), e.bodies).upper;
-      continue;
-    }
-    PairProbe probe(judged, detector, oracle, e.bodies);
-    e.hover_gap = bisect_hover_gap(
-        scene.time_of(f - 1), scene.time_of(f), tolerance,
-        [&](double t) {
-          progress.enter(position, f, Phase::kQuery);
-          const bool reported = probe.reports(t);
-          note_environment(guard, "query", result);
-          return reported;
-        },
-        [&](double t) {
-          progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-          return probe.distance(t);
-        });
-  }
+  return AccuracyPass(tools, position, detector, progress, result).run();
 }
 
 }  // namespace contactcheck

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "reference/compare/run_result.h"
-#include "reference/run/accuracy.h"
+#include "reference/run/judged_scene.h"
 
 namespace contactcheck {
 

@@ -6,17 +6,18 @@
 
 namespace contactcheck {
 
-/// Remembers rounding mode, flush-to-zero and denormals-are-zero at construction.
+/// Remembers rounding mode, flush-to-zero, denormals-are-zero, precision and which exceptions trap
+/// (of SSE and of the x87 unit) at construction. Of the calling thread alone.
 class FloatEnvironmentGuard {
  public:
   FloatEnvironmentGuard();
-  /// What differs now, as words ("rounding mode", "flush-to-zero", ...), joined; "" when nothing
-  /// does. Restores the remembered state.
+  /// What differs now, as words ("rounding mode", "flush-to-zero", "traps", ...), joined; "" when
+  /// nothing does. Restores the remembered state; an exception that is pending does not trap.
   std::string check_and_restore() const;
 
  private:
-  int rounding_;
-  unsigned control_;
+  unsigned first_;   ///< watched bits of MXCSR; where there is none, what fegetround says
+  unsigned second_;  ///< watched bits of the x87 control word; there, what fegetexcept says
 };
 
 }  // namespace contactcheck

@@ -36,10 +36,14 @@ struct SharedProgress {
   static constexpr std::uint32_t kNoDetector = ~0u;
 
   std::atomic<std::uint32_t> detector{kNoDetector};  ///< position in the job's list
+  /// The detector that ran last, also while the suite's own code runs: what it has broken in memory
+  /// strikes there.
+  std::atomic<std::uint32_t> last_detector{kNoDetector};
   std::atomic<std::uint32_t> frame{0};
   std::atomic<Phase> phase{Phase::kScene};
-  std::atomic<std::uint64_t> ticks{0};     ///< grows with every step: a stand-still is a hang
-  std::atomic<std::uint32_t> permille{0};  ///< of the worker's work, for the progress bar
+  std::atomic<std::uint64_t> ticks{0};      ///< grows with every step: a stand-still is a hang
+  std::atomic<std::uint32_t> permille{0};   ///< of the worker's work, for the progress bar
+  std::atomic<std::int32_t> supervisor{0};  ///< its process id
 };
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
@@ -50,10 +54,13 @@ class ProgressWriter {
   explicit ProgressWriter(SharedProgress* shared) : shared_(shared) {}
   void enter(std::uint32_t detector, std::size_t frame, Phase phase) {
     shared_->detector = detector;
+    if (detector != SharedProgress::kNoDetector) shared_->last_detector = detector;
     shared_->frame = static_cast<std::uint32_t>(frame);
     shared_->phase = phase;
     ++shared_->ticks;
   }
+  std::size_t frame() const { return shared_->frame; }
+  Phase phase() const { return shared_->phase; }
   void part(double share) { shared_->permille = static_cast<std::uint32_t>(share * 1000.0); }
 
  private:

@@ -1,12 +1,10 @@
 #include "reference/run/suite_run.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/deform/atomic_file.h"
@@ -15,8 +13,11 @@
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
 #include "reference/run/machine.h"
+#include "reference/run/out_folder.h"
+#include "reference/run/printable.h"
 #include "reference/run/samples_json.h"
 #include "reference/run/supervisor.h"
+#include "reference/run/worker.h"
 
 namespace contactcheck {
 namespace {
@@ -25,43 +26,18 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 // Detectors that speed-ups are given against, where the run has them.
-constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss"};
+constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss", "embree"};
 
-/// A folder of its own for jobs and answers, removed at the end whatever happens.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const fs::path& parent)
-      : path_(parent / (kPrefix + std::to_string(getpid()))) {
-    remove_abandoned(parent);
-    std::error_code error;
-    fs::create_directories(path_, error);
-    if (error) throw InputError("cannot write in " + parent.string() + ": " + error.message());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  static constexpr const char* kPrefix = ".work";
-
-  // A run that was interrupted leaves its folder behind; its process is gone.
-  static void remove_abandoned(const fs::path& parent) {
-    for (const auto& entry : fs::directory_iterator(parent)) {
-      const std::string name = entry.path().filename().string();
-      const std::string digits =
-          name.rfind(kPrefix, 0) == 0 ? name.substr(std::strlen(kPrefix)) : "";
-      if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) continue;
-      std::error_code ignored;
-      if (!fs::exists("/proc/" + digits)) fs::remove_all(entry.path(), ignored);
-    }
-  }
-
-  fs::path path_;
-};
+// Contacts are the same question only where they are of one kind: depth of vertices, of triangles
+// or of boxes.
+bool same_contacts(const Json& semantics, const Json& other) {
+  const auto of_triangles = [](const Json& s) {
+    const Json& levels = s.at("levels");
+    return std::find(levels.begin(), levels.end(), name_of(Level::kTriangle)) != levels.end();
+  };
+  return semantics.at("depth_kind") == other.at("depth_kind") &&
+         of_triangles(semantics) == of_triangles(other);
+}
 
 /// All workers of one scene.
 class SceneRunner {
@@ -69,7 +45,8 @@ class SceneRunner {
   SceneRunner(const SuiteRequest& request, const SceneTask& task, const fs::path& scratch,
               ProgressCallback on_progress)
       : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
-    job_.scene_file = task.file;
+    // The worker's working directory is for libraries to change.
+    job_.scene_file = fs::absolute(task.file);
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }
@@ -77,7 +54,7 @@ class SceneRunner {
   /// The runs of this scene as JSON, in the order of the detectors; appends its disagreements and
   /// its scene entry.
   Json run(Json& scenes, Json& disagreements) {
-    job_.recording_file = request_.out / "recordings" / (task_.id + ".ccr");
+    job_.recording_file = fs::absolute(recording());
     const Json first = run_process(0);
     job_.recording_file.clear();
     job_.order = first.at("order").get<std::vector<std::size_t>>();
@@ -100,19 +77,43 @@ class SceneRunner {
       const WorkerOutcome outcome =
           run_supervised(request_.executable, job_file, job_.settings, on_progress_);
       if (outcome.done) return Json::parse(read_text_file(job_.answer_file));
-      if (!outcome.detector) throw_for_scene(outcome);
-      broken_[*outcome.detector] = outcome;
-      job_.skip.push_back(*outcome.detector);
+      book(outcome);
     }
   }
 
+  // The detector that ran; or, where the suite's own code died in a way that is not its own, the
+  // one that had run last: what a library has overwritten in memory strikes later.
+  static std::optional<std::uint32_t> suspect(const WorkerOutcome& outcome) {
+    const bool by_itself = outcome.exit_code == kExitBadInput || outcome.exit_code == kExitInternal;
+    return outcome.detector || by_itself ? outcome.detector : outcome.last_detector;
+  }
+
+  void book(const WorkerOutcome& outcome) {
+    const std::optional<std::uint32_t> detector = suspect(outcome);
+    // One that did not run again cannot have died again: then the worker's page is no witness.
+    if (!detector || broken_.count(*detector)) throw_for_scene(outcome);
+    show_last_words(task_.detectors[*detector], outcome.error_text);
+    broken_[*detector] = outcome;
+    job_.skip.push_back(*detector);
+  }
+
+  // All of it: of a sanitizer's report the first line says little.
+  void show_last_words(const std::string& detector, const std::string& text) const {
+    if (text.empty()) return;
+    std::fprintf(stderr, "contactcheck: scene %s, detector %s: the worker's last words:\n",
+                 task_.id.c_str(), detector.c_str());
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      std::fprintf(stderr, "  | %s\n", printable_line(line).c_str());
+  }
+
   [[noreturn]] void throw_for_scene(const WorkerOutcome& outcome) const {
+    const std::string words = printable_line(outcome.error_text);
     const std::string what = "scene \"" + task_.id + "\" ended in " + outcome.reason + ", phase " +
                              name_of(outcome.phase) + ", frame " + std::to_string(outcome.frame) +
-                             ", outside any detector";
-    // The worker has said on stderr what is wrong. Exit code 2 is the input's fault, such as a
-    // scene file that changed under our feet; anything else is ours.
-    if (outcome.exit_code == 2) throw InputError(what);
+                             ", outside any detector" + (words.empty() ? "" : ": " + words);
+    // The input's fault: a scene file that changed under our feet.
+    if (outcome.exit_code == kExitBadInput) throw InputError(what);
     throw std::runtime_error(what);
   }
 
@@ -122,7 +123,7 @@ class SceneRunner {
     collect(answers, runs, samples, disagreements);
     const auto contact = answers.front().at("contact_frames").get<std::vector<bool>>();
     for (auto& [position, run] : runs)
-      if (samples.count(position)) add_times(times_of(position, samples, contact), run);
+      if (samples.count(position)) add_times(times_of(position, runs, samples, contact), run);
     add_reference_options(runs);
     Json out = Json::array();
     for (std::uint32_t i = 0; i < task_.detectors.size(); ++i)
@@ -181,7 +182,7 @@ class SceneRunner {
 
   fs::path recording() const { return request_.out / "recordings" / (task_.id + ".ccr"); }
 
-  RunTimes times_of(std::uint32_t position,
+  RunTimes times_of(std::uint32_t position, const std::map<std::uint32_t, Json>& runs,
                     const std::map<std::uint32_t, std::vector<ProcessSamples>>& samples,
                     const std::vector<bool>& contact) const {
     RunTimes times;
@@ -189,8 +190,13 @@ class SceneRunner {
     times.cold_frame_ms = cold_frame_ms(own.front());
     for (const ProcessSamples& question : own) {
       times.questions.push_back(summarize_times(question, contact));
-      for (const auto& [other, theirs] : samples)
+      for (const auto& [other, theirs] : samples) {
+        const bool contacts = question.front().question == Question::kContacts;
+        if (contacts &&
+            !same_contacts(runs.at(position).at("semantics"), runs.at(other).at("semantics")))
+          continue;
         add_speedups(other, theirs, question, contact, times);
+      }
     }
     return times;
   }
@@ -216,7 +222,8 @@ class SceneRunner {
     run.detector = task_.detectors[position];
     run.status = RunStatus::kError;
     run.message = "scene " + task_.id + ", frame " + std::to_string(o.frame) + ", phase " +
-                  name_of(o.phase) + ": " + o.reason;
+                  name_of(o.phase) + ": " + o.reason +
+                  (o.detector ? "" : " in the suite's own code, after this detector had run");
     run.frames = answer.at("scene").at("frames").get<std::size_t>();
     run.contact_frames = answer.at("scene").at("contact_frames").get<std::size_t>();
     return to_json(run);
@@ -230,45 +237,13 @@ class SceneRunner {
   std::map<std::uint32_t, WorkerOutcome> broken_;
 };
 
-// Case files get running numbers over the whole suite.
-void move_cases(const fs::path& out, Json& disagreements) {
-  std::size_t number = 0;
-  for (Json& d : disagreements) {
-    char name[32];
-    std::snprintf(name, sizeof name, "cases/%04zu.json", ++number);
-    fs::rename(d.at("case").get<std::string>(), out / name);
-    d["case"] = name;
-  }
-}
-
-void make_folders(const fs::path& out) {
-  for (const char* folder : {"cases", "recordings"}) {
-    std::error_code error;
-    fs::create_directories(out / folder, error);
-    if (error) throw InputError("cannot write in " + out.string() + ": " + error.message());
-  }
-}
-
-// A case file of an earlier run: NNNN.json. Anything else in the folder is not ours.
-bool is_case_file(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  return file.extension() == ".json" && stem.size() >= 4 &&
-         stem.find_first_not_of("0123456789") == std::string::npos;
-}
-
-void remove_old_cases(const fs::path& out) {
-  std::error_code ignored;  // what stays is no longer named by any result
-  for (const auto& entry : fs::directory_iterator(out / "cases"))
-    if (entry.is_regular_file() && is_case_file(entry.path())) fs::remove(entry.path(), ignored);
-}
-
 }  // namespace
 
 nlohmann::ordered_json run_suite(const SuiteRequest& request,
                                  const std::function<void(const SuiteProgress&)>& on_progress,
                                  SuiteOutcome* outcome) {
-  make_folders(request.out);
-  const ScratchFolder scratch(request.out);
+  make_out_folders(request.out);
+  const ScratchFolder scratch(fs::absolute(request.out));
   Json runs = Json::array(), disagreements = Json::array(), scenes = Json::array();
   SuiteProgress progress;
   progress.scenes = request.tasks.size();

@@ -1,73 +1,63 @@
 #include "reference/run/supervisor.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <thread>
 
 #include "core/types/check.h"
-
-extern char** environ;
+#include "reference/run/interrupts.h"
+#include "reference/run/worker_process.h"
 
 namespace contactcheck {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kPollInterval = std::chrono::milliseconds(20);
+// Of a worker's two streams together: they are files in memory, which no other limit counts. A
+// library that prints a line for every contact stays far below.
+constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;
+// For a worker whose answer is complete: destructors and exit handlers of libraries may hang.
+constexpr double kSecondsToLeave = 5.0;
+// Without a step of the suite's own code, however short the limit of one call: an exact judgement
+// of a large frame may take longer than a detector is given.
+constexpr double kSecondsOfOwnCode = 60.0;
+
 /// The shared page and its descriptor, which the child inherits.
 class SharedPage {
  public:
-  SharedPage() : fd_(memfd_create("contactcheck-progress", 0)) {
-    if (fd_ < 0 || ftruncate(fd_, sizeof(SharedProgress)) != 0)
-      throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
-    void* page = mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, fd_, 0);
-    if (page == MAP_FAILED)
-      throw InputError(std::string("cannot map shared memory: ") + std::strerror(errno));
+  SharedPage() : file_("contactcheck-progress") {
+    if (ftruncate(file_.fd(), sizeof(SharedProgress)) != 0) fail();
+    void* page =
+        mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, file_.fd(), 0);
+    if (page == MAP_FAILED) fail();
     progress_ = new (page) SharedProgress;
+    progress_->supervisor = getpid();
   }
-  ~SharedPage() {
-    munmap(progress_, sizeof(SharedProgress));
-    close(fd_);
-  }
+  ~SharedPage() { munmap(progress_, sizeof(SharedProgress)); }
   SharedPage(const SharedPage&) = delete;
   SharedPage& operator=(const SharedPage&) = delete;
 
-  int fd() const { return fd_; }
+  int fd() const { return file_.fd(); }
   const SharedProgress& progress() const { return *progress_; }
 
  private:
-  int fd_;
+  [[noreturn]] static void fail() {
+    throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
+  }
+
+  MemoryFile file_;
   SharedProgress* progress_ = nullptr;
 };
-
-pid_t start(const std::filesystem::path& executable, const std::filesystem::path& job_file,
-            int fd) {
-  std::string program = executable.string(), command = "worker", job = job_file.string(),
-              flag = "--progress-fd", number = std::to_string(fd);
-  char* arguments[] = {program.data(), command.data(), job.data(),
-                       flag.data(),    number.data(),  nullptr};
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments, environ);
-  if (error != 0)
-    throw InputError("cannot start the worker " + program + ": " + std::strerror(error));
-  return child;
-}
-
-std::uint64_t resident_bytes(pid_t child) {
-  std::ifstream statm("/proc/" + std::to_string(child) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
 
 std::string describe_status(int status) {
   if (WIFSIGNALED(status)) {
@@ -77,60 +67,100 @@ std::string describe_status(int status) {
   return "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-std::string seconds_text(double seconds) {
+std::string short_text(double number) {
   char text[32];
-  std::snprintf(text, sizeof text, "%g", seconds);
+  std::snprintf(text, sizeof text, "%g", number);
   return text;
 }
 
-std::optional<std::uint32_t> current_detector(const SharedProgress& progress) {
-  const std::uint32_t detector = progress.detector;
+// The page is the worker's to write: a library that has lost its way may have put anything there.
+std::optional<std::uint32_t> checked(std::uint32_t detector, const RunSettings& settings) {
   if (detector == SharedProgress::kNoDetector) return std::nullopt;
+  if (!settings.detectors.empty() && detector >= settings.detectors.size()) return std::nullopt;
   return detector;
 }
 
-WorkerOutcome outcome_of(const SharedProgress& progress, int status, const std::string& limit) {
-  WorkerOutcome out;
-  // The phase decides, not the exit code: a library may call exit(0) in the middle, or crash when
-  // it is torn down, after the answer was written.
-  out.done = progress.phase == Phase::kDone;
-  out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-  if (out.done) return out;
-  out.reason = limit.empty() ? describe_status(status) : limit;
-  out.detector = current_detector(progress);
-  out.frame = progress.frame;
-  out.phase = progress.phase;
-  return out;
-}
-
-// Watches for stand-still and memory; says which limit was passed, or "".
+// Watches for stand-still, memory and output; says which limit was passed, or "".
 class Watch {
  public:
   Watch(const SharedProgress& progress, const RunSettings& settings)
       : progress_(progress), settings_(settings) {}
 
-  std::string broken_limit(pid_t child) {
+  std::string broken_limit(const WorkerProcess& worker) {
+    const double limit = seconds_allowed();
+    if (seconds_without_step() > limit)
+      return "no progress for " + short_text(limit) + " s (time limit of one call)";
+    if (worker.resident_bytes() > settings_.memory_limit)
+      return "more than " + std::to_string(settings_.memory_limit >> 20) +
+             " MiB resident (memory limit)";
+    if (worker.output_bytes() > kOutputLimit)
+      return "more than " + std::to_string(kOutputLimit >> 20) +
+             " MiB written to standard output and error (output limit)";
+    return "";
+  }
+
+ private:
+  double seconds_allowed() const {
+    if (progress_.phase == Phase::kDone) return std::min(kSecondsToLeave, settings_.call_limit);
+    if (progress_.detector == SharedProgress::kNoDetector)
+      return std::max(kSecondsOfOwnCode, settings_.call_limit);
+    return settings_.call_limit;
+  }
+
+  double seconds_without_step() {
     const std::uint64_t ticks = progress_.ticks;
     const Clock::time_point now = Clock::now();
     if (ticks != last_ticks_) {
       last_ticks_ = ticks;
       last_change_ = now;
     }
-    if (std::chrono::duration<double>(now - last_change_).count() > settings_.call_limit)
-      return "no progress for " + seconds_text(settings_.call_limit) +
-             " s (time limit of one call)";
-    if (resident_bytes(child) > settings_.memory_limit)
-      return "more than " + std::to_string(settings_.memory_limit >> 20) +
-             " MiB resident (memory limit)";
-    return "";
+    return std::chrono::duration<double>(now - last_change_).count();
   }
 
- private:
   const SharedProgress& progress_;
   const RunSettings& settings_;
   std::uint64_t last_ticks_ = 0;
   Clock::time_point last_change_ = Clock::now();
 };
+
+// Until the worker has ended, by itself or by a limit, which is given back.
+std::string watch_to_the_end(WorkerProcess& worker, const SharedProgress& progress,
+                             const RunSettings& settings, const ProgressCallback& on_progress) {
+  InterruptGuard interrupts;
+  Watch watch(progress, settings);
+  std::string limit;
+  while (!worker.has_ended()) {
+    std::this_thread::sleep_for(kPollInterval);
+    if (interrupts.interrupted()) {
+      worker.kill();
+      worker.reap();
+      interrupts.die();
+    }
+    if (limit.empty()) {
+      limit = watch.broken_limit(worker);
+      if (!limit.empty()) worker.kill();
+    }
+    on_progress(std::min(progress.permille / 1000.0, 1.0), checked(progress.detector, settings));
+  }
+  return limit;
+}
+
+WorkerOutcome outcome_of(const SharedProgress& progress, const RunSettings& settings, int status,
+                         const std::string& limit) {
+  WorkerOutcome out;
+  // The phase decides, not the exit code: a library may call exit(0) in the middle, or crash when
+  // it is torn down, after the answer was written.
+  out.done = progress.phase == Phase::kDone;
+  out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  out.killed = WIFSIGNALED(status);
+  if (out.done) return out;
+  out.reason = limit.empty() ? describe_status(status) : limit;
+  out.detector = checked(progress.detector, settings);
+  out.last_detector = checked(progress.last_detector, settings);
+  out.frame = progress.frame;
+  out.phase = progress.phase;
+  return out;
+}
 
 }  // namespace
 
@@ -138,19 +168,12 @@ WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress) {
   const SharedPage page;
-  const pid_t child = start(executable, job_file, page.fd());
-  Watch watch(page.progress(), settings);
-  std::string limit;
-  int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    if (limit.empty()) {
-      limit = watch.broken_limit(child);
-      if (!limit.empty()) kill(child, SIGKILL);
-    }
-    on_progress(page.progress().permille / 1000.0, current_detector(page.progress()));
-  }
-  return outcome_of(page.progress(), status, limit);
+  WorkerProcess worker(executable, job_file, page.fd());
+  const std::string limit = watch_to_the_end(worker, page.progress(), settings, on_progress);
+  const int status = worker.reap();
+  WorkerOutcome outcome = outcome_of(page.progress(), settings, status, limit);
+  if (!outcome.done) outcome.error_text = worker.error_text();
+  return outcome;
 }
 
 }  // namespace contactcheck

@@ -1,4 +1,4 @@
-// Starts a worker as a fresh process and watches it: crashes, hangs and memory.
+// Starts a worker as a fresh process and watches it: crashes, hangs, memory and output.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +12,27 @@
 namespace contactcheck {
 
 struct WorkerOutcome {
-  bool done = false;   ///< the answer file is complete
-  int exit_code = 0;   ///< of a worker that ended by itself
-  std::string reason;  ///< why it is not done: "signal 11 (Segmentation fault)", ...
+  bool done = false;    ///< the answer file is complete
+  int exit_code = 0;    ///< of a worker that ended by itself
+  bool killed = false;  ///< by a signal, its own or the supervisor's
+  std::string reason;   ///< why it is not done: "signal 11 (Segmentation fault)", ...
   /// Where it was when it died; no detector: in the suite's own code.
   std::optional<std::uint32_t> detector;
+  /// The detector that had run last before it died; none: it died before any had run.
+  std::optional<std::uint32_t> last_detector;
   std::uint32_t frame = 0;
   Phase phase = Phase::kScene;
+  std::string error_text;  ///< what a worker that is not done had on its standard error at the end
 };
 
 /// Called a few times per second while the worker runs.
 using ProgressCallback = std::function<void(double share, std::optional<std::uint32_t> detector)>;
 
-/// Runs `executable worker JOB_FILE` with the job's limits until it ends. A worker whose step
-/// counter stands still for `call_limit` seconds, or whose resident memory passes `memory_limit`,
-/// is killed. @throws InputError when it cannot be started
+/// Runs `executable worker JOB_FILE` with the job's limits until it ends; children that it leaves
+/// behind are ended with it. A worker is killed whose step counter stands still for `call_limit`
+/// seconds, whose resident memory passes `memory_limit` (memory of its children is not counted) or
+/// whose output passes 64 MiB. Interrupts from the terminal end worker and caller.
+/// @throws InputError when it cannot be started
 WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress);

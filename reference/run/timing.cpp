@@ -1,9 +1,9 @@
 #include "reference/run/timing.h"
 
 #include <chrono>
-#include <exception>
 
 #include "reference/run/float_environment.h"
+#include "reference/run/printable.h"
 
 namespace contactcheck {
 namespace {
@@ -48,8 +48,8 @@ void run_cold_and_hot(const JudgedScene& judged, std::size_t index, TimedEntry& 
     FrameSamples& samples = entry.samples.frames[index];
     samples.cold.push_back(run_once(judged, index, entry, mapped, contacts));
     samples.hot.push_back(run_once(judged, index, entry, mapped, contacts));
-  } catch (const std::exception& e) {
-    entry.error = "frame " + std::to_string(index) + ", while timed: " + e.what();
+  } catch (...) {
+    entry.error = "frame " + std::to_string(index) + ", while timed: " + current_exception_text();
   }
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/detect/detector.h"
 #include "reference/compare/speedup.h"
-#include "reference/run/accuracy.h"
+#include "reference/run/judged_scene.h"
 #include "reference/run/job.h"
 #include "reference/run/shared_progress.h"
 

@@ -1,26 +1,23 @@
 #include "reference/run/worker.h"
 
-#include <signal.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "reference/adapters/register.h"
-#include "reference/compare/judge.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
 #include "reference/run/float_environment.h"
+#include "reference/run/hover.h"
 #include "reference/run/job.h"
+#include "reference/run/printable.h"
 #include "reference/run/samples_json.h"
+#include "reference/run/scene_summary.h"
 #include "reference/run/schedule.h"
+#include "reference/run/surroundings.h"
 #include "reference/run/timing.h"
 #include "reference/scene/scene.h"
 
@@ -42,14 +39,13 @@ struct Entry {
 
 class Worker {
  public:
-  Worker(Job job, SharedProgress* shared) : job_(std::move(job)), progress_(shared) {}
+  Worker(Job job, const DetectorCatalog& catalog, SharedProgress* shared, bool supervised)
+      : job_(std::move(job)), catalog_(catalog), progress_(shared), surroundings_(supervised) {}
 
   void run() {
     scene_ = job_.scene_file.extension() == ".ccr"
                  ? load_recording(job_.scene_file)
                  : load_scene(job_.scene_file, job_.settings.frames);
-    register_core_detectors(catalog_);
-    register_reference_detectors(catalog_);
     for (std::uint32_t i = 0; i < job_.settings.detectors.size(); ++i)
       if (std::find(job_.skip.begin(), job_.skip.end(), i) == job_.skip.end()) add_entry(i);
     judged_ = judge_scene(scene_, judges(), progress_);
@@ -63,6 +59,7 @@ class Worker {
       prepare_detectors();
     }
     if (job_.settings.timing) time_detectors();
+    surroundings_.restore();
     write_answer();
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kDone);
   }
@@ -93,11 +90,24 @@ class Worker {
     } catch (const RefusedInput& e) {
       entry.result.status = RunStatus::kRefused;
       entry.result.message = e.what();
-    } catch (const std::exception& e) {
+    } catch (...) {
       entry.result.status = RunStatus::kError;
-      entry.result.message = e.what();
+      entry.result.message = place() + current_exception_text();
     }
     guard.check_and_restore();  // whatever a call that threw has left behind
+    // Emptying buffers may hang: that too is this detector's.
+    progress_.enter(entry.position, progress_.frame(), Phase::kTrace);
+    for (const std::string& note : surroundings_.restore()) add_note(note, entry.result);
+  }
+
+  static void add_note(const std::string& note, RunResult& result) {
+    if (std::find(result.notes.begin(), result.notes.end(), note) == result.notes.end())
+      result.notes.push_back(note);
+  }
+
+  std::string place() const {
+    return "scene " + scene_.id + ", frame " + std::to_string(progress_.frame()) + ", phase " +
+           name_of(progress_.phase()) + ": ";
   }
 
   bool judges() const { return job_.process == 0; }
@@ -111,7 +121,7 @@ class Worker {
   }
 
   void judge_detectors() {
-    Oracle oracle(scene_.bodies);
+    JudgingTools tools(judged_);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       Entry& entry = entries_[i];
       progress_.part(0.1 + 0.4 * static_cast<double>(i) / static_cast<double>(entries_.size()));
@@ -120,10 +130,9 @@ class Worker {
         progress_.enter(entry.position, 0, Phase::kPrepare);
         entry.detector = catalog_.make(entry.spec);
         entry.seconds_per_frame =
-            run_accuracy(judged_, entry.position, *entry.detector, progress_, entry.result)
+            run_accuracy(tools, entry.position, *entry.detector, progress_, entry.result)
                 .seconds_per_frame;
-        measure_hover_gaps(judged_, entry.position, *entry.detector, oracle, progress_,
-                           entry.result);
+        measure_hover_gaps(tools, entry.position, *entry.detector, progress_, entry.result);
       });
       for (Disagreement& d : entry.result.disagreements) {
         d.scene = scene_.id;
@@ -186,14 +195,14 @@ class Worker {
         if (entry.position == t.position) take_samples(t, entry);
   }
 
-  static void take_samples(TimedEntry& timed, Entry& entry) {
+  void take_samples(TimedEntry& timed, Entry& entry) {
     if (!entry.usable()) return;  // another question of this detector threw
     if (timed.error.empty()) {
       entry.samples.push_back(std::move(timed.samples));
       return;
     }
     entry.result.status = RunStatus::kError;
-    entry.result.message = timed.error;
+    entry.result.message = "scene " + scene_.id + ", " + timed.error;
     entry.samples.clear();
   }
 
@@ -204,60 +213,6 @@ class Worker {
     recording.time_step = scene_.time_step;
     recording.frames = judged_.nodes;
     write_recording(job_.recording_file, recording);
-  }
-
-  // What is really there, summed over frames; levels that the scene does not ask for are absent.
-  Json truth_json() const {
-    std::map<Level, std::size_t> sums;
-    for (const Truth& t : judged_.truth) {
-      sums[Level::kBody] += t.surface.bodies.size();
-      sums[Level::kContainment] += t.containment.size();
-      sums[Level::kBox] += t.boxes.size();
-      sums[Level::kTriangle] += t.surface.triangles.size();
-      sums[Level::kVertex] += t.surface.vertices.size();
-    }
-    Json out = Json::object();
-    for (const auto& [level, sum] : sums) {
-      if (!scene_.judges(level)) continue;
-      const std::string why = obstacle_to_judging(level, scene_.bodies);
-      out[name_of(level)] = why.empty() ? Json(sum) : Json(why);
-    }
-    return out;
-  }
-
-  // A detector that finds exactly the true pairs of triangles has this contact_hash.
-  std::uint64_t truth_hash() const {
-    std::uint64_t hash = 0;
-    for (std::size_t f = 0; f < judged_.truth.size(); ++f) {
-      ContactSet surface = judged_.truth[f].surface;
-      surface.vertices.clear();  // triangle detectors report none
-      hash = chain_hash(hash, f, surface);
-    }
-    return hash;
-  }
-
-  Json scene_json() const {
-    Json bodies = Json::array();
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      const BodyShape& shape = *scene_.bodies[b].shape;
-      bodies.push_back({{"name", scene_.bodies[b].name},
-                        {"source", scene_.origins[b].source},
-                        {"notes", scene_.origins[b].notes},
-                        {"vertices", shape.mesh.vertices.size()},
-                        {"triangles", shape.mesh.triangles.size()},
-                        {"cells", shape.lattice ? shape.lattice->cells.size() : 0},
-                        {"solid", shape.topology.solid}});
-    }
-    return {{"id", scene_.id},
-            {"title", scene_.title},
-            {"frames", scene_.frames},
-            {"time_step", scene_.time_step},
-            {"size", scene_.size()},
-            {"contact_frames",
-             std::count(judged_.contact_frames.begin(), judged_.contact_frames.end(), true)},
-            {"truth", truth_json()},
-            {"truth_hash", hex(truth_hash())},
-            {"bodies", bodies}};
   }
 
   void write_answer() {
@@ -280,17 +235,20 @@ class Worker {
                       {"samples", samples},
                       {"disagreements", cases}});
     }
-    const Json answer = {{"scene", scene_json()},
+    const Json answer = {{"scene", scene_summary(judged_)},
                          {"contact_frames", judged_.contact_frames},
                          {"order", job_.order},
                          {"prefixes", job_.prefixes},
                          {"runs", runs}};
-    write_file_atomically(job_.answer_file, answer.dump());
+    // Texts of libraries may hold anything; JSON takes UTF-8 alone.
+    write_file_atomically(job_.answer_file,
+                          answer.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 
   Job job_;
+  const DetectorCatalog& catalog_;
   ProgressWriter progress_;
-  DetectorCatalog catalog_;
+  Surroundings surroundings_;
   Scene scene_;
   JudgedScene judged_;
   std::vector<Entry> entries_;
@@ -299,24 +257,20 @@ class Worker {
 
 }  // namespace
 
-int run_worker(const std::filesystem::path& job_file, int progress_fd) {
+int run_worker(const std::filesystem::path& job_file, const DetectorCatalog& catalog,
+               int progress_fd) {
   SharedProgress own;
   SharedProgress* shared = &own;
-  if (progress_fd >= 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker does not outlive its supervisor
-    void* page =
-        mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, progress_fd, 0);
-    if (page != MAP_FAILED) shared = static_cast<SharedProgress*>(page);
-  }
+  if (progress_fd >= 0) shared = join_supervisor(progress_fd, &own);
   try {
-    Worker(read_job(job_file), shared).run();
+    Worker(read_job(job_file), catalog, shared, progress_fd >= 0).run();
     return 0;
   } catch (const InputError& e) {
     std::fprintf(stderr, "contactcheck: %s\n", e.what());
-    return 2;
+    return kExitBadInput;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "contactcheck: internal error: %s\n", e.what());
-    return 70;
+    return kExitInternal;
   }
 }
 

@@ -4,10 +4,17 @@
 
 #include <filesystem>
 
+#include "core/detect/registry.h"
+
 namespace contactcheck {
 
-/// Entry of the hidden subcommand. `progress_fd`: an inherited descriptor of the shared page, or -1
-/// to run without a parent. Writes the job's answer file. Returns the exit code.
-int run_worker(const std::filesystem::path& job_file, int progress_fd);
+/// Exit codes of a worker that says itself what went wrong.
+constexpr int kExitBadInput = 2, kExitInternal = 70;
+
+/// Entry of the hidden subcommand. `catalog` makes the job's detectors. `progress_fd`: an inherited
+/// descriptor of the shared page, or -1 to run without a parent. Writes the job's answer file.
+/// Returns the exit code.
+int run_worker(const std::filesystem::path& job_file, const DetectorCatalog& catalog,
+               int progress_fd);
 
 }  // namespace contactcheck

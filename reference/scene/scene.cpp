@@ -56,7 +56,7 @@ Scene load_recording(const std::filesystem::path& file) {
   scene.bodies = std::move(recording.bodies);
   scene.frames = recording.frames.size();
   scene.time_step = recording.time_step;
-  scene.levels = {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle};
+  scene.levels = {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle, Level::kNear};
   scene.recorded = std::move(recording.frames);
   for (const Body& body : scene.bodies) {
     scene.origins.push_back({body.name, "recording", describe(body.shape->topology)});

@@ -48,7 +48,7 @@ struct Scene {
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
 
-/// A scene out of a recording (.ccr), judged at the levels body, cell, box and triangle.
+/// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
 
 }  // namespace contactcheck

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   contactcheck::bench::register_broad_benchmarks();
   contactcheck::bench::register_pipeline_benchmarks();
   contactcheck::bench::register_oracle_benchmarks();
+  contactcheck::bench::register_supervision_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -8,5 +8,6 @@ void register_narrow_benchmarks();
 void register_broad_benchmarks();
 void register_pipeline_benchmarks();
 void register_oracle_benchmarks();
+void register_supervision_benchmarks();
 
 }  // namespace contactcheck::bench

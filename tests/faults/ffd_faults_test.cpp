@@ -32,7 +32,8 @@ RunResult accuracy_of(const FfdConfig& config) {
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
   RunResult result;
-  run_accuracy(judged, 0, detector, progress, result);
+  JudgingTools tools(judged);
+  run_accuracy(tools, 0, detector, progress, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "reference/run/accuracy.h"
 #include "reference/run/float_environment.h"
+#include "reference/run/hover.h"
 #include "tests/faults/broken_detectors.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
@@ -35,10 +36,10 @@ struct Pass {
     SharedProgress page;
     ProgressWriter progress(&page);
     judged = judge_scene(scene, true, progress);
-    run_accuracy(judged, 0, detector, progress, result);
+    JudgingTools tools(judged);
+    run_accuracy(tools, 0, detector, progress, result);
     if (!hover) return;
-    Oracle oracle(scene.bodies);
-    measure_hover_gaps(judged, 0, detector, oracle, progress, result);
+    measure_hover_gaps(tools, 0, detector, progress, result);
   }
   const LevelCounts& at(Level level) const { return result.levels.at(level); }
   std::set<std::string> disagreements() const {

@@ -92,6 +92,13 @@ TEST_F(BadInput, ZeroAndNegativeFrames) {
   expect_run_refused({scene(), "--frames", "many"}, {"--frames", "many"});
 }
 
+TEST_F(BadInput, LimitsOutOfRange) {
+  expect_run_refused({scene(), "--call-limit", "0"}, {"--call-limit", "0"});
+  expect_run_refused({scene(), "--call-limit", "nan"}, {"--call-limit", "nan"});
+  expect_run_refused({scene(), "--memory-limit", "1"}, {"--memory-limit", "1"});
+  expect_run_refused({scene(), "--memory-limit", "-5"}, {"--memory-limit", "-5"});
+}
+
 TEST_F(BadInput, ZeroRepeatsAndProcesses) {
   expect_run_refused({scene(), "--repeat", "0"}, {"--repeat"});
   expect_run_refused({scene(), "--processes", "0"}, {"--processes"});

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "core/detect/registry.h"
 #include "reference/adapters/register.h"
 #include "reference/scene/catalogue.h"
@@ -10,9 +12,11 @@ namespace {
 
 using test::contactcheck_program;
 using test::Outcome;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
-TEST(List, NamesEverySuiteSceneAndDetectorWithItsLine) {
+TEST(List, NamesEverySuiteSceneAndDetectorWithOneLine) {
   const Outcome list = contactcheck_program({"list"});
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_EQ(list.err, "");
@@ -24,15 +28,49 @@ TEST(List, NamesEverySuiteSceneAndDetectorWithItsLine) {
       EXPECT_THAT(list.out, HasSubstr(e.title));
     }
   }
-  DetectorCatalog catalog;
-  register_core_detectors(catalog);
-  register_reference_detectors(catalog);
+  const DetectorCatalog catalog = standard_catalog();
   for (const DetectorInfo& info : catalog.all()) {
     EXPECT_THAT(list.out, HasSubstr("\n  " + info.id + " "));
-    EXPECT_THAT(list.out, HasSubstr(info.summary));
-    for (const OptionInfo& o : info.options)
-      EXPECT_THAT(list.out, HasSubstr(":" + o.name + "=" + o.default_value));
+    EXPECT_THAT(list.out, HasSubstr(info.summary + "\n"));
   }
+  EXPECT_THAT(list.out, Not(HasSubstr("questions")));
+}
+
+// With runs of blanks and line ends as one blank, so that it does not matter where lines break.
+std::string on_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string out;
+  for (std::string word; words >> word;) out += word + " ";
+  return out;
+}
+
+TEST(List, OfDetectorsGivesSemanticsAndOptionsWithinAHundredColumns) {
+  const Outcome list = contactcheck_program({"list", "--detectors"});
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_EQ(list.err, "");
+  EXPECT_THAT(list.out, testing::StartsWith("Detectors "));
+  const std::string text = on_one_line(list.out);
+  const DetectorCatalog catalog = standard_catalog();
+  for (const DetectorInfo& info : catalog.all()) {
+    EXPECT_THAT(list.out, HasSubstr("\n" + info.id + "\n"));
+    EXPECT_THAT(text, HasSubstr(on_one_line(info.summary)));
+    for (const OptionInfo& o : info.options) {
+      EXPECT_THAT(text, HasSubstr(o.name + "=" + o.default_value + " ("));
+      EXPECT_THAT(text, HasSubstr(on_one_line(o.help)));
+    }
+  }
+  std::istringstream lines(list.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(List, GivesOnlyWhatIsAskedFor) {
+  const std::string scenes = contactcheck_program({"list", "--scenes"}).out;
+  EXPECT_THAT(scenes, AllOf(HasSubstr("Scenes\n"), HasSubstr("bunny-touch")));
+  EXPECT_THAT(scenes, AllOf(Not(HasSubstr("Suites")), Not(HasSubstr("Detectors"))));
+  const std::string suites = contactcheck_program({"list", "--suites"}).out;
+  EXPECT_THAT(suites, AllOf(HasSubstr("Suites\n"), HasSubstr("default")));
+  EXPECT_THAT(suites, AllOf(Not(HasSubstr("Scenes")), Not(HasSubstr("Detectors"))));
+  EXPECT_EQ(contactcheck_program({"list", "--suites", "--scenes"}).out, suites + "\n" + scenes);
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
@@ -49,13 +87,13 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
 
 TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
-  for (const char* flag :
-       {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet", "--no-timing"})
+  for (const char* flag : {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet",
+                           "--no-timing", "--call-limit SECONDS", "--memory-limit MIB"})
     EXPECT_THAT(help.out, HasSubstr(flag));
 }
 
 TEST(Help, DoesNotShowTheWorkersCommand) {
-  EXPECT_THAT(contactcheck_program({"--help"}).out, testing::Not(HasSubstr("worker")));
+  EXPECT_THAT(contactcheck_program({"--help"}).out, Not(HasSubstr("worker")));
 }
 
 TEST(Version, IsPrinted) {

@@ -192,6 +192,45 @@ TEST(Judge, MissedAtCellLevelNamesTrianglesAndSpuriousNamesCells) {
   EXPECT_EQ(judge.disagreements()[1].pair, pair(0, 1));
 }
 
+TEST(Judge, NearLevelComparesWithThePairsBelowTheMargin) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, {}, {Level::kNear});
+  ContactSet answer;
+  answer.near = {{0, 1, 5, 2}, {1, 0, 5, 2}};
+  answer.canonicalize();
+  judge.add_frame(0, Truth{}, answer, {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}});
+  EXPECT_THAT(numbers(judge.levels().at(Level::kNear)), ElementsAre(3, 2, 1, 2, 1));
+  EXPECT_EQ(judge.per_frame().level, "near");
+  ASSERT_EQ(judge.disagreements().size(), 2u);
+  EXPECT_EQ(judge.disagreements()[0].pair, (ElementPair{0, 1, 5, 3}));
+}
+
+TEST(Judge, InformativeLevelIsCountedButNeverADisagreementNorTheFinest) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Semantics semantics;
+  semantics.levels = {Level::kBody};
+  semantics.informative = {Level::kVertex};
+  Judge judge(bodies, semantics, {Level::kBody, Level::kVertex});
+  EXPECT_EQ(judge.per_frame().level, "body");
+  Truth truth;
+  truth.surface.vertices = {{0, 1, 5}};
+  ContactSet answer;
+  answer.vertices = {{1, 2, 5}};
+  judge.add_frame(0, truth, answer);
+  EXPECT_THAT(numbers(judge.levels().at(Level::kVertex)), ElementsAre(1, 1, 0, 1, 1));
+  EXPECT_THAT(judge.disagreements(), IsEmpty());
+}
+
+TEST(JudgedLevels, HoldWhatIsInformativeToo) {
+  Semantics semantics;
+  semantics.levels = {Level::kBody};
+  semantics.informative = {Level::kVertex};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(labelled_bodies(), semantics,
+                            {Level::kBody, Level::kVertex, Level::kTriangle}, &not_judged),
+              ElementsAre(Level::kBody, Level::kVertex));
+}
+
 TEST(JudgedLevels, AreThoseClaimedAndWanted) {
   Semantics semantics;
   semantics.levels = {Level::kBody, Level::kTriangle};

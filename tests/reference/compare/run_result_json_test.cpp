@@ -14,13 +14,19 @@ RunResult hand_built() {
   run.frames = 2;
   run.contact_frames = 1;
   run.semantics.levels = {Level::kBody, Level::kCell};
+  run.semantics.informative = {Level::kVertex};
+  run.semantics.means = "cells that meet";
   run.semantics.questions = {Question::kCells, Question::kBody};
   run.options = {{"bounds", "paper"}};
   run.recording = "recordings/hello.ccr";
-  run.per_frame = {"cell", {0, 4}, {0, 1}, {1, 0}};
+  run.per_frame = {"cell", {0, 4}, {0, 1}, {1, 0}, {std::nullopt, 0.75}};
   run.levels[Level::kBody] = {1, 2, 1, 0, 1};
   run.levels[Level::kCell] = {4, 0, 0, 4, 0};
-  run.not_judged[Level::kVertex] = "not judged: open";
+  run.levels[Level::kVertex] = {2, 1, 1, 1, 0};
+  run.not_judged[Level::kContainment] = "not judged: open";
+  run.graded.missed_length = 0.125;
+  run.graded.covered_length_fraction = 0.75;
+  run.graded.depth = {4, 0.5, 0.25, 0.375};
   Episode episode;
   episode.bodies = {0, 1};
   episode.first_true = 1;
@@ -28,11 +34,13 @@ RunResult hand_built() {
   episode.hover_gap = 0.25;
   episode.late_frames = -1;
   run.episodes = {episode};
-  run.stages = {{"hash", "cell pairs", 20, 8, 1}};
+  run.stages = {{"hash", "cell pairs", 20, 8, 1, 33, "bucket entries"},
+                {"node-plane", "cell pairs", 8, 8, 0, 0, ""}};
   run.prepare_ms = 1.5;
   run.memory_bytes = 4096;
   run.contact_hash = 0x0123456789abcdef;
   run.float_environment = {"update changed flush-to-zero"};
+  run.notes = {"something odd"};
   return run;
 }
 
@@ -49,6 +57,9 @@ TEST(RunResultJson, IsThisText) {
    "body",
    "cell"
   ],
+  "informative": [
+   "vertex"
+  ],
   "questions": [
    "cells",
    "body"
@@ -58,7 +69,9 @@ TEST(RunResultJson, IsThisText) {
   "exact": false,
   "margin": 0.0,
   "precision": "double",
-  "depth_kind": "none"
+  "scale": 1.0,
+  "depth_kind": "none",
+  "means": "cells that meet"
  },
  "options": {
   "bounds": "paper"
@@ -77,6 +90,10 @@ TEST(RunResultJson, IsThisText) {
   "spurious": [
    1,
    0
+  ],
+  "covered_length_fraction": [
+   null,
+   0.75
   ]
  },
  "levels": {
@@ -97,19 +114,34 @@ TEST(RunResultJson, IsThisText) {
    "spurious": 0,
    "recall": 0.0,
    "spurious_rate": null
+  },
+  "vertex": {
+   "truth": 2,
+   "reported": 1,
+   "hit": 1,
+   "missed": 1,
+   "spurious": 0,
+   "recall": 0.5,
+   "spurious_rate": 0.0,
+   "informative": true
   }
  },
  "not_judged": {
-  "vertex": "not judged: open"
+  "containment": "not judged: open"
  },
  "geometry": {
-  "missed_length": null,
-  "covered_length_fraction": null,
+  "missed_length": 0.125,
+  "covered_length_fraction": 0.75,
   "spurious_distance_max": null,
   "depth_kind": "none",
-  "depth_error_max": null,
-  "depth_error_p95": null,
+  "depth_judged": 4,
+  "depth_error_max": 0.5,
+  "depth_error_mean": 0.25,
+  "depth_error_p95": 0.375,
+  "normal_judged": 0,
   "normal_error_deg_max": null,
+  "normal_error_deg_mean": null,
+  "normal_error_deg_p95": null,
   "hover_gap_max": 0.25,
   "late_frames": -1,
   "episodes": [
@@ -131,7 +163,16 @@ TEST(RunResultJson, IsThisText) {
    "unit": "cell pairs",
    "in": 20,
    "out": 8,
-   "missed": 1
+   "missed": 1,
+   "visited": 33,
+   "visited_unit": "bucket entries"
+  },
+  {
+   "name": "node-plane",
+   "unit": "cell pairs",
+   "in": 8,
+   "out": 8,
+   "missed": 0
   }
  ],
  "time_ms": {
@@ -141,8 +182,28 @@ TEST(RunResultJson, IsThisText) {
  "contact_hash": "0x0123456789abcdef",
  "float_environment": [
   "update changed flush-to-zero"
+ ],
+ "notes": [
+  "something odd"
  ]
 })");
+}
+
+TEST(RunResultJson, NearNamesItsMarginAndRoundedLevelsStandApart) {
+  RunResult run = hand_built();
+  EXPECT_FALSE(to_json(run).contains("levels_rounded"));
+  run.semantics.levels = {Level::kNear};
+  run.semantics.margin = 0.002;
+  run.semantics.precision = Precision::kSingle;
+  run.semantics.scale = 64.0;
+  run.levels = {{Level::kNear, {3, 3, 2, 1, 1}}};
+  run.levels_rounded = {{Level::kNear, {3, 3, 3, 0, 0}}};
+  const nlohmann::ordered_json json = to_json(run);
+  EXPECT_EQ(json.at("levels").at("near").at("margin"), 0.002);
+  EXPECT_EQ(json.at("levels").at("near").at("missed"), 1);
+  EXPECT_FALSE(json.at("levels").at("near").contains("informative"));
+  EXPECT_EQ(json.at("levels_rounded").at("near").at("missed"), 0);
+  EXPECT_EQ(json.at("semantics").at("scale"), 64.0);
 }
 
 RunTimes hand_built_times() {

@@ -15,9 +15,9 @@ TEST(Terminal, IsThisText) {
   EXPECT_EQ(terminal_tables(sample_results(), false),
             R"(hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact
-  detector              level      truth   recall  missed  spurious  body m/s  hover mm  late  ms/frame  question   vs fcl-aabb  vs fcl-obbrss
-  fcl-aabb              triangle  200000        1       0         0       0/0         0     0      2.00  triangles        1.00x              -
-  ffd-aabb-sphere2+tri  triangle  200000  0.99999       1         2       0/2      2.10    -1     0.500  triangles        4.00x              -
+  detector              level      truth   recall  missed  spurious  body m/s  hover mm  late  ms/frame  question   vs fcl-aabb  vs fcl-obbrss  vs embree
+  fcl-aabb              triangle  200000        1       0         0       0/0         0     0      2.00  triangles        1.00x              -          -
+  ffd-aabb-sphere2+tri  triangle  200000  0.99999       1         2       0/2      2.10    -1     0.500  triangles        4.00x              -          -
   fcl-obbrss            error  scene hello, frame 7, phase query: signal 11 (Segmentation fault) | core
   embree                absent  not built
   ffd-grid              refused  body "left" has no lattice
@@ -31,9 +31,10 @@ TEST(Terminal, IsThisText) {
   hover mm       largest true distance at the moment contact is first reported
   late           frames reported after (+) or before (-) the truth, worst episode
   ms/frame       map + update + query, cold median, own question
-  question       question in which the next two columns compare
+  question       question in which the next columns compare
   vs fcl-aabb    time of fcl-aabb / time of this detector, cold
   vs fcl-obbrss  time of fcl-obbrss / time of this detector, cold
+  vs embree      time of embree / time of this detector, cold
 )");
 }
 

@@ -28,7 +28,8 @@ RunResult accuracy_of(const Scene& scene, const std::string& name) {
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
   RunResult result;
-  run_accuracy(judged, 0, *detector, progress, result);
+  JudgingTools tools(judged);
+  run_accuracy(tools, 0, *detector, progress, result);
   return result;
 }
 

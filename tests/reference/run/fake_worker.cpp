@@ -1,16 +1,22 @@
 // Stands in for `contactcheck worker JOB --progress-fd FD`: tells the shared page that it is in
-// detector 1, frame 7, phase update, and then does what its job file's one word says.
+// detector 1, frame 7, phase update, and then does what the first line of its job file says. A real
+// job's file tells it the same by the name of its scene.
 #include <signal.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "reference/compare/run_result_json.h"
+#include "reference/run/job.h"
 #include "reference/run/shared_progress.h"
+#include "reference/run/surroundings.h"
 
 namespace contactcheck {
 namespace {
@@ -38,6 +44,54 @@ void step_for_a_second(ProgressWriter& progress) {
   }
 }
 
+// A child that would sleep on; the numbers of both are written beside the job file.
+void leave_child(const std::string& job_file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    sleep(300);
+    _exit(0);
+  }
+  const std::string name = job_file + ".pids";
+  std::ofstream(name + ".part") << getpid() << ' ' << child << '\n';
+  std::rename((name + ".part").c_str(), name.c_str());
+}
+
+void talk() {
+  std::puts("to standard output");
+  std::fputs("last words\n", stderr);
+  std::fflush(stdout);
+}
+
+// Standard input is there and empty.
+void read_input() {
+  char byte = 0;
+  if (read(STDIN_FILENO, &byte, 1) != 0) die(SIGKILL);
+}
+
+void flood() {
+  const std::string block(std::size_t{1} << 20, 'x');
+  for (int i = 0; i < 256; ++i)
+    if (write(STDERR_FILENO, block.data(), block.size()) < 0) return;
+  sleep(60);
+}
+
+// The answer of a worker whose detector 0 refused the scene and whose others were left out.
+void write_answer(const Job& job) {
+  RunResult run;
+  run.scene = "fake";
+  run.detector = job.settings.detectors.front();
+  run.status = RunStatus::kRefused;
+  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
+  const nlohmann::ordered_json entry = {
+      {"position", 0}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}};
+  std::ofstream(job.answer_file) << nlohmann::ordered_json{
+      {"scene", {{"id", "fake"}, {"frames", 9}, {"contact_frames", 4}}},
+      {"contact_frames", empty},
+      {"order", empty},
+      {"prefixes", empty},
+      {"runs", {entry}}};
+}
+
 int act(const std::string& what, ProgressWriter& progress) {
   const auto finish = [&] { progress.enter(SharedProgress::kNoDetector, 0, Phase::kDone); };
   if (what == "crash") die(SIGSEGV);
@@ -50,10 +104,53 @@ int act(const std::string& what, ProgressWriter& progress) {
     progress.enter(SharedProgress::kNoDetector, 3, Phase::kTruth);
     die(SIGSEGV);
   }
+  if (what == "wild") {
+    progress.enter(77, 3, Phase::kUpdate);
+    die(SIGSEGV);
+  }
+  if (what == "last words") {
+    talk();
+    die(SIGSEGV);
+  }
+  if (what == "talk") talk();
+  if (what == "flood") flood();
+  if (what == "read") read_input();
   if (what == "slowly") step_for_a_second(progress);
   finish();
   if (what == "crash late") die(SIGSEGV);
+  if (what == "hang late") sleep(60);
   return 0;
+}
+
+// What a job's scene is called: "outside" dies outside detectors unless detector 1 is left out,
+// "always" dies whatever is left out, "refuse" says that the input is bad.
+int act_for_suite(const Job& job, ProgressWriter& progress) {
+  const std::string what = job.scene_file.stem().string();
+  if (what == "refuse") {
+    progress.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
+    std::fputs("contactcheck: the scene is bad\n", stderr);
+    return 2;
+  }
+  const bool skipped = std::find(job.skip.begin(), job.skip.end(), 1u) != job.skip.end();
+  if (!skipped || what == "always") return act("outside", progress);
+  write_answer(job);
+  return act("answer", progress);
+}
+
+int act_on_job(const std::string& job_file, ProgressWriter& progress) {
+  std::string what;
+  std::ifstream in(job_file);
+  std::getline(in, what);
+  if (what.rfind('{', 0) == 0) return act_for_suite(read_job(job_file), progress);
+  if (what == "crash with child") {
+    leave_child(job_file);
+    die(SIGSEGV);
+  }
+  if (what == "hang with child") {
+    leave_child(job_file);
+    sleep(60);
+  }
+  return act(what, progress);
 }
 
 }  // namespace
@@ -64,13 +161,10 @@ int main(int argc, char** argv) {
   if (argc != 5 || std::strcmp(argv[1], "worker") != 0 ||
       std::strcmp(argv[3], "--progress-fd") != 0)
     return 64;
-  void* page = mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED,
-                    std::atoi(argv[4]), 0);
-  if (page == MAP_FAILED) return 65;
-  ProgressWriter progress(static_cast<SharedProgress*>(page));
+  SharedProgress none;
+  SharedProgress* shared = join_supervisor(std::atoi(argv[4]), &none);
+  if (shared == &none) return 65;
+  ProgressWriter progress(shared);
   progress.enter(1, 7, Phase::kUpdate);
-  std::string what;
-  std::ifstream job(argv[2]);
-  std::getline(job, what);
-  return act(what, progress);
+  return act_on_job(argv[2], progress);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fenv.h>
+
 #include <cfenv>
 #include <limits>
 
@@ -68,6 +70,43 @@ TEST(FloatEnvironmentGuard, NamesEverythingThatChanged) {
   _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);
   EXPECT_EQ(guard.check_and_restore(), "rounding mode, flush-to-zero, denormals-are-zero");
   EXPECT_EQ(_mm_getcsr() & (kFlushToZero | kDenormalsAreZero), 0u);
+}
+
+double sum_of_long_doubles() {
+  volatile long double x = 1.0L;
+  return static_cast<double>(x / 3.0L);
+}
+
+TEST(FloatEnvironmentGuard, SeesAndRestoresTrapsThatArePending) {
+  const FloatEnvironmentGuard guard;
+  third(1.0);
+  sum_of_long_doubles();  // both units have an inexact result behind them
+  feenableexcept(FE_ALL_EXCEPT);
+  EXPECT_EQ(guard.check_and_restore(), "traps");
+  EXPECT_EQ(fegetexcept(), 0);
+  third(1.0);  // would be SIGFPE
+  sum_of_long_doubles();
+  EXPECT_EQ(guard.check_and_restore(), "");
+}
+
+TEST(FloatEnvironmentGuard, SeesTrapsThatOnlySseWasTold) {
+  const FloatEnvironmentGuard guard;
+  _mm_setcsr(_mm_getcsr() & ~0x1000u);  // inexact results
+  EXPECT_EQ(guard.check_and_restore(), "traps");
+  third(1.0);
+  EXPECT_EQ(guard.check_and_restore(), "");
+}
+
+TEST(FloatEnvironmentGuard, SeesAndRestoresThePrecisionOfTheOldUnit) {
+  const double before = sum_of_long_doubles();
+  const FloatEnvironmentGuard guard;
+  unsigned short word = 0;
+  __asm__ volatile("fnstcw %0" : "=m"(word));
+  word = static_cast<unsigned short>(word & ~0x0300u);  // single precision
+  __asm__ volatile("fldcw %0" : : "m"(word));
+  EXPECT_NE(sum_of_long_doubles(), before);
+  EXPECT_EQ(guard.check_and_restore(), "x87 precision");
+  EXPECT_EQ(sum_of_long_doubles(), before);
 }
 
 TEST(FloatEnvironmentGuard, RestoresWhatWasSetBefore) {

@@ -5,6 +5,7 @@
 #include "core/detect/registry.h"
 #include "reference/adapters/register.h"
 #include "reference/run/accuracy.h"
+#include "reference/run/hover.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
@@ -32,11 +33,11 @@ RunResult measured(const Scene& scene, const std::string& name) {
   const auto detector = catalog.make(catalog.parse(name));
   SharedProgress page;
   ProgressWriter progress(&page);
-  Oracle oracle(scene.bodies);
   const JudgedScene judged = judge_scene(scene, true, progress);
   RunResult result;
-  run_accuracy(judged, 0, *detector, progress, result);
-  measure_hover_gaps(judged, 0, *detector, oracle, progress, result);
+  JudgingTools tools(judged);
+  run_accuracy(tools, 0, *detector, progress, result);
+  measure_hover_gaps(tools, 0, *detector, progress, result);
   return result;
 }
 

@@ -1,10 +1,14 @@
 #include "reference/run/supervisor.h"
 
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
+#include "tests/reference/run/is_dead.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck {
@@ -91,8 +95,106 @@ TEST(Supervisor, CrashOutsideDetectorsIsBookedOnNone) {
   const WorkerOutcome outcome = outcome_of("outside");
   EXPECT_FALSE(outcome.done);
   EXPECT_EQ(outcome.detector, std::nullopt);
+  EXPECT_THAT(outcome.last_detector, Optional(1u));
   EXPECT_EQ(outcome.frame, 3u);
   EXPECT_EQ(outcome.phase, Phase::kTruth);
+}
+
+TEST(Supervisor, DetectorThatIsNotInTheJobIsNoDetector) {
+  const Scratch scratch;
+  RunSettings settings = limits(20.0);
+  settings.detectors = {"one", "two"};
+  const WorkerOutcome outcome =
+      run_supervised(CONTACTCHECK_FAKE_WORKER, scratch.write("job", "wild"), settings,
+                     [](double, std::optional<std::uint32_t>) {});
+  EXPECT_EQ(outcome.detector, std::nullopt);
+  EXPECT_EQ(outcome.last_detector, std::nullopt);
+}
+
+TEST(Supervisor, WorkerThatDoesNotLeaveAfterItsAnswerIsDone) {
+  EXPECT_TRUE(outcome_of("hang late", 0.25).done);
+}
+
+TEST(Supervisor, OutputOfTheWorkerIsNotTheProgramsOutput) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const bool done = outcome_of("talk").done;
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_TRUE(done);
+}
+
+TEST(Supervisor, KeepsTheLastWordsOfAWorkerThatDied) {
+  EXPECT_EQ(outcome_of("last words").error_text, "last words\n");
+  EXPECT_EQ(outcome_of("talk").error_text, "") << "it has not died";
+}
+
+TEST(Supervisor, OutputBeyondItsLimitIsStoppedAndNamed) {
+  const WorkerOutcome outcome = outcome_of("flood");
+  expect_booked_on_detector_one(outcome);
+  EXPECT_EQ(outcome.reason, "more than 64 MiB written to standard output and error (output limit)");
+  EXPECT_EQ(outcome.error_text.size(), std::size_t{64} << 10) << "only its beginning is kept";
+}
+
+TEST(Supervisor, WorkerHasAnEmptyInput) { EXPECT_TRUE(outcome_of("read").done); }
+
+struct Pids {
+  int worker = 0, child = 0;
+};
+
+// Of a fake worker that has left a child; waits until it has written them down.
+Pids pids_beside(const std::filesystem::path& job) {
+  Pids pids;
+  for (int i = 0; i < 1000 && pids.child == 0; ++i) {
+    std::ifstream(job.string() + ".pids") >> pids.worker >> pids.child;
+    if (pids.child == 0) usleep(10'000);
+  }
+  EXPECT_GT(pids.child, 0);
+  return pids;
+}
+
+TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
+  const Scratch scratch;
+  const std::filesystem::path job = scratch.write("job", "crash with child");
+  const WorkerOutcome outcome = run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
+                                               [](double, std::optional<std::uint32_t>) {});
+  EXPECT_EQ(outcome.reason, "signal 11 (Segmentation fault)");
+  EXPECT_TRUE(test::dies(pids_beside(job).child));
+}
+
+// A process that supervises `job`, struck by `signal` in the middle. Its status at its end.
+int status_of_struck_supervisor(const std::filesystem::path& job, int signal, Pids* pids) {
+  const pid_t supervisor = fork();
+  if (supervisor == 0) {
+    run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
+                   [](double, std::optional<std::uint32_t>) {});
+    _exit(0);
+  }
+  *pids = pids_beside(job);
+  kill(supervisor, signal);
+  int status = 0;
+  waitpid(supervisor, &status, 0);
+  return status;
+}
+
+TEST(Supervisor, InterruptEndsWorkerItsChildrenAndTheSupervisorByThatSignal) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Scratch scratch;
+    Pids pids;
+    const int status =
+        status_of_struck_supervisor(scratch.write("job", "hang with child"), signal, &pids);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+    EXPECT_TRUE(test::dies(pids.worker));
+    EXPECT_TRUE(test::dies(pids.child));
+  }
+}
+
+TEST(Supervisor, WorkerDoesNotOutliveASupervisorThatIsKilled) {
+  const Scratch scratch;
+  Pids pids;
+  status_of_struck_supervisor(scratch.write("job", "hang with child"), SIGKILL, &pids);
+  EXPECT_TRUE(test::dies(pids.worker));
+  kill(pids.child, SIGKILL);  // nobody is left who could
 }
 
 TEST(Supervisor, MissingProgramIsASentence) {

@@ -79,7 +79,7 @@ def level_errors(place, level):
 
 def per_frame_errors(place, run):
     per_frame = run["per_frame"]
-    for name in ("truth", "missed", "spurious", "frame_ms"):
+    for name in ("truth", "missed", "spurious", "covered_length_fraction", "frame_ms"):
         values = per_frame.get(name)
         if values is not None and len(values) not in (0, run["frames"]):
             yield f"{place}/{name}", f"has {len(values)} entries for {run['frames']} frames"
@@ -89,6 +89,31 @@ def per_frame_errors(place, run):
     for name in ("truth", "missed", "spurious"):
         if sum(per_frame[name]) != level[name]:
             yield f"{place}/{name}", f"adds up to {sum(per_frame[name])}, not {level[name]}"
+
+
+def geometry_errors(place, geometry):
+    """Spreads are ordered, and null exactly where nothing was judged."""
+    for stem, count in (("depth_error", "depth_judged"), ("normal_error_deg", "normal_judged")):
+        if count not in geometry:
+            continue
+        values = [geometry.get(f"{stem}_{which}") for which in ("mean", "p95", "max")]
+        if geometry[count] == 0:
+            if values != [None] * 3:
+                yield f"{place}/{stem}_max", "has values though nothing was judged"
+        elif None in values:
+            yield f"{place}/{stem}_max", f"is null though {geometry[count]} were judged"
+        elif max(values[0], values[1]) > values[2] * (1 + RATE_TOLERANCE):
+            yield f"{place}/{stem}_max", "is below the mean or the 95th percentile"
+
+
+def informative_errors(place, run):
+    claimed = run["semantics"].get("levels")
+    if claimed is None:
+        return
+    for levels in ("levels", "levels_rounded"):
+        for name, level in run.get(levels, {}).items():
+            if (name in claimed) == level.get("informative", False):
+                yield f"{place}/{levels}/{name}", "must be informative exactly when not claimed"
 
 
 def speedup_errors(place, speedup):
@@ -108,6 +133,8 @@ def run_errors(place, run):
     for levels in ("levels", "levels_rounded"):
         for name, level in run.get(levels, {}).items():
             yield from level_errors(f"{place}/{levels}/{name}", level)
+    yield from informative_errors(place, run)
+    yield from geometry_errors(f"{place}/geometry", run["geometry"])
     yield from per_frame_errors(f"{place}/per_frame", run)
     yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
     if run["time_ms"].get("timed_frames", 0) > run["frames"]:

@@ -1,0 +1,104 @@
+#include "reference/cli/detector_sheet.h"
+
+#include <cstdio>
+
+#include "reference/cli/wrapped_text.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::size_t kIndent = 2, kLabel = 11;  // characters
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+template <typename Items, typename Name>
+std::string join(const Items& items, Name&& name, const char* separator = ", ") {
+  std::string out;
+  for (const auto& item : items) out += (out.empty() ? "" : separator) + std::string(name(item));
+  return out;
+}
+
+class Sheet {
+ public:
+  explicit Sheet(std::size_t width) : width_(width) {}
+
+  void title(const DetectorInfo& info) {
+    text_ +=
+        info.id + "\n" + std::string(kIndent, ' ') + wrapped_text(info.summary, kIndent, width_);
+  }
+  void line(std::string label, const std::string& value) {
+    if (value.empty()) return;
+    label.resize(kLabel, ' ');
+    text_ +=
+        std::string(kIndent, ' ') + label + " " + wrapped_text(value, kIndent + kLabel + 1, width_);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::size_t width_;
+  std::string text_;
+};
+
+std::string levels_text(const Semantics& s) {
+  const auto name = [](Level level) { return name_of(level); };
+  if (s.levels.empty()) return "none";
+  return join(s.levels, name) + (s.exact ? "; exact: nothing missed, nothing spurious" : "");
+}
+
+std::string contact_text(const Semantics& s) {
+  std::string text = s.solid ? "of solids: one inside another is in contact" : "of surfaces";
+  text += s.closed ? "; touching counts" : "; touching does not count";
+  if (s.margin > 0.0) text += "; margin " + number_text(s.margin) + " m, strictly nearer";
+  return text;
+}
+
+std::string numbers_text(const Semantics& s) {
+  std::string text = std::string(name_of(s.precision)) + " precision";
+  if (s.scale != 1.0) text += ", fed at scale " + number_text(s.scale);
+  return text;
+}
+
+void add_semantics(const Semantics& s, Sheet& sheet) {
+  const auto level = [](Level l) { return name_of(l); };
+  const auto question = [](Question q) { return name_of(q); };
+  sheet.line("claims", levels_text(s));
+  sheet.line("informative", join(s.informative, level));
+  sheet.line("questions", join(s.questions, question));
+  sheet.line("contact", contact_text(s));
+  sheet.line("means", s.means);
+  sheet.line("numbers", numbers_text(s));
+  sheet.line("depth", name_of(s.depth));
+}
+
+std::string allowed_text(const OptionInfo& o) {
+  if (!o.choices.empty())
+    return join(
+        o.choices, [](const std::string& choice) { return choice; }, "|");
+  return number_text(o.min) + " to " + number_text(o.max) + (o.integer ? ", whole" : "");
+}
+
+}  // namespace
+
+std::string detector_sheet(const DetectorInfo& info, std::size_t width) {
+  Sheet sheet(width);
+  sheet.title(info);
+  if (info.absent_because.empty()) {
+    Options defaults;
+    for (const OptionInfo& o : info.options) defaults[o.name] = o.default_value;
+    add_semantics(info.make(defaults)->semantics(), sheet);
+  } else {
+    sheet.line("absent", info.absent_because);
+  }
+  const char* label = "options";
+  for (const OptionInfo& o : info.options) {
+    sheet.line(label, o.name + "=" + o.default_value + " (" + allowed_text(o) + "): " + o.help);
+    label = "";
+  }
+  return sheet.text();
+}
+
+}  // namespace contactcheck

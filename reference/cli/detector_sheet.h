@@ -1,0 +1,15 @@
+// What a detector says about itself, for people.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/detect/registry.h"
+
+namespace contactcheck {
+
+/// Lines of at most `width` characters (longer only where one word is): summary, declared semantics
+/// with the options at their defaults, and the options with what is allowed.
+std::string detector_sheet(const DetectorInfo& info, std::size_t width);
+
+}  // namespace contactcheck

@@ -1,0 +1,153 @@
+#include "reference/cli/program.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "core/types/check.h"
+#include "reference/cli/commands.h"
+#include "reference/run/worker.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr int kBadUsage = 2;
+
+std::string join_command_line(int argc, char** argv) {
+  std::string text = "contactcheck";
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
+struct Choices {
+  RunArguments run;
+  ListArguments list;
+  std::string results_file, job_file;
+  std::vector<std::string> formats = {"md"};
+  std::string report_out = "out";
+  bool no_timing = false;
+  int progress_fd = -1;
+};
+
+// CLI11's own range (2.1) lets NaN pass.
+std::string seconds_in_range(const std::string& text) {
+  constexpr double kLeast = 0.1, kMost = 1e6;
+  double value = 0.0;
+  const bool number = CLI::detail::lexical_cast(text, value);
+  return number && value >= kLeast && value <= kMost
+             ? ""
+             : "\"" + text + "\" is not a number from 0.1 to 1000000";
+}
+
+// What ends a detector that goes astray.
+void add_limits(CLI::App& run, Choices& c) {
+  run.add_option("--call-limit", c.run.call_limit,
+                 "seconds that one call of a detector may take (default 60); beyond, its row is an "
+                 "error")
+      ->check(seconds_in_range)
+      ->type_name("SECONDS");
+  run.add_option("--memory-limit", c.run.memory_limit_mib,
+                 "resident memory of a scene's worker process (default 4096); the detector that "
+                 "passes it is an error")
+      ->check(CLI::Range(64, 1 << 30))
+      ->type_name("MIB");
+}
+
+void add_run(CLI::App& app, Choices& c) {
+  CLI::App* run = app.add_subcommand("run", "run detectors on scenes and judge every answer");
+  run->add_option(
+      "targets", c.run.targets,
+      "suites, scenes or files (.json scene or suite, .ccr recording); default: default");
+  run->add_option("--detector", c.run.detectors, "a detector, repeatable; default: the suite's")
+      ->allow_extra_args(false);
+  run->add_option("--frames", c.run.frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  run->add_option("--repeat", c.run.repeats, "timed repeats per frame (default 5)")
+      ->check(CLI::Range(1, 1000));
+  run->add_option("--processes", c.run.processes, "fresh processes that are timed (default 1)")
+      ->check(CLI::Range(1, 100));
+  run->add_option("--out", c.run.out,
+                  "folder for results.json, report.md, cases, recordings "
+                  "(default out)");
+  add_limits(*run, c);
+  run->add_flag("--no-timing", c.no_timing, "judge only");
+  run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
+  run->footer(
+      "Examples:\n"
+      "  contactcheck run\n"
+      "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
+      "  contactcheck run out/recordings/bunny-touch.ccr --no-timing");
+}
+
+void add_others(CLI::App& app, Choices& c) {
+  CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
+  list->add_flag("--suites", c.list.suites, "suites only");
+  list->add_flag("--scenes", c.list.scenes, "scenes only");
+  list->add_flag("--detectors", c.list.detectors,
+                 "detectors only, with what each claims and its options");
+  list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
+  CLI::App* report = app.add_subcommand("report", "write the report of an old results.json again");
+  report->add_option("results", c.results_file, "a results.json")->required();
+  report->add_option("--format", c.formats, "formats: md")->delimiter(',');
+  report->add_option("--out", c.report_out, "folder (default out)");
+  report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");
+  CLI::App* worker = app.add_subcommand("worker", "")->group("");
+  worker->add_option("job", c.job_file)->required();
+  worker->add_option("--progress-fd", c.progress_fd);
+}
+
+int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
+  if (app.got_subcommand("worker")) return run_worker(c.job_file, catalog, c.progress_fd);
+  if (app.got_subcommand("list")) return list_command(c.list, catalog);
+  if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
+  c.run.timing = !c.no_timing;
+  return run_command(c.run, catalog);
+}
+
+int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
+  CLI::App app("Judges collision detectors of deformable bodies against an exact oracle.");
+  app.name("contactcheck");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", CONTACTCHECK_VERSION);
+  app.footer(
+      "Exit codes: 0 done, 2 bad usage or input, 3 a detector ended in an error.\n"
+      "Example:\n  contactcheck run bunny-touch");
+  Choices choices;
+  choices.run.command_line = join_command_line(argc, argv);
+  add_run(app, choices);
+  add_others(app, choices);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    // CLI11 would say that a subcommand is missing, and not which word it does not know.
+    if (app.get_subcommands().empty() && !app.remaining().empty()) {
+      std::fprintf(stderr, "contactcheck: unknown command \"%s\"; contactcheck --help names all\n",
+                   app.remaining().front().c_str());
+      return kBadUsage;
+    }
+    std::fprintf(stderr, "contactcheck: %s\n", e.what());
+    return kBadUsage;
+  }
+  try {
+    return dispatch(app, choices, catalog);
+  } catch (const InputError& e) {
+    std::fprintf(stderr, "contactcheck: %s\n", e.what());
+    return kBadUsage;
+  }
+}
+
+}  // namespace
+
+int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog) {
+  try {
+    return main_with_errors(argc, argv, catalog);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "contactcheck: internal error: %s\n", e.what());
+    return kExitInternal;
+  }
+}
+
+}  // namespace contactcheck

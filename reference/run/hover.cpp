@@ -1,0 +1,119 @@
+#include "reference/run/hover.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/compare/episodes.h"
+#include "reference/run/answer_check.h"
+#include "reference/run/run_notes.h"
+
+namespace contactcheck {
+namespace {
+
+// Does the detector report the pair at a time between frames?
+class PairProbe {
+ public:
+  PairProbe(const JudgedScene& judged, Detector& detector, Oracle& oracle, BodyPair pair)
+      : scene_(*judged.scene), detector_(detector), oracle_(oracle), pair_(pair) {}
+
+  bool reports(double time) {
+    go_to(time);
+    detector_.update(frame_);
+    ContactSet contacts;
+    ask(detector_, detector_.semantics().questions.front(), AnswerCheck(scene_, 0), contacts);
+    return std::binary_search(contacts.bodies.begin(), contacts.bodies.end(), pair_);
+  }
+  double distance(double time) {
+    go_to(time);
+    return oracle_.distance(frame_, pair_).upper;
+  }
+
+ private:
+  void go_to(double time) {
+    if (time == time_) return;
+    time_ = time;
+    nodes_ = scene_.nodes_at(time);
+    vertices_ = map_bodies(scene_, nodes_);
+    frame_ = make_frame(0, time, nodes_, vertices_);
+  }
+
+  const Scene& scene_;
+  Detector& detector_;
+  Oracle& oracle_;
+  BodyPair pair_;
+  double time_ = std::nan("");
+  std::vector<std::vector<Vec3>> nodes_, vertices_;
+  Frame frame_;
+};
+
+// The true first contact of a pair between two frames, found by the oracle alone and kept: it is
+// the same for all detectors.
+ContactMoment true_moment(JudgingTools& tools, PairProbe& probe, const Episode& e,
+                          double tolerance) {
+  const std::size_t f = *e.first_true;
+  const auto [entry, is_new] = tools.true_contacts.try_emplace({e.bodies, f});
+  ContactMoment& moment = entry->second;
+  if (!is_new) return moment;
+  moment = {tools.judged.scene->time_of(f - 1), tools.judged.scene->time_of(f)};
+  constexpr int kMost = 60;  // exhausts the doubles between two frames
+  double gap = probe.distance(moment.before);
+  for (int i = 0; i < kMost && gap >= tolerance; ++i) {
+    const double middle = 0.5 * (moment.before + moment.after);
+    const double distance = probe.distance(middle);
+    (distance > 0.0 ? moment.before : moment.after) = middle;
+    if (distance > 0.0) gap = distance;
+  }
+  return moment;
+}
+
+// Silent until the surfaces are nearer than the tolerance, and not after they touch: no gap, by two
+// questions in place of a search. A search would have to ask a slow detector twenty times.
+bool reports_at_true_moment(JudgingTools& tools, PairProbe& probe, const Episode& e,
+                            double tolerance) {
+  if (e.first_true != e.first_reported) return false;
+  const ContactMoment moment = true_moment(tools, probe, e, tolerance);
+  return probe.distance(moment.before) < tolerance && !probe.reports(moment.before) &&
+         probe.reports(moment.after);
+}
+
+}  // namespace
+
+void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& detector,
+                        ProgressWriter& progress, RunResult& result) {
+  const JudgedScene& judged = tools.judged;
+  Oracle& oracle = tools.oracle;
+  const Scene& scene = *judged.scene;
+  const double tolerance = 1e-6 * scene.size();
+  const FloatEnvironmentGuard guard;
+  for (Episode& e : result.episodes) {
+    if (!e.first_reported) continue;
+    const std::size_t f = *e.first_reported;
+    progress.enter(position, f, Phase::kUpdate);
+    if (!scene.scripted() || f == 0) {
+      progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
+      e.hover_gap = oracle.distance(judged.frame(f), e.bodies).upper;
+      continue;
+    }
+    PairProbe probe(judged, detector, oracle, e.bodies);
+    const bool no_gap = reports_at_true_moment(tools, probe, e, tolerance);
+    note_environment(guard, "query", result);
+    if (no_gap) {
+      e.hover_gap = 0.0;
+      continue;
+    }
+    e.hover_gap = bisect_hover_gap(
+        scene.time_of(f - 1), scene.time_of(f), tolerance,
+        [&](double t) {
+          progress.enter(position, f, Phase::kQuery);
+          const bool reported = probe.reports(t);
+          note_environment(guard, "query", result);
+          return reported;
+        },
+        [&](double t) {
+          progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
+          return probe.distance(t);
+        });
+  }
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,77 @@
+#include "reference/run/out_folder.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPrefix = ".work";
+
+// A run that was interrupted leaves its folder behind; its process is gone.
+void remove_abandoned(const fs::path& parent) {
+  for (const auto& entry : fs::directory_iterator(parent)) {
+    const std::string name = entry.path().filename().string();
+    const std::string digits = name.rfind(kPrefix, 0) == 0 ? name.substr(std::strlen(kPrefix)) : "";
+    if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::error_code ignored;
+    if (!fs::exists("/proc/" + digits)) fs::remove_all(entry.path(), ignored);
+  }
+}
+
+// A case file of an earlier run: NNNN.json. Anything else in the folder is not ours.
+bool is_case_file(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  return file.extension() == ".json" && stem.size() >= 4 &&
+         stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder(const fs::path& parent)
+    : path_(parent / (kPrefix + std::to_string(getpid()))) {
+  remove_abandoned(parent);
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) throw InputError("cannot write in " + parent.string() + ": " + error.message());
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void make_out_folders(const fs::path& out) {
+  for (const char* folder : {"cases", "recordings"}) {
+    std::error_code error;
+    fs::create_directories(out / folder, error);
+    if (error) throw InputError("cannot write in " + out.string() + ": " + error.message());
+  }
+}
+
+void remove_old_cases(const fs::path& out) {
+  std::error_code ignored;  // what stays is no longer named by any result
+  for (const auto& entry : fs::directory_iterator(out / "cases"))
+    if (entry.is_regular_file() && is_case_file(entry.path())) fs::remove(entry.path(), ignored);
+}
+
+void move_cases(const fs::path& out, Json& disagreements) {
+  std::size_t number = 0;
+  for (Json& d : disagreements) {
+    char name[32];
+    std::snprintf(name, sizeof name, "cases/%04zu.json", ++number);
+    fs::rename(d.at("case").get<std::string>(), out / name);
+    d["case"] = name;
+  }
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,33 @@
+// The folder that a run writes to.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace contactcheck {
+
+/// A folder of its own for jobs and answers, removed at the end whatever happens. Those that an
+/// interrupted run has left behind are removed too.
+class ScratchFolder {
+ public:
+  /// @throws InputError when `parent` cannot be written
+  explicit ScratchFolder(const std::filesystem::path& parent);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Makes the folders of cases and recordings. @throws InputError when `out` cannot be written
+void make_out_folders(const std::filesystem::path& out);
+
+/// Removes the case files of earlier runs and nothing else.
+void remove_old_cases(const std::filesystem::path& out);
+
+/// Moves the case files that workers have written: running numbers over the whole suite.
+void move_cases(const std::filesystem::path& out, nlohmann::ordered_json& disagreements);
+
+}  // namespace contactcheck

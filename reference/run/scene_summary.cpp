@@ -1,0 +1,75 @@
+#include "reference/run/scene_summary.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "reference/compare/judge.h"
+#include "reference/compare/run_result_json.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Summed over frames; levels that the scene does not ask for are absent.
+Json truth_json(const JudgedScene& judged) {
+  std::map<Level, std::size_t> sums;
+  for (const Truth& t : judged.truth) {
+    sums[Level::kBody] += t.surface.bodies.size();
+    sums[Level::kContainment] += t.containment.size();
+    sums[Level::kBox] += t.boxes.size();
+    sums[Level::kTriangle] += t.surface.triangles.size();
+    sums[Level::kVertex] += t.surface.vertices.size();
+  }
+  Json out = Json::object();
+  for (const auto& [level, sum] : sums) {
+    if (!judged.scene->judges(level)) continue;
+    const std::string why = obstacle_to_judging(level, judged.scene->bodies);
+    out[name_of(level)] = why.empty() ? Json(sum) : Json(why);
+  }
+  return out;
+}
+
+std::uint64_t truth_hash(const JudgedScene& judged) {
+  std::uint64_t hash = 0;
+  for (std::size_t f = 0; f < judged.truth.size(); ++f) {
+    ContactSet surface = judged.truth[f].surface;
+    surface.vertices.clear();  // triangle detectors report none
+    hash = chain_hash(hash, f, surface);
+  }
+  return hash;
+}
+
+Json bodies_json(const Scene& scene) {
+  Json bodies = Json::array();
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyShape& shape = *scene.bodies[b].shape;
+    bodies.push_back({{"name", scene.bodies[b].name},
+                      {"source", scene.origins[b].source},
+                      {"notes", scene.origins[b].notes},
+                      {"vertices", shape.mesh.vertices.size()},
+                      {"triangles", shape.mesh.triangles.size()},
+                      {"cells", shape.lattice ? shape.lattice->cells.size() : 0},
+                      {"solid", shape.topology.solid}});
+  }
+  return bodies;
+}
+
+}  // namespace
+
+nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
+  const Scene& scene = *judged.scene;
+  const std::vector<bool>& contact = judged.contact_frames;
+  return {{"id", scene.id},
+          {"title", scene.title},
+          {"frames", scene.frames},
+          {"time_step", scene.time_step},
+          {"size", scene.size()},
+          {"contact_frames", std::count(contact.begin(), contact.end(), true)},
+          {"truth", truth_json(judged)},
+          {"truth_hash", hex(truth_hash(judged))},
+          {"bodies", bodies_json(scene)}};
+}
+
+}  // namespace contactcheck

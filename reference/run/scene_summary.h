@@ -1,0 +1,14 @@
+// What results.json says about a scene itself.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "reference/run/judged_scene.h"
+
+namespace contactcheck {
+
+/// Bodies, frames, what is really there at every level that the scene asks for, and the
+/// contact_hash of a detector that finds exactly the true pairs of triangles.
+nlohmann::ordered_json scene_summary(const JudgedScene& judged);
+
+}  // namespace contactcheck

@@ -1,0 +1,159 @@
+// What it costs a worker to be watched: the timed pass of a scene (run_timing, the suite's own)
+// with its progress in a shared page that a supervisor polls, against the same pass with a page of
+// its own that nobody looks at. The poller is a thread here, a process in the suite. One repeat of
+// each in turn; the ratio is that of the median sums of cold frame times, so 1 is "no cost".
+
+#include <benchmark/benchmark.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/types/check.h"
+#include "reference/adapters/register.h"
+#include "reference/run/timing.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/scene.h"
+#include "tests/bench/register.h"
+#include "tests/bench/statistics.h"
+
+namespace contactcheck::bench {
+namespace {
+
+/// A page that another process could see.
+class SharedPage {
+ public:
+  SharedPage() {
+    void* page = mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE,
+                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (page == MAP_FAILED) throw std::bad_alloc();
+    progress_ = new (page) SharedProgress;
+  }
+  ~SharedPage() { munmap(progress_, sizeof(SharedProgress)); }
+  SharedPage(const SharedPage&) = delete;
+  SharedPage& operator=(const SharedPage&) = delete;
+  SharedProgress* get() { return progress_; }
+
+ private:
+  SharedProgress* progress_ = nullptr;
+};
+
+/// Does what the supervisor does, as often as it does, in a thread of its own.
+class Poller {
+ public:
+  explicit Poller(const SharedProgress& progress)
+      : thread_([this, &progress] {
+          while (!stop_) {
+            poll(progress);
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          }
+        }) {}
+  ~Poller() {
+    stop_ = true;
+    thread_.join();
+  }
+  Poller(const Poller&) = delete;
+  Poller& operator=(const Poller&) = delete;
+
+ private:
+  void poll(const SharedProgress& progress) {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t total = 0, resident = 0;
+    statm >> total >> resident;
+    sum_ += progress.ticks + progress.detector + progress.permille + resident;
+  }
+
+  std::atomic<bool> stop_{false};
+  std::atomic<std::uint64_t> sum_{0};
+  std::thread thread_;
+};
+
+/// A scene with one prepared detector, ready for run_timing.
+class TimedScene {
+ public:
+  TimedScene(const std::string& id, const std::string& detector)
+      : scene_(load_scene(find_scene(id, fixtures_directory()))), order_(scene_.frames) {
+    SharedProgress nobody;
+    ProgressWriter progress(&nobody);
+    judged_ = judge_scene(scene_, false, progress);
+    const DetectorCatalog catalog = standard_catalog();
+    detector_ = catalog.make(catalog.parse(detector));
+    detector_->prepare(scene_.bodies);
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+  }
+
+  /// Nanoseconds: the sum over frames of one cold repeat each.
+  double run(SharedProgress* page) {
+    TimedEntry entry;
+    entry.detector = detector_.get();
+    entry.question = detector_->semantics().questions.front();
+    entry.frames = order_.size();
+    std::vector<TimedEntry> entries;
+    entries.push_back(std::move(entry));
+    ProgressWriter progress(page);
+    run_timing(judged_, order_, 1, std::size_t{8} << 20, entries, progress);
+    double sum = 0.0;
+    for (const auto& [frame, samples] : entries.front().samples.frames)
+      for (const PhaseSample& s : samples.cold) sum += s.map + s.update + s.query;
+    return sum;
+  }
+
+ private:
+  Scene scene_;
+  JudgedScene judged_;
+  std::unique_ptr<Detector> detector_;
+  std::vector<std::size_t> order_;
+};
+
+void run_both(benchmark::State& state, const std::string& scene, const std::string& detector) {
+  std::unique_ptr<TimedScene> timed;
+  try {
+    timed = std::make_unique<TimedScene>(scene, detector);
+  } catch (const InputError& e) {
+    state.SkipWithError(e.what());
+    return;
+  }
+  SharedProgress own;
+  SharedPage shared;
+  std::vector<double> alone, watched;
+  const auto run_alone = [&] { alone.push_back(timed->run(&own)); };
+  const auto run_watched = [&] {
+    const Poller poller(*shared.get());
+    watched.push_back(timed->run(shared.get()));
+  };
+  for (auto _ : state) {
+    // Whoever goes second finds the machine as the first has left it: both take turns.
+    if (alone.size() % 2 == 0) {
+      run_alone();
+      run_watched();
+    } else {
+      run_watched();
+      run_alone();
+    }
+    state.SetIterationTime(1e-9 * watched.back());
+  }
+  state.counters["alone_us"] = 1e-3 * median(alone);
+  state.counters["watched_us"] = 1e-3 * median(watched);
+  state.counters["watched_over_alone"] = median(watched) / median(alone);
+}
+
+}  // namespace
+
+void register_supervision_benchmarks() {
+  for (const std::string detector : {"ffd-aabb-sphere2+tri", "fcl-aabb"})
+    benchmark::RegisterBenchmark(
+        ("supervision/bunny-touch/" + detector).c_str(),
+        [detector](benchmark::State& state) { run_both(state, "bunny-touch", detector); })
+        ->UseManualTime()
+        ->Unit(benchmark::kMicrosecond);
+}
+
+}  // namespace contactcheck::bench

@@ -1,0 +1,10 @@
+// contactcheck with detectors beside its own that strike at the process they run in.
+#include "reference/adapters/register.h"
+#include "reference/cli/program.h"
+#include "tests/faults/process_faults.h"
+
+int main(int argc, char** argv) {
+  contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
+  contactcheck::test::register_process_faults(catalog);
+  return contactcheck::contactcheck_main(argc, argv, catalog);
+}

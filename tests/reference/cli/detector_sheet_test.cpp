@@ -1,0 +1,118 @@
+#include "reference/cli/detector_sheet.h"
+
+#include <gmock/gmock.h>
+
+#include "core/detect/option_info.h"
+
+namespace contactcheck {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Declaring : public Detector {
+ public:
+  explicit Declaring(Semantics semantics) : semantics_(std::move(semantics)) {}
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return false; }
+  void prepare(const std::vector<Body>&) override {}
+  void update(const Frame&) override {}
+  void query(Question, ContactSet&) override {}
+
+ private:
+  Semantics semantics_;
+};
+
+DetectorInfo info_with(const Semantics& semantics) {
+  DetectorInfo info;
+  info.id = "some-detector";
+  info.summary = "finds something";
+  info.make = [semantics](const Options&) { return std::make_unique<Declaring>(semantics); };
+  return info;
+}
+
+Semantics plain() {
+  Semantics s;
+  s.levels = {Level::kBody, Level::kTriangle};
+  s.questions = {Question::kTriangles, Question::kBody};
+  s.exact = true;
+  return s;
+}
+
+TEST(DetectorSheet, OfAnExactDetector) {
+  EXPECT_EQ(detector_sheet(info_with(plain()), 100),
+            "some-detector\n"
+            "  finds something\n"
+            "  claims      body, triangle; exact: nothing missed, nothing spurious\n"
+            "  questions   triangles, body\n"
+            "  contact     of surfaces; touching counts\n"
+            "  numbers     double precision\n"
+            "  depth       none\n");
+}
+
+TEST(DetectorSheet, OfOneThatSpeaksInMargins) {
+  Semantics s;
+  s.levels = {Level::kNear};
+  s.informative = {Level::kVertex, Level::kBody};
+  s.questions = {Question::kContacts};
+  s.solid = true;
+  s.closed = false;
+  s.margin = 0.002;
+  s.precision = Precision::kSingle;
+  s.scale = 40.0;
+  s.depth = DepthKind::kVertexSurface;
+  s.means = "a vertex nearer than the sum of both margins";
+  EXPECT_EQ(detector_sheet(info_with(s), 100),
+            "some-detector\n"
+            "  finds something\n"
+            "  claims      near\n"
+            "  informative vertex, body\n"
+            "  questions   contacts\n"
+            "  contact     of solids: one inside another is in contact; touching does not count; "
+            "margin 0.002 m,\n"
+            "              strictly nearer\n"
+            "  means       a vertex nearer than the sum of both margins\n"
+            "  numbers     single precision, fed at scale 40\n"
+            "  depth       vertex-surface\n");
+}
+
+TEST(DetectorSheet, OptionsShowDefaultAndWhatIsAllowed) {
+  DetectorInfo info = info_with(plain());
+  info.options = {choice_option("bounds", "safe", {"paper", "safe"}, "how culling is bounded"),
+                  numeric_option("k", "8", 1, 64, true, "clusters per body"),
+                  numeric_option("margin", "0.001", 0, 0.5, false, "metres")};
+  EXPECT_THAT(detector_sheet(info, 100),
+              HasSubstr("  options     bounds=safe (paper|safe): how culling is bounded\n"
+                        "              k=8 (1 to 64, whole): clusters per body\n"
+                        "              margin=0.001 (0 to 0.5): metres\n"));
+}
+
+TEST(DetectorSheet, DefaultsReachTheDetector) {
+  DetectorInfo info = info_with(plain());
+  info.options = {numeric_option("margin", "0.25", 0, 1, false, "metres")};
+  info.make = [](const Options& options) {
+    Semantics s = plain();
+    s.margin = number_option(options, "margin");
+    return std::make_unique<Declaring>(s);
+  };
+  EXPECT_THAT(detector_sheet(info, 100), HasSubstr("margin 0.25 m, strictly nearer"));
+}
+
+TEST(DetectorSheet, OfAnAbsentOneSaysWhyAndMakesNone) {
+  DetectorInfo info;
+  info.id = "elsewhere";
+  info.summary = "is not here";
+  info.absent_because = "built without its library";
+  const std::string sheet = detector_sheet(info, 100);
+  EXPECT_THAT(sheet, HasSubstr("  absent      built without its library\n"));
+  EXPECT_THAT(sheet, Not(HasSubstr("claims")));
+}
+
+TEST(DetectorSheet, BreaksLongLinesBetweenWords) {
+  DetectorInfo info = info_with(plain());
+  info.summary = "one two three four five six seven";
+  EXPECT_THAT(detector_sheet(info, 20), HasSubstr("\n  one two three four\n  five six seven\n"));
+}
+
+}  // namespace
+}  // namespace contactcheck

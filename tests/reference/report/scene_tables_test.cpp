@@ -1,0 +1,126 @@
+#include "reference/report/scene_tables.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/report/bullet_findings.h"
+#include "reference/report/run_row.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::Not;
+
+Json near_run() {
+  return Json::parse(R"json({
+    "scene": "hello", "detector": "bullet-vf", "status": "ok", "options": {"margin": "0.001", "scale": "0"},
+    "semantics": {"levels": ["body", "near"], "informative": ["vertex"], "questions": ["contacts", "body"],
+                  "body": "surface", "touching": "open", "exact": false, "margin": 0.002,
+                  "precision": "single", "scale": 64.0, "depth_kind": "vertex-surface", "means": "near | far"},
+    "levels": {
+      "body": {"truth": 10, "reported": 10, "hit": 10, "missed": 0, "spurious": 0, "recall": 1.0, "spurious_rate": 0.0},
+      "vertex": {"truth": 40, "reported": 9, "hit": 4, "missed": 36, "spurious": 5, "recall": 0.1, "spurious_rate": 0.5555, "informative": true},
+      "near": {"truth": 50, "reported": 49, "hit": 49, "missed": 1, "spurious": 0, "recall": 0.98, "spurious_rate": 0.0, "margin": 0.002}},
+    "levels_rounded": {
+      "near": {"truth": 49, "reported": 49, "hit": 49, "missed": 0, "spurious": 0, "recall": 1.0, "spurious_rate": 0.0, "margin": 0.002}},
+    "geometry": {"missed_length": null, "covered_length_fraction": null, "spurious_distance_max": null,
+                 "depth_kind": "vertex-surface", "depth_judged": 4, "depth_error_max": 0.004, "depth_error_mean": 0.001,
+                 "depth_error_p95": 0.003, "normal_judged": 3, "normal_error_deg_max": 180.0, "normal_error_deg_mean": 90.0,
+                 "normal_error_deg_p95": 179.5},
+    "stages": [{"name": "tree", "unit": "triangle pairs", "in": 900, "out": 30, "missed": 1, "visited": 77, "visited_unit": "node pairs"}],
+    "time_ms": {"prepare": 1.0},
+    "speedup": {"body": {"fcl-aabb": {"cold": {"ratio": 2.0, "low": 1.5, "high": 2.5}, "hot": {"ratio": 3.0, "low": 2.5, "high": 3.5},
+                "contact_frames": null, "without_map": null, "reference_options": {"depth": "deep"}}}}
+  })json");
+}
+
+Json results_of(std::vector<Json> runs) {
+  return {{"scenes", {{{"id", "hello"}, {"contact_frames", 10}}}}, {"runs", std::move(runs)}};
+}
+
+Json renamed(Json run, const char* detector) {
+  run["detector"] = detector;
+  return run;
+}
+
+TEST(LevelsTable, TellsDoublesFromValuesFedAndClaimsFromWhatIsInformative) {
+  const std::string table = levels_table({near_run()});
+  EXPECT_THAT(
+      table,
+      HasSubstr("| bullet-vf | near (below 2.00 mm) | doubles | 50 | 49 | 1 | 0 | 0.98000 | 0 |"));
+  EXPECT_THAT(table, HasSubstr("| bullet-vf | near (below 2.00 mm) | values fed | 49 | 49 | 0 | 0 "
+                               "| 1 | 0 |"));
+  EXPECT_THAT(table, HasSubstr("| bullet-vf | vertex, informative | doubles | 40 | 9 | 36 | 5 |"));
+}
+
+TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
+  EXPECT_THAT(
+      graded_table({near_run()}),
+      HasSubstr("| bullet-vf | - | - | - | vertex-surface | 4 | 4.00 / 1.00 / 3.00 | 3 | 180 "
+                "/ 90.0 / 180 |"));
+}
+
+TEST(GradedTable, IsEmptyForDetectorsWithoutContourAndDepth) {
+  Json run = near_run();
+  run["geometry"] = {{"depth_kind", "none"}};
+  EXPECT_EQ(graded_table({run}), "");
+}
+
+TEST(StagesTable, ShowsWhatAStageVisited) {
+  EXPECT_THAT(stages_table({near_run()}),
+              HasSubstr("| bullet-vf | tree | triangle pairs | 900 | 30 | 77 node pairs | 1 |"));
+}
+
+TEST(SpeedupsTable, HasTheOptionsOfBothSides) {
+  EXPECT_THAT(
+      speedups_table({near_run()}),
+      HasSubstr("| bullet-vf | margin=0.001, scale=0 | body | fcl-aabb | depth=deep | 2.00x "
+                "[1.50, 2.50] | 3.00x [2.50, 3.50] | - | - |"));
+}
+
+TEST(SpeedupsTable, LeavesOutTheReferenceAgainstItself) {
+  EXPECT_EQ(speedups_table({renamed(near_run(), "fcl-aabb")}), "");
+}
+
+TEST(SceneTables, LeaveOutRunsThatAreNotOk) {
+  const Json broken = {{"scene", "hello"}, {"detector", "x"}, {"status", "error"}};
+  EXPECT_EQ(levels_table({broken}) + graded_table({broken}) + stages_table({broken}) +
+                times_table({broken}) + speedups_table({broken}),
+            "");
+}
+
+TEST(SemanticsText, NamesEveryClaim) {
+  EXPECT_EQ(
+      semantics_text(near_run().at("semantics")),
+      "levels body, near; informative vertex; questions contacts, body; surface, open, not "
+      "exact; margin 2.00 mm; single precision, scale 64.0; depth vertex-surface; near | far");
+}
+
+TEST(BulletFindings, SetTheScalesSideBySide) {
+  Json plain = renamed(near_run(), "bullet-vf:scale=1");
+  plain["levels"]["body"]["recall"] = 0.0;
+  plain["levels"]["near"]["recall"] = 0.01;
+  const std::string text = bullet_findings(results_of({near_run(), plain}));
+  EXPECT_THAT(text, HasSubstr("small triangles do not exist"));
+  EXPECT_THAT(text, HasSubstr("| hello | 64.0 | 1 | 0.98000 | 0 | 0.01000 |"));
+}
+
+TEST(BulletFindings, CountTheVerticesInsideThatAreReported) {
+  EXPECT_THAT(bullet_findings(results_of({near_run()})),
+              HasSubstr("| hello | 2.00 | 40 | 4 | 5 |"));
+}
+
+TEST(BulletFindings, NameTheFalseContactsOfClusters) {
+  EXPECT_THAT(bullet_findings(results_of({renamed(near_run(), "bullet-cl:k=256")})),
+              HasSubstr("| hello | bullet-cl:k=256 | 10 | 0 | 0 |"));
+}
+
+TEST(BulletFindings, AreSilentWithoutBullet) {
+  EXPECT_EQ(bullet_findings(results_of({renamed(near_run(), "fcl-aabb")})), "");
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,99 @@
+#include "reference/run/rounded_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "core/detect/registry.h"
+#include "reference/run/accuracy.h"
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+// In doubles the second triangle lies 2^-30 above the first; as floats near 1 both are one plane.
+Scene plates() {
+  const double gap = 0x1p-30;
+  const auto low = make_bare_shape(test::triangle_mesh({0, 0, 1}, {1, 0, 1}, {0, 1, 1}));
+  const auto high =
+      make_bare_shape(test::triangle_mesh({0, 0, 1 + gap}, {1, 0, 1 + gap}, {0, 1, 1 + gap}));
+  Scene scene = test::approach_scene(low, high, {}, 0, 0, 2, 1.0, {Level::kBody, Level::kTriangle});
+  scene.motions = {Motion{}, Motion{}};  // both rest
+  return scene;
+}
+
+JudgedScene judged(const Scene& scene) {
+  SharedProgress page;
+  ProgressWriter progress(&page);
+  return judge_scene(scene, true, progress);
+}
+
+TEST(RoundedScene, HasTheTruthOfTheFloatsItIsFed) {
+  const Scene scene = plates();
+  const JudgedScene exact = judged(scene);
+  EXPECT_EQ(exact.truth[1].surface.triangles.size(), 0u);
+  JudgingTools tools(exact);
+  RoundedScene* rounded = tools.rounded(1.0);
+  ASSERT_NE(rounded, nullptr);
+  EXPECT_EQ(rounded->truth(1, tools.oracle).surface.triangles.size(), 1u);
+  EXPECT_EQ(rounded, tools.rounded(1.0));
+}
+
+TEST(RoundedScene, IsInUnitsOfItsScale) {
+  const Scene scene = plates();
+  const JudgedScene exact = judged(scene);
+  JudgingTools tools(exact);
+  const Frame& frame = tools.rounded(64.0)->frame(0);
+  EXPECT_EQ(frame.bodies[0].vertices[1], Vec3(64, 0, 64));
+}
+
+TEST(RoundedScene, IsNoneBeyondTheRangeOfFloats) {
+  Scene scene = plates();
+  const JudgedScene exact = judged(scene);
+  JudgingTools tools(exact);
+  EXPECT_EQ(tools.rounded(1e39), nullptr);
+}
+
+/// Answers what is true for floats; says which precision it works in.
+class FloatDetector final : public Detector {
+ public:
+  explicit FloatDetector(Precision precision) {
+    semantics_.levels = {Level::kBody, Level::kTriangle};
+    semantics_.questions = {Question::kTriangles};
+    semantics_.precision = precision;
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return true; }
+  void prepare(const std::vector<Body>&) override {}
+  void update(const Frame&) override {}
+  void query(Question, ContactSet& out) override { out.triangles.push_back({0, 1, 0, 0}); }
+
+ private:
+  Semantics semantics_;
+};
+
+RunResult accuracy_of(Precision precision) {
+  const Scene scene = plates();
+  const JudgedScene exact = judged(scene);
+  JudgingTools tools(exact);
+  FloatDetector detector(precision);
+  SharedProgress page;
+  ProgressWriter progress(&page);
+  RunResult result;
+  run_accuracy(tools, 0, detector, progress, result);
+  return result;
+}
+
+TEST(RoundedLevels, DoNotBookRoundingAsAnErrorOfTheAlgorithm) {
+  const RunResult result = accuracy_of(Precision::kSingle);
+  EXPECT_EQ(result.levels.at(Level::kTriangle).spurious, 2u);
+  EXPECT_EQ(result.levels_rounded.at(Level::kTriangle).spurious, 0u);
+  EXPECT_EQ(result.levels_rounded.at(Level::kTriangle).hit, 2u);
+  EXPECT_TRUE(result.levels_rounded.at(Level::kBody).perfect());
+}
+
+TEST(RoundedLevels, AreForSinglePrecisionAlone) {
+  EXPECT_TRUE(accuracy_of(Precision::kDouble).levels_rounded.empty());
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,74 @@
+// The suite with workers that die outside detectors (fake_worker.cpp).
+#include "reference/run/suite_run.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/types/check.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Scratch;
+using testing::AllOf;
+using testing::HasSubstr;
+
+SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
+  SuiteRequest request;
+  request.tasks = {{"fake", scratch.write(scene + ".json", "{}"), {"one", "two", "three"}}};
+  request.settings.timing = false;
+  request.out = scratch.folder() / "out";
+  request.executable = CONTACTCHECK_FAKE_WORKER;
+  return request;
+}
+
+nlohmann::ordered_json run(const SuiteRequest& request, SuiteOutcome* outcome) {
+  return run_suite(
+      request, [](const SuiteProgress&) {}, outcome);
+}
+
+TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {
+  const Scratch scratch;
+  SuiteRequest request = request_for(scratch, "outside");
+  request.tasks.front().detectors.pop_back();
+  SuiteOutcome outcome;
+  const auto results = run(request, &outcome);
+  EXPECT_TRUE(outcome.any_error);
+  ASSERT_EQ(results.at("runs").size(), 2u);
+  EXPECT_EQ(results.at("runs").at(0).at("status"), "refused") << "the fake's answer";
+  const auto& broken = results.at("runs").at(1);
+  EXPECT_EQ(broken.at("detector"), "two");
+  EXPECT_EQ(broken.at("status"), "error");
+  EXPECT_EQ(broken.at("message"),
+            "scene fake, frame 3, phase truth: signal 11 (Segmentation fault) in the suite's own "
+            "code, after this detector had run");
+  EXPECT_EQ(broken.at("frames"), 9);
+}
+
+TEST(SuiteRun, DeathThatGoesOnWithoutItsDetectorEndsTheRunWithASentence) {
+  const Scratch scratch;
+  SuiteOutcome outcome;
+  try {
+    run(request_for(scratch, "always"), &outcome);
+    FAIL() << "it must end";
+  } catch (const std::runtime_error& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("\"fake\""), HasSubstr("signal 11"), HasSubstr("truth"),
+                                HasSubstr("outside any detector")));
+  }
+}
+
+TEST(SuiteRun, BadInputIsOneSentenceWithTheWorkersOwnWords) {
+  const Scratch scratch;
+  SuiteOutcome outcome;
+  testing::internal::CaptureStderr();
+  const std::string sentence =
+      test::sentence_of([&] { run(request_for(scratch, "refuse"), &outcome); });
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_THAT(sentence, AllOf(HasSubstr("\"fake\""), HasSubstr("exit code 2"),
+                              HasSubstr("the scene is bad")));
+}
+
+}  // namespace
+}  // namespace contactcheck

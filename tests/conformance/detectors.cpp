@@ -1,0 +1,52 @@
+#include "tests/conformance/detectors.h"
+
+#include <cctype>
+
+#include "reference/adapters/register.h"
+
+namespace contactcheck::test {
+namespace {
+
+// Options that change what is asked of a library or what is claimed.
+constexpr const char* kVariants[] = {"spatial-hash:table=1",
+                                     "bd-tree:bound=paper",
+                                     "ffd-aabb:bounds=safe",
+                                     "ffd-aabb-sphere2:bounds=safe",
+                                     "ffd-aabb-sphere2+tri:bounds=paper",
+                                     "bullet-vf:scale=1",
+                                     "libccd-gjk:pieces=boxes",
+                                     "libccd-mpr:pieces=boxes"};
+
+DetectorCatalog made_catalogue() {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  register_reference_detectors(catalog);
+  return catalog;
+}
+
+}  // namespace
+
+const DetectorCatalog& catalogue() {
+  static const DetectorCatalog catalog = made_catalogue();
+  return catalog;
+}
+
+std::vector<std::string> detector_names() {
+  std::vector<std::string> names;
+  for (const DetectorInfo& info : catalogue().all()) names.push_back(info.id);
+  for (const char* variant : kVariants) names.push_back(variant);
+  return names;
+}
+
+std::string test_name(const std::string& detector) {
+  std::string name = detector;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+std::unique_ptr<Detector> make_detector(const std::string& name) {
+  return catalogue().make(catalogue().parse(name));
+}
+
+}  // namespace contactcheck::test

@@ -1,0 +1,214 @@
+// Limits of libccd 2.1, and of the boxes that it is given.
+//
+// Which touching pairs are lost is the luck of rounding, down to the order of the support points:
+// their number is not held.
+#include "tests/conformance/known_deviations.h"
+
+namespace contactcheck::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names operator+(Names a, const Names& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const char* const kVersion = "2.1 (its own files say 2.0)";
+
+const char* const kOriginOnSimplex =
+    "GJK takes a difference whose origin lies on the simplex, as in touching and flat pieces, for "
+    "one without it";
+const char* const kTouchingIsNone = "MPR wants the origin inside the portal: touching is none";
+const char* const kAbsoluteTolerance =
+    "tolerances are absolute: on squared lengths, pieces of a millimetre are below them";
+const char* const kBoxesMeet = "boxes that hold surface meet where the surfaces do not";
+
+std::vector<KnownDeviation> libccd_triangles() {
+  const Names gjk = {"libccd-gjk"}, mpr = {"libccd-mpr"};
+  const auto seen = [](const char* source) { return Origin{"libccd", kVersion, source}; };
+  return {
+      {gjk,
+       "triangle missed",
+       {{"touching-vertex-vertex", kSome},
+        {"coincident", kSome},
+        {"coincident-balls", kSome},
+        {"eight-identical-coincident", kSome},
+        {"open-mesh", kSome}},
+       seen("peers.md, libccd as narrow phase; prior-art.md 3.2 G12"),
+       kOriginOnSimplex},
+      {mpr,
+       "triangle missed",
+       {{"touching-vertex-vertex", kSome},
+        {"coplanar-overlap", kSome},
+        {"coincident", kSome},
+        {"coincident-balls", kSome},
+        {"eight-identical-coincident", kSome},
+        {"zero-area-triangles", kSome},
+        {"touching-far-from-the-origin", kSome}},
+       seen("prior-art.md 3.3 C8"),
+       kTouchingIsNone},
+      {mpr,
+       "body missed",
+       {{"touching-vertex-vertex", 1}},
+       seen("prior-art.md 3.3 C8"),
+       kTouchingIsNone},
+      {gjk + mpr,
+       "triangle spurious",
+       {{"crossing", 2}},
+       seen("peers.md, libccd as narrow phase"),
+       "a gap below the tolerances is none"},
+      {gjk,
+       "triangle missed",
+       {{"a-millimetre-wide", 36}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {mpr,
+       "triangle missed",
+       {{"a-millimetre-wide", 4}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {gjk,
+       "triangle spurious",
+       {{"a-millimetre-wide", 2}, {"a-micrometre-wide", 70}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {mpr,
+       "triangle spurious",
+       {{"a-micrometre-wide", 52}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {gjk,
+       "answer differs",
+       {{"swapped-bodies", 6}},
+       seen("prior-art.md 3.2 G12"),
+       "which touching pairs are lost depends on which triangle comes first"},
+  };
+}
+
+std::vector<KnownDeviation> libccd_boxes() {
+  const Names gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
+  const auto seen = [](const char* source) { return Origin{"libccd", kVersion, source}; };
+  return {
+      {gjk,
+       "box missed",
+       {{"touching-vertex-vertex", kSome},
+        {"touching-edge-edge", kSome},
+        {"coincident", kSome},
+        {"coincident-balls", kSome},
+        {"containment", kSome},
+        {"eight-identical-coincident", kSome},
+        {"open-mesh", kSome},
+        {"two-components", kSome},
+        {"long-triangles", kSome}},
+       seen("prior-art.md 3.2 G12"),
+       kOriginOnSimplex},
+      {mpr,
+       "box missed",
+       {{"touching-vertex-vertex", kSome},
+        {"touching-vertex-face", kSome},
+        {"touching-edge-edge", kSome},
+        {"coplanar-overlap", kSome},
+        {"coincident", kSome},
+        {"coincident-balls", kSome},
+        {"eight-identical-coincident", kSome},
+        {"open-mesh", kSome},
+        {"two-components", kSome},
+        {"touching-far-from-the-origin", kSome}},
+       seen("prior-art.md 3.3 C8"),
+       kTouchingIsNone},
+      {mpr,
+       "cell missed",
+       {{"touching-vertex-vertex", kSome}, {"touching-edge-edge", kSome}},
+       seen("prior-art.md 3.3 C8"),
+       kTouchingIsNone},
+      {mpr,
+       "body missed",
+       {{"touching-vertex-vertex", 1}, {"touching-edge-edge", 1}},
+       seen("prior-art.md 3.3 C8"),
+       kTouchingIsNone},
+      {gjk,
+       "box missed",
+       {{"a-millimetre-wide", 17}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {gjk,
+       "cell missed",
+       {{"a-millimetre-wide", 36}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {gjk,
+       "body missed",
+       {{"a-millimetre-wide", 1}},
+       seen("prior-art.md 3.3 C9"),
+       kAbsoluteTolerance},
+      {gjk + mpr,
+       "answer differs",
+       {{"swapped-bodies", kSome}},
+       seen("prior-art.md 3.2 G12"),
+       "which touching pairs are lost depends on which box comes first"},
+      {gjk + mpr,
+       "refused",
+       {{"rebuilt-structure", 1}},
+       {"contactcheck", "any options", "design.md, level box"},
+       "boxes are those of lattice cells: a body without a lattice has none"},
+  };
+}
+
+// The library is right about the boxes here, and the boxes are not the surface.
+std::vector<KnownDeviation> libccd_boxes_beside_the_surface() {
+  const Names gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
+  const Origin boxes = {"contactcheck", "any options", "Jeon et al. 2013, FFD-AABB"};
+  return {
+      {gjk + mpr,
+       "body spurious",
+       {{"moving", 1},
+        {"containment", 1},
+        {"diagonal-neighbours", 1},
+        {"eight-identical-spread", 16},
+        {"isolated-vertex", 1},
+        {"open-mesh", 1},
+        {"two-components", 1}},
+       boxes,
+       kBoxesMeet},
+      {gjk + mpr,
+       "cell spurious",
+       {{"moving", 233},
+        {"touching-vertex-face", 2},
+        {"crossing", 22},
+        {"diagonal-neighbours", 67},
+        {"eight-identical-spread", 52},
+        {"isolated-vertex", 10},
+        {"inside-out", 4},
+        {"triangles-of-a-centimetre", 8},
+        {"a-micrometre-wide", 8},
+        {"a-thousand-kilometres-wide", 8}},
+       boxes,
+       kBoxesMeet},
+      {gjk,
+       "cell spurious",
+       {{"coincident", 4},
+        {"coincident-balls", 4},
+        {"containment", 172},
+        {"open-mesh", 100},
+        {"two-components", 30}},
+       boxes,
+       kBoxesMeet},
+      {mpr,
+       "cell spurious",
+       {{"containment", 180}, {"open-mesh", 80}, {"two-components", 38}, {"a-millimetre-wide", 8}},
+       boxes,
+       kBoxesMeet},
+  };
+}
+
+}  // namespace
+
+std::vector<KnownDeviation> known_deviations_of_libccd() {
+  std::vector<KnownDeviation> all;
+  for (const auto& part : {libccd_triangles(), libccd_boxes(), libccd_boxes_beside_the_surface()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace contactcheck::test

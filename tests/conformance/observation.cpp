@@ -1,0 +1,141 @@
+#include "tests/conformance/observation.h"
+
+#include <algorithm>
+
+#include "core/types/check.h"
+#include "reference/compare/judge.h"
+#include "reference/oracle/oracle.h"
+#include "tests/conformance/answers.h"
+
+namespace contactcheck::test {
+namespace {
+
+// The level `box` is made of nodes, which no detector in single precision is fed.
+std::vector<Level> judgeable_levels(const std::vector<Body>& bodies, const Semantics& semantics) {
+  std::vector<Level> levels = judged_levels(bodies, semantics, semantics.levels, nullptr);
+  if (semantics.precision == Precision::kSingle)
+    std::erase_if(levels, [](Level l) { return l == Level::kCell || l == Level::kBox; });
+  return levels;
+}
+
+WantedTruth wanted_truth(const std::vector<Level>& levels, const Semantics& semantics) {
+  const auto has = [&](Level l) {
+    return std::find(levels.begin(), levels.end(), l) != levels.end();
+  };
+  WantedTruth wanted;
+  wanted.containment = has(Level::kContainment) || semantics.solid;
+  wanted.vertices = has(Level::kVertex);
+  wanted.boxes = has(Level::kBox);
+  return wanted;
+}
+
+/// The vertices as the detector was fed them, in double.
+FrameData as_fed(FrameData data, const Semantics& semantics) {
+  if (semantics.precision == Precision::kDouble) return data;
+  for (std::vector<Vec3>& body : data.vertices)
+    for (Vec3& v : body)
+      for (int k = 0; k < 3; ++k) v[k] = fed_value(v[k], semantics.scale);
+  return data;
+}
+
+// The own question answers for the elements, `body` for the bodies: as a run judges them.
+ContactSet judged_answer(const Answers& answers, const Semantics& semantics) {
+  ContactSet set = answers.at(semantics.questions.front());
+  const auto body = answers.find(Question::kBody);
+  if (body != answers.end()) set.bodies = body->second.bodies;
+  return set;
+}
+
+std::unique_ptr<Detector> prepared(const Maker& make, const std::vector<Body>& bodies) {
+  std::unique_ptr<Detector> detector = make();
+  detector->prepare(bodies);
+  return detector;
+}
+
+bool visits_are_named(const StageTrace& trace) {
+  return std::all_of(trace.stages.begin(), trace.stages.end(), [](const StageRecord& s) {
+    return !s.name.empty() && !s.unit.empty() && (s.visited == 0 || !s.visited_unit.empty());
+  });
+}
+
+class Observer {
+ public:
+  Observer(const Maker& make, const Case& scene)
+      : scene_(scene),
+        detector_(prepared(make, scene.bodies)),
+        semantics_(detector_->semantics()),
+        levels_(judgeable_levels(scene.bodies, semantics_)),
+        wanted_(wanted_truth(levels_, semantics_)),
+        oracle_(scene.bodies),
+        judge_(scene.bodies, semantics_, levels_) {}
+
+  void add_frame(std::size_t f) {
+    const Answers answers = ask(*detector_, scene_.frames[f], f);
+    for (const auto& [question, set] : answers) {
+      count("invalid id", invalid_ids(set, scene_.bodies));
+      count("unusable contact", unusable_contacts(set));
+    }
+    count("contradiction", contradictions(answers, semantics_));
+    count("unnamed visits", visits_are_named(detector_->trace()) ? 0 : 1);
+    judge(f, judged_answer(answers, semantics_));
+    out_.details += "\n  frame " + std::to_string(f) + ": " + text(answers);
+  }
+
+  void judge(std::size_t f, const ContactSet& answer) {
+    const FrameData fed = as_fed(scene_.frames[f], semantics_);
+    const Frame frame = fed.frame(f);
+    std::vector<NearPair> near;
+    // The margin as fed: semantics give it in metres.
+    if (semantics_.claims(Level::kNear))
+      near = oracle_.near(frame, semantics_.margin * semantics_.scale);
+    judge_.add_frame(f, oracle_.judge(frame, wanted_), answer, near);
+  }
+
+  Observation result() {
+    for (const auto& [level, counts] : judge_.levels()) {
+      const std::string name = name_of(level);
+      count(name + " missed", counts.missed);
+      count(name + " spurious", counts.spurious);
+      out_.details += "\n  " + name + ": truth " + std::to_string(counts.truth) + ", reported " +
+                      std::to_string(counts.reported) + ", hit " + std::to_string(counts.hit);
+    }
+    for (const std::string& note : detector_->notes()) out_.details += "\n  note: " + note;
+    return out_;
+  }
+
+ private:
+  void count(const std::string& what, std::uint64_t times) {
+    if (times > 0) out_.findings[what] += times;
+  }
+
+  const Case& scene_;
+  std::unique_ptr<Detector> detector_;
+  const Semantics semantics_;
+  const std::vector<Level> levels_;
+  const WantedTruth wanted_;
+  Oracle oracle_;
+  Judge judge_;
+  Observation out_;
+};
+
+}  // namespace
+
+Observation observe(const Maker& make, const Case& scene) {
+  return guarded([&] {
+    Observer observer(make, scene);
+    for (std::size_t f = 0; f < scene.frames.size(); ++f) observer.add_frame(f);
+    return observer.result();
+  });
+}
+
+Observation guarded(const std::function<Observation()>& what) {
+  try {
+    return what();
+  } catch (const RefusedInput& e) {
+    return {{{"refused", 1}}, e.what()};
+  } catch (const std::exception& e) {
+    return {{{"exception", 1}}, e.what()};
+  }
+}
+
+}  // namespace contactcheck::test

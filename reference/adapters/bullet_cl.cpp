@@ -23,8 +23,7 @@ Semantics cl_semantics() {
   semantics.precision = Precision::kSingle;
   semantics.means =
       "the convex hulls of two clusters of vertices (k-means at rest) overlap or are nearer than "
-      "the "
-      "sum of the margins";
+      "the sum of the margins";
   return semantics;
 }
 

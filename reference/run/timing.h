@@ -9,8 +9,8 @@
 
 #include "core/detect/detector.h"
 #include "reference/compare/speedup.h"
-#include "reference/run/judged_scene.h"
 #include "reference/run/job.h"
+#include "reference/run/judged_scene.h"
 #include "reference/run/shared_progress.h"
 
 namespace contactcheck {

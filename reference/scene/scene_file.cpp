@@ -58,8 +58,9 @@ class Workshop {
 };
 
 std::vector<Level> parse_levels(const JsonField& field) {
-  const std::vector<Level> known = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
-                                    Level::kTriangle, Level::kVertex,      Level::kNear};
+  const std::vector<Level> known = {Level::kBody, Level::kContainment, Level::kCell,
+                                    Level::kBox,  Level::kTriangle,    Level::kVertex,
+                                    Level::kNear};
   std::vector<std::string> names;
   for (const Level level : known) names.emplace_back(name_of(level));
   std::vector<Level> levels;

@@ -2,8 +2,7 @@
 // .cpp.
 //
 //   embree  one hierarchy of boxes per body, refitted; rtcCollide names the pairs of triangles
-//   whose
-//           boxes overlap; core's exact test decides
+//           whose boxes overlap; core's exact test decides
 //
 // Embree only culls, in single precision, with boxes rounded outward: the answer is exact for all
 // finite doubles, closed (touching is contact) and about surfaces. rtcCollide cannot stop early, so

@@ -1,7 +1,6 @@
 // Seen in Bullet 3.24 (Debian 12, single precision), November 2026:
 // - contactPairTest asks for algorithms of closest points; registerAlgorithm() sets those of
-// contact
-//   points only, and the answer is then empty without an error.
+//   contact points only, and the answer is then empty without an error.
 // - The boxes of a refitted tree are quantised to 16 bits within the bounds of the build plus one
 //   world unit, and clamped to these: a mesh that has moved further is nowhere, and every contact
 //   is lost without an error. See GimpactBody::room_for.
@@ -9,14 +8,11 @@
 //   its normal) that reaches the other's plane or lies behind it, however far. Triangles back to
 //   back are reported; so are, with a depth of no meaning, many neighbours of a true pair.
 // - A margin shifts the planes and not the prisms' sides: triangles apart are found by it only
-// where
-//   their prisms meet, and the depth is that of the shifted planes.
+//   where their prisms meet, and the depth is that of the shifted planes.
 // - A pair is reported once per corner of the clipped polygon, always with the pair's own depth;
-// the
-//   normal points from the second triangle to the first. Depths are never negative.
+//   the normal points from the second triangle to the first. Depths are never negative.
 // - A triangle without area, or with a cross product whose square overflows, gets a plane of NaN
-// and
-//   is in contact with nothing, or (overflow) with all it meets.
+//   and is in contact with nothing, or (overflow) with all it meets.
 // - The callback's return value is not looked at: no early-out.
 #include "reference/adapters/gimpact_adapter.h"
 

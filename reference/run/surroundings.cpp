@@ -22,15 +22,16 @@ SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback) {
       mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, progress_fd, 0);
   if (page == MAP_FAILED) return fallback;
   close(progress_fd);
+  // A library may fork and let the copy run on: that one dies at its first step.
+  madvise(page, sizeof(SharedProgress), MADV_DONTFORK);
   auto* shared = static_cast<SharedProgress*>(page);
   if (getppid() != shared->supervisor) _exit(1);  // it died before it was asked for its signal
   return shared;
 }
 
-Surroundings::Surroundings(bool supervised) : output_(supervised), pid_(getpid()) {}
+Surroundings::Surroundings(bool supervised) : output_(supervised) {}
 
 std::vector<std::string> Surroundings::restore() {
-  if (getpid() != pid_) _exit(0);
   std::vector<std::string> notes = output_.take();
   for (std::string& note : process_.check_and_restore()) notes.push_back(std::move(note));
   return notes;

@@ -2,8 +2,6 @@
 // the detectors that come after it.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <vector>
 
@@ -13,8 +11,8 @@
 
 namespace contactcheck {
 
-/// Maps the supervisor's page, and makes this process end with its supervisor. `fallback` where
-/// there is no such page.
+/// Maps the supervisor's page, for this process and no copy of it, and makes this process end with
+/// its supervisor. `fallback` where there is no such page.
 SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback);
 
 /// Of a whole worker. Between detectors only: see OutputWatch and ProcessGuard.
@@ -24,13 +22,12 @@ class Surroundings {
   explicit Surroundings(bool supervised);
 
   /// Undoes what was changed since the last call; one sentence for each change and each stream that
-  /// was written to. Does not return in a copy of the worker that a library has forked off.
+  /// was written to.
   std::vector<std::string> restore();
 
  private:
   OutputWatch output_;
   const ProcessGuard process_;
-  const pid_t pid_;
 };
 
 }  // namespace contactcheck

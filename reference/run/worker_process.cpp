@@ -118,7 +118,10 @@ bool WorkerProcess::has_ended() const {
          info.si_pid == pid_;
 }
 
-void WorkerProcess::kill() { ::kill(-pid_, SIGKILL); }
+void WorkerProcess::kill() {
+  ::kill(-pid_, SIGKILL);
+  ::kill(pid_, SIGKILL);  // a library may have moved it to another group
+}
 
 int WorkerProcess::reap() {
   siginfo_t info = {};

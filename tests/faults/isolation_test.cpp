@@ -238,7 +238,9 @@ TEST(Isolation, SignalHandlersAndAlarmsAreTakenBack) {
 
 TEST(Isolation, CrashAtExitComesAfterTheAnswer) { expect_harmless("fault-at-exit"); }
 
-TEST(Isolation, ForkedCopyOfTheWorkerAnswersNothing) { expect_harmless("fault-fork"); }
+TEST(Isolation, ForkedCopyOfTheWorkerSpeaksForNobody) {
+  expect_lethal("fault-fork", "scene tiny, frame 2, phase update: signal 11 (Segmentation fault)");
+}
 
 TEST(Isolation, ChildrenOfALibraryEndWithTheWorker) {
   const WholeRun result = expect_harmless("fault-children");

@@ -162,9 +162,13 @@ void leave_child() {
   std::printf("child %d\n", static_cast<int>(child));
 }
 
-// Both copies of the worker go on from here.
+// Both copies of the worker go on from here, the second one first; the first then crashes.
 void fork_copy() {
-  if (fork() < 0) std::abort();
+  const pid_t child = fork();
+  if (child < 0) std::abort();
+  if (child == 0) return;
+  usleep(200'000);
+  crash();
 }
 
 struct Fault {
@@ -195,7 +199,7 @@ constexpr Fault kFaults[] = {
     {"fault-signals", "handles signals, blocks one, sets an alarm", change_signals},
     {"fault-at-exit", "crashes when the process ends", crash_at_exit},
     {"fault-children", "leaves a child behind", leave_child},
-    {"fault-fork", "forks and lets the copy run on", fork_copy},
+    {"fault-fork", "forks, lets the copy run on and crashes", fork_copy},
 };
 
 }  // namespace

@@ -337,7 +337,7 @@ TEST(NearestPointAgainstRational, BoundsHoldAndAreNarrow) {
     EXPECT_NEAR(exact.offset.norm(), std::sqrt(squared.get_d()), 1e-15);
     narrow += fast.upper - fast.lower < 2e-13;
   }
-  EXPECT_GT(narrow, 1350);
+  EXPECT_GT(narrow, 1480);
 }
 
 }  // namespace

@@ -39,12 +39,12 @@ TEST_P(FixtureScene, LoadsAndMovesFinitely) {
   if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
   const Scene scene = load_scene(GetParam().file);
   EXPECT_EQ(scene.id, GetParam().id);
-  EXPECT_EQ(scene.frames, 60u);
+  EXPECT_EQ(scene.frames, scene.id == "bunny-fine" ? 30u : 60u);
   EXPECT_TRUE(scene.judges(Level::kTriangle));
   std::size_t triangles = 0;
   for (const Body& body : scene.bodies) triangles += body.shape->mesh.triangles.size();
   EXPECT_GE(triangles, 5000u);
-  EXPECT_LE(triangles, 20000u);
+  EXPECT_LE(triangles, 60000u);
   for (std::size_t frame = 0; frame < scene.frames; frame += 5) {
     for (const std::vector<Vec3>& nodes : scene.nodes_of_frame(frame)) {
       EXPECT_TRUE(std::all_of(nodes.begin(), nodes.end(),
@@ -57,7 +57,7 @@ TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
   if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
   const Scene scene = load_scene(GetParam().file);
   const std::vector<std::vector<Vec3>> start = scene.nodes_of_frame(0),
-                                       middle = scene.nodes_of_frame(30);
+                                       middle = scene.nodes_of_frame(scene.frames / 2);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     ASSERT_TRUE(scene.bodies[b].shape->lattice.has_value());
     EXPECT_GE(scene.bodies[b].shape->lattice->cells.size(), 90u);

@@ -16,7 +16,8 @@
 // sine of 2^-50 its direction is right to 2e-16; from a sine of 1/64 on, the plain product's is to
 // 64 * 16 e = 2e-13 at most. Below 2^-50 the product is left out: its facet is a parallelogram
 // narrower than 2^-50 of the size, so that a neighbour, the next across its long sides that is not
-// that thin, is as near but for a few times that.
+// that thin, is as near but for a few times that. So is a product below 2^-300, whose square could
+// underflow: its facet is narrower than 2^-150.
 #include "reference/oracle/convex_parting.h"
 
 #include <algorithm>
@@ -31,6 +32,8 @@ namespace {
 
 // Sines: below the first the plain product is not trusted, below the second none is.
 constexpr double kNearlyParallel = 1.0 / 64, kParallel = 0x1p-50;
+// In units of the size squared.
+constexpr double kShortestProduct = 0x1p-300;
 
 // high + low, exactly, with |low| at most half a unit in the last place of high.
 struct TwoDoubles {
@@ -78,7 +81,7 @@ Vec3 normal_of(const Difference& u, const Difference& v) {
   if (n.norm() < kNearlyParallel * lengths)
     n = Vec3(minor_of(u, v, 1, 2), minor_of(u, v, 2, 0), minor_of(u, v, 0, 1));
   const double length = n.norm();
-  return length > kParallel * lengths ? Vec3(n / length) : Vec3::Zero();
+  return length > std::max(kParallel * lengths, kShortestProduct) ? Vec3(n / length) : Vec3::Zero();
 }
 
 bool pair_less(const std::pair<Vec3, Vec3>& x, const std::pair<Vec3, Vec3>& y) {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/types/vec3.h"
 #include "reference/oracle/exact_tests.h"
@@ -31,6 +32,9 @@ constexpr double kPointAccuracy = 1e-10;
 
 // Sizes whose fourth power neither overflows nor underflows.
 constexpr double kSmallest = 0x1p-200, kLargest = 0x1p+200;
+
+// Products of lengths above this keep clear of underflow, to which the analysis is blind.
+constexpr double kSmallestProduct = 0x1p-900;
 
 double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
@@ -59,8 +63,11 @@ Sides sides_of(const TriangleCorners& points, const TriangleCorners& plane) {
   Sides out;
   for (int k = 0; k < 3; ++k) {
     const Vec3 w = points[k] - plane[0];
+    const double area = largest(u) * largest(v), volume = area * largest(w);
     out.value[k] = normal.dot(w);
-    out.error[k] = kSideRounding * largest(u) * largest(v) * largest(w);
+    out.error[k] = std::min(area, volume) > kSmallestProduct
+                       ? kSideRounding * volume
+                       : std::numeric_limits<double>::infinity();
   }
   return out;
 }

@@ -1,5 +1,6 @@
 // How much, how far, how deep: the graded truth beside the verdicts, for the deformed doubles of a
-// frame. Doubles of stated accuracy; no contact is decided here.
+// frame. Doubles of stated accuracy, degenerate triangles included, at every scale; whether two
+// pieces touch at all is decided exactly, as by the oracle.
 #pragma once
 
 #include <memory>
@@ -12,12 +13,14 @@
 
 namespace contactcheck {
 
-/// The shortest way apart.
+/// The shortest way apart. "As short": within 1e-9 of the body size, the largest side of the boxes
+/// of the two bodies' vertices.
 struct WayOut {
   double depth = 0.0;            ///< metres
-  std::vector<Vec3> directions;  ///< unit; every one that is as short within 1e-9 of the body size
+  std::vector<Vec3> directions;  ///< unit; all as short, nearly equal ones (1e-9) told once
 };
 
+/// Trees and hulls are fitted when a question first needs them: an object serves one thread.
 class SurfaceGeometry {
  public:
   explicit SurfaceGeometry(const std::vector<Body>& bodies);
@@ -25,21 +28,26 @@ class SurfaceGeometry {
   SurfaceGeometry(const SurfaceGeometry&) = delete;
   SurfaceGeometry& operator=(const SurfaceGeometry&) = delete;
 
-  /// The frame that the questions below are about; its spans must outlive them.
+  /// The frame that the questions below are about; its spans must outlive them. Every question is
+  /// about bodies and elements of the scene.
+  /// @pre frame has vertices for every body (nodes too for part_boxes), all finite
   void set_frame(const Frame& frame);
 
   /// Metres: the diameter of the intersection of two closed triangles, which for two that cross is
   /// the length of the segment they share; 0 where they share one point or none.
-  /// Within 1e-9 of the triangles' size, whatever their position.
+  /// Off by less than 1e-9 of the larger triangle's largest side, whatever their position.
   double intersection_length(const ElementPair& triangles) const;
-  /// Metres: the distance of two triangles, the upper end of a certified interval.
+  /// Metres: the distance of two triangles, the upper end of a certified interval of at most 1e-9
+  /// of it (2e-154 of the coordinates below 1e-150 of them); 0 exactly when they share a point.
   double triangle_distance(const ElementPair& triangles) const;
-  /// Metres: the distance of a vertex to the surface of another body (`where.in`), with the
-  /// directions from the vertex to its nearest points there; no directions when it lies on it.
+  /// Metres: the distance of a vertex to the surface of another body (`where.in`), off by less than
+  /// 1e-12 of the body size or of itself, with the directions from the vertex to its nearest points
+  /// there; no directions when it lies on it.
   WayOut vertex_to_surface(const VertexInBody& where) const;
   /// The shortest translation of piece b that leaves the two at most touching, by brute force over
-  /// all face normals and products of edges; nothing when they are disjoint. Flat pieces part at 0
-  /// when they lie in one plane.
+  /// all face normals and products of edges, off by less than 1e-12 of the pieces' joint size;
+  /// nothing when they are disjoint. Flat pieces part at 0 when they lie in one plane, along its
+  /// normals; on one line, where all directions across it are as short, four of them are told.
   std::optional<WayOut> part_triangles(const ElementPair& triangles) const;
   /// The same for the mapped FFD-AABB boxes (convex hulls of 8 nodes) of two kept cells.
   std::optional<WayOut> part_boxes(const ElementPair& cells);

@@ -1,5 +1,7 @@
 #include "core/detect/node_plane_stage.h"
 
+#include "core/detect/seen_pairs.h"
+
 namespace contactcheck {
 
 void NodePlaneStage::begin_frame(const std::vector<FfdModel>& models) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/detect/detector.h"
-#include "core/detect/node_plane_stage.h"
+#include "core/detect/seen_pairs.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
 

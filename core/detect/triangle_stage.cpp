@@ -1,6 +1,6 @@
 #include "core/detect/triangle_stage.h"
 
-#include "core/detect/node_plane_stage.h"
+#include "core/detect/seen_pairs.h"
 #include "core/narrow/triangle_triangle.h"
 
 namespace contactcheck {

@@ -5,7 +5,7 @@
 #include "core/broad/box_pairs.h"
 #include "core/deform/ffd_aabb.h"
 #include "core/deform/mapping.h"
-#include "core/detect/node_plane_stage.h"
+#include "core/detect/seen_pairs.h"
 #include "core/types/check.h"
 #include "reference/adapters/libccd_pieces.h"
 

@@ -16,7 +16,7 @@ struct RunSettings {
   std::size_t repeats = 5;
   std::size_t processes = 1;  ///< fresh processes whose samples are pooled
   /// Aim for the timed part per detector and question, seconds: slow detectors are timed on fewer
-  /// frames (at least `fewest_timed_frames`), the same for both sides of a ratio.
+  /// frames (see frames_within_budget), the same for both sides of a ratio.
   double time_budget = 0.15;
   std::size_t fewest_timed_frames = 4;
   std::size_t sweep_bytes = std::size_t{8} << 20;  ///< read and written before each cold repeat

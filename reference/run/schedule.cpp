@@ -46,6 +46,9 @@ std::size_t frames_within_budget(double budget_seconds, double seconds_per_repea
                                  std::size_t repeats, std::size_t fewest, std::size_t frames) {
   const double cost = std::max(seconds_per_repeat * static_cast<double>(repeats), 1e-9);
   const double fit = std::floor(budget_seconds / cost);
+  constexpr double kFarTooSlow = 10.0;
+  if (static_cast<double>(fewest) * cost > kFarTooSlow * budget_seconds)
+    fewest = std::max<std::size_t>(fewest / 2, 1);
   const auto wanted = static_cast<std::size_t>(std::min(fit, static_cast<double>(frames)));
   return std::min(frames, std::max(fewest, wanted));
 }

@@ -100,8 +100,15 @@ TEST(FramesWithinBudget, NeverMoreThanThereAre) {
 }
 
 TEST(FramesWithinBudget, NeverFewerThanTheFewest) {
-  EXPECT_EQ(frames_within_budget(1.0, 100.0, 5, 4, 60), 4u);
-  EXPECT_EQ(frames_within_budget(0.0, 1.0, 5, 4, 60), 4u);
+  EXPECT_EQ(frames_within_budget(1.0, 0.3, 5, 4, 60), 4u);
+  EXPECT_EQ(frames_within_budget(1.0, 0.5, 5, 4, 60), 4u);
+}
+
+TEST(FramesWithinBudget, HalfTheFewestWhereTheseTakeTenTimesTheBudget) {
+  EXPECT_EQ(frames_within_budget(1.0, 0.6, 5, 4, 60), 2u);
+  EXPECT_EQ(frames_within_budget(1.0, 100.0, 5, 4, 60), 2u);
+  EXPECT_EQ(frames_within_budget(1.0, 100.0, 5, 1, 60), 1u);
+  EXPECT_EQ(frames_within_budget(1.0, 100.0, 5, 4, 1), 1u);
 }
 
 }  // namespace

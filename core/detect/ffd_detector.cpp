@@ -17,6 +17,7 @@ Semantics semantics_of(const FfdConfig& config) {
   } else {
     s.levels = {Level::kBody, Level::kCell};
     s.questions = {Question::kCells, Question::kBody};
+    s.whole_cells = config.volume == CellVolume::kLatticeCell;
     // What node tests on FFD-AABBs literally claim; a lattice cell is no FFD-AABB, and an owner's
     // boxes under `safe` are not the box of the level. Depths are those of these boxes, too.
     if (config.volume == CellVolume::kFfdAabb && config.bounds == BoundsReading::kPaper) {

@@ -39,7 +39,8 @@ struct Semantics {
   Precision precision = Precision::kDouble;
   double scale = 1.0;  ///< with single precision it is fed fed_value(x, scale) and not x
   DepthKind depth = DepthKind::kNone;
-  std::string means;  ///< what it calls contact, where that is not contact of the surfaces
+  bool whole_cells = false;  ///< of one that answers with cells: it tests these, not FFD-AABBs
+  std::string means;         ///< what it calls contact, where that is not contact of the surfaces
 
   bool claims(Level level) const;
   bool answers(Question question) const;

@@ -1,0 +1,65 @@
+// Where and how two bodies (or a body and the ground) are to be parted, at material points of their
+// lattices.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/types/contact_set.h"
+#include "core/types/frame.h"
+
+namespace contactcheck {
+
+/// A point of a body as a blend of its nodes (lattice nodes; vertices for a body without a
+/// lattice): the weights are those of the embedding, not negative, with sum 1 up to rounding.
+struct NodeBlend {
+  std::vector<std::uint32_t> nodes;
+  std::vector<double> weights;
+};
+
+struct ContactPoint {
+  std::uint32_t body_a = 0, body_b = 0;
+  NodeBlend a, b;
+  Vec3 normal = Vec3::Zero();  ///< unit, from a to b: moving b along it parts them
+  double depth = 0.0;          ///< metres, not negative
+};
+
+/// Which box of a cell takes part: what the driving detector tests.
+enum class ContactVolume { kCell, kFfdAabb };
+
+/// Turns the answers of a detector to one frame into points to respond at, in the order of the
+/// canonical set: from pairs of triangles where there are any, else from pairs of cells. The
+/// geometry is this class's own, the same for every detector: a detector decides where there is
+/// contact, not how it is answered. Two bodies are parted one way (common_direction.h): the sum of
+/// the normals of two solids' triangles, else of the ways between the centres of the cells that
+/// are, or hold, what is in contact.
+class ContactPoints {
+ public:
+  /// The bodies outlive this object.
+  ContactPoints(const std::vector<Body>& bodies, ContactVolume volume);
+
+  /// @pre contacts is canonical; frame has vertices for every body where there are triangle pairs
+  std::vector<ContactPoint> from(const ContactSet& contacts, const Frame& frame) const;
+
+ private:
+  class Insides;
+
+  /// Both return which way the pair says that b lies from a, of any length.
+  Vec3 add_triangles(const ElementPair& pair, const Frame& frame, Insides& insides,
+                     std::vector<ContactPoint>& out) const;
+  Vec3 add_cells(const ElementPair& pair, const Frame& frame, std::vector<ContactPoint>& out) const;
+
+  const std::vector<Body>& bodies_;
+  ContactVolume volume_;
+  std::vector<std::vector<Aabb>> boxes_;  // per body and cell, local; kFfdAabb only
+};
+
+/// The blend that is a vertex of the mesh: the 8 nodes of its home cell, or the vertex itself
+/// without a lattice.
+NodeBlend blend_of_vertex(const BodyShape& shape, std::uint32_t vertex);
+/// The blend that is a point of a kept cell, by local coordinates in [0, 1].
+NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3& local);
+
+}  // namespace contactcheck

@@ -21,7 +21,8 @@ bool Scene::judges(Level level) const {
 }
 
 std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
-  CONTACTCHECK_INVARIANT(scripted(), "a recording has frames, not times");
+  CONTACTCHECK_INVARIANT(scripted() || (simulation && time == 0.0),
+                         "a recording has frames, a simulation a start: neither has times");
   std::vector<std::vector<Vec3>> nodes;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyShape& shape = *bodies[b].shape;
@@ -34,7 +35,9 @@ std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
 
 std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
   CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
-  return scripted() ? nodes_at(time_of(frame)) : recorded[frame];
+  if (scripted()) return nodes_at(time_of(frame));
+  CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run");
+  return recorded[frame];
 }
 
 double Scene::size() const {

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/deform/body.h"
 #include "core/deform/motion.h"
+#include "core/dynamics/material.h"
+#include "core/dynamics/simulation.h"
 #include "core/types/semantics.h"
 
 namespace contactcheck {
@@ -20,6 +23,15 @@ struct MeshOrigin {
   std::string notes;  ///< defects found, "read as float", ...; empty when there is nothing to say
 };
 
+/// What moves the bodies of a simulated scene.
+struct SimulationSpec {
+  SimulationSettings settings;
+  std::vector<std::optional<Material>> materials;  ///< per body; without one it cannot be moved
+  std::vector<Vec3> velocities;  ///< per body, m/s at time 0; zero for what cannot be moved
+  std::string driver;            ///< name of the detector whose answers move bodies apart
+  std::size_t every = 1;         ///< steps from one judged frame to the next
+};
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -28,23 +40,26 @@ struct Scene {
   std::size_t frames = 0;
   double time_step = 0.0;       ///< seconds
   std::vector<Level> levels;    ///< to be judged; nothing else is computed
-  std::vector<Motion> motions;  ///< per body; empty for a recording
-  /// Recorded nodes [frame][body]; empty for a scripted scene.
+  std::vector<Motion> motions;  ///< per body; empty for a recording; simulated: the pose at time 0
+  /// Recorded nodes [frame][body]; empty for a scripted scene. Of a simulated scene, reference/run
+  /// (simulate) fills it before any frame is asked for.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
+  std::optional<SimulationSpec> simulation;  ///< simulated scenes only
 
-  bool scripted() const { return recorded.empty(); }
+  /// Positions follow from the time alone.
+  bool scripted() const { return recorded.empty() && !simulation; }
   bool judges(Level level) const;
   double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
-  /// Lattice nodes of every body. @pre scripted()
+  /// Lattice nodes of every body. @pre scripted(), or simulated and time 0: the start
   std::vector<std::vector<Vec3>> nodes_at(double time) const;
-  /// Lattice nodes of every body at a frame, scripted or recorded.
+  /// Lattice nodes of every body at a frame, scripted or recorded. @pre a simulation has been run
   std::vector<std::vector<Vec3>> nodes_of_frame(std::size_t frame) const;
   /// The largest side of any body's rest box, metres: tolerances are relative to it.
   double size() const;
 };
 
 /// Reads a scene file (JSON). `wanted_frames` above 0 replaces the file's frame count, keeping the
-/// duration.
+/// duration; of a simulated scene the steps keep their length, so that the duration follows.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
 

@@ -12,6 +12,7 @@
 #include "reference/scene/mesh_spec.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/scene.h"
+#include "reference/scene/simulation_spec.h"
 
 namespace contactcheck {
 namespace {
@@ -86,6 +87,19 @@ void parse_times(const JsonField& root, std::size_t wanted_frames, Scene& scene)
                         : duration / static_cast<double>(scene.frames);
 }
 
+// Steps keep their length: another one would be another simulation.
+void parse_simulated_times(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
+  scene.simulation = parse_simulation(root.at("simulation"));
+  for (const char* key : {"duration", "time_step"}) {
+    if (!root.has(key)) continue;
+    root.at(key).fail("is not allowed beside \"simulation\", whose step and every give the time");
+  }
+  const std::size_t frames = root.at("frames").whole(1, kMostFrames);
+  scene.frames = wanted_frames > 0 ? wanted_frames : frames;
+  scene.time_step =
+      scene.simulation->settings.time_step * static_cast<double>(scene.simulation->every);
+}
+
 std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
   std::string name = field.text();
   const std::string fault = name_fault(name);
@@ -99,7 +113,7 @@ std::string parse_body_name(const JsonField& field, const std::vector<Body>& bod
 
 void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
                 Scene& scene) {
-  field.only_keys({"name", "mesh", "lattice", "motion"});
+  field.only_keys({"name", "mesh", "lattice", "motion", "material", "velocity"});
   const std::string name = parse_body_name(field.at("name"), scene.bodies);
   const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
   const LatticeSpec lattice =
@@ -109,6 +123,11 @@ void parse_body(const JsonField& field, const std::filesystem::path& folder, Wor
   scene.origins.push_back({name, described_source(mesh), made.notes});
   scene.motions.push_back(field.has("motion") ? parse_motion(field.at("motion"), *made.shape)
                                               : Motion{});
+  if (scene.simulation) {
+    add_simulated_body(field, *made.shape, scene.motions.back(), *scene.simulation);
+  } else {
+    require_no_simulation_keys(field);
+  }
 }
 
 }  // namespace
@@ -117,11 +136,16 @@ Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
   const std::string document = "scene file " + in_quotes(file.string());
   const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
   const JsonField root(value, document);
-  root.only_keys({"id", "title", "frames", "duration", "time_step", "levels", "bodies"});
+  root.only_keys(
+      {"id", "title", "frames", "duration", "time_step", "simulation", "levels", "bodies"});
   Scene scene;
   scene.id = parse_id(root.at("id"));
   scene.title = root.has("title") ? root.at("title").text() : scene.id;
-  parse_times(root, wanted_frames, scene);
+  if (root.has("simulation")) {
+    parse_simulated_times(root, wanted_frames, scene);
+  } else {
+    parse_times(root, wanted_frames, scene);
+  }
   scene.levels = parse_levels(root.at("levels"));
   Workshop workshop;
   for (const JsonField& body : root.at("bodies").items(1)) {

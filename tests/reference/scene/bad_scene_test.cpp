@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Defect{"UnknownKey", R"("frames": 2)", R"("frames": 2, "frame": 3)",
                ": frame is not a known key; allowed here: id, title, frames, duration, time_step, "
-               "levels, bodies."},
+               "simulation, levels, bodies."},
         Defect{"MissingKey", R"("frames": 2, )", "", ": frames is missing."},
         Defect{"BadId", R"("id": "s")", R"("id": "../s")",
                ": id is \"../s\"; it must be letters, digits, '-', '_' and '.', beginning with a "
@@ -108,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{"ControlCharacter", R"("name": "right")", R"("name": "ri\nght")",
                ": bodies[1].name has a control character and cannot be a name."},
         Defect{"UnknownKey", R"("lattice": {"kept": 8})", R"("latice": {"kept": 8})",
-               ": bodies[1].latice is not a known key; allowed here: name, mesh, lattice, motion."},
+               ": bodies[1].latice is not a known key; allowed here: name, mesh, lattice, motion, "
+               "material, velocity."},
         Defect{"ZeroCells", "[1, 1, 1]", "[0, 1, 1]",
                ": bodies[0].lattice.cells[0] is 0; it must be a whole number from 1 to 128."},
         Defect{"TwoCells", "[1, 1, 1]", "[1, 1]",

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <set>
 
-#include "reference/scene/data_package.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/json_value.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/suite_file.h"
-#include "tests/reference/scene/scratch.h"
+#include "tests/reference/scene/installed.h"
 
 namespace contactcheck {
 
@@ -18,19 +19,27 @@ void PrintTo(const CatalogueEntry& entry, std::ostream* out) { *out << entry.id;
 
 namespace {
 
+using test::data_installed;
 using test::Environment;
 using test::Scratch;
 using test::sentence_of;
 
 const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
 
-bool data_installed() {
-  return sentence_of([] {
-           find_package_file(data_roots(), "", "usr/share/doc/libcgal-demo/data.tar.gz");
-           find_package_file(data_roots(), "",
-                             "usr/share/doc/povray/examples/advanced/teapot/teapot.inc");
-         })
-      .empty();
+// The scenes that are simulated, or those that follow a script.
+std::vector<CatalogueEntry> scenes_that_are(bool simulated) {
+  std::vector<CatalogueEntry> out;
+  for (const CatalogueEntry& entry : list_scenes(kFixtures)) {
+    const JsonValue scene = parse_json(read_file_bytes(entry.file, "scene file"), entry.id);
+    if ((scene.find("simulation") != nullptr) == simulated) out.push_back(entry);
+  }
+  return out;
+}
+
+std::string named(const ::testing::TestParamInfo<CatalogueEntry>& test) {
+  std::string name = test.param.id;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
 }
 
 class FixtureScene : public ::testing::TestWithParam<CatalogueEntry> {};
@@ -73,12 +82,28 @@ TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures, FixtureScene, ::testing::ValuesIn(list_scenes(kFixtures)),
-                         [](const auto& test) {
-                           std::string name = test.param.id;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Fixtures, FixtureScene, ::testing::ValuesIn(scenes_that_are(false)),
+                         named);
+
+class SimulatedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
+
+TEST_P(SimulatedFixture, LoadsWithAFiniteStart) {
+  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  const Scene scene = load_scene(GetParam().file);
+  EXPECT_EQ(scene.id, GetParam().id);
+  ASSERT_TRUE(scene.simulation.has_value());
+  EXPECT_TRUE(scene.judges(Level::kTriangle));
+  // Long enough to fall and to hit, and no longer.
+  EXPECT_GE(scene.time_of(scene.frames), 1.0);
+  EXPECT_LE(scene.time_of(scene.frames), 2.0 + 1e-12);
+  for (const std::vector<Vec3>& nodes : scene.nodes_at(0.0)) {
+    EXPECT_TRUE(std::all_of(nodes.begin(), nodes.end(),
+                            [](const Vec3& p) { return p.allFinite() && p.norm() < 10.0; }));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, SimulatedFixture, ::testing::ValuesIn(scenes_that_are(true)),
+                         named);
 
 TEST(Catalogue, HasTheScenesOfTheDefaultSuite) {
   const Suite suite = load_suite(kFixtures / "suites" / "default.json");

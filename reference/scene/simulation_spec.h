@@ -1,0 +1,33 @@
+// How a scene file describes a simulation: steps, gravity, ground and driving detector at the root,
+// material and initial velocity on bodies (fixtures/README.md, "Scenes").
+#pragma once
+
+#include <optional>
+
+#include "core/deform/body.h"
+#include "core/deform/motion.h"
+#include "core/dynamics/material.h"
+#include "reference/scene/json_field.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+
+/// The root's "simulation"; materials and velocities stay empty.
+/// @throws InputError
+SimulationSpec parse_simulation(const JsonField& field);
+
+/// A body's "material".
+/// @throws InputError
+Material parse_material(const JsonField& field);
+
+/// Adds the material and velocity of one body, in the order of the bodies. `body` is its whole
+/// field; `motion` what its "motion" became.
+/// @throws InputError also when the body has no lattice to deform, or a motion that goes on
+void add_simulated_body(const JsonField& body, const BodyShape& shape, const Motion& motion,
+                        SimulationSpec& simulation);
+
+/// Refuses "material" and "velocity" of a body in a scene that is not simulated.
+/// @throws InputError
+void require_no_simulation_keys(const JsonField& body);
+
+}  // namespace contactcheck

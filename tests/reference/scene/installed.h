@@ -1,0 +1,18 @@
+// Whether the Debian packages with meshes are here: tests of what needs them are skipped elsewhere.
+#pragma once
+
+#include "reference/scene/data_package.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck::test {
+
+inline bool data_installed() {
+  return sentence_of([] {
+           find_package_file(data_roots(), "", "usr/share/doc/libcgal-demo/data.tar.gz");
+           find_package_file(data_roots(), "",
+                             "usr/share/doc/povray/examples/advanced/teapot/teapot.inc");
+         })
+      .empty();
+}
+
+}  // namespace contactcheck::test

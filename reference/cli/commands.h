@@ -19,6 +19,8 @@ struct RunArguments {
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
   bool timing = true, quiet = false;
+  std::uint32_t threads = 1;
+  bool closed_loop = false;  ///< simulated scenes: drive them with every detector too
   double call_limit = 60.0;  ///< seconds
   std::uint64_t memory_limit_mib = 4096;
   std::string command_line;  ///< for the record
@@ -30,6 +32,9 @@ struct ListArguments {
 };
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
+/// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
+/// tables.
+int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,

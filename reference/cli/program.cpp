@@ -55,6 +55,14 @@ void add_limits(CLI::App& run, Choices& c) {
       ->type_name("MIB");
 }
 
+void add_threads(CLI::App& command, Choices& c) {
+  command
+      .add_option("--threads", c.run.threads,
+                  "threads that deform the bodies of simulated scenes (default 1); results do not "
+                  "depend on it, times do")
+      ->check(CLI::Range(1, 256));
+}
+
 void add_run(CLI::App& app, Choices& c) {
   CLI::App* run = app.add_subcommand("run", "run detectors on scenes and judge every answer");
   run->add_option(
@@ -71,6 +79,10 @@ void add_run(CLI::App& app, Choices& c) {
   run->add_option("--out", c.run.out,
                   "folder for results.json, report.md, cases, recordings "
                   "(default out)");
+  run->add_flag("--closed-loop", c.run.closed_loop,
+                "simulated scenes: let every detector drive the simulation too, and time whole "
+                "steps");
+  add_threads(*run, c);
   add_limits(*run, c);
   run->add_flag("--no-timing", c.no_timing, "judge only");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
@@ -79,6 +91,25 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing");
+}
+
+void add_reproduce(CLI::App& app, Choices& c) {
+  CLI::App* reproduce =
+      app.add_subcommand("reproduce", "simulate the paper's scenes; its tables beside ours");
+  reproduce->add_option("scenes", c.run.targets, "some of its scenes; default: the suite paper");
+  reproduce->add_option("--frames", c.run.frames, "frames per scene, same step")
+      ->check(CLI::Range(1, 100000));
+  reproduce->add_option("--repeat", c.run.repeats, "timed repeats per step (default 5)")
+      ->check(CLI::Range(1, 1000));
+  add_threads(*reproduce, c);
+  reproduce->add_option("--out", c.run.out,
+                        "folder for reproduction.md, reproduction.json and all that run writes "
+                        "(default out)");
+  reproduce->add_flag("--quiet", c.run.quiet, "no progress, no table");
+  reproduce->footer(
+      "Examples:\n"
+      "  contactcheck reproduce\n"
+      "  contactcheck reproduce paper-rabbit --frames 60");
 }
 
 void add_others(CLI::App& app, Choices& c) {
@@ -103,6 +134,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
+  if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
   return run_command(c.run, catalog);
 }
 
@@ -117,6 +149,7 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
   Choices choices;
   choices.run.command_line = join_command_line(argc, argv);
   add_run(app, choices);
+  add_reproduce(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);

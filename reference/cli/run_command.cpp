@@ -10,6 +10,7 @@
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
+#include "reference/cli/run_and_report.h"
 #include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
 #include "reference/run/suite_run.h"
@@ -103,9 +104,7 @@ void print_outcome(const RunArguments& arguments, const Json& results) {
               (arguments.out / "report.md").c_str());
 }
 
-}  // namespace
-
-int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
+SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
   request.tasks = make_tasks(arguments, catalog);
   check_scenes(arguments.frames, request.tasks);
@@ -114,19 +113,32 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   request.settings.repeats = arguments.repeats;
   request.settings.processes = arguments.processes;
   request.settings.timing = arguments.timing;
+  request.settings.closed_loop = arguments.closed_loop;
+  request.settings.threads = arguments.threads;
   request.settings.call_limit = arguments.call_limit;
   request.settings.memory_limit = arguments.memory_limit_mib << 20;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
+  return request;
+}
 
+}  // namespace
+
+Json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
+                    SuiteOutcome* outcome) {
+  const SuiteRequest request = make_request(arguments, catalog);
   ProgressDisplay display(arguments.quiet, isatty(STDERR_FILENO) != 0);
-  SuiteOutcome outcome;
-  const Json results = run_suite(
-      request, [&](const SuiteProgress& progress) { display.show(progress); }, &outcome);
+  Json results = run_suite(
+      request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
   display.finish();
   write_file_atomically(arguments.out / "report.md", markdown_report(results));
-  print_outcome(arguments, results);
+  return results;
+}
+
+int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  SuiteOutcome outcome;
+  print_outcome(arguments, run_and_report(arguments, catalog, &outcome));
   return outcome.any_error ? 3 : 0;
 }
 

@@ -101,16 +101,6 @@ Json geometry_json(const RunResult& run) {
           {"episodes", episodes}};
 }
 
-Json levels_json(const std::map<Level, LevelCounts>& levels, const Semantics& semantics) {
-  Json out = Json::object();
-  for (const auto& [level, counts] : levels) {
-    Json& entry = out[name_of(level)] = to_json(counts);
-    if (level == Level::kNear) entry["margin"] = semantics.margin;
-    if (!semantics.claims(level)) entry["informative"] = true;
-  }
-  return out;
-}
-
 Json stages_json(const RunResult& run) {
   Json out = Json::array();
   for (const StageResult& s : run.stages) {
@@ -135,6 +125,16 @@ Json per_frame_json(const PerFrame& f) {
 
 }  // namespace
 
+Json levels_to_json(const std::map<Level, LevelCounts>& levels, const Semantics& semantics) {
+  Json out = Json::object();
+  for (const auto& [level, counts] : levels) {
+    Json& entry = out[name_of(level)] = to_json(counts);
+    if (level == Level::kNear) entry["margin"] = semantics.margin;
+    if (!semantics.claims(level)) entry["informative"] = true;
+  }
+  return out;
+}
+
 std::string hex(std::uint64_t value) {
   char text[24];
   std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(value));
@@ -158,9 +158,9 @@ Json to_json(const RunResult& run) {
               {"recording", run.recording}};
   if (run.status != RunStatus::kOk) return out;
   out["per_frame"] = per_frame_json(run.per_frame);
-  out["levels"] = levels_json(run.levels, run.semantics);
+  out["levels"] = levels_to_json(run.levels, run.semantics);
   if (!run.levels_rounded.empty())
-    out["levels_rounded"] = levels_json(run.levels_rounded, run.semantics);
+    out["levels_rounded"] = levels_to_json(run.levels_rounded, run.semantics);
   Json not_judged = Json::object();
   for (const auto& [level, why] : run.not_judged) not_judged[name_of(level)] = why;
   out["not_judged"] = not_judged;

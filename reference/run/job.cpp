@@ -18,6 +18,7 @@ Json to_json(const RunSettings& s) {
           {"repeats", s.repeats},         {"processes", s.processes},
           {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
           {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
+          {"closed_loop", s.closed_loop}, {"threads", s.threads},
           {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
 }
 
@@ -31,6 +32,8 @@ RunSettings settings_from(const Json& j) {
   j.at("fewest_timed_frames").get_to(s.fewest_timed_frames);
   j.at("sweep_bytes").get_to(s.sweep_bytes);
   j.at("timing").get_to(s.timing);
+  j.at("closed_loop").get_to(s.closed_loop);
+  j.at("threads").get_to(s.threads);
   j.at("call_limit").get_to(s.call_limit);
   j.at("memory_limit").get_to(s.memory_limit);
   return s;

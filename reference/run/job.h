@@ -21,7 +21,10 @@ struct RunSettings {
   std::size_t fewest_timed_frames = 4;
   std::size_t sweep_bytes = std::size_t{8} << 20;  ///< read and written before each cold repeat
   bool timing = true;
-  double call_limit = 60.0;  ///< seconds without progress until a worker is stopped
+  /// Simulated scenes: drive them with every detector too, and (with timing) time whole steps.
+  bool closed_loop = false;
+  std::uint32_t threads = 1;  ///< that deform bodies of simulated scenes; no result depends on it
+  double call_limit = 60.0;   ///< seconds without progress until a worker is stopped
   std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
 };
 

@@ -61,15 +61,20 @@ Json bodies_json(const Scene& scene) {
 nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
   const Scene& scene = *judged.scene;
   const std::vector<bool>& contact = judged.contact_frames;
-  return {{"id", scene.id},
-          {"title", scene.title},
-          {"frames", scene.frames},
-          {"time_step", scene.time_step},
-          {"size", scene.size()},
-          {"contact_frames", std::count(contact.begin(), contact.end(), true)},
-          {"truth", truth_json(judged)},
-          {"truth_hash", hex(truth_hash(judged))},
-          {"bodies", bodies_json(scene)}};
+  Json out = {{"id", scene.id},
+              {"title", scene.title},
+              {"frames", scene.frames},
+              {"time_step", scene.time_step},
+              {"size", scene.size()},
+              {"contact_frames", std::count(contact.begin(), contact.end(), true)},
+              {"truth", truth_json(judged)},
+              {"truth_hash", hex(truth_hash(judged))},
+              {"bodies", bodies_json(scene)}};
+  if (scene.simulation)
+    out["simulation"] = {{"driver", scene.simulation->driver},
+                         {"step", scene.simulation->settings.time_step},
+                         {"every", scene.simulation->every}};
+  return out;
 }
 
 }  // namespace contactcheck

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
@@ -10,9 +11,11 @@
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
+#include "reference/run/closed_loop.h"
 #include "reference/run/float_environment.h"
 #include "reference/run/hover.h"
 #include "reference/run/job.h"
+#include "reference/run/lockstep.h"
 #include "reference/run/printable.h"
 #include "reference/run/samples_json.h"
 #include "reference/run/scene_summary.h"
@@ -20,6 +23,8 @@
 #include "reference/run/surroundings.h"
 #include "reference/run/timing.h"
 #include "reference/scene/scene.h"
+#include "reference/simulate/driven_simulation.h"
+#include "reference/simulate/simulate_scene.h"
 
 namespace contactcheck {
 namespace {
@@ -33,6 +38,8 @@ struct Entry {
   RunResult result;
   double seconds_per_frame = 0.0;
   std::vector<QuestionSamples> samples;
+  std::optional<ClosedLoop> closed_loop;
+  std::optional<StepTimes> step_times;
 
   bool usable() const { return detector && result.status == RunStatus::kOk; }
 };
@@ -46,6 +53,13 @@ class Worker {
     scene_ = job_.scene_file.extension() == ".ccr"
                  ? load_recording(job_.scene_file)
                  : load_scene(job_.scene_file, job_.settings.frames);
+    if (scene_.simulation) scene_.simulation->settings.threads = job_.settings.threads;
+    record_simulation(
+        catalog_,
+        [this](std::size_t step) {
+          progress_.enter(SharedProgress::kNoDetector, step, Phase::kScene);
+        },
+        scene_);
     for (std::uint32_t i = 0; i < job_.settings.detectors.size(); ++i)
       if (std::find(job_.skip.begin(), job_.skip.end(), i) == job_.skip.end()) add_entry(i);
     judged_ = judge_scene(scene_, judges(), progress_);
@@ -54,6 +68,7 @@ class Worker {
     } else if (judges()) {
       if (!job_.recording_file.empty()) record();
       judge_detectors();
+      if (job_.settings.closed_loop && scene_.simulation) simulate_with_detectors();
       plan_timing();
     } else {
       prepare_detectors();
@@ -139,6 +154,46 @@ class Worker {
         d.detector = entry.spec.name;
       }
     }
+  }
+
+  // Closed loop, and whole steps timed: what a detector's errors and its time do to a simulation.
+  void simulate_with_detectors() {
+    for (Entry& entry : entries_) {
+      if (!drives(entry)) continue;
+      guarded(entry, [&] {
+        entry.closed_loop = run_closed_loop(
+            scene_, entry.position, [&] { return catalog_.make(entry.spec); }, progress_);
+      });
+    }
+    if (job_.settings.timing) time_whole_steps();
+  }
+
+  static bool drives(const Entry& entry) {
+    return entry.usable() && why_no_driver(entry.result.semantics).empty();
+  }
+
+  void time_whole_steps() {
+    std::vector<LockstepEntry> lockstep;
+    for (const Entry& entry : entries_)
+      if (drives(entry))
+        lockstep.push_back({entry.position, catalog_.make(entry.spec), StepTimes{}, ""});
+    const DetectorSpec driver = catalog_.parse(scene_.simulation->driver);
+    LockstepSettings settings;
+    settings.repeats = job_.settings.repeats;
+    settings.sweep_bytes = job_.settings.sweep_bytes;
+    run_lockstep(scene_, *catalog_.make(driver), settings, lockstep, progress_);
+    for (const LockstepEntry& timed : lockstep)
+      for (Entry& entry : entries_)
+        if (entry.position == timed.position) take_step_times(timed, entry);
+  }
+
+  void take_step_times(const LockstepEntry& timed, Entry& entry) const {
+    if (timed.error.empty()) {
+      entry.step_times = timed.times;
+      return;
+    }
+    entry.result.status = RunStatus::kError;
+    entry.result.message = "scene " + scene_.id + ", " + timed.error;
   }
 
   // A process that only times: no judging.
@@ -230,8 +285,11 @@ class Worker {
         c["case"] = file.string();
         cases.push_back(c);
       }
+      Json run = to_json(entry.result);
+      if (entry.usable() && entry.closed_loop) run["closed_loop"] = to_json(*entry.closed_loop);
+      if (entry.usable() && entry.step_times) run["step_ms"] = to_json(*entry.step_times);
       runs.push_back({{"position", entry.position},
-                      {"run", to_json(entry.result)},
+                      {"run", std::move(run)},
                       {"samples", samples},
                       {"disagreements", cases}});
     }

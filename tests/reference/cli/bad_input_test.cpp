@@ -34,6 +34,11 @@ class BadInput : public testing::Test {
     arguments.insert(arguments.end(), {"--out", out().string()});
     expect_refused(arguments, named);
   }
+  void expect_reproduce_refused(Words arguments, const std::vector<std::string>& named) {
+    arguments.insert(arguments.begin(), "reproduce");
+    arguments.insert(arguments.end(), {"--out", out().string()});
+    expect_refused(arguments, named);
+  }
   // A scene file of its own with one thing replaced.
   void expect_scene_refused(const std::string& from, const std::string& to,
                             const std::vector<std::string>& named) {
@@ -60,6 +65,19 @@ TEST_F(BadInput, UnknownSubcommand) {
 }
 
 TEST_F(BadInput, UnknownScene) { expect_run_refused({"rabbit-hole"}, {"\"rabbit-hole\""}); }
+
+TEST_F(BadInput, ReproduceOfAnUnknownScene) {
+  expect_reproduce_refused({"paper-rabbit-hole"}, {"\"paper-rabbit-hole\""});
+}
+
+TEST_F(BadInput, ReproduceOfNothing) {
+  expect_reproduce_refused({scene(), "--frames", "0"}, {"--frames", "0"});
+  expect_reproduce_refused({scene(), "--repeat", "0"}, {"--repeat", "0"});
+}
+
+TEST_F(BadInput, ReproduceChoosesItsDetectorsItself) {
+  expect_reproduce_refused({scene(), "--detector", "fcl-aabb"}, {"--detector"});
+}
 
 TEST_F(BadInput, SceneFileThatIsNotThere) {
   expect_run_refused({"/nonexistent/scene.json"}, {"/nonexistent/scene.json"});

@@ -74,7 +74,7 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command : {"", "run", "list", "report"}) {
+  for (const std::string command : {"", "run", "reproduce", "list", "report"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);
@@ -87,9 +87,18 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
 
 TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
-  for (const char* flag : {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet",
-                           "--no-timing", "--call-limit SECONDS", "--memory-limit MIB"})
+  for (const char* flag :
+       {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet", "--no-timing",
+        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB"})
     EXPECT_THAT(help.out, HasSubstr(flag));
+}
+
+TEST(Help, OfReproduceNamesItsFlagsAndItsFiles) {
+  const Outcome help = contactcheck_program({"reproduce", "--help"});
+  for (const char* word : {"--frames", "--repeat", "--out", "--quiet", "reproduction.md",
+                           "reproduction.json", "suite paper"})
+    EXPECT_THAT(on_one_line(help.out), HasSubstr(word));
+  EXPECT_THAT(help.out, Not(HasSubstr("--closed-loop"))) << "it always is";
 }
 
 TEST(Help, DoesNotShowTheWorkersCommand) {

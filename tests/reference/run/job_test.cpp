@@ -25,6 +25,8 @@ Job full_job() {
   job.settings.processes = 3;
   job.settings.time_budget = 0.1;
   job.settings.fewest_timed_frames = 2;
+  job.settings.closed_loop = true;
+  job.settings.threads = 2;
   job.settings.sweep_bytes = 12345;
   job.settings.timing = false;
   job.settings.call_limit = 1.0 / 3.0;
@@ -50,6 +52,8 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.settings.processes, 3u);
   EXPECT_EQ(in.settings.time_budget, 0.1);
   EXPECT_EQ(in.settings.fewest_timed_frames, 2u);
+  EXPECT_TRUE(in.settings.closed_loop);
+  EXPECT_EQ(in.settings.threads, 2u);
   EXPECT_EQ(in.settings.sweep_bytes, 12345u);
   EXPECT_FALSE(in.settings.timing);
   EXPECT_EQ(in.settings.call_limit, 1.0 / 3.0);

@@ -20,6 +20,9 @@ SCHEMA_FILE = pathlib.Path(__file__).resolve().parents[3] / "fixtures" / "result
 # Rates are written with 17 digits and divided once: what differs by more was computed otherwise.
 RATE_TOLERANCE = 1e-12
 
+# A total is written after one addition per part: what differs by more is not their sum.
+SUM_TOLERANCE = 1e-12  # of the total
+
 LONGEST_MESSAGE = 200  # characters; a validator quotes whole runs
 
 
@@ -125,6 +128,36 @@ def speedup_errors(place, speedup):
                     yield f"{place}/{question}/{reference}/{name}", "lies outside its interval"
 
 
+def step_errors(place, step):
+    parts = sum(step[name] for name in ("mss", "cell", "test", "response"))
+    if abs(parts - step["total"]) > SUM_TOLERANCE * parts:
+        yield f"{place}/total", f"is {step['total']}, but its four parts add up to {parts}"
+    for name in ("test_by_repeat", "total_by_repeat"):
+        if len(step[name]) != step["repeats"]:
+            yield f"{place}/{name}", f"has {len(step[name])} entries for {step['repeats']} repeats"
+    for number, (test, total) in enumerate(zip(step["test_by_repeat"], step["total_by_repeat"])):
+        if test > total:
+            yield f"{place}/test_by_repeat/{number}", f"{test} exceeds the whole step's {total}"
+
+
+CLOSED_LOOP_FIELDS = ("steps", "levels", "hover_at_rest_max", "hover_at_rest_mean",
+                      "deepest_penetration", "energy_gain", "last_speed", "tunnelling_events")
+
+
+def closed_loop_errors(place, loop):
+    """A motion has every field, a motion that there is not has none."""
+    for name in CLOSED_LOOP_FIELDS:
+        if (name in loop) == (loop["error"] != ""):
+            yield f"{place}/{name}", "must be there exactly when error is empty"
+    for name, level in loop.get("levels", {}).items():
+        yield from level_errors(f"{place}/levels/{name}", level)
+    largest, mean = loop.get("hover_at_rest_max"), loop.get("hover_at_rest_mean")
+    if (largest is None) != (mean is None):
+        yield f"{place}/hover_at_rest_mean", "must be null exactly when the largest is"
+    elif largest is not None and mean > largest * (1 + SUM_TOLERANCE):
+        yield f"{place}/hover_at_rest_mean", f"{mean} exceeds the largest, {largest}"
+
+
 def run_errors(place, run):
     if run["status"] != "ok":
         return
@@ -137,6 +170,10 @@ def run_errors(place, run):
     yield from geometry_errors(f"{place}/geometry", run["geometry"])
     yield from per_frame_errors(f"{place}/per_frame", run)
     yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
+    if "closed_loop" in run:
+        yield from closed_loop_errors(f"{place}/closed_loop", run["closed_loop"])
+    if "step_ms" in run:
+        yield from step_errors(f"{place}/step_ms", run["step_ms"])
     if run["time_ms"].get("timed_frames", 0) > run["frames"]:
         yield f"{place}/time_ms/timed_frames", f"exceeds the run's {run['frames']} frames"
 

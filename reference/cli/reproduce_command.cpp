@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/deform/atomic_file.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/run_and_report.h"
+#include "reference/reproduce/paper_arithmetic.h"
+#include "reference/reproduce/paper_report.h"
+#include "reference/reproduce/paper_tables.h"
+#include "reference/reproduce/reproduction.h"
+#include "reference/reproduce/reproduction_report.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/suite_file.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void print(const std::filesystem::path& out, const Json& reproduction, bool quiet) {
+  if (!quiet) {
+    const auto& findings = reproduction.at("paper").at("findings");
+    const auto contradictions = std::count_if(
+        findings.begin(), findings.end(), [](const Json& f) { return f.at("agrees") == false; });
+    std::printf("%s\nThe paper's own numbers: %zu checks, %zu contradict a claim or cannot be.\n\n",
+                reproduction_terminal(reproduction).c_str(), findings.size(),
+                static_cast<std::size_t>(contradictions));
+  }
+  std::printf("%s  %s  %s\n", (out / "reproduction.md").c_str(),
+              (out / "reproduction.json").c_str(), (out / "report.md").c_str());
+}
+
+}  // namespace
+
+int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
+  const PaperTables tables = load_paper_tables(fixtures_directory() / "paper" / "tables.json");
+  // Single scenes are run with the suite's detectors too: the tables are made of these.
+  if (arguments.detectors.empty())
+    arguments.detectors = load_suite(find_target("paper", fixtures_directory()).file).detectors;
+  if (arguments.targets.empty()) arguments.targets = {"paper"};
+  arguments.closed_loop = true;
+  SuiteOutcome outcome;
+  const Json results = run_and_report(arguments, catalog, &outcome);
+  const std::vector<PaperFinding> findings = check_paper(tables);
+  Json reproduction = reproduce(results, tables);
+  reproduction["paper"] = paper_json(tables, findings);
+  write_file_atomically(arguments.out / "reproduction.json", reproduction.dump(1) + "\n");
+  write_file_atomically(arguments.out / "reproduction.md",
+                        reproduction_markdown(reproduction) + paper_markdown(tables, findings));
+  print(arguments.out, reproduction, arguments.quiet);
+  return outcome.any_error ? 3 : 0;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,23 @@
+// What a detector's errors do to the motion that it drives: the scene is simulated again with this
+// detector in the loop, and the oracle judges the frames of that very motion.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "core/detect/detector.h"
+#include "reference/compare/simulation_result.h"
+#include "reference/run/shared_progress.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+
+/// `make` gives a fresh detector: one drives, another is judged on the frames.
+/// A motion that diverges is a result (ClosedLoop::error). What the detector throws passes through.
+/// @pre scene.simulation has a value; the detector can drive (see why_no_driver)
+ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
+                           const std::function<std::unique_ptr<Detector>()>& make,
+                           ProgressWriter& progress);
+
+}  // namespace contactcheck

@@ -1,0 +1,108 @@
+#include "reference/run/lockstep.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "reference/run/float_environment.h"
+#include "reference/run/printable.h"
+#include "reference/run/timing.h"
+#include "reference/simulate/driven_simulation.h"
+
+namespace contactcheck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double, std::milli>(to - from).count();
+}
+
+// Before `wanted` steps, spread evenly over the motion.
+std::vector<SimulationState> record_states(const Scene& scene, Detector& driver, std::size_t wanted,
+                                           ProgressWriter& progress) {
+  const std::size_t steps = scene.frames * scene.simulation->every;
+  const std::size_t count = std::min(wanted, steps);
+  DrivenSimulation driven(scene, driver);
+  std::vector<SimulationState> states;
+  for (std::size_t step = 0; step < steps && states.size() < count; ++step) {
+    progress.enter(SharedProgress::kNoDetector, step, Phase::kTruth);
+    if (step == (2 * states.size() + 1) * steps / (2 * count))
+      states.push_back(driven.simulation().state());
+    driven.step();
+  }
+  return states;
+}
+
+void run_step(const SimulationState& from, DrivenSimulation& driven, StepSum& sum) {
+  driven.simulation().restore(from);
+  const auto start = Clock::now();
+  driven.deform();
+  const auto deformed = Clock::now();
+  driven.update_cells();
+  const auto updated = Clock::now();
+  driven.test();
+  const auto tested = Clock::now();
+  driven.respond();
+  const auto answered = Clock::now();
+  sum.mss += milliseconds(start, deformed);
+  sum.cell += milliseconds(deformed, updated);
+  sum.test += milliseconds(updated, tested);
+  sum.response += milliseconds(tested, answered);
+}
+
+/// An entry with its simulation; an entry that throws takes no further part.
+struct Runner {
+  LockstepEntry* entry = nullptr;
+  std::unique_ptr<DrivenSimulation> driven;
+
+  template <typename Work>
+  void guarded(const Work& work) {
+    if (!entry->error.empty()) return;
+    try {
+      work();
+    } catch (...) {
+      entry->error = "in lockstep: " + current_exception_text();
+      entry->times = {};
+    }
+  }
+};
+
+std::vector<Runner> make_runners(const Scene& scene, std::vector<LockstepEntry>& entries,
+                                 ProgressWriter& progress) {
+  std::vector<Runner> runners;
+  for (LockstepEntry& entry : entries) {
+    progress.enter(entry.position, 0, Phase::kPrepare);
+    Runner& runner = runners.emplace_back(Runner{&entry, nullptr});
+    runner.guarded(
+        [&] { runner.driven = std::make_unique<DrivenSimulation>(scene, *entry.detector); });
+  }
+  return runners;
+}
+
+}  // namespace
+
+void run_lockstep(const Scene& scene, Detector& driver, const LockstepSettings& settings,
+                  std::vector<LockstepEntry>& entries, ProgressWriter& progress) {
+  const std::vector<SimulationState> states =
+      record_states(scene, driver, settings.steps, progress);
+  for (LockstepEntry& entry : entries) {
+    entry.times.steps = states.size();
+    entry.times.sums.resize(settings.repeats);
+  }
+  std::vector<Runner> runners = make_runners(scene, entries, progress);
+  CacheSweep sweep(settings.sweep_bytes);
+  const FloatEnvironmentGuard guard;
+  for (std::size_t repeat = 0; repeat < settings.repeats; ++repeat)
+    for (const SimulationState& state : states)
+      for (std::size_t i = 0; i < runners.size(); ++i) {
+        Runner& runner = runners[(i + repeat) % runners.size()];
+        runner.guarded([&] {
+          progress.enter(runner.entry->position, state.steps, Phase::kQuery);
+          sweep.run();
+          run_step(state, *runner.driven, runner.entry->times.sums[repeat]);
+        });
+        guard.check_and_restore();
+      }
+}
+
+}  // namespace contactcheck

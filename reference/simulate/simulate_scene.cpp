@@ -1,0 +1,63 @@
+#include "reference/simulate/simulate_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/types/check.h"
+#include "reference/simulate/driven_simulation.h"
+
+namespace contactcheck {
+namespace {
+
+double total_mass(const Scene& scene) {
+  const auto& materials = scene.simulation->materials;
+  return std::accumulate(materials.begin(), materials.end(), 0.0,
+                         [](double sum, const auto& m) { return sum + (m ? m->mass : 0.0); });
+}
+
+// Element pairs imply their bodies only once the set is canonical.
+void keep_frame(const DrivenSimulation& driven, SimulatedMotion& motion) {
+  motion.frames.push_back(driven.nodes());
+  motion.reported.push_back(driven.contacts().bodies);
+}
+
+}  // namespace
+
+SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& on_step) {
+  const std::size_t every = scene.simulation->every;
+  DrivenSimulation driven(scene, detector);
+  SimulatedMotion motion;
+  motion.energy.push_back(driven.simulation().energy().total());
+  for (std::size_t step = 0; step < scene.frames * every; ++step) {
+    on_step(step);
+    driven.step();
+    const Energy energy = driven.simulation().energy();
+    motion.energy.push_back(energy.total());
+    motion.highest_kinetic = std::max(motion.highest_kinetic, energy.kinetic);
+    motion.last_speed = std::sqrt(2.0 * energy.kinetic / std::max(total_mass(scene), 1e-300));
+    if ((step + 1) % every == 0) keep_frame(driven, motion);
+  }
+  return motion;
+}
+
+void record_simulation(const DetectorCatalog& catalog, const OnStep& on_step, Scene& scene) {
+  if (!scene.simulation) return;
+  const std::string& driver_name = scene.simulation->driver;
+  const std::string place = "scene \"" + scene.id + "\", driver " + driver_name + ": ";
+  try {
+    const DetectorSpec spec = catalog.parse(driver_name);
+    const std::string& absent_because = catalog.find(spec.id)->absent_because;
+    if (!absent_because.empty()) throw InputError(absent_because);
+    const std::unique_ptr<Detector> driver = catalog.make(spec);
+    scene.recorded = simulate(scene, *driver, on_step).frames;
+  } catch (const InputError& e) {
+    throw InputError(place + e.what());
+  } catch (const RefusedInput& e) {
+    throw InputError(place + e.what());
+  } catch (const Diverged& e) {
+    throw InputError(place + e.what());
+  }
+}
+
+}  // namespace contactcheck

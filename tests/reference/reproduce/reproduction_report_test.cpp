@@ -1,0 +1,159 @@
+#include "reference/reproduce/reproduction_report.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "reference/reproduce/reproduction.h"
+#include "tests/reference/reproduce/sample_run.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Json;
+using test::paper_of_our_methods;
+using test::sample_closed_loop;
+using test::sample_reproduction_results;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string markdown_of(const Json& results) {
+  return reproduction_markdown(reproduce(results, paper_of_our_methods()));
+}
+
+std::string terminal_of(const Json& results) {
+  return reproduction_terminal(reproduce(results, paper_of_our_methods()));
+}
+
+// Bars that part columns: those that are not written with a backslash.
+std::size_t bars(const std::string& line) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '|' && (i == 0 || line[i - 1] != '\\')) ++count;
+  return count;
+}
+
+// Every line of a table has as many columns as its head.
+void expect_tables_whole(const std::string& markdown) {
+  std::istringstream lines(markdown);
+  std::size_t head = 0, tables = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool in_table = !line.empty() && line.front() == '|';
+    if (!in_table) {
+      head = 0;
+      continue;
+    }
+    if (head == 0) {
+      head = bars(line);
+      ++tables;
+    }
+    EXPECT_EQ(bars(line), head) << line;
+    EXPECT_EQ(line.back(), '|') << line;
+  }
+  EXPECT_GE(tables, 3u) << "counts, times and ratios";
+}
+
+TEST(ReproductionMarkdown, BeginsWithTheRunAndItsReadings) {
+  const std::string text = markdown_of(sample_reproduction_results());
+  EXPECT_THAT(text, testing::StartsWith("# The paper's tables beside ours\n"));
+  EXPECT_THAT(text, HasSubstr("- command: `contactcheck reproduce`\n"));
+  EXPECT_THAT(text, HasSubstr("- machine: a cpu, 2 cores, avx2, an os\n- contactcheck 1.2.3\n"));
+  for (const Reading& reading : kReadings)
+    EXPECT_THAT(text, HasSubstr(std::string("- `") + reading.id + "`: " + reading.says + "\n"));
+}
+
+TEST(ReproductionMarkdown, HasTheCountsOfTheScene) {
+  const std::string text = markdown_of(sample_reproduction_results());
+  EXPECT_THAT(text, HasSubstr("## s\n\nScene `paper-s`, 60 frames, 41 with contact.\n\n"
+                              "| count | paper | ours | difference |\n|---|--:|--:|--:|\n"
+                              "| objects | 2 | 2 | +0.00 % |\n| vertices | 20 | 22 | +10.00 % |\n"
+                              "| triangles | 32 | 32 | +0.00 % |\n| cells | 7 | 6 | -14.29 % |\n"));
+}
+
+TEST(ReproductionMarkdown, HasTheTimesOfBothAndWhatWasMissed) {
+  const std::string text = markdown_of(sample_reproduction_results());
+  EXPECT_THAT(text, HasSubstr("| ffd-aabb-sphere | paper, Table 3, box | 10.0 | 1.00 | 40.0 | 4.00 "
+                              "| 60.0 | - | - | - |\n"));
+  EXPECT_THAT(text, HasSubstr("| ffd-aabb-sphere | ours, paper | 1.00 | 2.00 | 6.00 | 1.00 | 10.0 "
+                              "| cell | 3 of 20 | 7 |\n"));
+}
+
+TEST(ReproductionMarkdown, HasTheRatiosWithTheirRanges) {
+  const std::string text = markdown_of(sample_reproduction_results());
+  const std::string row = "| ffd-aabb-sphere | ffd-aabb-sphere2 | ";
+  EXPECT_THAT(text, HasSubstr(row + "paper, Table 3 | 2.00x | 1.500x | - | - |\n"));
+  EXPECT_THAT(text, HasSubstr(row + "ours, safe | 1.50x [1.25, 1.75] | 1.25x [1.12, 1.38] | yes | "
+                                    "0, 0 |\n"));
+  EXPECT_THAT(text, HasSubstr(row + "ours, paper | 3.00x [2.50, 3.50] | 1.67x [1.50, 1.83] | no | "
+                                    "3, 5 |\n"));
+}
+
+TEST(ReproductionMarkdown, HasTheSentencesTheFrameRateAndTheMeans) {
+  const std::string text = markdown_of(sample_reproduction_results());
+  EXPECT_THAT(text, HasSubstr("\n- The collision test of ffd-aabb-sphere takes 1.50 times"));
+  EXPECT_THAT(text, HasSubstr("\n- A whole step gains 1.250 and not 1.500"));
+  EXPECT_THAT(text, HasSubstr("`ffd-aabb-sphere2`: 167 whole steps per second, 3.3 times real "
+                              "time, on one core.\n"));
+  EXPECT_THAT(text, HasSubstr("bounds=safe (1 of the scenes)"));
+  EXPECT_THAT(text, HasSubstr("ours 1.50x, the paper's 2.00x\n"));
+  EXPECT_THAT(text, HasSubstr("ours 1.250x; the paper's totals give 1.500x"));
+}
+
+TEST(ReproductionMarkdown, HasTheClosedLoopInMillimetres) {
+  Json results = sample_reproduction_results();
+  EXPECT_THAT(markdown_of(results), Not(HasSubstr("Closed loop")));
+  results["runs"][1]["closed_loop"] = sample_closed_loop();
+  EXPECT_THAT(markdown_of(results),
+              HasSubstr("| ffd-aabb-sphere2:bounds=safe | 12.3 | 4.50 | - | 0.250 | 0.500 | 3 | "
+                        "body 1, cell 0.50000 |\n"));
+}
+
+TEST(ReproductionMarkdown, TablesStayWholeWithBarsAndWithoutReadings) {
+  Json results = sample_reproduction_results();
+  results["runs"][0]["closed_loop"] = sample_closed_loop();
+  results["runs"][1] = {{"scene", "paper-s"},
+                        {"detector", "ffd-aabb-sphere2:bounds=safe"},
+                        {"status", "error"},
+                        {"message", "a|b"}};
+  results["runs"][2]["closed_loop"] = {{"error", "body \"a|b\"\ndiverged"}};
+  const std::string text = markdown_of(results);
+  expect_tables_whole(text);
+  EXPECT_THAT(text, HasSubstr("| ffd-aabb-sphere | body \"a\\|b\" diverged |"));
+  EXPECT_THAT(text, HasSubstr("| ffd-aabb-sphere2 | ours, safe | - | - | - | - | - | - | - | - |"));
+  EXPECT_THAT(text, Not(HasSubstr("## Means"))) << "there is no reading to take a mean of";
+}
+
+TEST(ReproductionMarkdown, OfNothingIsTheIntroductionAlone) {
+  Json results = sample_reproduction_results();
+  results["scenes"] = Json::array();
+  EXPECT_THAT(markdown_of(results), testing::EndsWith("only ratios compare.\n\n"));
+}
+
+TEST(ReproductionTerminal, HasTwoLinesPerScene) {
+  EXPECT_EQ(terminal_of(sample_reproduction_results()),
+            "  scene      two levels over one        paper               ours, safe              "
+            "ours, paper  same contacts at safe\n"
+            "  s          collision test            2.000x       1.50x [1.25, 1.75]       3.00x "
+            "[2.50, 3.50]  yes\n"
+            "  s          frames per second         1.500x       1.25x [1.12, 1.38]       1.67x "
+            "[1.50, 1.83]  yes\n");
+}
+
+TEST(ReproductionTerminal, SaysNoWhereContactsDiffer) {
+  Json results = sample_reproduction_results();
+  results["runs"][1]["contact_hash"] = "0xd";
+  EXPECT_THAT(terminal_of(results), testing::EndsWith("  no\n"));
+}
+
+TEST(ReproductionTerminal, MissingReadingIsADashAndAMissingHeadlineNoLine) {
+  Json results = sample_reproduction_results();
+  results["runs"].erase(3);
+  EXPECT_THAT(terminal_of(results), HasSubstr("1.50x [1.25, 1.75]                        -  yes"));
+  results["runs"].erase(1);
+  const std::string text = terminal_of(results);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/deform/atomic_file.h"
+#include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/reproduce/paper_arithmetic.h"
@@ -17,6 +18,20 @@ namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// The paper has nothing to say of other scenes, nor of these at full resolution.
+void check_targets(const std::vector<std::string>& targets, const PaperTables& tables) {
+  std::string allowed = "paper";
+  for (const PaperScene& scene : tables.scenes) allowed += ", " + scene_of_paper(scene.id);
+  for (const std::string& target : targets) {
+    const bool known = target == "paper" || std::any_of(tables.scenes.begin(), tables.scenes.end(),
+                                                        [&](const PaperScene& s) {
+                                                          return target == scene_of_paper(s.id);
+                                                        });
+    if (!known)
+      throw InputError("\"" + target + "\" is no scene of the paper; allowed: " + allowed);
+  }
+}
 
 void print(const std::filesystem::path& out, const Json& reproduction, bool quiet) {
   if (!quiet) {
@@ -39,6 +54,7 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   if (arguments.detectors.empty())
     arguments.detectors = load_suite(find_target("paper", fixtures_directory()).file).detectors;
   if (arguments.targets.empty()) arguments.targets = {"paper"};
+  check_targets(arguments.targets, tables);
   arguments.closed_loop = true;
   SuiteOutcome outcome;
   const Json results = run_and_report(arguments, catalog, &outcome);

@@ -67,7 +67,9 @@ TEST_F(BadInput, UnknownSubcommand) {
 TEST_F(BadInput, UnknownScene) { expect_run_refused({"rabbit-hole"}, {"\"rabbit-hole\""}); }
 
 TEST_F(BadInput, ReproduceOfAnUnknownScene) {
-  expect_reproduce_refused({"paper-rabbit-hole"}, {"\"paper-rabbit-hole\""});
+  expect_reproduce_refused({"paper-rabbit-hole"}, {"\"paper-rabbit-hole\"", "paper-teapot"});
+  expect_reproduce_refused({"bunny-touch"}, {"\"bunny-touch\" is no scene of the paper"});
+  expect_reproduce_refused({"paper-rabbit-full"}, {"paper-rabbit-full"});
 }
 
 TEST_F(BadInput, ReproduceOfNothing) {

@@ -96,7 +96,7 @@ TEST(FramesWithinBudget, FitsWholeFrames) {
 TEST(FramesWithinBudget, NeverMoreThanThereAre) {
   EXPECT_EQ(frames_within_budget(1.0, 1e-6, 5, 4, 60), 60u);
   EXPECT_EQ(frames_within_budget(1.0, 0.0, 5, 4, 60), 60u);
-  EXPECT_EQ(frames_within_budget(1.0, 100.0, 5, 4, 3), 3u);
+  EXPECT_EQ(frames_within_budget(1.0, 0.5, 5, 4, 3), 3u);
 }
 
 TEST(FramesWithinBudget, NeverFewerThanTheFewest) {

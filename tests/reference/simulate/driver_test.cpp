@@ -80,9 +80,10 @@ TEST(Driver, ThatTestsCellsKeepsTheBallFartherFromTheSlab) {
   const Scene scene = test::ball_on_slab(60);  // 1 s
   const SimulatedMotion cells = driven(scene, "ffd-grid");
   const SimulatedMotion triangles = driven(scene, "ffd-aabb-sphere2+tri");
-  // Both lie on it; they may roll on their facets, so that height alone is compared.
+  // Both lie on it; they may roll on their facets, so that height alone is compared. In the sixth
+  // of a second since frame 49 a free fall would be 136 mm.
   for (const SimulatedMotion* motion : {&cells, &triangles})
-    EXPECT_NEAR(last_height(*motion), height_at(*motion, 49), 0.002);
+    EXPECT_NEAR(last_height(*motion), height_at(*motion, 49), 0.004);
   // The lattices reach 2 % of the sides beyond the meshes: 4 mm of the ball and 2 mm of the slab.
   EXPECT_GT(last_height(cells), last_height(triangles) + 0.004);
   EXPECT_TRUE(test::same_bits({{scene.nodes_at(0.0)[1]}}, {{cells.frames.back()[1]}}));

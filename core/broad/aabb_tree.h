@@ -83,13 +83,10 @@ class AabbTrees {
 
 template <typename Visit>
 void AabbTrees::visit_candidates(Visit&& visit) {
-  visited_ = 0;
-  for (std::uint32_t a = 0; a < trees_.size(); ++a)
-    for (std::uint32_t b = a + 1; b < trees_.size(); ++b)
-      traverse_pairs(trees_[a], trees_[b], stack_, visited_,
-                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-                       return visit_leaves({a, b}, leaf_a, leaf_b, visit);
-                     });
+  traverse_bodies(trees_, stack_, visited_,
+                  [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                    return visit_leaves(bodies, leaf_a, leaf_b, visit);
+                  });
 }
 
 template <typename Visit>

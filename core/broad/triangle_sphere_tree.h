@@ -96,10 +96,6 @@ class TriangleSphereTrees {
   const TriangleSphereTree& tree(std::size_t body) const { return trees_[body]; }
 
  private:
-  template <typename Visit>
-  bool visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
-                    Visit& visit) const;
-
   std::uint32_t leaf_size_;
   std::vector<TriangleSphereTree> trees_;
   std::vector<NodePair> stack_;
@@ -108,24 +104,11 @@ class TriangleSphereTrees {
 
 template <typename Visit>
 void TriangleSphereTrees::visit_candidates(Visit&& visit) {
-  visited_ = 0;
-  for (std::uint32_t a = 0; a < trees_.size(); ++a)
-    for (std::uint32_t b = a + 1; b < trees_.size(); ++b)
-      traverse_pairs(trees_[a], trees_[b], stack_, visited_,
-                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-                       return visit_leaves({a, b}, leaf_a, leaf_b, visit);
-                     });
-}
-
-template <typename Visit>
-bool TriangleSphereTrees::visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
-                                       Visit& visit) const {
-  const TriangleTree &a = trees_[bodies.a].tree(), &b = trees_[bodies.b].tree();
-  const TriangleTree::Node node_a = a.nodes[leaf_a], node_b = b.nodes[leaf_b];
-  for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
-    for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
-      if (visit(ElementPair{bodies.a, bodies.b, a.ids[i], b.ids[j]})) return true;
-  return false;
+  traverse_bodies(trees_, stack_, visited_,
+                  [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                    return visit_leaf_pairs(bodies, trees_[bodies.a].tree(), leaf_a,
+                                            trees_[bodies.b].tree(), leaf_b, visit);
+                  });
 }
 
 }  // namespace contactcheck

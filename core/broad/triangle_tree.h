@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/types/contact_set.h"
 #include "core/types/mesh.h"
 
 namespace contactcheck {
@@ -76,6 +77,32 @@ void traverse_pairs(const Volumes& a, const Volumes& b, std::vector<NodePair>& s
       push(pair.a, node_b.first + 1);
     }
   }
+}
+
+/// traverse_pairs() of every two bodies, one tree of volumes each: calls `leaves(BodyPair, leaf of
+/// a, leaf of b)`; true: the rest of these two bodies is skipped. Sets `visited` anew.
+template <typename Volumes, typename Leaves>
+void traverse_bodies(const std::vector<Volumes>& trees, std::vector<NodePair>& stack,
+                     std::uint64_t& visited, Leaves&& leaves) {
+  visited = 0;
+  for (std::uint32_t a = 0; a < trees.size(); ++a)
+    for (std::uint32_t b = a + 1; b < trees.size(); ++b)
+      traverse_pairs(trees[a], trees[b], stack, visited,
+                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                       return leaves(BodyPair{a, b}, leaf_a, leaf_b);
+                     });
+}
+
+/// Calls `visit(ElementPair)` for every triangle of one leaf with every one of another, until it
+/// returns true; says whether it did.
+template <typename Visit>
+bool visit_leaf_pairs(BodyPair bodies, const TriangleTree& a, std::uint32_t leaf_a,
+                      const TriangleTree& b, std::uint32_t leaf_b, Visit&& visit) {
+  const TriangleTree::Node node_a = a.nodes[leaf_a], node_b = b.nodes[leaf_b];
+  for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
+    for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
+      if (visit(ElementPair{bodies.a, bodies.b, a.ids[i], b.ids[j]})) return true;
+  return false;
 }
 
 }  // namespace contactcheck

@@ -40,13 +40,10 @@ void BdTreeDetector::update(const Frame& frame) {
 
 template <typename Visit>
 void BdTreeDetector::visit_leaves(Visit&& visit) {
-  visited_ = 0;
-  for (std::uint32_t a = 0; a < trees_.size(); ++a)
-    for (std::uint32_t b = a + 1; b < trees_.size(); ++b)
-      traverse_pairs(trees_[a], trees_[b], stack_, visited_,
-                     [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-                       return visit(Leaves{a, b, leaf_a, leaf_b});
-                     });
+  traverse_bodies(trees_, stack_, visited_,
+                  [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                    return visit(Leaves{bodies.a, bodies.b, leaf_a, leaf_b});
+                  });
 }
 
 // Calls `found(ElementPair)` for every intersecting pair of triangles until it returns true.
@@ -106,12 +103,12 @@ StageRecord BdTreeDetector::trace_spheres() {
     before += count;
   }
   visit_leaves([&](const Leaves& leaves) {
-    const TriangleTree &a = trees_[leaves.body_a].tree(), &b = trees_[leaves.body_b].tree();
-    const TriangleTree::Node node_a = a.nodes[leaves.leaf_a], node_b = b.nodes[leaves.leaf_b];
-    for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
-      for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
-        record.elements.push_back({leaves.body_a, leaves.body_b, a.ids[i], b.ids[j]});
-    return false;
+    return visit_leaf_pairs({leaves.body_a, leaves.body_b}, trees_[leaves.body_a].tree(),
+                            leaves.leaf_a, trees_[leaves.body_b].tree(), leaves.leaf_b,
+                            [&](const ElementPair& pair) {
+                              record.elements.push_back(pair);
+                              return false;
+                            });
   });
   record.visited = visited_;
   record.visited_unit = "sphere pairs";

@@ -62,27 +62,26 @@ void Simulation::choose_substeps(std::size_t body) {
 
 void Simulation::advance() {
   const double dt = settings_.time_step / substeps_;
+  std::vector<ResponseBody> movers = response_bodies();
   for (std::uint32_t i = 0; i < substeps_; ++i) {
-    for_bodies(settings_.threads, bodies_.size(), [&](std::size_t b) { advance_body(b, dt); });
-    if (state_.held.empty()) continue;
-    std::vector<ResponseBody> movers = response_bodies();
-    state_.held.stop_approach(movers);
+    for_bodies(settings_.threads, bodies_.size(),
+               [&](std::size_t b) { advance_body(b, dt, movers[b]); });
+    if (!state_.held.empty()) state_.held.stop_approach(movers);
   }
   ++state_.steps;
   check_state();
 }
 
-void Simulation::advance_body(std::size_t body, double dt) {
+void Simulation::advance_body(std::size_t body, double dt, ResponseBody& mover) {
   if (!deformables_[body]) return;
   deformables_[body]->step(dt, settings_.gravity, state_.bodies[body]);
-  if (settings_.ground) answer_ground(body);
+  if (settings_.ground) answer_ground(body, mover);
 }
 
-void Simulation::answer_ground(std::size_t body) {
+void Simulation::answer_ground(std::size_t body, ResponseBody& mover) {
   const BodyShape& shape = *bodies_[body].shape;
   const std::vector<std::uint32_t> below =
       vertices_in_ground(shape, state_.bodies[body].positions, *settings_.ground);
-  ResponseBody mover = response_body(body);
   if (!below.empty()) respond_to_ground(shape, below, *settings_.ground, settings_.response, mover);
 }
 

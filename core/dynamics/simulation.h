@@ -72,8 +72,8 @@ class Simulation {
 
  private:
   void choose_substeps(std::size_t body);
-  void advance_body(std::size_t body, double dt);
-  void answer_ground(std::size_t body);
+  void advance_body(std::size_t body, double dt, ResponseBody& mover);
+  void answer_ground(std::size_t body, ResponseBody& mover);
   ResponseBody response_body(std::size_t body);
   std::vector<ResponseBody> response_bodies();
   void check_state() const;

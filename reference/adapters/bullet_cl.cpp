@@ -7,10 +7,8 @@
 // - There is no early-out.
 #include "reference/adapters/bullet_cl.h"
 
-#include "core/types/check.h"
 #include "reference/adapters/bullet_clusters.h"
-#include "reference/adapters/bullet_scale.h"
-#include "reference/adapters/bullet_soft_body.h"
+#include "reference/adapters/bullet_soft_detector.h"
 
 namespace contactcheck {
 namespace {
@@ -27,47 +25,14 @@ Semantics cl_semantics() {
   return semantics;
 }
 
-class ClusterDetector final : public Detector {
+class ClusterDetector final : public BulletSoftDetector {
  public:
   ClusterDetector(int clusters, double margin, double scale)
-      : clusters_(clusters), margin_(margin), scale_option_(scale), semantics_(cl_semantics()) {
-    set_scale(scale > 0.0 ? scale : 1.0);
-  }
-
-  const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return true; }
-
-  void prepare(const std::vector<Body>& bodies) override {
-    set_scale(scale_option_ > 0.0 ? scale_option_ : automatic_bullet_scale(bodies));
-    bodies_.clear();
-    const SoftBodySettings settings{semantics_.scale, fed_value(margin_, semantics_.scale),
-                                    btSoftBody::fCollision::CL_SS};
-    for (const Body& body : bodies) {
-      bodies_.push_back(std::make_unique<SoftBody>(world_, body.shape->mesh, settings));
-      make_clusters(bodies_.back()->bullet(), clusters_);
-    }
-  }
-
-  void update(const Frame& frame) override {
-    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      bodies_[b]->feed(frame.bodies[b].vertices);
-      refit_clusters(bodies_[b]->bullet());
-    }
-  }
-
-  void query(Question question, ContactSet& out) override {
-    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
-        if (!bodies_[a]->boxes_meet(*bodies_[b])) continue;
-        if (collide(bodies_[a]->bullet(), bodies_[b]->bullet())) out.bodies.push_back({a, b});
-      }
-    }
-  }
+      : BulletSoftDetector(cl_semantics(), btSoftBody::fCollision::CL_SS, margin, scale),
+        clusters_(clusters) {}
 
   std::vector<std::string> notes() override {
-    for (const auto& body : bodies_)
+    for (const auto& body : bodies())
       if (body->bullet().m_nodes.size() > kMostNodesForBullet)
         return {
             "Bullet cannot divide a body of more than 71888 vertices into clusters: they are made "
@@ -76,12 +41,13 @@ class ClusterDetector final : public Detector {
   }
 
  private:
-  void set_scale(double scale) {
-    semantics_.scale = scale;
-    semantics_.margin = sum_of_margins(margin_, scale);
+  void prepare_body(SoftBody& body) override { make_clusters(body.bullet(), clusters_); }
+  void refit(SoftBody& body) override { refit_clusters(body.bullet()); }
+  void collide(std::uint32_t a, std::uint32_t b, Question, ContactSet& out) override {
+    if (clusters_meet(bodies()[a]->bullet(), bodies()[b]->bullet())) out.bodies.push_back({a, b});
   }
 
-  static bool collide(btSoftBody& a, btSoftBody& b) {
+  static bool clusters_meet(btSoftBody& a, btSoftBody& b) {
     a.defaultCollisionHandler(&b);
     const bool contact = a.m_joints.size() > 0;
     for (int j = 0; j < a.m_joints.size(); ++j) btAlignedFree(a.m_joints[j]);
@@ -90,11 +56,6 @@ class ClusterDetector final : public Detector {
   }
 
   int clusters_;
-  double margin_;        // of one body, metres
-  double scale_option_;  // 0: from the scene
-  Semantics semantics_;
-  SoftBodyWorld world_;
-  std::vector<std::unique_ptr<SoftBody>> bodies_;
 };
 
 }  // namespace

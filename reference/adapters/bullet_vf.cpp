@@ -11,9 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/types/check.h"
-#include "reference/adapters/bullet_scale.h"
-#include "reference/adapters/bullet_soft_body.h"
+#include "reference/adapters/bullet_soft_detector.h"
 
 namespace contactcheck {
 namespace {
@@ -32,66 +30,33 @@ Semantics vf_semantics() {
   return semantics;
 }
 
-class VertexFaceDetector final : public Detector {
+class VertexFaceDetector final : public BulletSoftDetector {
  public:
   VertexFaceDetector(double margin, double scale)
-      : margin_(margin), scale_option_(scale), semantics_(vf_semantics()) {
-    set_scale(scale > 0.0 ? scale : 1.0);
-  }
-
-  const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return true; }
-
-  void prepare(const std::vector<Body>& bodies) override {
-    set_scale(scale_option_ > 0.0 ? scale_option_ : automatic_bullet_scale(bodies));
-    bodies_.clear();
-    const SoftBodySettings settings{semantics_.scale, fed_value(margin_, semantics_.scale),
-                                    btSoftBody::fCollision::VF_SS};
-    for (const Body& body : bodies) {
-      bodies_.push_back(std::make_unique<SoftBody>(world_, body.shape->mesh, settings));
-      bodies_.back()->build_trees();
-    }
-  }
-
-  void update(const Frame& frame) override {
-    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      bodies_[b]->feed(frame.bodies[b].vertices);
-      bodies_[b]->refit_trees();
-    }
-  }
-
-  void query(Question question, ContactSet& out) override {
-    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
-        if (!bodies_[a]->boxes_meet(*bodies_[b])) continue;
-        const bool contact = collide(bodies_[a]->bullet(), bodies_[b]->bullet());
-        if (question == Question::kBody) {
-          if (contact) out.bodies.push_back({a, b});
-          continue;
-        }
-        append_contacts(a, b, out);
-        append_contacts(b, a, out);
-      }
-    }
-  }
+      : BulletSoftDetector(vf_semantics(), btSoftBody::fCollision::VF_SS, margin, scale) {}
 
   // No trace(): a stage "visible" would have to list every pair of visible triangles.
 
   std::vector<std::string> notes() override {
-    for (const auto& body : bodies_)
-      if (body->has_invisible_triangle()) return {invisible_triangles_note(semantics_.scale)};
+    for (const auto& body : bodies())
+      if (body->has_invisible_triangle()) return {invisible_triangles_note(scale())};
     return {};
   }
 
  private:
-  void set_scale(double scale) {
-    semantics_.scale = scale;
-    semantics_.margin = sum_of_margins(margin_, scale);
+  void prepare_body(SoftBody& body) override { body.build_trees(); }
+  void refit(SoftBody& body) override { body.refit_trees(); }
+  void collide(std::uint32_t a, std::uint32_t b, Question question, ContactSet& out) override {
+    const bool contact = find_contacts(bodies()[a]->bullet(), bodies()[b]->bullet());
+    if (question == Question::kBody) {
+      if (contact) out.bodies.push_back({a, b});
+      return;
+    }
+    append_contacts(a, b, out);
+    append_contacts(b, a, out);
   }
 
-  static bool collide(btSoftBody& a, btSoftBody& b) {
+  static bool find_contacts(btSoftBody& a, btSoftBody& b) {
     a.m_scontacts.resize(0);
     b.m_scontacts.resize(0);
     a.defaultCollisionHandler(&b);
@@ -100,11 +65,12 @@ class VertexFaceDetector final : public Detector {
 
   /// Vertices of `body` near faces of `other`.
   void append_contacts(std::uint32_t body, std::uint32_t other, ContactSet& out) {
-    const auto& contacts = bodies_[body]->bullet().m_scontacts;
+    const auto& contacts = bodies()[body]->bullet().m_scontacts;
     for (int i = 0; i < contacts.size(); ++i) {
       const btSoftBody::SContact& contact = contacts[i];
-      const VertexInBody where{body, other, bodies_[body]->vertex_of(*contact.m_node)};
-      out.near.push_back({body, other, where.vertex, bodies_[other]->triangle_of(*contact.m_face)});
+      const VertexInBody where{body, other, bodies()[body]->vertex_of(*contact.m_node)};
+      out.near.push_back(
+          {body, other, where.vertex, bodies()[other]->triangle_of(*contact.m_face)});
       out.vertices.push_back(where);
       append_depth(where, contact, out);
     }
@@ -119,15 +85,9 @@ class VertexFaceDetector final : public Detector {
     for (int corner = 0; corner < 3; ++corner)
       point +=
           static_cast<double>(contact.m_weights[corner]) * wide(contact.m_face->m_n[corner]->m_x);
-    const double depth = normal.dot(wide(contact.m_node->m_x) - point) / semantics_.scale;
+    const double depth = normal.dot(wide(contact.m_node->m_x) - point) / scale();
     out.vertex_contacts.push_back({where, std::max(depth, 0.0), normal.normalized()});
   }
-
-  double margin_;        // of one body, metres
-  double scale_option_;  // 0: from the scene
-  Semantics semantics_;
-  SoftBodyWorld world_;
-  std::vector<std::unique_ptr<SoftBody>> bodies_;
 };
 
 }  // namespace

@@ -3,15 +3,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "reference/compare/nullable.h"
+
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json nullable(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json to_json(const LevelCounts& c) {
   return {{"truth", c.truth},
@@ -79,7 +76,6 @@ Json episode_json(const Episode& e) {
           {"late_frames", nullable(e.late_frames)}};
 }
 
-// A quantity that was not measured is null, never 0.
 Json geometry_json(const RunResult& run) {
   Json episodes = Json::array();
   for (const Episode& e : run.episodes) episodes.push_back(episode_json(e));

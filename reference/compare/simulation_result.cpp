@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reference/compare/nullable.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
 
@@ -9,8 +10,6 @@ namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json nullable(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 double median_of(const StepTimes& times, double StepSum::*part) {
   std::vector<double> values;

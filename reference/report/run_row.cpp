@@ -9,11 +9,6 @@ namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-Json at_or_null(const Json& j, const char* key) {
-  const auto it = j.find(key);
-  return it == j.end() ? Json(nullptr) : *it;
-}
-
 // "missed/spurious" of the level body, where it is judged.
 std::string body_errors(const Json& run) {
   const Json body = at_or_null(run.at("levels"), "body");
@@ -81,6 +76,11 @@ std::vector<std::string> result_cells(const Json& run) {
           speed_cell(run, "fcl-aabb"),
           speed_cell(run, "fcl-obbrss"),
           speed_cell(run, "embree")};
+}
+
+nlohmann::ordered_json at_or_null(const Json& j, const char* key) {
+  const auto it = j.find(key);
+  return it == j.end() ? Json(nullptr) : *it;
 }
 
 nlohmann::ordered_json find_run(const Json& results, const std::string& scene,

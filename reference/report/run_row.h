@@ -20,6 +20,8 @@ const std::vector<Column>& result_columns();
 /// The cells of one run, one per column. Runs that are not `ok` show their status and message.
 std::vector<std::string> result_cells(const nlohmann::ordered_json& run);
 
+/// A member of an object, or null: results of older versions lack what was not measured then.
+nlohmann::ordered_json at_or_null(const nlohmann::ordered_json& j, const char* key);
 /// The run of a detector on a scene when it is `ok`, else null.
 nlohmann::ordered_json find_run(const nlohmann::ordered_json& results, const std::string& scene,
                                 const std::string& detector);

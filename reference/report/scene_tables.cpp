@@ -9,12 +9,6 @@ namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// Results of older versions lack what was not measured then.
-Json at_or_null(const Json& j, const char* key) {
-  const auto it = j.find(key);
-  return it == j.end() ? Json(nullptr) : *it;
-}
-
 bool is_ok(const Json& run) { return run.at("status") == "ok"; }
 std::string detector_of(const Json& run) { return run.at("detector").get<std::string>(); }
 

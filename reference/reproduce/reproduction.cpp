@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "reference/report/run_row.h"
+
 namespace contactcheck {
 namespace {
 
@@ -16,16 +18,8 @@ using Json = nlohmann::ordered_json;
 struct Comparison {
   const char *before, *after;
 };
-constexpr const char* kTraditional = "ffd-grid";
 constexpr std::array<Comparison, 2> kComparisons = {Comparison{kMethods[0], kMethods[1]},
                                                     Comparison{kMethods[1], kMethods[2]}};
-
-const Json* run_of(const Json& results, const std::string& scene, const std::string& detector) {
-  for (const Json& run : results.at("runs"))
-    if (run.at("scene") == scene && run.at("detector") == detector && run.at("status") == "ok")
-      return &run;
-  return nullptr;
-}
 
 const Json* scene_entry(const Json& results, const std::string& id) {
   for (const Json& scene : results.at("scenes"))
@@ -81,16 +75,16 @@ Json our_times(const Json& run) {
   return out;
 }
 
-bool timed(const Json* run) { return run != nullptr && run->contains("step_ms"); }
+bool timed(const Json& run) { return run.contains("step_ms"); }
 
 Json steps_of(const Json& results, const PaperTables& tables, const std::string& paper_scene) {
   Json out = Json::array();
   for (const char* method : kMethods) {
     Json row = {{"method", method}, {"paper_reports", paper_times(tables, paper_scene, method)}};
     for (const Reading& reading : kReadings) {
-      const Json* run =
-          run_of(results, scene_of_paper(paper_scene), method + std::string(reading.suffix));
-      row[reading.id] = timed(run) ? our_times(*run) : Json(nullptr);
+      const Json run =
+          find_run(results, scene_of_paper(paper_scene), method + std::string(reading.suffix));
+      row[reading.id] = timed(run) ? our_times(run) : Json(nullptr);
     }
     out.push_back(std::move(row));
   }
@@ -148,11 +142,11 @@ Json ratios_of(const Json& results, const PaperTables& tables, const std::string
     Json row = {
         {"before", c.before}, {"after", c.after}, {"paper_reports", paper_ratio(tables, scene, c)}};
     for (const Reading& reading : kReadings) {
-      const Json* before =
-          run_of(results, scene_of_paper(scene), c.before + std::string(reading.suffix));
-      const Json* after =
-          run_of(results, scene_of_paper(scene), c.after + std::string(reading.suffix));
-      row[reading.id] = timed(before) && timed(after) ? our_ratio(*before, *after) : Json(nullptr);
+      const Json before =
+          find_run(results, scene_of_paper(scene), c.before + std::string(reading.suffix));
+      const Json after =
+          find_run(results, scene_of_paper(scene), c.after + std::string(reading.suffix));
+      row[reading.id] = timed(before) && timed(after) ? our_ratio(before, after) : Json(nullptr);
     }
     out.push_back(std::move(row));
   }
@@ -161,9 +155,9 @@ Json ratios_of(const Json& results, const PaperTables& tables, const std::string
 
 // The paper's proposal, as it is written: how many whole steps fit into the time they simulate.
 Json frame_rate_of(const Json& results, const Json& scene, const std::string& paper_scene) {
-  const Json* run = run_of(results, scene_of_paper(paper_scene), kMethods[2]);
+  const Json run = find_run(results, scene_of_paper(paper_scene), kMethods[2]);
   if (!timed(run) || !scene.contains("simulation")) return nullptr;
-  const double step_ms = run->at("step_ms").at("total").get<double>();
+  const double step_ms = run.at("step_ms").at("total").get<double>();
   const double simulated_ms = 1e3 * scene.at("simulation").at("step").get<double>();
   return {{"detector", kMethods[2]},
           {"steps_per_second", 1e3 / step_ms},

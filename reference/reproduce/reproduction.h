@@ -27,6 +27,9 @@ inline constexpr std::array<Reading, 3> kReadings = {
 inline constexpr std::array<const char*, 4> kMethods = {"ffd-aabb", "ffd-aabb-sphere",
                                                         "ffd-aabb-sphere2", "ffd-aabb-sphereN"};
 
+/// What the paper's methods are to be tighter than: the cells themselves collide.
+inline constexpr const char* kTraditional = "ffd-grid";
+
 /// The scene of fixtures/scenes that stands for a scene of the paper: "paper-" and its id.
 std::string scene_of_paper(const std::string& id);
 

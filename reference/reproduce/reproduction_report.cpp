@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -17,10 +16,11 @@ using Json = nlohmann::ordered_json;
 
 std::string text(const Json& value) { return value.get<std::string>(); }
 
-std::string head(const std::vector<std::string>& titles) {
-  std::string rule = "|---|";
-  for (std::size_t i = 1; i < titles.size(); ++i) rule += "--:|";
-  return table_line(titles) + rule + "\n";
+// Names at the left, figures at the right.
+std::string head(const std::vector<const char*>& titles) {
+  std::vector<Column> columns;
+  for (const char* title : titles) columns.push_back({title, columns.empty(), ""});
+  return table_head(columns);
 }
 
 std::string counts_table(const Json& counts) {
@@ -130,12 +130,10 @@ std::string frame_rate_line(const Json& rate) {
 
 std::string hover_line(const Json& hover) {
   if (hover.is_null()) return "";
-  // The document names the two detectors; the first is the traditional one.
-  const auto traditional = hover.begin(), proposal = std::next(traditional);
   std::string out =
-      fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm",
-                  proposal.key(), format_millimetres(proposal.value()), traditional.key(),
-                  format_millimetres(traditional.value()));
+      fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm", kMethods[2],
+                  format_millimetres(hover.at(kMethods[2])), kTraditional,
+                  format_millimetres(hover.at(kTraditional)));
   if (!hover.at("factor").is_null())
     out += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
   return out + ".\n\n";
@@ -152,7 +150,8 @@ std::string scene_section(const Json& scene) {
   out += ratios_table(scene.at("ratios"));
   for (const Json& sentence : scene.at("sentences")) out += "- " + text(sentence) + "\n";
   out += scene.at("sentences").empty() ? "" : "\n";
-  return out + frame_rate_line(scene.at("frame_rate")) + closed_loop_table(scene.at("closed_loop"));
+  return out + frame_rate_line(scene.at("frame_rate")) + hover_line(scene.at("hover_at_rest")) +
+         closed_loop_table(scene.at("closed_loop"));
 }
 
 std::string means_section(const Json& means) {

@@ -190,10 +190,14 @@ class Worker {
   void take_step_times(const LockstepEntry& timed, Entry& entry) const {
     if (timed.error.empty()) {
       entry.step_times = timed.times;
-      return;
+    } else {
+      book_error(timed.error, entry);
     }
+  }
+
+  void book_error(const std::string& what, Entry& entry) const {
     entry.result.status = RunStatus::kError;
-    entry.result.message = "scene " + scene_.id + ", " + timed.error;
+    entry.result.message = "scene " + scene_.id + ", " + what;
   }
 
   // A process that only times: no judging.
@@ -256,8 +260,7 @@ class Worker {
       entry.samples.push_back(std::move(timed.samples));
       return;
     }
-    entry.result.status = RunStatus::kError;
-    entry.result.message = "scene " + scene_.id + ", " + timed.error;
+    book_error(timed.error, entry);
     entry.samples.clear();
   }
 

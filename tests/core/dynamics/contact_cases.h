@@ -4,11 +4,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
 #include "core/dynamics/contact_point.h"
+#include "core/dynamics/deformable.h"
 #include "core/narrow/triangle_triangle.h"
+#include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::test {
@@ -18,6 +21,27 @@ inline Vec3 blended(const NodeBlend& blend, std::span<const Vec3> nodes) {
   for (std::size_t i = 0; i < blend.nodes.size(); ++i)
     out += blend.weights[i] * nodes[blend.nodes[i]];
   return out;
+}
+
+inline bool same_bits(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
+  return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(Vec3)) == 0;
+}
+
+inline bool same_bits(const NodeState& x, const NodeState& y) {
+  return same_bits(x.positions, y.positions) && same_bits(x.velocities, y.velocities);
+}
+
+/// Of the first `nodes` nodes, with weights that are not negative and sum to 1.
+inline NodeBlend random_blend(TriangleSource& random, std::uint32_t nodes) {
+  NodeBlend blend;
+  double sum = 0.0;
+  for (std::uint32_t n = 0; n < nodes; ++n) {
+    blend.nodes.push_back(n);
+    blend.weights.push_back(std::abs(random.unit()));
+    sum += blend.weights.back();
+  }
+  for (double& weight : blend.weights) weight /= sum;
+  return blend;
 }
 
 inline double weight_sum(const NodeBlend& blend) {

@@ -4,13 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "tests/core/dynamics/contact_cases.h"
 #include "tests/support/random_triangles.h"
 
 namespace contactcheck {
 namespace {
+
+using test::random_blend;
+using test::same_bits;
 
 // Two bodies that are clouds of nodes; empty masses: cannot be moved.
 struct Sides {
@@ -60,25 +62,9 @@ Sides two_masses(double mass_a, const Vec3& velocity_a, double mass_b, const Vec
 // Their nodes, parted along x.
 ContactPoint along_x() { return {0, 1, {{0}, {1.0}}, {{0}, {1.0}}, Vec3::UnitX(), 0.0}; }
 
-bool same_bits(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-  return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(Vec3)) == 0;
-}
-
 bool same_velocities(const Sides& x, const Sides& y) {
   return same_bits(x.states[0].velocities, y.states[0].velocities) &&
          same_bits(x.states[1].velocities, y.states[1].velocities);
-}
-
-NodeBlend random_blend(test::TriangleSource& random, std::uint32_t nodes) {
-  NodeBlend blend;
-  double sum = 0.0;
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    blend.nodes.push_back(n);
-    blend.weights.push_back(std::abs(random.unit()));
-    sum += blend.weights.back();
-  }
-  for (double& weight : blend.weights) weight /= sum;
-  return blend;
 }
 
 // Two bodies of eight nodes that come nearer, with masses between 0.1 and 1.9 kg.

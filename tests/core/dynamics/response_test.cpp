@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "tests/core/dynamics/contact_cases.h"
 #include "tests/support/random_triangles.h"
@@ -11,6 +10,9 @@
 
 namespace contactcheck {
 namespace {
+
+using test::random_blend;
+using test::same_bits;
 
 // Bodies that are clouds of nodes; empty masses: cannot be moved.
 struct World {
@@ -60,25 +62,6 @@ World two_masses(double mass_a, const Vec3& velocity_a, double mass_b, const Vec
   world.add({Vec3::Zero()}, {velocity_a}, {mass_a});
   world.add({Vec3::UnitX()}, {velocity_b}, {mass_b});
   return world;
-}
-
-bool same_bits(const NodeState& x, const NodeState& y) {
-  const auto same = [](const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-    return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(Vec3)) == 0;
-  };
-  return same(x.positions, y.positions) && same(x.velocities, y.velocities);
-}
-
-NodeBlend random_blend(test::TriangleSource& random, std::uint32_t nodes) {
-  NodeBlend blend;
-  double sum = 0.0;
-  for (std::uint32_t n = 0; n < nodes; ++n) {
-    blend.nodes.push_back(n);
-    blend.weights.push_back(std::abs(random.unit()));
-    sum += blend.weights.back();
-  }
-  for (double& weight : blend.weights) weight /= sum;
-  return blend;
 }
 
 // Two bodies of eight nodes that meet in `count` points; normals within 45 degrees of x.

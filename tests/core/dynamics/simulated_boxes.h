@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,14 +40,9 @@ inline Material material_of(DeformableModel model) {
 
 inline Material springs() { return material_of(DeformableModel::kMassSpring); }
 
-inline bool same_bits(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-  return p.size() == q.size() && std::memcmp(p.data(), q.data(), p.size() * sizeof(Vec3)) == 0;
-}
-
 inline bool same_bits(const std::vector<NodeState>& p, const std::vector<NodeState>& q) {
   bool same = p.size() == q.size();
-  for (std::size_t b = 0; same && b < p.size(); ++b)
-    same = same_bits(p[b].positions, q[b].positions) && same_bits(p[b].velocities, q[b].velocities);
+  for (std::size_t b = 0; same && b < p.size(); ++b) same = same_bits(p[b], q[b]);
   return same;
 }
 

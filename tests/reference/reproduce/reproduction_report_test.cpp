@@ -100,6 +100,16 @@ TEST(ReproductionMarkdown, HasTheSentencesTheFrameRateAndTheMeans) {
   EXPECT_THAT(text, HasSubstr("ours 1.250x; the paper's totals give 1.500x"));
 }
 
+TEST(ReproductionMarkdown, SaysHowMuchCloserTheProposalRests) {
+  Json reproduction = reproduce(sample_reproduction_results(), paper_of_our_methods());
+  EXPECT_THAT(reproduction_markdown(reproduction), Not(HasSubstr("At rest")));
+  reproduction["scenes"][0]["hover_at_rest"] = {
+      {"ffd-grid", 0.125}, {"ffd-aabb-sphere2", 0.0625}, {"factor", 2.0}};
+  EXPECT_THAT(reproduction_markdown(reproduction),
+              HasSubstr("At rest `ffd-aabb-sphere2` keeps the surfaces 62.5 mm apart on average, "
+                        "`ffd-grid` 125 mm: 2.0 times as far.\n"));
+}
+
 TEST(ReproductionMarkdown, HasTheClosedLoopInMillimetres) {
   Json results = sample_reproduction_results();
   EXPECT_THAT(markdown_of(results), Not(HasSubstr("Closed loop")));

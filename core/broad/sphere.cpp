@@ -15,17 +15,6 @@ constexpr double kTiny = 0x1p-500;
 
 }  // namespace
 
-bool collide_strict(const Sphere& a, const Sphere& b) {
-  return (a.center - b.center).norm() < a.radius + b.radius;
-}
-
-bool collide_safe(const Sphere& a, const Sphere& b) {
-  const double reach = (a.radius + b.radius) * kUp + kTiny;
-  const double distance = (a.center - b.center).norm();
-  // Beyond about 1e154 the squares overflow: nothing is known, nothing is excluded.
-  return !(distance > reach * kUp) || std::isinf(distance);
-}
-
 double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack) {
   double largest = 0.0;
   for (const Vec3& p : points) largest = std::max(largest, (p - center).squaredNorm());

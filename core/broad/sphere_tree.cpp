@@ -83,7 +83,10 @@ SphereTree make_sphere_tree(const Lattice& lattice, std::span<const std::uint32_
   tree.levels[0].push_back(std::move(top));
   for (int level = 1; level < levels; ++level) {
     for (std::uint32_t s = 0; s < tree.levels[level - 1].size(); ++s) {
-      split(lattice, tree.levels[level - 1][s], s, children, tree.levels[level]);
+      SphereNode& parent = tree.levels[level - 1][s];
+      parent.child_begin = static_cast<std::uint32_t>(tree.levels[level].size());
+      split(lattice, parent, s, children, tree.levels[level]);
+      parent.child_end = static_cast<std::uint32_t>(tree.levels[level].size());
     }
   }
   return tree;

@@ -16,6 +16,8 @@ namespace contactcheck {
 struct SphereNode {
   std::uint32_t parent = 0;       ///< index in the level above; 0 at the top
   std::uint32_t center_node = 0;  ///< lattice node that is the centre; unused at the top
+  std::uint32_t child_begin = 0,
+                child_end = 0;  ///< its spheres of the next level; none at the last
   std::vector<std::uint32_t> cells;
 };
 

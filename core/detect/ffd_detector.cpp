@@ -141,7 +141,7 @@ void FfdDetector::trace_spheres(StageTrace& out) {
     record.name = "sphere" + std::to_string(level);
     record.unit = level == 1 ? "body pairs" : "sphere pairs";
     record.in = s.tested;
-    record.out = s.colliding;
+    record.out = s.sphere_pairs.size();
     if (level == 1) {
       record.kind = StageRecord::Kind::kBodies;
       record.bodies = s.body_pairs;

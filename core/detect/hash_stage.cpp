@@ -29,14 +29,14 @@ class ActiveSpheres {
  public:
   ActiveSpheres(const std::vector<Sphere>& spheres, const std::vector<char>& active) {
     for (std::size_t s = 0; s < active.size(); ++s)
-      if (active[s]) spheres_.push_back(spheres[s]);
+      if (active[s]) balls_.push_back({spheres[s].center, spheres[s].radius * spheres[s].radius});
   }
   /// Begins with the sphere that held the last point: neighbouring points share one.
   bool hold(const Vec3& p) {
-    if (spheres_.empty()) return false;
-    if (holds(spheres_[last_], p)) return true;
-    for (std::size_t s = 0; s < spheres_.size(); ++s) {
-      if (!holds(spheres_[s], p)) continue;
+    if (balls_.empty()) return false;
+    if (holds(balls_[last_], p)) return true;
+    for (std::size_t s = 0; s < balls_.size(); ++s) {
+      if (!holds(balls_[s], p)) continue;
       last_ = s;
       return true;
     }
@@ -44,38 +44,27 @@ class ActiveSpheres {
   }
 
  private:
-  static bool holds(const Sphere& sphere, const Vec3& p) {
-    return (p - sphere.center).norm() < sphere.radius;
+  struct Ball {
+    Vec3 center;
+    double radius2;
+  };
+  static bool holds(const Ball& ball, const Vec3& p) {
+    return (p - ball.center).squaredNorm() < ball.radius2;
   }
 
-  std::vector<Sphere> spheres_;
+  std::vector<Ball> balls_;
   std::size_t last_ = 0;
 };
 
-// The parts of space where a body can meet its partners: the common parts of their boxes.
-using Regions = std::vector<std::vector<Aabb>>;
-
-void find_regions(const std::vector<FfdState>& states,
-                  const std::vector<std::vector<char>>& active_cells,
-                  const SphereSurvivors& survivors, Regions& out) {
-  std::vector<Aabb> bounds(states.size());
-  for (std::size_t body = 0; body < states.size(); ++body)
-    for (std::size_t cell = 0; cell < active_cells[body].size(); ++cell)
-      if (active_cells[body][cell]) bounds[body].extend(states[body].cell_box[cell]);
-  out.resize(states.size());
-  for (std::vector<Aabb>& regions : out) regions.clear();
-  for (const BodyPair& pair : survivors.body_pairs) {
-    if (!bounds[pair.a].overlaps(bounds[pair.b])) continue;
-    const Aabb common{bounds[pair.a].lo.cwiseMax(bounds[pair.b].lo),
-                      bounds[pair.a].hi.cwiseMin(bounds[pair.b].hi)};
-    out[pair.a].push_back(common);
-    out[pair.b].push_back(common);
-  }
+// Cells under one finest sphere; without a second level, all cells of the body.
+std::span<const std::uint32_t> cells_of_sphere(const FfdModel& model, const FfdConfig& config,
+                                               std::uint32_t sphere) {
+  if (config.sphere_levels < 2) return model.cells;
+  return model.spheres.levels[config.sphere_levels - 1][sphere].cells;
 }
 
-bool meets_any(const std::vector<Aabb>& regions, const Aabb& box) {
-  return std::any_of(regions.begin(), regions.end(),
-                     [&](const Aabb& region) { return region.overlaps(box); });
+Aabb common_part(const Aabb& a, const Aabb& b) {
+  return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)};
 }
 
 }  // namespace
@@ -184,18 +173,61 @@ std::vector<std::vector<char>> BoxHashStage::active_cells(const std::vector<FfdM
   return active;
 }
 
+// Where the cells under a sphere can meet those under a sphere it collides with: the common part of
+// the bounds of both.
+void BoxHashStage::find_regions(const std::vector<FfdModel>& models,
+                                const std::vector<FfdState>& states, const FfdConfig& config,
+                                const SphereSurvivors& survivors) {
+  groups_.resize(models.size());
+  for (std::uint32_t body = 0; body < models.size(); ++body) {
+    const std::vector<char>& active = survivors.sphere_active[body];
+    groups_[body].resize(active.size());
+    for (std::uint32_t s = 0; s < active.size(); ++s) {
+      Group& group = groups_[body][s];
+      group.regions.clear();
+      group.bounds = group.reach = Aabb{};
+      if (!active[s]) continue;
+      for (std::uint32_t cell : cells_of_sphere(models[body], config, s))
+        group.bounds.extend(states[body].cell_box[cell]);
+    }
+  }
+  for (const SpherePair& pair : survivors.sphere_pairs) {
+    Group &a = groups_[pair.bodies.a][pair.a], &b = groups_[pair.bodies.b][pair.b];
+    if (!a.bounds.overlaps(b.bounds)) continue;
+    const Aabb common = common_part(a.bounds, b.bounds);
+    for (Group* group : {&a, &b}) {
+      group->regions.push_back(common);
+      group->reach.extend(common);
+    }
+  }
+}
+
+bool BoxHashStage::Group::meets(const Aabb& box) const {
+  return reach.overlaps(box) &&
+         std::any_of(regions.begin(), regions.end(),
+                     [&](const Aabb& region) { return region.overlaps(box); });
+}
+
+void BoxHashStage::collect_boxes(const std::vector<FfdModel>& models,
+                                 const std::vector<FfdState>& states, const FfdConfig& config) {
+  boxes_.clear();
+  for (std::uint32_t body = 0; body < models.size(); ++body)
+    for (std::uint32_t s = 0; s < groups_[body].size(); ++s) {
+      const Group& group = groups_[body][s];
+      if (group.regions.empty()) continue;
+      for (std::uint32_t cell : cells_of_sphere(models[body], config, s))
+        if (group.meets(states[body].cell_box[cell]))
+          boxes_.push_back({states[body].cell_box[cell], body, cell});
+    }
+}
+
 void BoxHashStage::run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
                        const FfdConfig& config, const SphereSurvivors& survivors, double cell_size,
                        std::vector<ElementPair>& out) {
   out.clear();
   if (survivors.body_pairs.empty()) return;
-  const auto active = active_cells(models, config, survivors);
-  find_regions(states, active, survivors, regions_);
-  boxes_.clear();
-  for (std::uint32_t body = 0; body < models.size(); ++body)
-    for (std::uint32_t cell : models[body].cells)
-      if (active[body][cell] && meets_any(regions_[body], states[body].cell_box[cell]))
-        boxes_.push_back({states[body].cell_box[cell], body, cell});
+  find_regions(models, states, config, survivors);
+  collect_boxes(models, states, config);
   pairs_.clear();
   BoxPairSettings settings;
   settings.cell_size = cell_size;

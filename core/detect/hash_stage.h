@@ -64,8 +64,9 @@ class ProbeHashStage {
 };
 
 /// Reading `safe`: the AABB of an owner cell goes into every bucket it meets; survivors are all
-/// pairs of owner cells, of colliding finest spheres, whose AABBs overlap. (Owners outside the
-/// common part of their body's bounds with every partner's have no such pair and are not hashed.)
+/// pairs of owner cells, of colliding finest spheres, whose AABBs overlap. (An owner outside the
+/// common parts of its sphere's bounds with those of the spheres that this one collides with has no
+/// such pair and is not hashed.)
 class BoxHashStage {
  public:
   void run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
@@ -76,7 +77,19 @@ class BoxHashStage {
                                                      const SphereSurvivors& survivors);
 
  private:
-  std::vector<std::vector<Aabb>> regions_;  // per body
+  // The cells under one finest sphere, and where they can meet others.
+  struct Group {
+    Aabb bounds;
+    Aabb reach;  // bounds of the regions
+    std::vector<Aabb> regions;
+    bool meets(const Aabb& box) const;
+  };
+  void find_regions(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                    const FfdConfig& config, const SphereSurvivors& survivors);
+  void collect_boxes(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+                     const FfdConfig& config);
+
+  std::vector<std::vector<Group>> groups_;  // per body and finest sphere
   BoxPairFinder finder_;
   std::vector<OwnedBox> boxes_;
   std::vector<BoxPairFinder::Pair> pairs_;

@@ -9,6 +9,12 @@
 
 namespace contactcheck {
 
+/// Two spheres of one level that collide; without spheres 0, 0 for the bodies as wholes.
+struct SpherePair {
+  BodyPair bodies;
+  std::uint32_t a = 0, b = 0;
+};
+
 /// What is left after the sphere levels.
 struct SphereSurvivors {
   std::size_t bodies = 0;
@@ -17,7 +23,9 @@ struct SphereSurvivors {
   /// Per body: spheres of the finest level tested so far that collide with another body's;
   /// meaningful from level 2 on.
   std::vector<std::vector<char>> sphere_active;
-  std::uint64_t tested = 0, colliding = 0;  ///< sphere pairs of the last level
+  std::vector<SpherePair> sphere_pairs;  ///< of the finest level tested
+  std::vector<SpherePair> parent_pairs;  ///< of the level before it
+  std::uint64_t tested = 0;              ///< sphere pairs looked at on the finest level
 
   bool active(std::uint32_t a, std::uint32_t b) const { return pair_active[a * bodies + b] != 0; }
 };

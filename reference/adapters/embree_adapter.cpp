@@ -5,7 +5,7 @@
 //   assertion in heuristic_openmerge_array.h; Debian's library is built with them). With
 //   flush-to-zero an extent that is denormal is none. Hence the padding below.
 // - Flush-to-zero and denormals-are-zero are on in the bounds callback and in the collide callback.
-//   They are off again when the call returns. So nothing is computed in a callback but minima and
+//   They are off again when the call returns. So nothing is computed in a callback but sums, minima and
 //   maxima of normal floats, and nothing is judged there.
 // - "threads=1" as device configuration lowers oneTBB's limit for the whole process to one thread
 //   until the last device is gone, and with it every other detector that uses oneTBB. Calls from
@@ -52,32 +52,17 @@ void require_ok(RTCDevice device, const char* call) {
 }
 
 // Boxes are padded by this part of the scene's largest coordinate (which is normalised to [0.5, 1)
-// first): far below the spacing of floats near 1, so culling does not suffer, and enough that no
-// box is flat and no bound but 0 is denormal as a float. Without it Embree aborts.
-constexpr double kPadding = 0x1p-30;
+// first): about one spacing of floats there. It covers the rounding of a coordinate to a float and
+// of the bound itself, each at most 2^-25; no box is flat and no bound but 0 is denormal. Without
+// it Embree aborts.
+constexpr float kPadding = 0x1p-23f;
 
-float round_down(double x) {
-  const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
-                                    : f;
-}
+/// Four floats, of which three are a vertex: minima and maxima are one instruction each.
+using FloatVertex = Eigen::Array4f;
 
-float round_up(double x) { return -round_down(-x); }
-
-/// A vertex as single precision knows it: the box that holds it.
-struct VertexBox {
-  std::array<float, 3> lo, hi;
-};
-
-/// Outward: scale * p rounds by 2^-53 at most, the padding is larger.
-VertexBox vertex_box(const Vec3& p, double scale) {
-  VertexBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double x = scale * p[axis];
-    box.lo[axis] = round_down(x - kPadding);
-    box.hi[axis] = round_up(x + kPadding);
-  }
-  return box;
+FloatVertex float_vertex(const Vec3& p, double scale) {
+  return {static_cast<float>(scale * p.x()), static_cast<float>(scale * p.y()),
+          static_cast<float>(scale * p.z()), 0.0f};
 }
 
 /// The power of two that brings `largest` into [0.5, 1), as near as a double can: what is below
@@ -89,11 +74,11 @@ double normalising_scale(double largest) {
 }
 
 double largest_coordinate(std::span<const Vec3> vertices) {
-  double largest = 0.0;
-  for (const Vec3& p : vertices) {
-    if (!p.allFinite()) throw RefusedInput("embree refuses a vertex that is not finite");
-    largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  }
+  if (vertices.empty()) return 0.0;
+  const Eigen::Map<const Eigen::ArrayXd> all(vertices[0].data(),
+                                             static_cast<Eigen::Index>(3 * vertices.size()));
+  const double largest = all.abs().maxCoeff<Eigen::PropagateNaN>();
+  if (!std::isfinite(largest)) throw RefusedInput("embree refuses a vertex that is not finite");
   return largest;
 }
 
@@ -101,7 +86,7 @@ double largest_coordinate(std::span<const Vec3> vertices) {
 class EmbreeBody {
  public:
   EmbreeBody(RTCDevice device, const TriangleMesh& mesh)
-      : device_(device), triangles_(mesh.triangles), vertex_boxes_(mesh.vertices.size()) {
+      : device_(device), triangles_(mesh.triangles), vertices_(mesh.vertices.size()) {
     scene_.reset(rtcNewScene(device_));
     geometry_.reset(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER));
     require_ok(device_, "rtcNewScene or rtcNewGeometry");
@@ -119,11 +104,11 @@ class EmbreeBody {
 
   /// Exact box in doubles, and the floats for commit().
   void set_vertices(std::span<const Vec3> vertices, double scale) {
-    CONTACTCHECK_INVARIANT(vertices.size() == vertex_boxes_.size(), "one position per vertex");
+    CONTACTCHECK_INVARIANT(vertices.size() == vertices_.size(), "one position per vertex");
     box_ = Aabb();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       box_.extend(vertices[v]);
-      vertex_boxes_[v] = vertex_box(vertices[v], scale);
+      vertices_[v] = float_vertex(vertices[v], scale);
     }
   }
 
@@ -137,26 +122,23 @@ class EmbreeBody {
   const Aabb& box() const { return box_; }
 
  private:
-  // Flush-to-zero is on in here: minima and maxima of normal floats, nothing else.
+  // Flush-to-zero is on in here: sums, minima and maxima of normal floats, nothing else.
   static void triangle_bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& body = *static_cast<const EmbreeBody*>(arguments->geometryUserPtr);
     const Triangle& t = body.triangles_[arguments->primID];
-    const VertexBox &a = body.vertex_boxes_[t[0]], &b = body.vertex_boxes_[t[1]],
-                    &c = body.vertex_boxes_[t[2]];
+    const FloatVertex &a = body.vertices_[t[0]], &b = body.vertices_[t[1]],
+                      &c = body.vertices_[t[2]];
+    const FloatVertex lo = a.min(b).min(c) - kPadding, hi = a.max(b).max(c) + kPadding;
     RTCBounds& out = *arguments->bounds_o;
-    out.lower_x = std::min({a.lo[0], b.lo[0], c.lo[0]});
-    out.lower_y = std::min({a.lo[1], b.lo[1], c.lo[1]});
-    out.lower_z = std::min({a.lo[2], b.lo[2], c.lo[2]});
-    out.upper_x = std::max({a.hi[0], b.hi[0], c.hi[0]});
-    out.upper_y = std::max({a.hi[1], b.hi[1], c.hi[1]});
-    out.upper_z = std::max({a.hi[2], b.hi[2], c.hi[2]});
+    out.lower_x = lo.x(), out.lower_y = lo.y(), out.lower_z = lo.z();
+    out.upper_x = hi.x(), out.upper_y = hi.y(), out.upper_z = hi.z();
   }
 
   RTCDevice device_;
   Owned<RTCScene> scene_;
   Owned<RTCGeometry> geometry_;
   std::span<const Triangle> triangles_;  // of the body's shape, which outlives the detector
-  std::vector<VertexBox> vertex_boxes_;
+  std::vector<FloatVertex> vertices_;
   Aabb box_;
 };
 

@@ -15,7 +15,7 @@ using test::Scene;
 
 std::vector<std::string> all_members() {
   std::vector<std::string> ids = test::family();
-  for (const std::string& id : test::family_with_triangles()) ids.push_back(id);
+  for (const std::string& id : test::exact_detectors()) ids.push_back(id);
   return ids;
 }
 
@@ -58,7 +58,7 @@ TEST(Metamorphic, ExactTranslationChangesNothing) {
   std::size_t pairs = 0;
   for (const Vec3& shift : {Vec3(4096, -8192, 0.25), Vec3(-0x1p30, 0, 0x1p30), Vec3(0, 0, -0.5)}) {
     const Scene there = test::exact_boxes(shift);
-    for (const std::string& name : test::family_with_triangles()) {
+    for (const std::string& name : test::exact_detectors()) {
       const auto a = prepared(name, here), b = prepared(name, there);
       for (std::size_t f = 0; f < here.frames.size(); ++f) {
         const auto expected = answer(*a, here.frames[f]).triangles;
@@ -98,7 +98,7 @@ TEST(Metamorphic, BodiesDeformedToAnotherSizeAreFoundTheSame) {
         for (Vec3& n : body) n *= scale;
       frame = test::make_frame(scaled.bodies, std::move(nodes));
     }
-    for (const std::string& name : test::family_with_triangles()) {
+    for (const std::string& name : test::exact_detectors()) {
       const auto a = prepared(name, plain), b = prepared(name, scaled);
       for (std::size_t f = 0; f < plain.frames.size(); ++f)
         EXPECT_EQ(answer(*b, scaled.frames[f]).triangles, answer(*a, plain.frames[f]).triangles)

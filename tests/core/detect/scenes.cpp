@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/lazy/kernels.h"
 #include "core/narrow/triangle_triangle.h"
 #include "tests/support/random_triangles.h"
 
@@ -114,6 +115,14 @@ std::vector<std::string> family_with_triangles() {
   std::vector<std::string> ids = family();
   for (std::string& id : ids) id += "+tri";
   return ids;
+}
+
+std::vector<std::string> exact_detectors() {
+  std::vector<std::string> names = family_with_triangles();
+  for (const char* name : {"ffd-lazy", "ffd-lazy:bounds=nodes", "full-refit"})
+    names.push_back(name);
+  for (const std::string& isa : lazy_isas()) names.push_back("ffd-lazy:bounds=nodes,isa=" + isa);
+  return names;
 }
 
 std::unique_ptr<Detector> prepared(const std::string& name, const Scene& scene) {

@@ -41,6 +41,10 @@ std::vector<ElementPair> true_pairs(const Scene& scene, const FrameData& frame);
 std::vector<std::string> family();
 std::vector<std::string> family_with_triangles();
 
+/// All of core's that claim to be exact and take lattices: the family's, and ffd-lazy with every
+/// source of bounds and on every instruction set of this machine.
+std::vector<std::string> exact_detectors();
+
 /// A detector of core by name, prepared for the scene.
 std::unique_ptr<Detector> prepared(const std::string& name, const Scene& scene);
 

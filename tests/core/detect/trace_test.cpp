@@ -94,7 +94,7 @@ TEST(StageTrace, OfSafeBoundsWithTrianglesLosesNothing) {
   std::size_t pairs = 0;
   for (std::uint64_t seed : {302, 303, 304}) {
     const Scene scene = test::approach({seed, 0.6});
-    for (const std::string& name : test::family_with_triangles()) {
+    for (const std::string& name : test::exact_detectors()) {
       const auto detector = prepared(name, scene);
       for (const test::FrameData& frame : scene.frames) {
         const auto truth = test::true_pairs(scene, frame);

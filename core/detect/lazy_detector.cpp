@@ -1,0 +1,162 @@
+#include "core/detect/lazy_detector.h"
+
+#include <map>
+#include <set>
+
+#include "core/detect/triangle_pair_detector.h"
+#include "core/lazy/candidate_bodies.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+// By measurement (lazy_register.cpp).
+constexpr std::size_t kFewTrianglesPerCell = 0;
+
+bool small_for_its_lattice(const BodyShape& shape) {
+  return shape.mesh.triangles.size() < kFewTrianglesPerCell * shape.lattice->cells.size();
+}
+
+bool refits(const BodyShape& shape, BoundSource bounds) {
+  if (!shape.lattice || bounds == BoundSource::kVertices) return true;
+  return bounds == BoundSource::kCheaper && small_for_its_lattice(shape);
+}
+
+}  // namespace
+
+LazyDetector::LazyDetector(const LazyConfig& config)
+    : config_(config), kernels_(lazy_kernels(config.isa)), semantics_(exact_triangle_semantics()) {}
+
+void LazyDetector::prepare(const std::vector<Body>& bodies) {
+  trees_.clear();
+  states_.clear();
+  std::map<const BodyShape*, std::shared_ptr<const LatticeTree>> known;
+  for (const Body& body : bodies) {
+    std::shared_ptr<const LatticeTree>& tree = known[body.shape.get()];
+    if (!tree) tree = std::make_shared<const LatticeTree>(make_lattice_tree(*body.shape));
+    trees_.push_back(tree);
+    LazyState& state = states_.emplace_back();
+    state.shape = body.shape.get();
+    state.tree = tree.get();
+    state.from_vertices = refits(*body.shape, config_.bounds);
+  }
+  mapped_.assign(bodies.size(), {});
+}
+
+void LazyDetector::begin_body(const BodyState& body, std::size_t index) {
+  LazyState& state = states_[index];
+  const BodyShape& shape = *state.shape;
+  CONTACTCHECK_INVARIANT(body.nodes.size() == shape.node_count(), "one position per node");
+  if (needs_vertices()) {
+    CONTACTCHECK_INVARIANT(body.vertices.size() == shape.mesh.vertices.size(),
+                           "one position per vertex");
+    return begin_frame(state, body.vertices);
+  }
+  if (!state.from_vertices || !shape.lattice) return begin_frame(state, body.nodes);
+  mapped_[index].resize(shape.mesh.vertices.size());
+  map_body(shape, body.nodes, mapped_[index]);
+  begin_frame(state, mapped_[index]);
+}
+
+void LazyDetector::update(const Frame& frame) {
+  CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
+  scratch_.counters = {};
+  for (std::size_t b = 0; b < states_.size(); ++b) begin_body(frame.bodies[b], b);
+  const double scale = common_scale(states_);
+  std::vector<Aabb> boxes;
+  for (LazyState& state : states_) {
+    place(state, scale);
+    boxes.push_back(state.box);
+    if (state.from_vertices) kernels_.bound_all(state, scratch_.counters);
+  }
+  find_candidate_bodies(boxes, candidates_);
+}
+
+void LazyDetector::test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out) {
+  find_near_nodes(states_[pair.a]);
+  find_near_nodes(states_[pair.b]);
+  kernels_.collide({pair, states_[pair.a], states_[pair.b]}, first_only, scratch_, out);
+}
+
+void LazyDetector::query(Question question, ContactSet& out) {
+  CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  for (const BodyPair& pair : candidates_) {
+    if (question == Question::kTriangles) {
+      test_pair(pair, false, out.triangles);
+      continue;
+    }
+    found_.clear();
+    test_pair(pair, true, found_);
+    if (!found_.empty()) out.bodies.push_back(pair);
+  }
+}
+
+StageTrace LazyDetector::trace() {
+  StageRecord boxes;
+  boxes.name = "boxes";
+  boxes.unit = "triangle pairs";
+  boxes.kind = StageRecord::Kind::kTriangles;
+  StageRecord exact;
+  exact.name = "triangles";
+  exact.unit = "triangle pairs";
+  exact.kind = StageRecord::Kind::kTriangles;
+
+  const std::uint64_t before = scratch_.counters.block_pairs;
+  scratch_.candidates = &boxes.elements;
+  for (const BodyPair& pair : candidates_) test_pair(pair, false, exact.elements);
+  scratch_.candidates = nullptr;
+  canonicalize(boxes.elements);
+  canonicalize(exact.elements);
+  boxes.in = brute_force_pairs();
+  boxes.out = exact.in = boxes.elements.size();
+  boxes.visited = scratch_.counters.block_pairs - before;
+  boxes.visited_unit = "pairs of blocks of eight";
+  exact.out = exact.elements.size();
+
+  StageTrace out;
+  out.stages.push_back(std::move(boxes));
+  out.stages.push_back(std::move(exact));
+  return out;
+}
+
+std::uint64_t LazyDetector::brute_force_pairs() const {
+  std::uint64_t pairs = 0, before = 0;
+  for (const LazyState& state : states_) {
+    pairs += before * state.shape->mesh.triangles.size();
+    before += state.shape->mesh.triangles.size();
+  }
+  return pairs;
+}
+
+std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    find_near_nodes(states_[b]);
+    kernels_.bound_all(states_[b], scratch_.counters);
+    const std::string broken = contactcheck::validate(states_[b], vertices[b]);
+    if (!broken.empty()) return "body " + std::to_string(b) + ": " + broken;
+    for (const Vec3& v : vertices[b])
+      if (!states_[b].box.contains(v))
+        return "body " + std::to_string(b) + ": a vertex leaves the body's box";
+  }
+  return "";
+}
+
+std::size_t LazyDetector::shared_bytes() const {
+  std::set<const LatticeTree*> distinct;
+  std::size_t bytes = 0;
+  for (const auto& tree : trees_)
+    if (distinct.insert(tree.get()).second) bytes += tree->bytes();
+  return bytes;
+}
+
+std::size_t LazyDetector::instance_bytes() const {
+  std::size_t bytes = 0;
+  for (const LazyState& s : states_)
+    bytes += s.near_nodes.size() * sizeof(Float4) + s.arena.bytes() +
+             s.block_boxes.size() * (sizeof(LaneBoxes) + sizeof(std::uint32_t)) +
+             s.leaves.size() * (sizeof(LeafCache) + sizeof(std::uint32_t));
+  for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
+  return bytes;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,62 @@
+// ffd-lazy and full-refit: all intersecting pairs of triangles, exactly, over one tree per shape.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/lazy/kernels.h"
+
+namespace contactcheck {
+
+/// Where the bounds of the tree come from.
+enum class BoundSource {
+  kNodes,     ///< from lattice nodes, on demand; bodies without a lattice from their vertices
+  kVertices,  ///< from the given mapped vertices, all of them in every frame
+  kCheaper    ///< kNodes, or mapping all and kVertices where the mesh is small for its lattice
+};
+
+struct LazyConfig {
+  BoundSource bounds = BoundSource::kCheaper;
+  std::string isa = "best";
+};
+
+/// Exact for all finite doubles: bounds only cull, and contain what they stand for.
+class LazyDetector : public Detector {
+ public:
+  explicit LazyDetector(const LazyConfig& config);
+
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return config_.bounds == BoundSource::kVertices; }
+  void prepare(const std::vector<Body>& bodies) override;
+  void update(const Frame& frame) override;
+  void query(Question question, ContactSet& out) override;
+  StageTrace trace() override;
+
+  /// Bounds everything in the frame of the last update and checks it against `vertices`, per body;
+  /// "" or a sentence for the first broken promise.
+  std::string validate(const std::vector<std::vector<Vec3>>& vertices);
+  /// Since the last update.
+  const LazyCounters& counters() const { return scratch_.counters; }
+  /// Bytes of all trees; of all that the bodies hold beside them.
+  std::size_t shared_bytes() const;
+  std::size_t instance_bytes() const;
+
+ private:
+  void begin_body(const BodyState& body, std::size_t index);
+  std::uint64_t brute_force_pairs() const;
+  void test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out);
+
+  LazyConfig config_;
+  const LazyKernels& kernels_;
+  Semantics semantics_;
+  std::vector<std::shared_ptr<const LatticeTree>> trees_;  // per body; instances share
+  std::vector<LazyState> states_;
+  std::vector<std::vector<Vec3>> mapped_;  // per body that is mapped here
+  std::vector<BodyPair> candidates_;
+  std::vector<ElementPair> found_;
+  LazyScratch scratch_;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,51 @@
+#include "core/detect/lazy_register.h"
+
+#include <memory>
+
+#include "core/detect/lazy_detector.h"
+#include "core/detect/option_info.h"
+
+namespace contactcheck {
+namespace {
+
+OptionInfo isa_option() {
+  std::vector<std::string> choices = lazy_isas();
+  choices.insert(choices.begin(), "best");
+  return choice_option("isa", "best", std::move(choices), "instruction set of the inner loops");
+}
+
+void add_ffd_lazy(DetectorCatalog& catalog) {
+  DetectorInfo info;
+  info.id = "ffd-lazy";
+  info.summary = "tree bounded lazily from lattice nodes, SIMD; exact triangle test";
+  info.options = {choice_option("bounds", "auto", {"auto", "nodes"},
+                                "auto: bodies small for their lattice are mapped and refitted"),
+                  isa_option()};
+  info.make = [](const Options& options) -> std::unique_ptr<Detector> {
+    LazyConfig config;
+    config.bounds = options.at("bounds") == "auto" ? BoundSource::kCheaper : BoundSource::kNodes;
+    config.isa = options.at("isa");
+    return std::make_unique<LazyDetector>(config);
+  };
+  catalog.add(std::move(info));
+}
+
+void add_full_refit(DetectorCatalog& catalog) {
+  DetectorInfo info;
+  info.id = "full-refit";
+  info.summary = "the same tree and tests, refitted to all mapped vertices in every frame";
+  info.options = {isa_option()};
+  info.make = [](const Options& options) -> std::unique_ptr<Detector> {
+    return std::make_unique<LazyDetector>(LazyConfig{BoundSource::kVertices, options.at("isa")});
+  };
+  catalog.add(std::move(info));
+}
+
+}  // namespace
+
+void register_lazy_detectors(DetectorCatalog& catalog) {
+  add_ffd_lazy(catalog);
+  add_full_refit(catalog);
+}
+
+}  // namespace contactcheck

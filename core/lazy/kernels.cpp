@@ -1,0 +1,107 @@
+#include "core/lazy/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/lazy/kernels.cpp"
+#include <hwy/foreach_target.h>
+// clang-format off: highway.h must follow foreach_target.h
+#include <hwy/highway.h>
+// clang-format on
+
+#include "core/lazy/refit-inl.h"
+#include "core/lazy/traverse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contactcheck {
+namespace HWY_NAMESPACE {
+
+void collide(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
+             std::vector<ElementPair>& out) {
+  PairTraversal(bodies, first_only, scratch, out).run();
+}
+
+void bound_all(LazyState& state, LazyCounters& counters) {
+  if (state.from_vertices) return refit(state, counters);
+  for (std::uint32_t block = 0; block < state.tree->blocks.size(); ++block)
+    bounds(state, block, counters);
+}
+
+const LeafCache& map_one_leaf(LazyState& state, std::uint32_t leaf, LazyCounters& counters) {
+  return map_leaf(state, leaf, counters);
+}
+
+BatchVerdict test_one_batch(const TriangleBatch& batch) { return test_batch(batch); }
+
+const LazyKernels& kernels() {
+  static const LazyKernels all = {hwy::TargetName(HWY_TARGET), collide, bound_all, test_one_batch,
+                                  map_one_leaf};
+  return all;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace contactcheck
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+struct Compiled {
+  std::int64_t target;
+  const LazyKernels& (*kernels)();
+};
+
+// Best first. The targets that Highway attempts on a platform differ; each names its own namespace.
+std::vector<Compiled> compiled_targets() {
+  return {
+#if HWY_TARGETS & HWY_AVX3_DL
+    {HWY_AVX3_DL, N_AVX3_DL::kernels},
+#endif
+#if HWY_TARGETS & HWY_AVX3
+        {HWY_AVX3, N_AVX3::kernels},
+#endif
+#if HWY_TARGETS & HWY_AVX2
+        {HWY_AVX2, N_AVX2::kernels},
+#endif
+#if HWY_TARGETS & HWY_SSE4
+        {HWY_SSE4, N_SSE4::kernels},
+#endif
+#if HWY_TARGETS & HWY_SSSE3
+        {HWY_SSSE3, N_SSSE3::kernels},
+#endif
+#if HWY_TARGETS & HWY_NEON
+        {HWY_NEON, N_NEON::kernels},
+#endif
+        {HWY_STATIC_TARGET, HWY_STATIC_DISPATCH(kernels)},
+  };
+}
+
+std::vector<const LazyKernels*> usable_kernels() {
+  const auto supported = static_cast<std::int64_t>(hwy::SupportedTargets());
+  std::vector<const LazyKernels*> out;
+  for (const Compiled& c : compiled_targets())
+    if ((c.target & supported) != 0 && (out.empty() || out.back() != &c.kernels()))
+      out.push_back(&c.kernels());
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> lazy_isas() {
+  std::vector<std::string> names;
+  for (const LazyKernels* kernels : usable_kernels()) names.emplace_back(kernels->name);
+  return names;
+}
+
+const LazyKernels& lazy_kernels(const std::string& isa) {
+  std::string known = "best";
+  for (const LazyKernels* kernels : usable_kernels()) {
+    if (isa == "best" || isa == kernels->name) return *kernels;
+    known += std::string(", ") + kernels->name;
+  }
+  throw InputError("no kernels for instruction set \"" + isa + "\" here; there are " + known);
+}
+
+}  // namespace contactcheck
+#endif

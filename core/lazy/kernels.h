@@ -1,0 +1,60 @@
+// The lazy detector's inner loops, compiled for every instruction set of the platform and chosen at
+// run time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/lazy/lazy_state.h"
+#include "core/lazy/triangle_batch.h"
+#include "core/types/contact_set.h"
+
+namespace contactcheck {
+
+/// A child slot of each of two trees.
+struct SlotPair {
+  std::uint32_t block_a, lane_a, block_b, lane_b;
+};
+
+struct LeafPair {
+  std::uint32_t a, b;
+};
+
+/// Memory that one thread reuses from pair to pair.
+struct LazyScratch {
+  std::vector<SlotPair> stack;
+  std::vector<LeafPair> leaf_pairs;
+  TriangleBatch batch{};
+  LazyCounters counters;
+  std::vector<ElementPair>* candidates = nullptr;  ///< takes down every pair tested, if any
+};
+
+/// Two bodies of one frame, placed and with their nodes known (lazy_state.h).
+struct BodiesToTest {
+  BodyPair names;
+  LazyState& a;
+  LazyState& b;
+};
+
+struct LazyKernels {
+  const char* name;  ///< as Highway names the target: "AVX3", "AVX2", "SSE4", ...
+  /// Appends the intersecting pairs of triangles, each once; stops at the first if `first_only`.
+  void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
+                  std::vector<ElementPair>& out);
+  /// Bounds every block of the body, in order of their indices. For refitted bodies and validate().
+  void (*bound_all)(LazyState& state, LazyCounters& counters);
+  /// The filtered test of up to eight pairs.
+  BatchVerdict (*test_batch)(const TriangleBatch& batch);
+  /// Maps one leaf, once per frame.
+  const LeafCache& (*map_leaf)(LazyState& state, std::uint32_t leaf, LazyCounters& counters);
+};
+
+/// The kernels for this processor, or for a named instruction set.
+/// @throws InputError naming what there is when it is not compiled in or does not run here
+const LazyKernels& lazy_kernels(const std::string& isa = "best");
+
+/// Compiled in and able to run here, best first.
+std::vector<std::string> lazy_isas();
+
+}  // namespace contactcheck

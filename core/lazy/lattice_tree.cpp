@@ -1,0 +1,220 @@
+#include "core/lazy/lattice_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+
+#include "core/lazy/partition.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+// Blocks of more home cells than this are bounded by hulls: each home cell costs one evaluation
+// for all eight children, however few of them it touches.
+constexpr std::size_t kMostHomes = 8;
+
+using LocalBounds = std::map<std::uint32_t, Aabb>;  // per home cell
+
+class TreeBuilder {
+ public:
+  TreeBuilder(const BodyShape& shape, const Partition& partition, LatticeTree& out)
+      : shape_(shape), partition_(partition), out_(out) {}
+
+  std::uint32_t add_block(const Part& part) {
+    const auto index = static_cast<std::uint32_t>(out_.blocks.size());
+    out_.blocks.emplace_back();
+    TreeBlock block;
+    block.children = static_cast<std::uint32_t>(part.children.size());
+    if (shape_.lattice) bound_children(part, block);
+    for (std::uint32_t c = 0; c < block.children; ++c) {
+      const Part& child = part.children[c];
+      block.child[c].value =
+          child.children.empty() ? (TreeChild::kLeaf | add_leaf(child)) : add_block(child);
+    }
+    out_.blocks[index] = block;
+    return index;
+  }
+
+ private:
+  std::span<const std::uint32_t> triangles(const Part& part) const {
+    return std::span(partition_.order).subspan(part.first, part.last - part.first);
+  }
+  const Triangle& corners(std::uint32_t triangle) const { return shape_.mesh.triangles[triangle]; }
+
+  LocalBounds local_bounds(const Part& part) const {
+    LocalBounds bounds;
+    for (std::uint32_t t : triangles(part))
+      for (std::uint32_t v : corners(t))
+        bounds[shape_.embedding.home_cell[v]].extend(shape_.embedding.local[v]);
+    return bounds;
+  }
+
+  std::set<std::uint32_t> owners(const Part& part) const {
+    std::set<std::uint32_t> cells;
+    for (std::uint32_t t : triangles(part)) cells.insert(partition_.owner[t]);
+    return cells;
+  }
+
+  void bound_children(const Part& part, TreeBlock& block) {
+    std::vector<LocalBounds> bounds;
+    std::set<std::uint32_t> homes;
+    for (const Part& child : part.children) {
+      bounds.push_back(local_bounds(child));
+      for (const auto& [cell, box] : bounds.back()) homes.insert(cell);
+    }
+    block.hull = homes.size() > kMostHomes && owners(part).size() > 1;
+    block.begin = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
+    if (block.hull) {
+      for (const Part& child : part.children) add_hull(child);
+    } else {
+      for (std::uint32_t cell : homes) add_pieces(cell, bounds);
+    }
+    block.end = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
+  }
+
+  void add_pieces(std::uint32_t cell, const std::vector<LocalBounds>& bounds) {
+    HomePieces pieces;
+    pieces.cell = cell;
+    for (std::uint32_t c = 0; c < bounds.size(); ++c) {
+      const auto found = bounds[c].find(cell);
+      if (found == bounds[c].end()) continue;
+      pieces.children |= 1u << c;
+      for (int k = 0; k < 3; ++k) {
+        pieces.lo[k][c] =
+            static_cast<std::uint16_t>(std::floor(found->second.lo[k] * HomePieces::kSteps));
+        pieces.hi[k][c] =
+            static_cast<std::uint16_t>(std::ceil(found->second.hi[k] * HomePieces::kSteps));
+      }
+    }
+    out_.pieces.push_back(pieces);
+  }
+
+  void add_hull(const Part& child) {
+    HullChild hull;
+    hull.node_begin = static_cast<std::uint32_t>(out_.hull_nodes.size());
+    hull.stray_begin = static_cast<std::uint32_t>(out_.strays.size());
+    const std::set<std::uint32_t> own = owners(child);
+    std::set<std::uint32_t> nodes;
+    for (std::uint32_t cell : own) add_nodes(cell, nodes);
+    std::map<std::uint32_t, Stray> ways;
+    for (std::uint32_t t : triangles(child))
+      for (std::uint32_t v : corners(t)) add_way(partition_.owner[t], v, own, nodes, ways);
+    out_.hull_nodes.insert(out_.hull_nodes.end(), nodes.begin(), nodes.end());
+    for (const auto& [key, way] : ways) out_.strays.push_back(way);
+    hull.node_end = static_cast<std::uint32_t>(out_.hull_nodes.size());
+    hull.stray_end = static_cast<std::uint32_t>(out_.strays.size());
+    out_.hulls.push_back(hull);
+  }
+
+  void add_nodes(std::uint32_t cell, std::set<std::uint32_t>& nodes) const {
+    const CornerIds& ids = shape_.lattice->cell_nodes[cell];
+    nodes.insert(ids.begin(), ids.end());
+  }
+
+  // Ways from one home to several owners are kept apart: the sides differ.
+  void add_way(std::uint32_t owner, std::uint32_t vertex, const std::set<std::uint32_t>& own,
+               std::set<std::uint32_t>& nodes, std::map<std::uint32_t, Stray>& ways) const {
+    const std::uint32_t home = shape_.embedding.home_cell[vertex];
+    if (own.count(home)) return;
+    const GridIndex &from = shape_.lattice->cells[home], &to = shape_.lattice->cells[owner];
+    Stray way;
+    way.cell = home;
+    std::uint32_t direction = 0;
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t step = static_cast<std::int64_t>(from[k]) - to[k];
+      if (step < -1 || step > 1) return add_nodes(home, nodes);
+      way.side[k] = static_cast<std::int8_t>(step);
+      direction = 3 * direction + static_cast<std::uint32_t>(step + 1);
+      if (step == 0) continue;
+      const double x = shape_.embedding.local[vertex][k];
+      // Outward: 1 - x rounds, the conversion to float too.
+      way.reach[k] =
+          std::min(1.0f, std::nextafter(static_cast<float>(step > 0 ? x : 1.0 - x), 2.0f));
+    }
+    Stray& known = ways.try_emplace(27 * home + direction, way).first->second;
+    for (int k = 0; k < 3; ++k) known.reach[k] = std::max(known.reach[k], way.reach[k]);
+  }
+
+  std::uint32_t add_leaf(const Part& part) {
+    TreeLeaf leaf;
+    leaf.first_triangle = static_cast<std::uint32_t>(out_.leaf_triangles.size());
+    leaf.first_vertex = static_cast<std::uint32_t>(out_.leaf_vertices.size());
+    leaf.first_run = static_cast<std::uint32_t>(out_.runs.size());
+    const std::vector<std::uint32_t> vertices = leaf_vertices(part);
+    for (std::uint32_t v : vertices) add_vertex(v, leaf);
+    LeafCorners ids{};
+    for (std::uint32_t i = 0; i < part.last - part.first; ++i) {
+      const std::uint32_t t = triangles(part)[i];
+      for (int k = 0; k < 3; ++k)
+        ids[k][i] = static_cast<std::uint8_t>(
+            std::find(vertices.begin(), vertices.end(), corners(t)[k]) - vertices.begin());
+      out_.leaf_triangles.push_back(t);
+    }
+    out_.leaf_corners.push_back(ids);
+    leaf.triangles = static_cast<std::uint16_t>(part.last - part.first);
+    leaf.vertices = static_cast<std::uint16_t>(vertices.size());
+    out_.leaves.push_back(leaf);
+    return static_cast<std::uint32_t>(out_.leaves.size() - 1);
+  }
+
+  // Distinct, by home cell.
+  std::vector<std::uint32_t> leaf_vertices(const Part& part) const {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t t : triangles(part))
+      vertices.insert(vertices.end(), corners(t).begin(), corners(t).end());
+    const auto key = [&](std::uint32_t v) {
+      return std::pair(shape_.lattice ? shape_.embedding.home_cell[v] : 0, v);
+    };
+    std::sort(vertices.begin(), vertices.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  void add_vertex(std::uint32_t v, TreeLeaf& leaf) {
+    out_.leaf_vertices.push_back(v);
+    if (!shape_.lattice) return;
+    const std::uint32_t cell = shape_.embedding.home_cell[v];
+    if (leaf.runs == 0 || out_.runs.back().cell != cell) {
+      out_.runs.push_back({cell, 0});
+      ++leaf.runs;
+    }
+    ++out_.runs.back().count;
+    for (int k = 0; k < 3; ++k) out_.leaf_local[k].push_back(shape_.embedding.local[v][k]);
+  }
+
+  const BodyShape& shape_;
+  const Partition& partition_;
+  LatticeTree& out_;
+};
+
+template <typename T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+}  // namespace
+
+std::size_t LatticeTree::bytes() const {
+  std::size_t local = 0;
+  for (const auto& axis : leaf_local) local += bytes_of(axis);
+  return bytes_of(blocks) + bytes_of(pieces) + bytes_of(hulls) + bytes_of(hull_nodes) +
+         bytes_of(strays) + bytes_of(leaves) + bytes_of(leaf_triangles) + bytes_of(leaf_corners) +
+         bytes_of(leaf_vertices) + local + bytes_of(runs);
+}
+
+LatticeTree make_lattice_tree(const BodyShape& shape) {
+  CONTACTCHECK_INVARIANT(!shape.mesh.triangles.empty(), "a tree of something");
+  LatticeTree tree;
+  const Partition partition = partition_triangles(shape);
+  TreeBuilder(shape, partition, tree).add_block(partition.root);
+  tree.leaf_vertices.resize(tree.leaf_vertices.size() + kLeafPadding, 0);
+  if (shape.lattice)
+    for (auto& axis : tree.leaf_local) axis.resize(axis.size() + kLeafPadding, 0.0);
+  return tree;
+}
+
+}  // namespace contactcheck

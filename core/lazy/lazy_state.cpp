@@ -1,0 +1,135 @@
+#include "core/lazy/lazy_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/deform/mapping.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+double half_width(const Aabb& box) {
+  const Vec3 middle = box.center();
+  return (box.hi - middle).cwiseMax(middle - box.lo).maxCoeff();
+}
+
+void forget_frame(LazyState& state) {
+  const std::size_t blocks = state.tree->blocks.size(), leaves = state.tree->leaves.size();
+  if (state.block_frame.size() != blocks ||
+      state.frame == std::numeric_limits<std::uint32_t>::max()) {
+    state.block_frame.assign(blocks, 0);
+    state.leaf_frame.assign(leaves, 0);
+    state.block_boxes.resize(blocks);
+    state.leaves.resize(leaves);
+    state.frame = 0;
+  }
+  ++state.frame;
+  state.arena.clear();
+  state.nodes_known = false;
+}
+
+Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
+
+bool lane_holds(const LaneBoxes& boxes, std::uint32_t lane, const Vec3& p) {
+  for (int k = 0; k < 3; ++k)
+    if (!(boxes.lo[k][lane] <= p[k] && p[k] <= boxes.hi[k][lane])) return false;
+  return true;
+}
+
+class Validation {
+ public:
+  Validation(const LazyState& state, std::span<const Vec3> vertices)
+      : state_(state), vertices_(vertices) {}
+
+  // Leaves under a block go through every lane above them.
+  std::string block(std::uint32_t index) {
+    for (std::uint32_t lane = 0; lane < state_.tree->blocks[index].children; ++lane) {
+      const TreeChild child = state_.tree->blocks[index].child[lane];
+      path_.push_back({index, lane});
+      const std::string broken = child.leaf() ? leaf(child.index()) : block(child.index());
+      path_.pop_back();
+      if (!broken.empty()) return broken;
+    }
+    return "";
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t block, lane;
+  };
+
+  std::string leaf(std::uint32_t index) const {
+    const TreeLeaf& leaf = state_.tree->leaves[index];
+    for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
+      const std::uint32_t v = state_.tree->leaf_vertices[leaf.first_vertex + i];
+      for (const Slot& slot : path_)
+        if (!lane_holds(state_.block_boxes[slot.block], slot.lane, in_frame(state_, vertices_[v])))
+          return "vertex " + std::to_string(v) + " leaves lane " + std::to_string(slot.lane) +
+                 " of block " + std::to_string(slot.block);
+    }
+    return "";
+  }
+
+  const LazyState& state_;
+  std::span<const Vec3> vertices_;
+  std::vector<Slot> path_;
+};
+
+}  // namespace
+
+void begin_frame(LazyState& state, std::span<const Vec3> points) {
+  forget_frame(state);
+  (state.from_vertices ? state.vertices : state.nodes) = points;
+  Vec3 lo = points[0], hi = points[0];
+  for (const Vec3& p : points) {
+    lo = lo.cwiseMin(p);
+    hi = hi.cwiseMax(p);
+  }
+  state.largest = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
+  // Mapped vertices leave the hull of their nodes by rounding, no more.
+  const double error = state.from_vertices ? 0.0 : 2.0 * mapping_error_bound(state.largest);
+  state.box = {lo.array() - error, hi.array() + error};
+}
+
+double common_scale(std::span<const LazyState> states) {
+  constexpr int kLargestExponent = 1000;  // powers of two beyond are no doubles, or their inverses
+  double largest = 0.0;
+  for (const LazyState& state : states) largest = std::max(largest, half_width(state.box));
+  if (!(largest > 0.0)) return 1.0;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
+}
+
+void place(LazyState& state, double scale) {
+  constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
+  state.scale = scale;
+  state.origin = state.box.center();
+  const double reach = half_width(state.box) * scale;
+  const double world = mapping_error_bound(state.largest) +
+                       4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
+  const double slack = 64.0 * kFloatUnit * reach + world * scale * 1.01 + 1e-37;
+  // Finite whatever happens, so that boxes of lanes without a child stay empty; all content of a
+  // body lies within 1 of its origin, so this much is everything.
+  constexpr double kEverything = 1e30;
+  state.slack = std::nextafter(static_cast<float>(std::min(slack, kEverything)),
+                               std::numeric_limits<float>::infinity());
+}
+
+void find_near_nodes(LazyState& state) {
+  if (state.nodes_known || state.from_vertices) return;
+  state.near_nodes.resize(state.nodes.size());
+  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    for (int k = 0; k < 3; ++k)
+      state.near_nodes[n].v[k] =
+          static_cast<float>((state.nodes[n][k] - state.origin[k]) * state.scale);
+  state.nodes_known = true;
+}
+
+std::string validate(const LazyState& state, std::span<const Vec3> vertices) {
+  return Validation(state, vertices).block(0);
+}
+
+}  // namespace contactcheck

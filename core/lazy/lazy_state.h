@@ -1,0 +1,126 @@
+// What the lazy detector knows about one body in one frame. Bounds and mapped leaves are made when
+// first asked for and stamped with the frame.
+//
+// Bounds are floats in the body's own frame: (x - origin) * scale, origin near the body's middle,
+// scale a power of two common to all bodies of the scene's frame. A body far from the scene's
+// origin loses nothing, and neither overflow nor underflow spoils a bound.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/lazy/lattice_tree.h"
+#include "core/types/vec3.h"
+
+namespace contactcheck {
+
+struct alignas(16) Float4 {
+  float v[4] = {};
+};
+
+/// Bounds of eight children, one lane each. Lanes without a child are empty (lo > hi).
+struct alignas(64) LaneBoxes {
+  float lo[3][kBlockWidth];
+  float hi[3][kBlockWidth];
+};
+
+/// One box in a body's frame.
+struct FrameBox {
+  float lo[3], hi[3];
+};
+
+/// The mapped leaf: its vertices, world coordinates as map_point() gives them, and the boxes of its
+/// triangles in the body's frame.
+struct LeafCache {
+  const double* x = nullptr;
+  const double* y = nullptr;
+  const double* z = nullptr;
+  const LaneBoxes* boxes = nullptr;  ///< of kLeafTriangles triangles
+  FrameBox box;                      ///< of all
+};
+
+/// Memory that lives until the next frame; nothing is freed and pointers stay valid.
+class FrameArena {
+ public:
+  void clear() { chunk_ = used_ = 0; }
+  /// Aligned to 64 bytes. @pre bytes <= kChunk
+  void* take(std::size_t bytes) {
+    bytes = (bytes + 63) / 64 * 64;
+    if (chunk_ == chunks_.size() || used_ + bytes > kChunk) next_chunk();
+    void* out = chunks_[chunk_]->bytes + used_;
+    used_ += bytes;
+    return out;
+  }
+  std::size_t bytes() const { return chunks_.size() * kChunk; }
+
+ private:
+  static constexpr std::size_t kChunk = std::size_t{1} << 16;
+  struct alignas(64) Chunk {
+    std::byte bytes[kChunk];
+  };
+  void next_chunk() {
+    if (chunk_ < chunks_.size() && used_ > 0) ++chunk_;
+    if (chunk_ == chunks_.size()) chunks_.push_back(std::unique_ptr<Chunk>(new Chunk));
+    used_ = 0;
+  }
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  std::size_t chunk_ = 0, used_ = 0;
+};
+
+/// What was done, since the last update.
+struct LazyCounters {
+  std::uint64_t blocks_bounded = 0;  ///< eight children each
+  std::uint64_t leaves_mapped = 0;
+  std::uint64_t vertices_mapped = 0;  ///< a vertex of several leaves counts in each
+  std::uint64_t block_pairs = 0;      ///< visited
+  std::uint64_t leaf_pairs = 0;       ///< whose boxes overlap
+  std::uint64_t triangle_tests = 0;   ///< pairs whose boxes overlap
+  std::uint64_t filter_failures = 0;  ///< of these, left to the exact test
+};
+
+struct LazyState {
+  const BodyShape* shape = nullptr;
+  const LatticeTree* tree = nullptr;
+  bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
+  std::span<const Vec3> nodes;     ///< the frame's
+  std::span<const Vec3> vertices;  ///< the same, if from_vertices
+  Aabb box;                        ///< holds all nodes or vertices
+  double largest = 0.0;            ///< |coordinate|
+
+  Vec3 origin = Vec3::Zero();
+  double scale = 1.0;
+  float slack = 0.0f;  ///< by which bounds are moved outward; derivation in bounds-inl.h
+  std::vector<Float4> near_nodes;  ///< nodes in the body's frame
+  bool nodes_known = false;
+
+  std::uint32_t frame = 0;
+  std::vector<std::uint32_t> block_frame, leaf_frame;  ///< when last bounded, mapped
+  std::vector<LaneBoxes> block_boxes;
+  std::vector<LeafCache> leaves;
+  FrameArena arena;
+};
+
+/// Forgets the last frame. `points`: the lattice's deformed nodes or, if `from_vertices`, vertices.
+/// @pre shape, tree and from_vertices are set
+void begin_frame(LazyState& state, std::span<const Vec3> points);
+
+/// The power of two by which the frames of all bodies are scaled: the largest becomes about 1.
+double common_scale(std::span<const LazyState> states);
+
+/// Chooses origin and slack. @pre begin_frame
+void place(LazyState& state, double scale);
+
+/// Takes the nodes into the body's frame, once per frame. @pre place
+void find_near_nodes(LazyState& state);
+
+/// Checks what the bounds promise for the mapped `vertices`: every block's lane holds the vertices
+/// of every triangle below it. Returns a sentence for the first broken promise, or "".
+/// @pre all blocks are bounded in this frame (LazyKernels::bound_all)
+std::string validate(const LazyState& state, std::span<const Vec3> vertices);
+
+}  // namespace contactcheck

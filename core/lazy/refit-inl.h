@@ -1,0 +1,79 @@
+// Bounds from all vertices, bottom up: for bodies without a lattice, and where refitting all is
+// cheaper than bounding a part. Compiled once per instruction set (kernels.cpp).
+
+#if defined(CONTACTCHECK_LAZY_REFIT_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTACTCHECK_LAZY_REFIT_INL
+#undef CONTACTCHECK_LAZY_REFIT_INL
+#else
+#define CONTACTCHECK_LAZY_REFIT_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "core/lazy/bounds-inl.h"
+#include "core/lazy/leaves-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contactcheck {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The box of a leaf's vertices in the body's frame. (x - origin) * scale is monotone in x, rounding
+// included, so it is applied to the ends alone.
+HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
+  const std::uint32_t* ids = &state.tree->leaf_vertices[leaf.first_vertex];
+  double lo[3], hi[3];
+  for (int k = 0; k < 3; ++k) lo[k] = hi[k] = state.vertices[ids[0]][k];
+  for (std::uint32_t i = 1; i < leaf.vertices; ++i) {
+    const double* v = state.vertices[ids[i]].data();
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = v[k] < lo[k] ? v[k] : lo[k];
+      hi[k] = v[k] > hi[k] ? v[k] : hi[k];
+    }
+  }
+  FrameBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = static_cast<float>((lo[k] - state.origin[k]) * state.scale) - state.slack;
+    box.hi[k] = static_cast<float>((hi[k] - state.origin[k]) * state.scale) + state.slack;
+  }
+  return box;
+}
+
+HWY_INLINE FrameBox box_of_block(const LaneBoxes& lanes) {
+  FrameBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = extreme<true>(lanes.lo[k], lanes.lo[k]);
+    box.hi[k] = extreme<false>(lanes.hi[k], lanes.hi[k]);
+  }
+  return box;
+}
+
+HWY_INLINE void refit(LazyState& state, LazyCounters& counters) {
+  const LatticeTree& tree = *state.tree;
+  for (std::size_t index = tree.blocks.size(); index-- > 0;) {
+    const TreeBlock& block = tree.blocks[index];
+    LaneBoxes& out = state.block_boxes[index];
+    for (std::uint32_t c = 0; c < kBlockWidth; ++c) {
+      FrameBox box;
+      if (c >= block.children) {
+        for (int k = 0; k < 3; ++k) box.lo[k] = kInfinity, box.hi[k] = -kInfinity;
+      } else if (block.child[c].leaf()) {
+        box = box_of_leaf(state, tree.leaves[block.child[c].index()]);
+      } else {
+        box = box_of_block(state.block_boxes[block.child[c].index()]);
+      }
+      for (int k = 0; k < 3; ++k) {
+        out.lo[k][c] = box.lo[k];
+        out.hi[k][c] = box.hi[k];
+      }
+    }
+    state.block_frame[index] = state.frame;
+    ++counters.blocks_bounded;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace contactcheck
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -62,10 +62,9 @@ void LazyDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
   scratch_.counters = {};
   for (std::size_t b = 0; b < states_.size(); ++b) begin_body(frame.bodies[b], b);
-  const double scale = common_scale(states_);
+  place(states_);
   std::vector<Aabb> boxes;
   for (LazyState& state : states_) {
-    place(state, scale);
     boxes.push_back(state.box);
     if (state.from_vertices) kernels_.bound_all(state, scratch_.counters);
   }
@@ -153,8 +152,8 @@ std::size_t LazyDetector::instance_bytes() const {
   std::size_t bytes = 0;
   for (const LazyState& s : states_)
     bytes += s.near_nodes.size() * sizeof(Float4) + s.arena.bytes() +
-             s.block_boxes.size() * (sizeof(LaneBoxes) + sizeof(std::uint32_t)) +
-             s.leaves.size() * (sizeof(LeafCache) + sizeof(std::uint32_t));
+             s.block_bounds.size() * (sizeof(BlockBounds) + sizeof(std::uint32_t)) +
+             s.leaves.size() * (sizeof(LeafCache*) + sizeof(std::uint32_t));
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   return bytes;
 }

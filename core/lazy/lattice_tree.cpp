@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -70,12 +71,59 @@ class TreeBuilder {
     if (block.hull) {
       for (const Part& child : part.children) add_hull(child);
     } else {
-      for (std::uint32_t cell : homes) add_pieces(cell, bounds);
+      block.slabs = static_cast<std::uint32_t>(out_.slabs.size());
+      out_.slabs.push_back(slabs_of(part, most_common_home(part)));
+      for (std::uint32_t cell : homes) add_pieces(cell, bounds, part, out_.slabs.back());
     }
     block.end = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
   }
 
-  void add_pieces(std::uint32_t cell, const std::vector<LocalBounds>& bounds) {
+  std::uint32_t most_common_home(const Part& part) const {
+    std::map<std::uint32_t, std::uint32_t> counts;
+    for (std::uint32_t t : triangles(part))
+      for (std::uint32_t v : corners(t)) ++counts[shape_.embedding.home_cell[v]];
+    const auto most =
+        std::max_element(counts.begin(), counts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most->first;
+  }
+
+  Vec3 rest(std::uint32_t vertex) const { return shape_.mesh.vertices[vertex]; }
+
+  // The mean normal at rest, in steps: a covector of local coordinates grows with the cell's sides.
+  Eigen::Array3i normal_of(const Part& child, const Vec3& sides) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::uint32_t t : triangles(child)) {
+      const auto& [a, b, c] = corners(t);
+      sum += (rest(b) - rest(a)).cross(rest(c) - rest(a));
+    }
+    const Vec3 normal = sum.cwiseProduct(sides);
+    const double largest = normal.cwiseAbs().maxCoeff();
+    if (!(largest > 0.0) || !std::isfinite(largest)) return {1, 0, 0};
+    return (normal / largest * BlockSlabs::kNormalSteps).array().round().cast<int>();
+  }
+
+  BlockSlabs slabs_of(const Part& part, std::uint32_t cell) const {
+    BlockSlabs out;
+    out.cell = cell;
+    const Aabb box = shape_.lattice->cell_box(cell);
+    for (std::uint32_t c = 0; c < part.children.size(); ++c) {
+      const Eigen::Array3i normal = normal_of(part.children[c], box.extent());
+      Aabb bounds;
+      for (std::uint32_t t : triangles(part.children[c]))
+        for (std::uint32_t v : corners(t)) bounds.extend(rest(v));
+      const Vec3 middle = (bounds.center() - box.lo).cwiseQuotient(box.extent());
+      for (int k = 0; k < 3; ++k) {
+        out.normal[k][c] = static_cast<std::int8_t>(normal[k]);
+        out.middle[k][c] =
+            static_cast<std::uint16_t>(std::clamp(middle[k], 0.0, 1.0) * HomePieces::kSteps);
+      }
+    }
+    return out;
+  }
+
+  void add_pieces(std::uint32_t cell, const std::vector<LocalBounds>& bounds, const Part& part,
+                  const BlockSlabs& slabs) {
     HomePieces pieces;
     pieces.cell = cell;
     for (std::uint32_t c = 0; c < bounds.size(); ++c) {
@@ -88,8 +136,28 @@ class TreeBuilder {
         pieces.hi[k][c] =
             static_cast<std::uint16_t>(std::ceil(found->second.hi[k] * HomePieces::kSteps));
       }
+      bound_slab(part.children[c], c, slabs, pieces);
     }
     out_.pieces.push_back(pieces);
+  }
+
+  // m.x of at most 381 rounds by less than 2^-43, far below a step of a float there; where it
+  // cancels to nearly 0 the fixed margin covers it.
+  void bound_slab(const Part& child, std::uint32_t c, const BlockSlabs& slabs,
+                  HomePieces& pieces) const {
+    constexpr float kMargin = 0x1p-40f;
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+    for (std::uint32_t t : triangles(child))
+      for (std::uint32_t v : corners(t)) {
+        if (shape_.embedding.home_cell[v] != pieces.cell) continue;
+        const Vec3& x = shape_.embedding.local[v];
+        const double along =
+            slabs.normal[0][c] * x.x() + slabs.normal[1][c] * x.y() + slabs.normal[2][c] * x.z();
+        lo = std::min(lo, along);
+        hi = std::max(hi, along);
+      }
+    pieces.slab_lo[c] = std::nextafter(static_cast<float>(lo) - kMargin, -1e9f);
+    pieces.slab_hi[c] = std::nextafter(static_cast<float>(hi) + kMargin, 1e9f);
   }
 
   void add_hull(const Part& child) {
@@ -134,6 +202,10 @@ class TreeBuilder {
       way.reach[k] =
           std::min(1.0f, std::nextafter(static_cast<float>(step > 0 ? x : 1.0 - x), 2.0f));
     }
+    const auto crossed =
+        std::count_if(way.side.begin(), way.side.end(), [](int s) { return s != 0; });
+    for (int k = 0; k < 3; ++k)
+      if (crossed == 1 && way.side[k] != 0) way.face = static_cast<std::int8_t>(k);
     Stray& known = ways.try_emplace(27 * home + direction, way).first->second;
     for (int k = 0; k < 3; ++k) known.reach[k] = std::max(known.reach[k], way.reach[k]);
   }
@@ -201,9 +273,9 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t LatticeTree::bytes() const {
   std::size_t local = 0;
   for (const auto& axis : leaf_local) local += bytes_of(axis);
-  return bytes_of(blocks) + bytes_of(pieces) + bytes_of(hulls) + bytes_of(hull_nodes) +
-         bytes_of(strays) + bytes_of(leaves) + bytes_of(leaf_triangles) + bytes_of(leaf_corners) +
-         bytes_of(leaf_vertices) + local + bytes_of(runs);
+  return bytes_of(blocks) + bytes_of(pieces) + bytes_of(slabs) + bytes_of(hulls) +
+         bytes_of(hull_nodes) + bytes_of(strays) + bytes_of(leaves) + bytes_of(leaf_triangles) +
+         bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local + bytes_of(runs);
 }
 
 LatticeTree make_lattice_tree(const BodyShape& shape) {

@@ -16,7 +16,15 @@
 //   face, edge or node with h. Moving x in h, axis by axis, to what they share changes the image by
 //   (distance in local units) times a blend of h's four edges along that axis, and ends in the hull
 //   of o's nodes. So the hull, moved by the intervals of these edges times the largest distances,
-//   holds the image. Where owner and home share no node, h's nodes are added as a whole.
+//   holds the image; across one face so do the points at these distances on the edges. Where owner
+//   and home share no node, h's nodes are added as a whole.
+// Children bounded by pieces have a slab too, across their surface. At rest the vertices lie
+// between two planes normal to m, a covector of local coordinates: a <= m.x <= b in each home cell.
+// For any direction n in the world, f = n . X is trilinear in x, so about the centre c of the
+// piece, with d = x - c and half-widths e,
+//   f(x) = f(c) + g.d + f_st ds dt + f_su ds du + f_tu dt du + f_stu ds dt du,
+// and g.d = k m.d + (g - k m).d for any k: an interval from [a, b] and e. It is tight where g is
+// nearly parallel to m, which holds for n normal to the deformed surface.
 // Deformed triangles are flat between mapped vertices: a convex set that holds the three holds the
 // triangle, also where it crosses a displaced cell that holds none of its vertices.
 //
@@ -54,6 +62,16 @@ struct HomePieces {
   std::uint32_t cell = 0;
   std::uint32_t children = 0;                                        ///< bit mask: which have any
   std::array<std::array<std::uint16_t, kBlockWidth>, 3> lo{}, hi{};  ///< per axis and child
+  std::array<float, kBlockWidth> slab_lo{}, slab_hi{};  ///< of m.x, outward; see BlockSlabs
+};
+
+/// Per child of a block bounded by pieces: the normal m of its surface at rest, in local
+/// coordinates, and where in `cell` (clamped to it) its middle lies.
+struct BlockSlabs {
+  static constexpr double kNormalSteps = 127.0;  ///< of the largest component
+  std::uint32_t cell = 0;
+  std::array<std::array<std::int8_t, kBlockWidth>, 3> normal{};
+  std::array<std::array<std::uint16_t, kBlockWidth>, 3> middle{};  ///< in steps of HomePieces
 };
 
 /// The way from vertices with home `cell` to the owner cells of a hull child. `side` per axis: 0,
@@ -63,14 +81,16 @@ struct Stray {
   std::uint32_t cell = 0;
   std::array<float, 3> reach{};
   std::array<std::int8_t, 3> side{};
+  std::int8_t face = -1;  ///< the axis, where the way is across one face
 };
 
 struct TreeBlock {
   std::array<TreeChild, kBlockWidth> child{};
   std::uint32_t children = 0;
   bool hull = false;  ///< bounded by hulls, else by pieces
-  std::uint32_t begin = 0,
-                end = 0;  ///< range in `pieces`, or, for a hull, in `hulls` (one a child)
+  /// Range in `pieces`, one per home cell; of a hull in `hulls`, one per child.
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t slabs = 0;  ///< index in `slabs`, unless a hull
 };
 
 struct HullChild {
@@ -97,6 +117,7 @@ struct VertexRun {
 struct LatticeTree {
   std::vector<TreeBlock> blocks;  ///< [0] is the root; a child has a higher index than its parent
   std::vector<HomePieces> pieces;
+  std::vector<BlockSlabs> slabs;
   std::vector<HullChild> hulls;
   std::vector<std::uint32_t> hull_nodes;
   std::vector<Stray> strays;

@@ -21,7 +21,7 @@ void forget_frame(LazyState& state) {
       state.frame == std::numeric_limits<std::uint32_t>::max()) {
     state.block_frame.assign(blocks, 0);
     state.leaf_frame.assign(leaves, 0);
-    state.block_boxes.resize(blocks);
+    state.block_bounds.resize(blocks);
     state.leaves.resize(leaves);
     state.frame = 0;
   }
@@ -32,10 +32,42 @@ void forget_frame(LazyState& state) {
 
 Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
 
-bool lane_holds(const LaneBoxes& boxes, std::uint32_t lane, const Vec3& p) {
+// Finite whatever happens, so that boxes of lanes without a child stay empty; all content of a body
+// lies within 1 of its origin, so this much is everything.
+float round_up(double slack) {
+  constexpr double kEverything = 1e29;
+  return std::nextafter(static_cast<float>(std::min(slack, kEverything)),
+                        std::numeric_limits<float>::infinity());
+}
+
+bool lane_holds(const BlockBounds& bounds, std::uint32_t lane, const Vec3& p) {
   for (int k = 0; k < 3; ++k)
-    if (!(boxes.lo[k][lane] <= p[k] && p[k] <= boxes.hi[k][lane])) return false;
-  return true;
+    if (!(bounds.box->lo[k][lane] <= p[k] && p[k] <= bounds.box->hi[k][lane])) return false;
+  if (bounds.slab == nullptr) return true;
+  double along = 0.0;
+  for (int k = 0; k < 3; ++k) along += bounds.slab->normal[k][lane] * p[k];
+  return std::abs(along - bounds.slab->middle[lane]) <= bounds.slab->half[lane];
+}
+
+// The power of two that brings x to about 1, as near as it and its inverse are doubles.
+double scale_to_one(double x) {
+  constexpr int kLargestExponent = 1000;
+  if (!(x > 0.0)) return 1.0;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
+}
+
+void place_one(const Aabb& frame, double scale, LazyState& state) {
+  constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
+  state.scale = scale;
+  state.origin = frame.center();
+  state.reach = half_width(frame) * scale;
+  const double world = mapping_error_bound(state.largest) +
+                       4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
+  const double common = world * scale * 1.01 + 1e-37;
+  state.slack = round_up(64.0 * kFloatUnit * state.reach + common);
+  state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 
 class Validation {
@@ -65,7 +97,7 @@ class Validation {
     for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
       const std::uint32_t v = state_.tree->leaf_vertices[leaf.first_vertex + i];
       for (const Slot& slot : path_)
-        if (!lane_holds(state_.block_boxes[slot.block], slot.lane, in_frame(state_, vertices_[v])))
+        if (!lane_holds(state_.block_bounds[slot.block], slot.lane, in_frame(state_, vertices_[v])))
           return "vertex " + std::to_string(v) + " leaves lane " + std::to_string(slot.lane) +
                  " of block " + std::to_string(slot.block);
     }
@@ -93,29 +125,19 @@ void begin_frame(LazyState& state, std::span<const Vec3> points) {
   state.box = {lo.array() - error, hi.array() + error};
 }
 
-double common_scale(std::span<const LazyState> states) {
-  constexpr int kLargestExponent = 1000;  // powers of two beyond are no doubles, or their inverses
-  double largest = 0.0;
-  for (const LazyState& state : states) largest = std::max(largest, half_width(state.box));
-  if (!(largest > 0.0)) return 1.0;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
-}
-
-void place(LazyState& state, double scale) {
-  constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
-  state.scale = scale;
-  state.origin = state.box.center();
-  const double reach = half_width(state.box) * scale;
-  const double world = mapping_error_bound(state.largest) +
-                       4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
-  const double slack = 64.0 * kFloatUnit * reach + world * scale * 1.01 + 1e-37;
-  // Finite whatever happens, so that boxes of lanes without a child stay empty; all content of a
-  // body lies within 1 of its origin, so this much is everything.
-  constexpr double kEverything = 1e30;
-  state.slack = std::nextafter(static_cast<float>(std::min(slack, kEverything)),
-                               std::numeric_limits<float>::infinity());
+void place(std::span<LazyState> states) {
+  Aabb scene;
+  double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
+  for (const LazyState& state : states) {
+    scene.extend(state.box);
+    largest = std::max(largest, half_width(state.box));
+    smallest = std::min(smallest, half_width(state.box));
+  }
+  // Slack grows with the frame: at 64 body widths it is still a ten-thousandth of a body.
+  constexpr double kLargestShare = 64.0;
+  const bool common = half_width(scene) <= kLargestShare * smallest;
+  const double scale = scale_to_one(common ? half_width(scene) : largest);
+  for (LazyState& state : states) place_one(common ? scene : state.box, scale, state);
 }
 
 void find_near_nodes(LazyState& state) {

@@ -1,9 +1,10 @@
 // What the lazy detector knows about one body in one frame. Bounds and mapped leaves are made when
 // first asked for and stamped with the frame.
 //
-// Bounds are floats in the body's own frame: (x - origin) * scale, origin near the body's middle,
-// scale a power of two common to all bodies of the scene's frame. A body far from the scene's
-// origin loses nothing, and neither overflow nor underflow spoils a bound.
+// Bounds are floats in the body's frame: (x - origin) * scale, with a power of two common to all
+// bodies as scale. The origin is the middle of the scene where bodies are not small beside it, else
+// the middle of each body. So a scene far out loses nothing, nor does a body far from the others,
+// and neither overflow nor underflow spoils a bound.
 #pragma once
 
 #include <array>
@@ -29,9 +30,19 @@ struct alignas(64) LaneBoxes {
   float hi[3][kBlockWidth];
 };
 
-/// One box in a body's frame.
-struct FrameBox {
-  float lo[3], hi[3];
+/// Slabs of eight children: n . x lies within `half` of `middle`. Without a slab: normal 0, half
+/// kNoSlab.
+struct alignas(64) LaneSlabs {
+  float normal[3][kBlockWidth];
+  float middle[kBlockWidth];
+  float half[kBlockWidth];
+};
+inline constexpr float kNoSlab = 1e30f;
+
+/// In the arena.
+struct BlockBounds {
+  LaneBoxes* box = nullptr;
+  LaneSlabs* slab = nullptr;  ///< none where bounds come from vertices
 };
 
 /// The mapped leaf: its vertices, world coordinates as map_point() gives them, and the boxes of its
@@ -41,7 +52,7 @@ struct LeafCache {
   const double* y = nullptr;
   const double* z = nullptr;
   const LaneBoxes* boxes = nullptr;  ///< of kLeafTriangles triangles
-  FrameBox box;                      ///< of all
+  const LaneBoxes* whole = nullptr;  ///< lane 0: of all of them
 };
 
 /// Memory that lives until the next frame; nothing is freed and pointers stay valid.
@@ -94,14 +105,16 @@ struct LazyState {
 
   Vec3 origin = Vec3::Zero();
   double scale = 1.0;
-  float slack = 0.0f;  ///< by which bounds are moved outward; derivation in bounds-inl.h
+  double reach = 0.0;       ///< largest |coordinate| of the body in its frame
+  float slack = 0.0f;       ///< by which bounds are moved outward; derivation in bounds-inl.h
+  float slab_slack = 0.0f;  ///< the same for slabs
   std::vector<Float4> near_nodes;  ///< nodes in the body's frame
   bool nodes_known = false;
 
   std::uint32_t frame = 0;
   std::vector<std::uint32_t> block_frame, leaf_frame;  ///< when last bounded, mapped
-  std::vector<LaneBoxes> block_boxes;
-  std::vector<LeafCache> leaves;
+  std::vector<BlockBounds> block_bounds;
+  std::vector<LeafCache*> leaves;  ///< in the arena
   FrameArena arena;
 };
 
@@ -109,11 +122,8 @@ struct LazyState {
 /// @pre shape, tree and from_vertices are set
 void begin_frame(LazyState& state, std::span<const Vec3> points);
 
-/// The power of two by which the frames of all bodies are scaled: the largest becomes about 1.
-double common_scale(std::span<const LazyState> states);
-
-/// Chooses origin and slack. @pre begin_frame
-void place(LazyState& state, double scale);
+/// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame of each
+void place(std::span<LazyState> states);
 
 /// Takes the nodes into the body's frame, once per frame. @pre place
 void find_near_nodes(LazyState& state);

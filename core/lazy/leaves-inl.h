@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <new>
+
 #include "core/deform/mapping-inl.h"
 #include "core/lazy/bounds-inl.h"
 #include "core/lazy/lazy_state.h"
@@ -95,12 +97,11 @@ HWY_INLINE float extreme(const float* a, const float* b) {
 HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
                                      LazyCounters& counters) {
   static_assert(kLeafTriangles == 2 * kBlockWidth);
-  LeafCache& cache = state.leaves[index];
-  if (state.leaf_frame[index] == state.frame) return cache;
+  if (state.leaf_frame[index] == state.frame) return *state.leaves[index];
   const TreeLeaf& leaf = state.tree->leaves[index];
   const std::size_t room = (leaf.vertices + kLeafPadding + 7u) / 8 * 8;
-  auto* const world =
-      static_cast<double*>(state.arena.take(3 * room * sizeof(double) + 2 * sizeof(LaneBoxes)));
+  auto* const world = static_cast<double*>(
+      state.arena.take(3 * room * sizeof(double) + 3 * sizeof(LaneBoxes) + sizeof(LeafCache)));
   double* axes[3] = {world, world + room, world + 2 * room};
   if (state.from_vertices) {
     copy_vertices(state, leaf, axes);
@@ -108,17 +109,19 @@ HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
     map_runs(state, leaf, axes);
   }
   auto* const boxes = reinterpret_cast<LaneBoxes*>(world + 3 * room);
+  LeafCache& cache = *new (boxes + 3) LeafCache;
+  state.leaves[index] = &cache;
   HWY_ALIGN float near[3 * kLeafTriangles + kBlockWidth];
   for (int k = 0; k < 3; ++k) {
     to_frame(axes[k], state.origin[k], state.scale, leaf.vertices, near);
     for (std::uint32_t half = 0; half < 2; ++half)
       bound_triangles(near, state.tree->leaf_corners[index], half * kBlockWidth, leaf.triangles,
                       state.slack, boxes[half].lo[k], boxes[half].hi[k]);
-    cache.box.lo[k] = extreme<true>(boxes[0].lo[k], boxes[1].lo[k]);
-    cache.box.hi[k] = extreme<false>(boxes[0].hi[k], boxes[1].hi[k]);
+    boxes[2].lo[k][0] = extreme<true>(boxes[0].lo[k], boxes[1].lo[k]);
+    boxes[2].hi[k][0] = extreme<false>(boxes[0].hi[k], boxes[1].hi[k]);
   }
   cache.x = axes[0], cache.y = axes[1], cache.z = axes[2];
-  cache.boxes = boxes;
+  cache.boxes = boxes, cache.whole = boxes + 2;
   state.leaf_frame[index] = state.frame;
   ++counters.leaves_mapped;
   counters.vertices_mapped += leaf.vertices;

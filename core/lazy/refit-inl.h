@@ -18,6 +18,10 @@ namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+struct FrameBox {
+  float lo[3], hi[3];
+};
+
 // The box of a leaf's vertices in the body's frame. (x - origin) * scale is monotone in x, rounding
 // included, so it is applied to the ends alone.
 HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
@@ -52,7 +56,7 @@ HWY_INLINE void refit(LazyState& state, LazyCounters& counters) {
   const LatticeTree& tree = *state.tree;
   for (std::size_t index = tree.blocks.size(); index-- > 0;) {
     const TreeBlock& block = tree.blocks[index];
-    LaneBoxes& out = state.block_boxes[index];
+    auto& out = *static_cast<LaneBoxes*>(state.arena.take(sizeof(LaneBoxes)));
     for (std::uint32_t c = 0; c < kBlockWidth; ++c) {
       FrameBox box;
       if (c >= block.children) {
@@ -60,13 +64,14 @@ HWY_INLINE void refit(LazyState& state, LazyCounters& counters) {
       } else if (block.child[c].leaf()) {
         box = box_of_leaf(state, tree.leaves[block.child[c].index()]);
       } else {
-        box = box_of_block(state.block_boxes[block.child[c].index()]);
+        box = box_of_block(*state.block_bounds[block.child[c].index()].box);
       }
       for (int k = 0; k < 3; ++k) {
         out.lo[k][c] = box.lo[k];
         out.hi[k][c] = box.hi[k];
       }
     }
+    state.block_bounds[index] = {&out, nullptr};
     state.block_frame[index] = state.frame;
     ++counters.blocks_bounded;
   }

@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -22,62 +23,138 @@ namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Takes boxes of one body's frame into the other's, outward.
 struct Shift {
-  float lo[3], hi[3];
-  FrameBox apply(const FrameBox& box) const {
-    FrameBox out;
-    for (int k = 0; k < 3; ++k) {
-      out.lo[k] = box.lo[k] + lo[k];
-      out.hi[k] = box.hi[k] + hi[k];
-    }
-    return out;
-  }
+  float way[3], slack, slab_slack;
+  bool none;  // one frame for both
 };
 
-// From the frame of `from` to that of `to`. With u = 2^-24: the difference of the origins is wrong
-// by 3 * 2^-53 of them, its float by u, and the sum in apply() rounds by u of its result. Bounds of
-// `from` are at most 8 M < 16 (M <= 1 by the choice of the scale, 7 M with strays). Where this is
-// not finite, nothing is excluded (by a finite number: empty lanes stay empty).
+// One child's bounds, read where they stand: copies of single floats into a struct that vectors are
+// loaded from next would wait for the stores.
+struct ChildBounds {
+  const LaneBoxes& box;
+  const LaneSlabs* slab;
+  std::uint32_t lane;
+  float lo(int k) const { return box.lo[k][lane]; }
+  float hi(int k) const { return box.hi[k][lane]; }
+  float normal(int k) const { return slab->normal[k][lane]; }
+  float middle() const { return slab->middle[lane]; }
+  float half() const { return slab->half[lane]; }
+};
+
+// The same, moved into another body's frame, outward.
+struct MovedBounds {
+  const ChildBounds& child;
+  const Shift& shift;
+  float lo(int k) const { return child.lo(k) + (shift.way[k] - shift.slack); }
+  float hi(int k) const { return child.hi(k) + (shift.way[k] + shift.slack); }
+  float normal(int k) const { return child.normal(k); }
+  float middle() const {
+    float out = child.middle();
+    for (int k = 0; k < 3; ++k) out += child.normal(k) * shift.way[k];
+    return out;
+  }
+  float half() const { return child.half() + shift.slab_slack; }
+};
+
+// From the frame of `from` to that of `to`. With u = 2^-24 and r the reaches of both together: the
+// difference of the origins is wrong by 3 * 2^-53 of them, its float and way - slack by u r each,
+// and the sum in apply() by u times its result, at most 8 r + r with strays: below 16 u r. The
+// tests of slabs compare sums of about 20 products of values up to 9 r with factors of at most 2:
+// below 800 u r. The bodies' boxes overlap, so the way is at most r; else (rounding, or beyond the
+// doubles) nothing is excluded, by a finite number: empty lanes stay empty.
 HWY_INLINE Shift shift_between(const LazyState& from, const LazyState& to) {
-  constexpr double kUnit = 0x1p-24;
+  constexpr double kUnit = 0x1p-24, kEverything = 1e29;
+  const double r = from.reach + to.reach;
+  double origins = 0.0, longest = 0.0;
   Shift out;
   for (int k = 0; k < 3; ++k) {
     const double way = (from.origin[k] - to.origin[k]) * to.scale;
-    const double origins = (std::abs(from.origin[k]) + std::abs(to.origin[k])) * to.scale;
-    const double slack = 8 * 0x1p-53 * origins + 4 * kUnit * (std::abs(way) + 16.0);
-    const bool sound = std::abs(way) + slack < 1e30;
-    out.lo[k] = sound ? static_cast<float>(way - slack) : -1e38f;
-    out.hi[k] = sound ? static_cast<float>(way + slack) : 1e38f;
+    longest = std::max(longest, std::abs(way));
+    origins += (std::abs(from.origin[k]) + std::abs(to.origin[k])) * to.scale;
+    out.way[k] = static_cast<float>(way);
   }
+  const double rounding = 8 * 0x1p-53 * origins + 1e-36;
+  // False for NaN and infinity, too.
+  const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything;
+  out.slack = static_cast<float>(sound ? rounding + 32 * kUnit * r : kEverything);
+  out.slab_slack = static_cast<float>(sound ? 4 * rounding + 1024 * kUnit * r : kEverything);
+  out.none = from.origin == to.origin;
+  if (!sound) out.way[0] = out.way[1] = out.way[2] = 0.0f;
   return out;
 }
 
-HWY_INLINE FrameBox box_of_lane(const LaneBoxes& boxes, std::uint32_t lane) {
-  FrameBox out;
-  for (int k = 0; k < 3; ++k) {
-    out.lo[k] = boxes.lo[k][lane];
-    out.hi[k] = boxes.hi[k][lane];
+// Bit i: no plane parallel to the slab of lane i or to that of `one` is seen to part the two. Along
+// the normal n of the one, the other lies within a n' . x of its own slab, for any a, and the rest
+// (n - a n') . x of its box.
+template <class Bounds>
+HWY_INLINE std::uint32_t unparted(const Bounds& one, const BlockBounds& lanes) {
+  const FloatLanes d;
+  const auto point5 = hn::Set(d, 0.5f);
+  const auto middle1 = hn::Set(d, one.middle()), half1 = hn::Set(d, one.half());
+  std::uint32_t out = 0;
+  for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
+    FloatVec n[3], m[3];
+    auto along = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      n[k] = hn::Set(d, one.normal(k));
+      m[k] = hn::Load(d, lanes.slab->normal[k] + i);
+      along = hn::MulAdd(n[k], m[k], along);
+    }
+    const auto size = hn::Abs(along);
+    const auto middle = hn::Load(d, lanes.slab->middle + i);
+    const auto half = hn::Load(d, lanes.slab->half + i);
+    auto theirs = hn::Mul(along, middle), their_half = hn::Mul(size, half);
+    auto ours = hn::Mul(along, middle1), our_half = hn::Mul(size, half1);
+    for (int k = 0; k < 3; ++k) {
+      const auto lo = hn::Load(d, lanes.box->lo[k] + i), hi = hn::Load(d, lanes.box->hi[k] + i);
+      const auto rest = hn::NegMulAdd(along, m[k], n[k]);
+      theirs = hn::MulAdd(rest, hn::Mul(point5, hn::Add(lo, hi)), theirs);
+      their_half = hn::MulAdd(hn::Abs(rest), hn::Mul(point5, hn::Sub(hi, lo)), their_half);
+      const auto lo1 = hn::Set(d, one.lo(k)), hi1 = hn::Set(d, one.hi(k));
+      const auto rest1 = hn::NegMulAdd(along, n[k], m[k]);
+      ours = hn::MulAdd(rest1, hn::Mul(point5, hn::Add(lo1, hi1)), ours);
+      our_half = hn::MulAdd(hn::Abs(rest1), hn::Mul(point5, hn::Sub(hi1, lo1)), our_half);
+    }
+    const auto parted =
+        hn::Or(hn::Gt(hn::Abs(hn::Sub(middle1, theirs)), hn::Add(half1, their_half)),
+               hn::Gt(hn::Abs(hn::Sub(middle, ours)), hn::Add(half, our_half)));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(parted), bits);
+    out |= static_cast<std::uint32_t>(bits[0]) << i;
   }
   return out;
 }
 
 // Bit i: lane i shares a point with `box`.
-HWY_INLINE std::uint32_t overlapping(const FrameBox& box, const LaneBoxes& lanes) {
+template <class Bounds>
+HWY_INLINE std::uint32_t overlapping(const Bounds& one, const LaneBoxes& lanes) {
   const FloatLanes d;
   std::uint32_t out = 0;
   for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-    auto hit = hn::Le(hn::Load(d, lanes.lo[0] + i), hn::Set(d, box.hi[0]));
-    hit = hn::And(hit, hn::Le(hn::Set(d, box.lo[0]), hn::Load(d, lanes.hi[0] + i)));
+    auto hit = hn::Le(hn::Load(d, lanes.lo[0] + i), hn::Set(d, one.hi(0)));
+    hit = hn::And(hit, hn::Le(hn::Set(d, one.lo(0)), hn::Load(d, lanes.hi[0] + i)));
     for (int k = 1; k < 3; ++k) {
-      hit = hn::And(hit, hn::Le(hn::Load(d, lanes.lo[k] + i), hn::Set(d, box.hi[k])));
-      hit = hn::And(hit, hn::Le(hn::Set(d, box.lo[k]), hn::Load(d, lanes.hi[k] + i)));
+      hit = hn::And(hit, hn::Le(hn::Load(d, lanes.lo[k] + i), hn::Set(d, one.hi(k))));
+      hit = hn::And(hit, hn::Le(hn::Set(d, one.lo(k)), hn::Load(d, lanes.hi[k] + i)));
     }
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hit, bits);
     out |= static_cast<std::uint32_t>(bits[0]) << i;
   }
   return out;
+}
+
+template <class Bounds>
+HWY_INLINE std::uint32_t meeting_lanes(const Bounds& one, bool slabs, const BlockBounds& lanes) {
+  const std::uint32_t hits = overlapping(one, *lanes.box);
+  return hits != 0 && slabs ? hits & unparted(one, lanes) : hits;
+}
+
+// A box of a leaf, or of one of its triangles, beside boxes of the other body's triangles.
+HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32_t lane,
+                                               const Shift& shift, const LaneBoxes& lanes) {
+  const ChildBounds one{box, nullptr, lane};
+  return shift.none ? overlapping(one, lanes) : overlapping(MovedBounds{one, shift}, lanes);
 }
 
 class PairTraversal {
@@ -134,15 +211,24 @@ class PairTraversal {
     }
   }
 
+  // Lanes of a block that may meet one child of the other tree.
+  static HWY_INLINE std::uint32_t meeting(const BlockBounds& bounds, std::uint32_t lane,
+                                          const Shift& shift, const BlockBounds& lanes) {
+    const bool slabs = bounds.slab != nullptr && lanes.slab != nullptr;
+    const ChildBounds one{*bounds.box, bounds.slab, lane};
+    return shift.none ? meeting_lanes(one, slabs, lanes)
+                      : meeting_lanes(MovedBounds{one, shift}, slabs, lanes);
+  }
+
   // All children of one block, as far as `lanes` says, against those of another.
   HWY_INLINE void cross(std::uint32_t block_a, std::uint32_t lanes, std::uint32_t block_b) {
     ++scratch_.counters.block_pairs;
-    const LaneBoxes& boxes_a = bounds(bodies_.a, block_a, scratch_.counters);
-    const LaneBoxes& boxes_b = bounds(bodies_.b, block_b, scratch_.counters);
+    const BlockBounds& bounds_a = bounds(bodies_.a, block_a, scratch_.counters);
+    const BlockBounds& bounds_b = bounds(bodies_.b, block_b, scratch_.counters);
     lanes &= (1u << bodies_.a.tree->blocks[block_a].children) - 1;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      std::uint32_t hits = overlapping(to_b_.apply(box_of_lane(boxes_a, i)), boxes_b);
+      std::uint32_t hits = meeting(bounds_a, i, to_b_, bounds_b);
       for (; hits != 0; hits &= hits - 1)
         meet({block_a, i, block_b, static_cast<std::uint32_t>(std::countr_zero(hits))});
     }
@@ -151,24 +237,22 @@ class PairTraversal {
   HWY_INLINE void open(const SlotPair& slots) {
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
-    const FrameBox box_a = box_of_lane(bodies_.a.block_boxes[slots.block_a], slots.lane_a);
-    const FrameBox box_b = box_of_lane(bodies_.b.block_boxes[slots.block_b], slots.lane_b);
-    if (!a.leaf() && !b.leaf()) {
-      const LaneBoxes& boxes = bounds(bodies_.a, a.index(), scratch_.counters);
-      cross(a.index(), overlapping(to_a_.apply(box_b), boxes), b.index());
-    } else if (a.leaf()) {
-      const LaneBoxes& boxes = bounds(bodies_.b, b.index(), scratch_.counters);
-      std::uint32_t hits = overlapping(to_b_.apply(box_a), boxes);
+    const BlockBounds& above_a = bodies_.a.block_bounds[slots.block_a];
+    const BlockBounds& above_b = bodies_.b.block_bounds[slots.block_b];
+    if (a.leaf()) {
+      const BlockBounds& lanes = bounds(bodies_.b, b.index(), scratch_.counters);
+      std::uint32_t hits = meeting(above_a, slots.lane_a, to_b_, lanes);
       for (; hits != 0; hits &= hits - 1)
         meet({slots.block_a, slots.lane_a, b.index(),
               static_cast<std::uint32_t>(std::countr_zero(hits))});
-    } else {
-      const LaneBoxes& boxes = bounds(bodies_.a, a.index(), scratch_.counters);
-      std::uint32_t hits = overlapping(to_a_.apply(box_b), boxes);
-      for (; hits != 0; hits &= hits - 1)
-        meet({a.index(), static_cast<std::uint32_t>(std::countr_zero(hits)), slots.block_b,
-              slots.lane_b});
+      return;
     }
+    const BlockBounds& lanes = bounds(bodies_.a, a.index(), scratch_.counters);
+    std::uint32_t hits = meeting(above_b, slots.lane_b, to_a_, lanes);
+    if (!b.leaf()) return hits == 0 ? void() : cross(a.index(), hits, b.index());
+    for (; hits != 0; hits &= hits - 1)
+      meet({a.index(), static_cast<std::uint32_t>(std::countr_zero(hits)), slots.block_b,
+            slots.lane_b});
   }
 
   HWY_INLINE void test_leaf_pairs() {
@@ -177,24 +261,23 @@ class PairTraversal {
     flush();
   }
 
+  // Triangles of one leaf, sixteen bits, whose boxes meet that of one triangle of the other.
+  static HWY_INLINE std::uint32_t meeting_triangles(const LaneBoxes& box, std::uint32_t lane,
+                                                    const Shift& shift, const LeafCache& leaf) {
+    return overlapping_triangles(box, lane, shift, leaf.boxes[0]) |
+           overlapping_triangles(box, lane, shift, leaf.boxes[1]) << kBlockWidth;
+  }
+
   HWY_INLINE void test_leaves(const LeafPair& pair) {
     const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.counters);
     const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.counters);
-    const FrameBox whole_b = to_a_.apply(b.box), whole_a = to_b_.apply(a.box);
-    const std::uint32_t in_b = overlapping(whole_a, b.boxes[0]) | overlapping(whole_a, b.boxes[1])
-                                                                      << kBlockWidth;
-    if (in_b == 0) return;
-    for (std::uint32_t half = 0; half < 2; ++half) {
-      std::uint32_t in_a = overlapping(whole_b, a.boxes[half]);
-      for (; in_a != 0; in_a &= in_a - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(in_a));
-        const FrameBox box = to_b_.apply(box_of_lane(a.boxes[half], i));
-        std::uint32_t hits = overlapping(box, b.boxes[0]) | overlapping(box, b.boxes[1])
-                                                                << kBlockWidth;
-        for (hits &= in_b; hits != 0; hits &= hits - 1)
-          add_pair(pair, a, half * kBlockWidth + i, b,
-                   static_cast<std::uint32_t>(std::countr_zero(hits)));
-      }
+    if (meeting_triangles(*a.whole, 0, to_b_, b) == 0) return;
+    for (std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a); in_a != 0;
+         in_a &= in_a - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(in_a));
+      std::uint32_t hits = meeting_triangles(a.boxes[i / kBlockWidth], i % kBlockWidth, to_b_, b);
+      for (; hits != 0; hits &= hits - 1)
+        add_pair(pair, a, i, b, static_cast<std::uint32_t>(std::countr_zero(hits)));
     }
   }
 

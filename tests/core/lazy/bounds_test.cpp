@@ -1,0 +1,277 @@
+// Bounds made from lattice nodes alone, or from vertices: they hold their vertices, whatever the
+// deformation, and not much more.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/lazy/kernels.h"
+#include "tests/core/lazy/one_body.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Deformation;
+using test::OneBody;
+using test::rest_nodes_at;
+using test::ShapePtr;
+using test::triangles_under;
+using test::TriangleSource;
+
+struct NamedShape {
+  std::string name;
+  ShapePtr shape;
+};
+
+const std::vector<NamedShape>& shapes() {
+  static const std::vector<NamedShape> all = [] {
+    const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 3);
+    const TriangleMesh box = test::box_mesh(Vec3(-1, -0.75, -0.5), Vec3(1, 0.75, 0.5), 4);
+    return std::vector<NamedShape>{
+        {"ball, one cell", make_shape(ball, {1, 1, 1})},
+        {"ball, coarse", make_shape(ball, {3, 4, 3})},
+        {"ball, fine", make_shape(ball, {10, 10, 10})},
+        {"box, fine", make_shape(box, {10, 10, 10})},
+        {"box on its nodes", test::box_on_its_nodes(6)},
+        {"sheet", make_shape(test::sheet(9), {5, 5, 1})},
+        {"long triangles", make_shape(test::long_triangles(6, 60), {8, 8, 8})},
+        {"bare", make_bare_shape(ball)},
+    };
+  }();
+  return all;
+}
+
+// Promises broken on any instruction set, for bounds from nodes and from vertices.
+class AllKernels {
+ public:
+  explicit AllKernels(const ShapePtr& shape) : from_nodes_(shape, false), refitted_(shape, true) {}
+
+  /// `scale` 0: the body's own.
+  std::string broken(const std::vector<Vec3>& nodes, double scale = 0.0) {
+    for (OneBody* body : {&from_nodes_, &refitted_})
+      for (const std::string& isa : lazy_isas()) {
+        body->begin(nodes, scale);
+        const std::string text = body->broken(lazy_kernels(isa));
+        if (!text.empty()) return isa + (body == &refitted_ ? " from vertices: " : ": ") + text;
+      }
+    return "";
+  }
+
+ private:
+  OneBody from_nodes_, refitted_;
+};
+
+TEST(LazyBounds, HoldTheirVerticesUnderStrongDeformation) {
+  TriangleSource random(501);
+  for (const NamedShape& named : shapes()) {
+    AllKernels kernels(named.shape);
+    for (double strength : {0.0, 0.3, 2.0, 50.0})  // cells are turned inside out
+      for (double scale : {1e-300, 1e-9, 1.0, 1e9, 1e200})
+        for (double offset : {0.0, 1e6, -1e12, 1e300}) {
+          const Deformation how{strength, scale, Vec3(offset, -offset, 0.5 * offset)};
+          EXPECT_EQ(kernels.broken(deformed_nodes(*named.shape, how, random)), "")
+              << named.name << " " << strength << " " << scale << " " << offset;
+        }
+  }
+}
+
+TEST(LazyBounds, HoldTheirVerticesAtTheEndsOfDoubles) {
+  TriangleSource random(502);
+  for (const NamedShape& named : shapes()) {
+    AllKernels kernels(named.shape);
+    for (const Deformation& how : {Deformation{0.3, 0x1p-1074}, Deformation{0.3, 1e-310},
+                                   Deformation{0.3, 1e306, Vec3(1.6e308, -1.6e308, 0)}})
+      EXPECT_EQ(kernels.broken(deformed_nodes(*named.shape, how, random)), "")
+          << named.name << " " << how.scale;
+  }
+}
+
+TEST(LazyBounds, HoldInAFrameScaledForAMuchLargerBody) {
+  TriangleSource random(503);
+  for (const NamedShape& named : shapes()) {
+    AllKernels kernels(named.shape);
+    for (double size : {1e-300, 1e-30, 1.0})
+      for (double scale : {0x1p-10, 0x1p-120, 0x1p-900})
+        EXPECT_EQ(kernels.broken(deformed_nodes(*named.shape, {1.0, size}, random), scale), "")
+            << named.name << " " << size << " " << scale;
+  }
+}
+
+TEST(LazyBounds, HoldWhenTheLatticeIsFlattenedOrCollapsed) {
+  TriangleSource random(504);
+  for (const NamedShape& named : shapes()) {
+    AllKernels kernels(named.shape);
+    for (double squeeze : {0.0, 0x1p-1060, 1e-20, -1.0})
+      for (const Vec3& axes :
+           {Vec3(1, 1, squeeze), Vec3(squeeze, 1, squeeze), Vec3(squeeze, squeeze, squeeze)}) {
+        std::vector<Vec3> nodes = deformed_nodes(*named.shape, {0.3}, random);
+        for (Vec3& n : nodes) n = n.cwiseProduct(axes) + Vec3(0, 3e5, 0);
+        EXPECT_EQ(kernels.broken(nodes), "") << named.name << " " << axes.transpose();
+      }
+  }
+}
+
+TEST(LazyBounds, HoldWhenOneNodeIsFarAway) {
+  TriangleSource random(505);
+  for (const NamedShape& named : shapes()) {
+    AllKernels kernels(named.shape);
+    for (double distance : {10.0, 1e6, -1e15, 1e200})
+      for (int round = 0; round < 4; ++round) {
+        std::vector<Vec3> nodes = deformed_nodes(*named.shape, {0.2}, random);
+        const int node = random.below(static_cast<int>(nodes.size()));
+        nodes[static_cast<std::size_t>(node)] += random.point(Vec3::Zero(), distance);
+        EXPECT_EQ(kernels.broken(nodes), "") << named.name << " " << distance << " " << node;
+      }
+  }
+}
+
+bool neighbours(const GridIndex& a, const GridIndex& b) {
+  for (int k = 0; k < 3; ++k)
+    if (a[k] > b[k] + 1 || b[k] > a[k] + 1) return false;
+  return true;
+}
+
+TEST(LazyBounds, AreTestedWithTrianglesBetweenCellsThatAreNoNeighbours) {
+  const BodyShape& shape = *shapes()[6].shape;
+  int far = 0;
+  for (const Triangle& t : shape.mesh.triangles) {
+    const auto cell = [&](int k) { return shape.lattice->cells[shape.embedding.home_cell[t[k]]]; };
+    far += !neighbours(cell(0), cell(1)) && !neighbours(cell(1), cell(2));
+  }
+  EXPECT_GT(far, 20);
+  EXPECT_TRUE(make_lattice_tree(shape).blocks[0].hull);
+}
+
+// Applies `spoil(lo, hi)` to one lane at a time; the lanes that validate() does not miss.
+template <typename Spoil>
+int reported_lanes(OneBody& body, bool hull, Spoil&& spoil) {
+  int reported = 0;
+  for (std::size_t b = 0; b < body.tree().blocks.size(); ++b) {
+    const TreeBlock& block = body.tree().blocks[b];
+    for (std::uint32_t c = 0; block.hull == hull && c < block.children; ++c) {
+      LaneBoxes& boxes = body.state().block_boxes[b];
+      const LaneBoxes before = boxes;
+      for (int k = 0; k < 3; ++k) spoil(boxes.lo[k][c], boxes.hi[k][c]);
+      const std::string text = validate(body.state(), body.vertices());
+      const std::string lane = "lane " + std::to_string(c) + " of block " + std::to_string(b);
+      reported += text.find(lane) != std::string::npos;
+      boxes = before;
+    }
+  }
+  return reported;
+}
+
+int lanes_of(const LatticeTree& tree, bool hull) {
+  int lanes = 0;
+  for (const TreeBlock& block : tree.blocks)
+    if (block.hull == hull) lanes += static_cast<int>(block.children);
+  return lanes;
+}
+
+void shrink(float& lo, float& hi) {
+  const float way = 0.01f * (hi - lo);
+  lo += way;
+  hi -= way;
+}
+void move_up(float& lo, float& hi) {
+  const float way = 0.01f * (hi - lo);
+  lo += way;
+  hi += way;
+}
+void move_down(float& lo, float& hi) {
+  const float way = 0.01f * (hi - lo);
+  lo -= way;
+  hi -= way;
+}
+
+TEST(LazyBounds, ShrunkOrMovedByOnePercentAreReported) {
+  // Boxes on their nodes: a hull of cells is as tight as it can be only where vertices are nodes.
+  for (const auto& [shape, hull] :
+       {std::pair(test::box_on_its_nodes(10), true),
+        std::pair(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2}), false)})
+    for (const std::string& isa : lazy_isas()) {
+      OneBody body(shape, false);
+      body.begin(rest_nodes_at(*shape, Vec3(3, 4, 5)));
+      ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
+      const int lanes = lanes_of(body.tree(), hull);
+      EXPECT_GE(lanes, 8);
+      EXPECT_EQ(reported_lanes(body, hull, shrink), lanes) << isa << " " << hull;
+      EXPECT_EQ(reported_lanes(body, hull, move_up), lanes) << isa << " " << hull;
+      EXPECT_EQ(reported_lanes(body, hull, move_down), lanes) << isa << " " << hull;
+    }
+}
+
+TEST(LazyBounds, OfRefittedBodiesShrunkOrMovedByOnePercentAreReportedUnderDeformation) {
+  TriangleSource random(506);
+  for (const NamedShape& named : shapes()) {
+    OneBody body(named.shape, true);
+    body.begin(deformed_nodes(body.shape(), {0.3}, random));
+    ASSERT_EQ(body.broken(lazy_kernels()), "");
+    for (bool hull : {false, true}) {
+      const int lanes = lanes_of(body.tree(), hull);
+      EXPECT_EQ(reported_lanes(body, hull, shrink), lanes) << named.name;
+      EXPECT_EQ(reported_lanes(body, hull, move_up), lanes) << named.name;
+      EXPECT_EQ(reported_lanes(body, hull, move_down), lanes) << named.name;
+    }
+  }
+}
+
+// How far a lane sticks out beyond its vertices, at most.
+double excess(OneBody& body, std::size_t block, std::uint32_t lane, int axis) {
+  const auto triangles = triangles_under(body.tree(), body.tree().blocks[block].child[lane]);
+  const Aabb truth = body.box_of(triangles);
+  const LaneBoxes& boxes = body.state().block_boxes[block];
+  return std::max(truth.lo[axis] - boxes.lo[axis][lane], boxes.hi[axis][lane] - truth.hi[axis]);
+}
+
+TEST(LazyBounds, OfPiecesAreTightAtRest) {
+  for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(40, -3e3, 1e6)})
+    for (const std::string& isa : lazy_isas()) {
+      OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2}), false);
+      body.begin(rest_nodes_at(body.shape(), offset));
+      ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
+      ASSERT_FALSE(body.tree().blocks[0].hull);
+      const Vec3 cell = body.state().scale * body.shape().lattice->cell_box(0).extent();
+      for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+        for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
+             ++c)
+          for (int k = 0; k < 3; ++k)
+            ASSERT_LE(excess(body, b, c, k),
+                      cell[k] / HomePieces::kSteps + 2.0 * body.state().slack)
+                << isa << " block " << b << " lane " << c;
+    }
+}
+
+TEST(LazyBounds, LeaveLanesWithoutAChildEmpty) {
+  int empty = 0;
+  for (const NamedShape& named : shapes())
+    for (const std::string& isa : lazy_isas()) {
+      OneBody body(named.shape, false);
+      body.begin(rest_nodes_at(*named.shape, Vec3(1e300, 0, 0)));  // slack without a limit
+      ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
+      for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+        for (std::uint32_t c = body.tree().blocks[b].children; c < kBlockWidth; ++c, ++empty)
+          for (int k = 0; k < 3; ++k) {
+            const LaneBoxes& boxes = body.state().block_boxes[b];
+            EXPECT_GT(boxes.lo[k][c], boxes.hi[k][c]) << named.name << " " << isa;
+          }
+    }
+  EXPECT_GT(empty, 0);
+}
+
+TEST(LazyBounds, AreMadeOncePerFrame) {
+  OneBody body(shapes()[1].shape, false);
+  body.begin(rest_nodes_at(body.shape(), Vec3::Zero()));
+  LazyCounters counters;
+  lazy_kernels().bound_all(body.state(), counters);
+  lazy_kernels().bound_all(body.state(), counters);
+  EXPECT_EQ(counters.blocks_bounded, body.tree().blocks.size());
+  body.begin(rest_nodes_at(body.shape(), Vec3(5, 0, 0)));
+  lazy_kernels().bound_all(body.state(), counters);
+  EXPECT_EQ(counters.blocks_bounded, 2 * body.tree().blocks.size());
+  EXPECT_EQ(validate(body.state(), body.vertices()), "");
+}
+
+}  // namespace
+}  // namespace contactcheck

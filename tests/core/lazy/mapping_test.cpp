@@ -1,0 +1,143 @@
+// A mapped leaf: the bits of the canonical mapping, and boxes that hold its triangles.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "core/lazy/kernels.h"
+#include "tests/core/lazy/one_body.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Deformation;
+using test::OneBody;
+using test::rest_nodes_at;
+using test::ShapePtr;
+
+std::vector<ShapePtr> shapes() {
+  const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 3);
+  return {make_shape(ball, {1, 1, 1}), make_shape(ball, {10, 10, 10}), make_bare_shape(ball),
+          make_shape(test::long_triangles(5, 33), {6, 6, 6}),
+          make_shape(test::sheet(1), {1, 1, 1})};
+}
+
+const Deformation kDeformations[] = {{0.0},
+                                     {0.4},
+                                     {50.0},
+                                     {0.4, 1e-300},
+                                     {0.4, 1e200, {1e12, 0, 0}},
+                                     {0.4, 1.0, {1e12, -1e12, 3e11}},
+                                     {0.4, 1e-9, {1e300, 1.0, -1e300}}};
+
+// Every leaf of every shape, deformation, source and instruction set.
+template <typename Check>
+void for_each_mapped_leaf(Check&& check) {
+  test::TriangleSource random(11);
+  for (const ShapePtr& shape : shapes())
+    for (bool from_vertices : {false, true}) {
+      OneBody body(shape, from_vertices);
+      for (const Deformation& how : kDeformations)
+        for (const std::string& isa : lazy_isas()) {
+          SCOPED_TRACE(isa);
+          body.begin(deformed_nodes(*shape, how, random));
+          LazyCounters counters;
+          for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l)
+            check(body, l, lazy_kernels(isa).map_leaf(body.state(), l, counters));
+        }
+    }
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+TEST(MapLeaf, GivesTheBitsOfTheMappingOnEveryInstructionSet) {
+  int different = 0, all = 0;
+  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
+    const TreeLeaf& leaf = body.tree().leaves[l];
+    for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
+      const Vec3& v = body.vertices()[body.tree().leaf_vertices[leaf.first_vertex + i]];
+      different += !same_bits(cache.x[i], v.x()) || !same_bits(cache.y[i], v.y()) ||
+                   !same_bits(cache.z[i], v.z());
+      ++all;
+    }
+  });
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(all, 50000);
+}
+
+bool holds(const FrameBox& box, const Aabb& content) {
+  for (int k = 0; k < 3; ++k)
+    if (!(box.lo[k] <= content.lo[k] && content.hi[k] <= box.hi[k])) return false;
+  return true;
+}
+
+FrameBox lane_of(const LaneBoxes& boxes, std::uint32_t lane) {
+  FrameBox out;
+  for (int k = 0; k < 3; ++k) {
+    out.lo[k] = boxes.lo[k][lane];
+    out.hi[k] = boxes.hi[k][lane];
+  }
+  return out;
+}
+
+TEST(MapLeaf, GivesBoxesThatHoldTheirTriangles) {
+  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
+    const TreeLeaf& leaf = body.tree().leaves[l];
+    for (std::uint32_t i = 0; i < leaf.triangles; ++i) {
+      const Aabb truth =
+          body.box_of(std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle + i, 1));
+      ASSERT_TRUE(holds(lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth), truth));
+      ASSERT_TRUE(holds(cache.box, truth));
+    }
+  });
+}
+
+TEST(MapLeaf, LeavesLanesWithoutATriangleEmpty) {
+  int empty = 0;
+  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
+    for (std::uint32_t i = body.tree().leaves[l].triangles; i < kLeafTriangles; ++i, ++empty) {
+      const FrameBox box = lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth);
+      for (int k = 0; k < 3; ++k) ASSERT_GT(box.lo[k], box.hi[k]);
+    }
+  });
+  EXPECT_GT(empty, 0);
+}
+
+TEST(MapLeaf, GivesTightBoxes) {
+  OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false);
+  test::TriangleSource random(12);
+  body.begin(deformed_nodes(body.shape(), {0.3}, random));
+  LazyCounters counters;
+  for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l) {
+    const LeafCache& cache = lazy_kernels().map_leaf(body.state(), l, counters);
+    const TreeLeaf& leaf = body.tree().leaves[l];
+    const Aabb truth = body.box_of(
+        std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle, leaf.triangles));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LT(truth.lo[k] - cache.box.lo[k], 2.0 * body.state().slack);
+      EXPECT_LT(cache.box.hi[k] - truth.hi[k], 2.0 * body.state().slack);
+    }
+  }
+}
+
+TEST(MapLeaf, MapsOncePerFrameAndAnewInTheNext) {
+  for (const std::string& isa : lazy_isas()) {
+    OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false);
+    const LazyKernels& kernels = lazy_kernels(isa);
+    LazyCounters counters;
+    body.begin(rest_nodes_at(body.shape(), Vec3::Zero()));
+    const double* const first = kernels.map_leaf(body.state(), 2, counters).x;
+    EXPECT_EQ(kernels.map_leaf(body.state(), 2, counters).x, first);
+    EXPECT_EQ(counters.leaves_mapped, 1u);
+    EXPECT_EQ(counters.vertices_mapped, body.tree().leaves[2].vertices);
+    const double before = *first;
+    body.begin(rest_nodes_at(body.shape(), Vec3(1, 0, 0)));
+    EXPECT_NEAR(*kernels.map_leaf(body.state(), 2, counters).x, before + 1.0, 1e-12);
+    EXPECT_EQ(counters.leaves_mapped, 2u);
+  }
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,145 @@
+// A deformed body as the kernels of core/lazy see it, and a walk over its tree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/lazy/kernels.h"
+#include "core/lazy/lattice_tree.h"
+#include "core/lazy/lazy_state.h"
+#include "tests/support/random_triangles.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck::test {
+
+using ShapePtr = std::shared_ptr<const BodyShape>;
+
+inline void add_triangles(const LatticeTree& tree, TreeChild child,
+                          std::vector<std::uint32_t>& out) {
+  if (child.leaf()) {
+    const TreeLeaf& leaf = tree.leaves[child.index()];
+    const auto first = tree.leaf_triangles.begin() + leaf.first_triangle;
+    out.insert(out.end(), first, first + leaf.triangles);
+    return;
+  }
+  const TreeBlock& block = tree.blocks[child.index()];
+  for (std::uint32_t c = 0; c < block.children; ++c) add_triangles(tree, block.child[c], out);
+}
+
+/// Triangles of the mesh below a child, with repeats should there be any.
+inline std::vector<std::uint32_t> triangles_under(const LatticeTree& tree, TreeChild child) {
+  std::vector<std::uint32_t> out;
+  add_triangles(tree, child, out);
+  return out;
+}
+
+/// Nodes (vertices, without a lattice) at rest, each moved by up to `strength` per axis, then
+/// scaled and moved.
+struct Deformation {
+  double strength = 0.0;
+  double scale = 1.0;
+  Vec3 offset = Vec3::Zero();
+};
+
+inline std::vector<Vec3> deformed_nodes(const BodyShape& shape, const Deformation& how,
+                                        TriangleSource& random) {
+  std::vector<Vec3> nodes = rest_nodes_at(shape, Vec3::Zero());
+  for (Vec3& n : nodes) n = how.offset + how.scale * random.point(n, how.strength);
+  return nodes;
+}
+
+/// One body in one frame, placed as a scene of its own. Its state points into it.
+class OneBody {
+ public:
+  OneBody(ShapePtr shape, bool from_vertices)
+      : shape_(std::move(shape)), tree_(make_lattice_tree(*shape_)) {
+    state_.shape = shape_.get();
+    state_.tree = &tree_;
+    state_.from_vertices = from_vertices || !shape_->lattice;
+  }
+  OneBody(const OneBody&) = delete;
+  OneBody& operator=(const OneBody&) = delete;
+
+  /// `scale` 0: the body's own.
+  void begin(std::vector<Vec3> nodes, double scale = 0.0) {
+    nodes_ = std::move(nodes);
+    vertices_.resize(shape_->mesh.vertices.size());
+    map_body(*shape_, nodes_, vertices_);
+    begin_frame(state_, state_.from_vertices ? vertices_ : nodes_);
+    place(state_, scale > 0.0 ? scale : common_scale({&state_, 1}));
+    find_near_nodes(state_);
+  }
+  /// Bounds everything; "" or the first broken promise.
+  std::string broken(const LazyKernels& kernels) {
+    LazyCounters counters;
+    kernels.bound_all(state_, counters);
+    return validate(state_, vertices_);
+  }
+
+  LazyState& state() { return state_; }
+  const LatticeTree& tree() const { return tree_; }
+  const BodyShape& shape() const { return *shape_; }
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+
+  /// In the body's frame.
+  Aabb box_of(std::span<const std::uint32_t> triangles) const {
+    Aabb box;
+    for (std::uint32_t t : triangles)
+      for (std::uint32_t v : shape_->mesh.triangles[t])
+        box.extend((vertices_[v] - state_.origin) * state_.scale);
+    return box;
+  }
+
+ private:
+  ShapePtr shape_;
+  LatticeTree tree_;
+  LazyState state_;
+  std::vector<Vec3> nodes_, vertices_;
+};
+
+/// Long triangles between random points of [-1, 1]^3.
+inline TriangleMesh long_triangles(std::uint64_t seed, int count) {
+  TriangleSource random(seed);
+  TriangleMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3& p : random.triangle(Vec3::Zero(), 1.0)) mesh.vertices.push_back(p);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+/// A sheet of 2 n^2 triangles over [0, 1]^2, open.
+inline TriangleMesh sheet(int n) {
+  TriangleMesh mesh;
+  const auto row = static_cast<std::uint32_t>(n + 1);
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) mesh.vertices.push_back({1.0 * x / n, 1.0 * y / n, 0.1 * (x % 2)});
+  for (std::uint32_t y = 0; y + 1 < row; ++y)
+    for (std::uint32_t x = 0; x + 1 < row; ++x) {
+      const std::uint32_t a = y * row + x;
+      mesh.triangles.push_back({a, a + 1, a + row});
+      mesh.triangles.push_back({a + 1, a + row + 1, a + row});
+    }
+  return mesh;
+}
+
+/// The box [0, n]^3 whose vertices are lattice nodes, in a lattice without padding: at rest, hulls
+/// of many cells are as tight as they can be.
+inline ShapePtr box_on_its_nodes(int n) {
+  auto shape = std::make_shared<BodyShape>();
+  shape->mesh = box_mesh(Vec3::Zero(), Vec3::Constant(n), n);
+  shape->topology = analyse_topology(shape->mesh);
+  const ShapePtr padded =
+      make_shape(shape->mesh, {static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(n),
+                               static_cast<std::uint32_t>(n)});
+  shape->lattice = padded->lattice;
+  for (auto& lines : shape->lattice->lines)
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = static_cast<double>(i);
+  shape->embedding = embed(shape->mesh, *shape->lattice);
+  return shape;
+}
+
+}  // namespace contactcheck::test

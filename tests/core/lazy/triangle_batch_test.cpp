@@ -160,6 +160,36 @@ TEST(TriangleBatch, IsNeverWrongOnNeedlesAndOnVeryDifferentSizes) {
     });
 }
 
+Pair stretched(Pair pair, const Vec3& by) {
+  for (TrianglePoints* t : {&pair.first, &pair.second})
+    for (Vec3& p : *t) p = p.cwiseProduct(by);
+  return pair;
+}
+
+Pair near_degenerate_pair(TriangleSource& random) {
+  const TrianglePoints t = random.triangle(Vec3::Zero(), 1.0);
+  return {t, random.near_degenerate_partner(t, 1.0)};
+}
+
+// Determinants become denormal numbers of few bits while all coordinates are ordinary.
+TEST(TriangleBatch, IsNeverWrongWhereDeterminantsUnderflow) {
+  for (int exponent = -360; exponent <= -330; exponent += 3)
+    judge(612, 200, [&](TriangleSource& random) {
+      return moved(near_degenerate_pair(random), std::ldexp(1.0, exponent), Vec3::Zero());
+    });
+}
+
+// A minor overflows where the determinant does not: times a tiny difference, it is no infinity.
+TEST(TriangleBatch, IsNeverWrongWhereAxesHaveVeryDifferentScales) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int tiny : {-900, -600, -300})
+      for (int huge : {520, 600, 700}) {
+        Vec3 by = Vec3::Constant(std::ldexp(1.0, huge));
+        by[axis] = std::ldexp(1.0, tiny);
+        judge(613, 48, [&](TriangleSource& random) { return stretched(generic_pair(random), by); });
+      }
+}
+
 // Pairs that meet, but in their boundaries, in one plane, or as less than triangles. Of short
 // binary fractions, so that they do so exactly.
 std::vector<Pair> touching_pairs() {

@@ -218,9 +218,8 @@ std::vector<ElementPair> collided(const std::string& isa, const std::vector<Body
     begin_frame(states[b], scene.frames[2].nodes[b]);
   }
   LazyScratch scratch;
-  const double scale = common_scale(states);
+  place(states);
   for (LazyState& state : states) {
-    place(state, scale);
     find_near_nodes(state);
     if (state.from_vertices) lazy_kernels(isa).bound_all(state, scratch.counters);
   }

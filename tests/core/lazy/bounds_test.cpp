@@ -47,11 +47,10 @@ class AllKernels {
  public:
   explicit AllKernels(const ShapePtr& shape) : from_nodes_(shape, false), refitted_(shape, true) {}
 
-  /// `scale` 0: the body's own.
-  std::string broken(const std::vector<Vec3>& nodes, double scale = 0.0) {
+  std::string broken(const std::vector<Vec3>& nodes, double company = 0.0) {
     for (OneBody* body : {&from_nodes_, &refitted_})
       for (const std::string& isa : lazy_isas()) {
-        body->begin(nodes, scale);
+        body->begin(nodes, company);
         const std::string text = body->broken(lazy_kernels(isa));
         if (!text.empty()) return isa + (body == &refitted_ ? " from vertices: " : ": ") + text;
       }
@@ -87,14 +86,15 @@ TEST(LazyBounds, HoldTheirVerticesAtTheEndsOfDoubles) {
   }
 }
 
-TEST(LazyBounds, HoldInAFrameScaledForAMuchLargerBody) {
+TEST(LazyBounds, HoldBesideAMuchLargerBody) {
   TriangleSource random(503);
   for (const NamedShape& named : shapes()) {
     AllKernels kernels(named.shape);
     for (double size : {1e-300, 1e-30, 1.0})
-      for (double scale : {0x1p-10, 0x1p-120, 0x1p-900})
-        EXPECT_EQ(kernels.broken(deformed_nodes(*named.shape, {1.0, size}, random), scale), "")
-            << named.name << " " << size << " " << scale;
+      for (double company : {10.0, 1e3, 1e30, 1e290})  // in one frame with the body, then not
+        EXPECT_EQ(kernels.broken(deformed_nodes(*named.shape, {1.0, size}, random), company * size),
+                  "")
+            << named.name << " " << size << " " << company;
   }
 }
 
@@ -150,7 +150,7 @@ int reported_lanes(OneBody& body, bool hull, Spoil&& spoil) {
   for (std::size_t b = 0; b < body.tree().blocks.size(); ++b) {
     const TreeBlock& block = body.tree().blocks[b];
     for (std::uint32_t c = 0; block.hull == hull && c < block.children; ++c) {
-      LaneBoxes& boxes = body.state().block_boxes[b];
+      LaneBoxes& boxes = *body.state().block_bounds[b].box;
       const LaneBoxes before = boxes;
       for (int k = 0; k < 3; ++k) spoil(boxes.lo[k][c], boxes.hi[k][c]);
       const std::string text = validate(body.state(), body.vertices());
@@ -202,6 +202,50 @@ TEST(LazyBounds, ShrunkOrMovedByOnePercentAreReported) {
     }
 }
 
+TEST(LazyBounds, SlabsShrunkOrMovedAreReported) {
+  OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2}), false);
+  for (const std::string& isa : lazy_isas()) {
+    body.begin(rest_nodes_at(body.shape(), Vec3(3, 4, 5)));
+    ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
+    int lanes = 0, narrow = 0, moved = 0;
+    for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+      for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c, ++lanes) {
+        LaneSlabs& slabs = *body.state().block_bounds[b].slab;
+        ASSERT_LT(slabs.half[c], kNoSlab);
+        const LaneSlabs before = slabs;
+        slabs.half[c] *= 0.9f;
+        narrow += !validate(body.state(), body.vertices()).empty();
+        slabs = before;
+        slabs.middle[c] += 0.1f * slabs.half[c];
+        moved += !validate(body.state(), body.vertices()).empty();
+        slabs = before;
+      }
+    // At rest nothing bends: slabs are tight but for the slack, which is most of the thinnest.
+    EXPECT_GT(narrow, 9 * lanes / 10) << isa;
+    EXPECT_GT(moved, 9 * lanes / 10) << isa;
+  }
+}
+
+// Share of the lanes with slabs in which the slab is thinner than half the box's shortest side.
+TEST(LazyBounds, SlabsAreThinAcrossTheSurfaceUnderDeformation) {
+  OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 5), {4, 4, 4}), false);
+  TriangleSource random(508);
+  body.begin(deformed_nodes(body.shape(), {0.05}, random));
+  ASSERT_EQ(body.broken(lazy_kernels()), "");
+  int lanes = 0, thin = 0;
+  for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+    for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
+         ++c, ++lanes) {
+      const BlockBounds& bounds = body.state().block_bounds[b];
+      float longest = 0.0f;
+      for (int k = 0; k < 3; ++k)
+        longest = std::max(longest, bounds.box->hi[k][c] - bounds.box->lo[k][c]);
+      thin += 2.0f * bounds.slab->half[c] < 0.4f * longest;
+    }
+  EXPECT_GT(lanes, 500);
+  EXPECT_GT(thin, 9 * lanes / 10);
+}
+
 TEST(LazyBounds, OfRefittedBodiesShrunkOrMovedByOnePercentAreReportedUnderDeformation) {
   TriangleSource random(506);
   for (const NamedShape& named : shapes()) {
@@ -221,7 +265,7 @@ TEST(LazyBounds, OfRefittedBodiesShrunkOrMovedByOnePercentAreReportedUnderDeform
 double excess(OneBody& body, std::size_t block, std::uint32_t lane, int axis) {
   const auto triangles = triangles_under(body.tree(), body.tree().blocks[block].child[lane]);
   const Aabb truth = body.box_of(triangles);
-  const LaneBoxes& boxes = body.state().block_boxes[block];
+  const LaneBoxes& boxes = *body.state().block_bounds[block].box;
   return std::max(truth.lo[axis] - boxes.lo[axis][lane], boxes.hi[axis][lane] - truth.hi[axis]);
 }
 
@@ -253,7 +297,7 @@ TEST(LazyBounds, LeaveLanesWithoutAChildEmpty) {
       for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
         for (std::uint32_t c = body.tree().blocks[b].children; c < kBlockWidth; ++c, ++empty)
           for (int k = 0; k < 3; ++k) {
-            const LaneBoxes& boxes = body.state().block_boxes[b];
+            const LaneBoxes& boxes = *body.state().block_bounds[b].box;
             EXPECT_GT(boxes.lo[k][c], boxes.hi[k][c]) << named.name << " " << isa;
           }
     }

@@ -1,6 +1,7 @@
 // A deformed body as the kernels of core/lazy see it, and a walk over its tree.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -55,30 +56,31 @@ class OneBody {
  public:
   OneBody(ShapePtr shape, bool from_vertices)
       : shape_(std::move(shape)), tree_(make_lattice_tree(*shape_)) {
-    state_.shape = shape_.get();
-    state_.tree = &tree_;
-    state_.from_vertices = from_vertices || !shape_->lattice;
+    state().shape = shape_.get();
+    state().tree = &tree_;
+    state().from_vertices = from_vertices || !shape_->lattice;
   }
   OneBody(const OneBody&) = delete;
   OneBody& operator=(const OneBody&) = delete;
 
-  /// `scale` 0: the body's own.
-  void begin(std::vector<Vec3> nodes, double scale = 0.0) {
+  /// `company`: half-width of another body in the scene, about the origin; 0: the body is alone.
+  void begin(std::vector<Vec3> nodes, double company = 0.0) {
     nodes_ = std::move(nodes);
     vertices_.resize(shape_->mesh.vertices.size());
     map_body(*shape_, nodes_, vertices_);
-    begin_frame(state_, state_.from_vertices ? vertices_ : nodes_);
-    place(state_, scale > 0.0 ? scale : common_scale({&state_, 1}));
-    find_near_nodes(state_);
+    begin_frame(state(), state().from_vertices ? vertices_ : nodes_);
+    states_[1].box = {Vec3::Constant(-company), Vec3::Constant(company)};
+    place({states_.data(), company > 0.0 ? 2u : 1u});
+    find_near_nodes(state());
   }
   /// Bounds everything; "" or the first broken promise.
   std::string broken(const LazyKernels& kernels) {
     LazyCounters counters;
-    kernels.bound_all(state_, counters);
-    return validate(state_, vertices_);
+    kernels.bound_all(state(), counters);
+    return validate(state(), vertices_);
   }
 
-  LazyState& state() { return state_; }
+  LazyState& state() { return states_[0]; }
   const LatticeTree& tree() const { return tree_; }
   const BodyShape& shape() const { return *shape_; }
   const std::vector<Vec3>& vertices() const { return vertices_; }
@@ -88,14 +90,14 @@ class OneBody {
     Aabb box;
     for (std::uint32_t t : triangles)
       for (std::uint32_t v : shape_->mesh.triangles[t])
-        box.extend((vertices_[v] - state_.origin) * state_.scale);
+        box.extend((vertices_[v] - states_[0].origin) * states_[0].scale);
     return box;
   }
 
  private:
   ShapePtr shape_;
   LatticeTree tree_;
-  LazyState state_;
+  std::array<LazyState, 2> states_;
   std::vector<Vec3> nodes_, vertices_;
 };
 

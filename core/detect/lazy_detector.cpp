@@ -11,7 +11,7 @@ namespace contactcheck {
 namespace {
 
 // By measurement (lazy_register.cpp).
-constexpr std::size_t kFewTrianglesPerCell = 0;
+constexpr std::size_t kFewTrianglesPerCell = 100;
 
 bool small_for_its_lattice(const BodyShape& shape) {
   return shape.mesh.triangles.size() < kFewTrianglesPerCell * shape.lattice->cells.size();

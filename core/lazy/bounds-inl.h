@@ -5,7 +5,7 @@
 // all values of a hull lie. A node's float is wrong by u M (and by the rounding of x - origin in
 // double, below). A blend b + s (c - b) of two values wrong by e each adds 2 u M for the
 // difference, 2 u M for the product (none where it is fused) and u M for the sum: 5 u M. Three
-// nested blends: 16 u M in all. A stray's edge is wrong by 2 u M for its nodes and 2 u M for the
+// nested blends: 16 u M in all. An edge is wrong by 2 u M for its nodes and 2 u M for the
 // difference, its product with the reach by another 2 u M; three axes: 18 u M, and three sums of
 // values up to 7 M: 21 u M. Pushing a box outward rounds once more, at 8 M. Below 50 u M in all,
 // to first order; 64 u M is the slack. Slabs: n has components of at most 1, n . node is at most
@@ -337,65 +337,15 @@ HWY_INLINE void include(PointRange& range, const Point& p) {
   range.hi = most_of(range.hi, p);
 }
 
-// The cell's edges along one axis.
-HWY_INLINE PointRange edges(const LazyState& state, std::uint32_t cell, int axis) {
-  const CornerIds& ids = state.shape->lattice->cell_nodes[cell];
-  const int step = 1 << axis;
-  PointRange range = no_points();
-  for (int c = 0; c < 8; ++c)
-    if ((c & step) == 0)
-      include(range, difference_of(node(state, ids[c | step]), node(state, ids[c])));
-  return range;
-}
-
-// Across one face: what lies within `reach` of it is a blend of the face's nodes and of the points
-// at `reach` on the four edges that leave it.
-HWY_INLINE void include_face_stray(const LazyState& state, const Stray& stray, int axis,
-                                   PointRange& range) {
-  const CornerIds& ids = state.shape->lattice->cell_nodes[stray.cell];
-  const int step = 1 << axis;
-  const int face = stray.side[axis] > 0 ? 0 : step;  // bit of the corners on the shared face
-  const Point reach = all_equal(stray.reach[axis]);
-  for (int c = 0; c < 8; ++c) {
-    if ((c & step) != face) continue;
-    const Point from = node(state, ids[c]);
-    const Point way = difference_of(node(state, ids[c ^ step]), from);
-    include(range, sum_of(from, product_of(reach, way)));
-  }
-}
-
-// Where vertices with another home may lie, given the hull of the owners' nodes.
-HWY_INLINE PointRange beyond(const LazyState& state, const Stray& stray, PointRange hull) {
-  for (int k = 0; k < 3; ++k) {
-    if (stray.side[k] == 0) continue;
-    const PointRange edge = edges(state, stray.cell, k);
-    const Point way = all_equal(stray.side[k] > 0 ? stray.reach[k] : -stray.reach[k]);
-    const Point one = product_of(way, edge.lo), other = product_of(way, edge.hi);
-    hull.lo = sum_of(hull.lo, least_of(least_of(one, other), all_equal(0.0f)));
-    hull.hi = sum_of(hull.hi, most_of(most_of(one, other), all_equal(0.0f)));
-  }
-  return hull;
-}
-
 HWY_INLINE PointRange bound_hull(const LazyState& state, const HullChild& hull) {
-  const LatticeTree& tree = *state.tree;
-  PointRange own = no_points();
+  PointRange all = no_points();
   for (std::uint32_t n = hull.node_begin; n < hull.node_end; ++n)
-    include(own, node(state, tree.hull_nodes[n]));
-  PointRange all = own;
-  for (std::uint32_t s = hull.stray_begin; s < hull.stray_end; ++s) {
-    const Stray& stray = tree.strays[s];
-    if (stray.face >= 0) {
-      include_face_stray(state, stray, stray.face, all);
-      continue;
-    }
-    const PointRange strayed = beyond(state, stray, own);
-    include(all, strayed.lo);
-    include(all, strayed.hi);
-  }
-  const Point slack = all_equal(state.slack);
-  all.lo = difference_of(all.lo, slack);
-  all.hi = sum_of(all.hi, slack);
+    include(all, node(state, state.tree->hull_nodes[n]));
+  Point wide = all_equal(state.slack);
+  for (int k = 0; k < 3; ++k)
+    wide = sum_of(wide, product_of(all_equal(hull.reach[k]), load_point(state.longest_edge[k].v)));
+  all.lo = difference_of(all.lo, wide);
+  all.hi = sum_of(all.hi, wide);
   return all;
 }
 

@@ -162,18 +162,15 @@ class TreeBuilder {
 
   void add_hull(const Part& child) {
     HullChild hull;
-    hull.node_begin = static_cast<std::uint32_t>(out_.hull_nodes.size());
-    hull.stray_begin = static_cast<std::uint32_t>(out_.strays.size());
     const std::set<std::uint32_t> own = owners(child);
     std::set<std::uint32_t> nodes;
     for (std::uint32_t cell : own) add_nodes(cell, nodes);
-    std::map<std::uint32_t, Stray> ways;
     for (std::uint32_t t : triangles(child))
-      for (std::uint32_t v : corners(t)) add_way(partition_.owner[t], v, own, nodes, ways);
+      for (std::uint32_t v : corners(t))
+        if (!own.count(shape_.embedding.home_cell[v])) add_way(partition_.owner[t], v, hull, nodes);
+    hull.node_begin = static_cast<std::uint32_t>(out_.hull_nodes.size());
     out_.hull_nodes.insert(out_.hull_nodes.end(), nodes.begin(), nodes.end());
-    for (const auto& [key, way] : ways) out_.strays.push_back(way);
     hull.node_end = static_cast<std::uint32_t>(out_.hull_nodes.size());
-    hull.stray_end = static_cast<std::uint32_t>(out_.strays.size());
     out_.hulls.push_back(hull);
   }
 
@@ -182,32 +179,20 @@ class TreeBuilder {
     nodes.insert(ids.begin(), ids.end());
   }
 
-  // Ways from one home to several owners are kept apart: the sides differ.
-  void add_way(std::uint32_t owner, std::uint32_t vertex, const std::set<std::uint32_t>& own,
-               std::set<std::uint32_t>& nodes, std::map<std::uint32_t, Stray>& ways) const {
+  void add_way(std::uint32_t owner, std::uint32_t vertex, HullChild& hull,
+               std::set<std::uint32_t>& nodes) const {
     const std::uint32_t home = shape_.embedding.home_cell[vertex];
-    if (own.count(home)) return;
     const GridIndex &from = shape_.lattice->cells[home], &to = shape_.lattice->cells[owner];
-    Stray way;
-    way.cell = home;
-    std::uint32_t direction = 0;
+    const auto step = [&](int k) { return static_cast<std::int64_t>(from[k]) - to[k]; };
+    for (int k = 0; k < 3; ++k)
+      if (step(k) < -1 || step(k) > 1) return add_nodes(home, nodes);
     for (int k = 0; k < 3; ++k) {
-      const std::int64_t step = static_cast<std::int64_t>(from[k]) - to[k];
-      if (step < -1 || step > 1) return add_nodes(home, nodes);
-      way.side[k] = static_cast<std::int8_t>(step);
-      direction = 3 * direction + static_cast<std::uint32_t>(step + 1);
-      if (step == 0) continue;
+      if (step(k) == 0) continue;
       const double x = shape_.embedding.local[vertex][k];
       // Outward: 1 - x rounds, the conversion to float too.
-      way.reach[k] =
-          std::min(1.0f, std::nextafter(static_cast<float>(step > 0 ? x : 1.0 - x), 2.0f));
+      const auto way = std::nextafter(static_cast<float>(step(k) > 0 ? x : 1.0 - x), 2.0f);
+      hull.reach[k] = std::max(hull.reach[k], std::min(1.0f, way));
     }
-    const auto crossed =
-        std::count_if(way.side.begin(), way.side.end(), [](int s) { return s != 0; });
-    for (int k = 0; k < 3; ++k)
-      if (crossed == 1 && way.side[k] != 0) way.face = static_cast<std::int8_t>(k);
-    Stray& known = ways.try_emplace(27 * home + direction, way).first->second;
-    for (int k = 0; k < 3; ++k) known.reach[k] = std::max(known.reach[k], way.reach[k]);
   }
 
   std::uint32_t add_leaf(const Part& part) {
@@ -263,6 +248,18 @@ class TreeBuilder {
   LatticeTree& out_;
 };
 
+std::array<std::vector<LatticeEdge>, 3> edges_of(const Lattice& lattice) {
+  std::array<std::vector<LatticeEdge>, 3> out;
+  for (int k = 0; k < 3; ++k) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
+    for (const CornerIds& ids : lattice.cell_nodes)
+      for (int c = 0; c < 8; ++c)
+        if ((c >> k & 1) == 0) known.insert({ids[c], ids[c | 1 << k]});
+    for (const auto& [from, to] : known) out[k].push_back({from, to});
+  }
+  return out;
+}
+
 template <typename T>
 std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
@@ -273,8 +270,9 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t LatticeTree::bytes() const {
   std::size_t local = 0;
   for (const auto& axis : leaf_local) local += bytes_of(axis);
+  for (const auto& axis : edges) local += bytes_of(axis);
   return bytes_of(blocks) + bytes_of(pieces) + bytes_of(slabs) + bytes_of(hulls) +
-         bytes_of(hull_nodes) + bytes_of(strays) + bytes_of(leaves) + bytes_of(leaf_triangles) +
+         bytes_of(hull_nodes) + bytes_of(leaves) + bytes_of(leaf_triangles) +
          bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local + bytes_of(runs);
 }
 
@@ -284,8 +282,9 @@ LatticeTree make_lattice_tree(const BodyShape& shape) {
   const Partition partition = partition_triangles(shape);
   TreeBuilder(shape, partition, tree).add_block(partition.root);
   tree.leaf_vertices.resize(tree.leaf_vertices.size() + kLeafPadding, 0);
-  if (shape.lattice)
-    for (auto& axis : tree.leaf_local) axis.resize(axis.size() + kLeafPadding, 0.0);
+  if (!shape.lattice) return tree;
+  tree.edges = edges_of(*shape.lattice);
+  for (auto& axis : tree.leaf_local) axis.resize(axis.size() + kLeafPadding, 0.0);
   return tree;
 }
 

@@ -15,9 +15,9 @@
 //   for each vertex with another home h the way from there: some owner cell o of the child shares a
 //   face, edge or node with h. Moving x in h, axis by axis, to what they share changes the image by
 //   (distance in local units) times a blend of h's four edges along that axis, and ends in the hull
-//   of o's nodes. So the hull, moved by the intervals of these edges times the largest distances,
-//   holds the image; across one face so do the points at these distances on the edges. Where owner
-//   and home share no node, h's nodes are added as a whole.
+//   of o's nodes. So the hull, widened per axis by the largest such distance times the largest edge
+//   of the body along that axis (by component), holds the image. Where owner and home share no
+//   node, h's nodes are added as a whole.
 // Children bounded by pieces have a slab too, across their surface. At rest the vertices lie
 // between two planes normal to m, a covector of local coordinates: a <= m.x <= b in each home cell.
 // For any direction n in the world, f = n . X is trilinear in x, so about the centre c of the
@@ -74,16 +74,6 @@ struct BlockSlabs {
   std::array<std::array<std::uint16_t, kBlockWidth>, 3> middle{};  ///< in steps of HomePieces
 };
 
-/// The way from vertices with home `cell` to the owner cells of a hull child. `side` per axis: 0,
-/// no way; +1, the shared face is the low one and local coordinates are at most `reach`; -1, it is
-/// the high one and they are at least 1 - reach.
-struct Stray {
-  std::uint32_t cell = 0;
-  std::array<float, 3> reach{};
-  std::array<std::int8_t, 3> side{};
-  std::int8_t face = -1;  ///< the axis, where the way is across one face
-};
-
 struct TreeBlock {
   std::array<TreeChild, kBlockWidth> child{};
   std::uint32_t children = 0;
@@ -94,8 +84,15 @@ struct TreeBlock {
 };
 
 struct HullChild {
-  std::uint32_t node_begin = 0, node_end = 0;    ///< range in hull_nodes
-  std::uint32_t stray_begin = 0, stray_end = 0;  ///< range in strays
+  std::uint32_t node_begin = 0, node_end = 0;  ///< range in hull_nodes
+  /// Per axis: how far vertices with another home than the child's owner cells lie from these, in
+  /// local units.
+  std::array<float, 3> reach{};
+};
+
+/// Two nodes next to one another along an axis.
+struct LatticeEdge {
+  std::uint32_t from = 0, to = 0;
 };
 
 struct TreeLeaf {
@@ -120,7 +117,7 @@ struct LatticeTree {
   std::vector<BlockSlabs> slabs;
   std::vector<HullChild> hulls;
   std::vector<std::uint32_t> hull_nodes;
-  std::vector<Stray> strays;
+  std::array<std::vector<LatticeEdge>, 3> edges;  ///< of kept cells, per axis, each once
 
   std::vector<TreeLeaf> leaves;
   std::vector<std::uint32_t> leaf_triangles;      ///< index in the mesh

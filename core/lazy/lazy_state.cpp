@@ -70,6 +70,16 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 
+Float4 longest_edge(const LazyState& state, const std::vector<LatticeEdge>& edges) {
+  Float4 longest;
+  for (const LatticeEdge& edge : edges) {
+    const Float4 &from = state.near_nodes[edge.from], &to = state.near_nodes[edge.to];
+    for (int k = 0; k < 4; ++k)
+      longest.v[k] = std::max(longest.v[k], std::abs(to.v[k] - from.v[k]));
+  }
+  return longest;
+}
+
 class Validation {
  public:
   Validation(const LazyState& state, std::span<const Vec3> vertices)
@@ -147,6 +157,8 @@ void find_near_nodes(LazyState& state) {
     for (int k = 0; k < 3; ++k)
       state.near_nodes[n].v[k] =
           static_cast<float>((state.nodes[n][k] - state.origin[k]) * state.scale);
+  for (int axis = 0; axis < 3; ++axis)
+    state.longest_edge[axis] = longest_edge(state, state.tree->edges[axis]);
   state.nodes_known = true;
 }
 

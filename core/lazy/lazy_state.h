@@ -108,7 +108,8 @@ struct LazyState {
   double reach = 0.0;       ///< largest |coordinate| of the body in its frame
   float slack = 0.0f;       ///< by which bounds are moved outward; derivation in bounds-inl.h
   float slab_slack = 0.0f;  ///< the same for slabs
-  std::vector<Float4> near_nodes;  ///< nodes in the body's frame
+  std::vector<Float4> near_nodes;      ///< nodes in the body's frame
+  std::array<Float4, 3> longest_edge;  ///< per lattice axis: largest |component| of its edges
   bool nodes_known = false;
 
   std::uint32_t frame = 0;
@@ -125,7 +126,7 @@ void begin_frame(LazyState& state, std::span<const Vec3> points);
 /// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame of each
 void place(std::span<LazyState> states);
 
-/// Takes the nodes into the body's frame, once per frame. @pre place
+/// Takes the nodes into the body's frame and measures their edges, once per frame. @pre place
 void find_near_nodes(LazyState& state);
 
 /// Checks what the bounds promise for the mapped `vertices`: every block's lane holds the vertices

@@ -134,16 +134,22 @@ TEST(LatticeTree, HasEachVertexOfALeafOnceAndNoneThatNoTriangleUses) {
 TEST(LatticeTree, OrdersTheVerticesOfALeafInRunsByHomeCell) {
   for_each_tree([](const BodyShape& shape, const LatticeTree& tree) {
     for (const TreeLeaf& leaf : tree.leaves) {
-      if (!shape.lattice) EXPECT_EQ(leaf.runs, 0);
+      if (!shape.lattice) {
+        EXPECT_EQ(leaf.runs, 0);
+      }
       std::uint32_t done = 0;
       for (std::uint32_t r = leaf.first_run; r < leaf.first_run + leaf.runs; ++r) {
         EXPECT_GT(tree.runs[r].count, 0u);
-        if (r > leaf.first_run) EXPECT_LT(tree.runs[r - 1].cell, tree.runs[r].cell);
+        if (r > leaf.first_run) {
+          EXPECT_LT(tree.runs[r - 1].cell, tree.runs[r].cell);
+        }
         for (std::uint32_t i = 0; i < tree.runs[r].count; ++i, ++done)
           EXPECT_EQ(shape.embedding.home_cell[tree.leaf_vertices[leaf.first_vertex + done]],
                     tree.runs[r].cell);
       }
-      if (shape.lattice) EXPECT_EQ(done, leaf.vertices);
+      if (shape.lattice) {
+        EXPECT_EQ(done, leaf.vertices);
+      }
     }
   });
 }
@@ -178,7 +184,9 @@ bool held_by_pieces(const LatticeTree& tree, const TreeBlock& block, std::uint32
 TEST(LatticeTree, QuantisesLocalCoordinatesOutward) {
   int pieces_seen = 0;
   for_each_tree([&](const BodyShape& shape, const LatticeTree& tree) {
-    if (!shape.lattice) EXPECT_TRUE(tree.pieces.empty() && tree.hulls.empty());
+    if (!shape.lattice) {
+      EXPECT_TRUE(tree.pieces.empty() && tree.hulls.empty());
+    }
     for (const TreeBlock& block : tree.blocks)
       for (std::uint32_t c = 0; shape.lattice && !block.hull && c < block.children; ++c)
         for (std::uint32_t t : triangles_under(tree, block.child[c]))
@@ -212,7 +220,9 @@ TEST(LatticeTree, BoundsBlocksOfManyCellsByHullsAndOfFewByPieces) {
   for_each_tree([](const BodyShape&, const LatticeTree& tree) {
     std::size_t hulls = 0, pieces = 0;
     for (const TreeBlock& block : tree.blocks) {
-      if (block.hull) EXPECT_EQ(block.end - block.begin, block.children);
+      if (block.hull) {
+        EXPECT_EQ(block.end - block.begin, block.children);
+      }
       (block.hull ? hulls : pieces) += block.end - block.begin;
     }
     EXPECT_EQ(hulls, tree.hulls.size());
@@ -241,14 +251,20 @@ bool same(const LatticeTree& a, const LatticeTree& b) {
                       [](TreeChild i, TreeChild j) { return i.value == j.value; });
   };
   const auto pieces = [](const HomePieces& x, const HomePieces& y) {
-    return std::tie(x.cell, x.children, x.lo, x.hi) == std::tie(y.cell, y.children, y.lo, y.hi);
+    return std::tie(x.cell, x.children, x.lo, x.hi, x.slab_lo, x.slab_hi) ==
+           std::tie(y.cell, y.children, y.lo, y.hi, y.slab_lo, y.slab_hi);
   };
-  const auto strays = [](const Stray& x, const Stray& y) {
-    return std::tie(x.cell, x.reach, x.side) == std::tie(y.cell, y.reach, y.side);
+  const auto slabs = [](const BlockSlabs& x, const BlockSlabs& y) {
+    return std::tie(x.cell, x.normal, x.middle) == std::tie(y.cell, y.normal, y.middle);
+  };
+  const auto hulls = [](const HullChild& x, const HullChild& y) {
+    return std::tie(x.node_begin, x.node_end, x.reach) ==
+           std::tie(y.node_begin, y.node_end, y.reach);
   };
   return std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), blocks) &&
          std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), pieces) &&
-         std::equal(a.strays.begin(), a.strays.end(), b.strays.begin(), b.strays.end(), strays) &&
+         std::equal(a.slabs.begin(), a.slabs.end(), b.slabs.begin(), b.slabs.end(), slabs) &&
+         std::equal(a.hulls.begin(), a.hulls.end(), b.hulls.begin(), b.hulls.end(), hulls) &&
          a.hull_nodes == b.hull_nodes && a.leaf_triangles == b.leaf_triangles &&
          a.leaf_corners == b.leaf_corners && a.leaf_vertices == b.leaf_vertices &&
          a.leaf_local == b.leaf_local;
@@ -278,7 +294,9 @@ TEST(PartitionTriangles, IsAPermutationOfRangesThatNestAndFollow) {
         at = child.last;
         open.push_back(&child);
       }
-      if (!part.children.empty()) EXPECT_EQ(at, part.last) << named.name;
+      if (!part.children.empty()) {
+        EXPECT_EQ(at, part.last) << named.name;
+      }
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/types/check.h"
@@ -10,6 +11,7 @@
 #include "reference/scene/letters.h"
 #include "reference/scene/shapes.h"
 #include "reference/scene/simplify.h"
+#include "reference/scene/subdivide.h"
 #include "reference/scene/teapot.h"
 
 namespace contactcheck {
@@ -19,6 +21,7 @@ namespace {
 constexpr double kLargestLength = 1e6;  // metres
 constexpr double kLargestScale = 1e9;
 constexpr std::size_t kMostTriangles = 10'000'000;
+constexpr std::size_t kMostSubdivisions = 6;
 constexpr NumberRange kLength = {0.0, true, kLargestLength, false};
 
 struct ShapeRule {
@@ -71,6 +74,7 @@ void parse_shape(const JsonField& field, const ShapeRule& rule, MeshSpec& spec) 
 
 void parse_placing(const JsonField& field, MeshSpec& spec) {
   if (field.has("triangles")) spec.triangles = field.at("triangles").whole(4, kMostTriangles);
+  if (field.has("subdivide")) spec.subdivide = field.at("subdivide").whole(0, kMostSubdivisions);
   if (field.has("size") && field.has("scale")) {
     field.fail("has both \"size\" and \"scale\"; at most one of them is allowed");
   }
@@ -136,7 +140,7 @@ void place(const MeshSpec& spec, const JsonField& field, TriangleMesh& mesh) {
 
 MeshSpec parse_mesh_spec(const JsonField& field, const std::filesystem::path& folder) {
   const std::string source = field.exactly_one_of({"dataset", "file", "shape"});
-  std::vector<std::string> keys = {source, "triangles", "size", "scale", "center"};
+  std::vector<std::string> keys = {source, "triangles", "subdivide", "size", "scale", "center"};
   MeshSpec spec;
   if (source == "shape") {
     const ShapeRule& rule = rule_of(field.at("shape"));
@@ -163,6 +167,13 @@ LoadedMesh build_mesh(const MeshSpec& spec, const JsonField& field) {
     field.fail("cannot be loaded: " + without_full_stop(error.what()));
   }
   if (spec.triangles) simplify_to(*spec.triangles, field, loaded);
+  const std::size_t finer = loaded.mesh.triangles.size() << (2 * spec.subdivide);
+  if (finer > kMostTriangles) {
+    field.at("subdivide")
+        .fail("makes " + std::to_string(finer) + " triangles; at most " +
+              std::to_string(kMostTriangles) + " are allowed");
+  }
+  loaded.mesh = subdivide(std::move(loaded.mesh), spec.subdivide);
   place(spec, field, loaded.mesh);
   return loaded;
 }
@@ -183,6 +194,7 @@ std::string described_source(const MeshSpec& spec) {
       break;
   }
   if (spec.triangles) out += ", simplified to " + std::to_string(*spec.triangles) + " triangles";
+  if (spec.subdivide > 0) out += ", subdivided " + std::to_string(spec.subdivide) + " times";
   return out;
 }
 

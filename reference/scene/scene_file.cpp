@@ -5,6 +5,7 @@
 
 #include "core/deform/name_check.h"
 #include "core/types/check.h"
+#include "reference/scene/copies_spec.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/json_field.h"
@@ -111,23 +112,41 @@ std::string parse_body_name(const JsonField& field, const std::vector<Body>& bod
   return name;
 }
 
-void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
-                Scene& scene) {
-  field.only_keys({"name", "mesh", "lattice", "motion", "material", "velocity"});
-  const std::string name = parse_body_name(field.at("name"), scene.bodies);
-  const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
-  const LatticeSpec lattice =
-      field.has("lattice") ? parse_lattice_spec(field.at("lattice")) : LatticeSpec{};
-  const Workshop::Made& made = workshop.shape(mesh, lattice, field);
+void add_body(const JsonField& field, const std::string& name, const Workshop::Made& made,
+              const MeshSpec& mesh, Motion motion, Scene& scene) {
   scene.bodies.push_back({name, made.shape});
   scene.origins.push_back({name, described_source(mesh), made.notes});
-  scene.motions.push_back(field.has("motion") ? parse_motion(field.at("motion"), *made.shape)
-                                              : Motion{});
+  scene.motions.push_back(std::move(motion));
   if (scene.simulation) {
     add_simulated_body(field, *made.shape, scene.motions.back(), *scene.simulation);
   } else {
     require_no_simulation_keys(field);
   }
+}
+
+void add_copies(const JsonField& field, const std::string& name, const Workshop::Made& made,
+                const MeshSpec& mesh, const Motion& motion, Scene& scene) {
+  if (!field.has("motion")) field.at("copies").fail("needs a \"motion\" beside it");
+  const CopiesSpec copies = parse_copies(field.at("copies"));
+  for (std::size_t i = 0; i < copies.count(); ++i) {
+    const std::string own = name_of_copy(name, i);
+    for (const Body& body : scene.bodies)
+      if (body.name == own) field.at("name").refuse("such that \"" + own + "\" is free");
+    add_body(field, own, made, mesh, motion_of_copy(copies, motion, i), scene);
+  }
+}
+
+void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
+                Scene& scene) {
+  field.only_keys({"name", "copies", "mesh", "lattice", "motion", "material", "velocity"});
+  const std::string name = parse_body_name(field.at("name"), scene.bodies);
+  const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
+  const LatticeSpec lattice =
+      field.has("lattice") ? parse_lattice_spec(field.at("lattice")) : LatticeSpec{};
+  const Workshop::Made& made = workshop.shape(mesh, lattice, field);
+  Motion motion = field.has("motion") ? parse_motion(field.at("motion"), *made.shape) : Motion{};
+  if (field.has("copies")) return add_copies(field, name, made, mesh, motion, scene);
+  add_body(field, name, made, mesh, std::move(motion), scene);
 }
 
 }  // namespace

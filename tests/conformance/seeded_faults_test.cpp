@@ -154,7 +154,7 @@ class Faulty : public Detector {
   std::unique_ptr<Detector> detector_ = test::make_detector("aabb-tree");
   int prepared_ = 0;
   bool bare_ = false, updated_ = false, queried_ = false;
-  std::vector<std::vector<Vec3>> last_;
+  std::vector<std::vector<Vec3>> last_, shown_;
   std::vector<ElementPair> kept_;
   static inline std::atomic<int> alive_ = 0;
 };
@@ -162,13 +162,14 @@ class Faulty : public Detector {
 void Faulty::update(const Frame& frame) {
   queried_ = false;
   if (fault_ == Fault::kIgnoresUpdates && updated_) return;
-  Frame used = frame;
   const std::vector<std::vector<Vec3>> before = last_;
   last_.clear();
   for (const BodyState& body : frame.bodies)
     last_.emplace_back(body.vertices.begin(), body.vertices.end());
-  if (fault_ == Fault::kLagsBehind && updated_)
-    for (std::size_t b = 0; b < before.size(); ++b) used.bodies[b].vertices = before[b];
+  // Copies: a fault may ask about a frame that its owner has let go.
+  shown_ = fault_ == Fault::kLagsBehind && updated_ ? before : last_;
+  Frame used = frame;
+  for (std::size_t b = 0; b < shown_.size(); ++b) used.bodies[b].vertices = shown_[b];
   updated_ = true;
   detector_->update(used);
 }

@@ -89,7 +89,8 @@ TEST_F(ClosedLoopCommand, WithoutTimingNoStepIsTimed) {
 }
 
 TEST_F(ClosedLoopCommand, WithoutTheFlagThereIsNone) {
-  for (const json& run : run_boxes({"--no-timing"}).at("runs")) {
+  const json results = run_boxes({"--no-timing"});
+  for (const json& run : results.at("runs")) {
     EXPECT_FALSE(run.contains("closed_loop")) << run.at("detector");
     EXPECT_FALSE(run.contains("step_ms")) << run.at("detector");
   }

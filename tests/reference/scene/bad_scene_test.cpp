@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{"ControlCharacter", R"("name": "right")", R"("name": "ri\nght")",
                ": bodies[1].name has a control character and cannot be a name."},
         Defect{"UnknownKey", R"("lattice": {"kept": 8})", R"("latice": {"kept": 8})",
-               ": bodies[1].latice is not a known key; allowed here: name, mesh, lattice, motion, "
+               ": bodies[1].latice is not a known key; allowed here: name, copies, mesh, lattice, motion, "
                "material, velocity."},
         Defect{"ZeroCells", "[1, 1, 1]", "[0, 1, 1]",
                ": bodies[0].lattice.cells[0] is 0; it must be a whole number from 1 to 128."},
@@ -137,8 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
                ": bodies[0].mesh has none of the keys dataset, file, shape; exactly one is "
                "needed."},
         Defect{"KeyOfAnotherShape", R"("shape": "box")", R"("shape": "box", "tube": 0.5)",
-               ": bodies[0].mesh.tube is not a known key; allowed here: shape, triangles, size, "
-               "scale, center, divisions, sides."},
+               ": bodies[0].mesh.tube is not a known key; allowed here: shape, triangles, "
+               "subdivide, size, scale, center, divisions, sides."},
         Defect{"NegativeSize", R"("size": 1)", R"("size": -1)",
                ": bodies[1].mesh.size is -1; it must be a number above 0 and at most 1e+06."},
         Defect{"SizeAndScale", R"("size": 1)", R"("size": 1, "scale": 2)",

@@ -1,0 +1,78 @@
+#include "reference/scene/copies_spec.h"
+
+#include <variant>
+#include <vector>
+
+namespace contactcheck {
+namespace {
+
+constexpr NumberRange kLength = {-1e6, false, 1e6, false};  // metres
+constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
+constexpr NumberRange kSeconds = {0.0, false, 1e6, false};
+
+std::array<std::size_t, 3> parse_counts(const JsonField& field) {
+  const std::vector<JsonField> parts = field.items();
+  if (parts.size() != 3) field.refuse("an array of three whole numbers");
+  std::array<std::size_t, 3> counts;
+  for (std::size_t k = 0; k < 3; ++k) counts[k] = parts[k].whole(1, CopiesSpec::kMost);
+  if (counts[0] * counts[1] > CopiesSpec::kMost ||
+      counts[0] * counts[1] * counts[2] > CopiesSpec::kMost)
+    field.fail("asks for more than " + std::to_string(CopiesSpec::kMost) + " copies");
+  return counts;
+}
+
+void shift_time(double way, Curve& curve) {
+  for (Curve::Key& key : curve.keys) key.time += way;
+}
+
+struct Delay {
+  double way;
+  void operator()(Twist& d) const { shift_time(way, d.angle); }
+  void operator()(Bend& d) const { shift_time(way, d.angle); }
+  void operator()(Taper& d) const { shift_time(way, d.amount); }
+  void operator()(Stretch& d) const { shift_time(way, d.amount); }
+  void operator()(NodeKeys& d) const {
+    for (NodeKeys::Key& key : d.keys) key.time += way;
+  }
+};
+
+void delay_all(double way, Motion& motion) {
+  for (Deformer& deformer : motion.deformers) std::visit(Delay{way}, deformer);
+  for (RigidPath::Spin& spin : motion.path.spins) shift_time(way, spin.angle);
+  for (Curve& curve : motion.path.position) shift_time(way, curve);
+}
+
+}  // namespace
+
+CopiesSpec parse_copies(const JsonField& field) {
+  field.only_keys({"counts", "spacing", "turn", "delay"});
+  CopiesSpec out;
+  out.counts = parse_counts(field.at("counts"));
+  out.spacing = field.at("spacing").vector(kLength);
+  if (field.has("turn")) out.turn_degrees = field.at("turn").number(kDegrees);
+  if (field.has("delay")) out.delay = field.at("delay").number(kSeconds);
+  return out;
+}
+
+Motion motion_of_copy(const CopiesSpec& copies, const Motion& motion, std::size_t i) {
+  Motion out = motion;
+  const auto number = static_cast<double>(i);
+  delay_all(copies.delay * number, out);
+  if (copies.turn_degrees != 0.0) {
+    Curve angle;
+    angle.keys.push_back({0.0, copies.turn_degrees * number});
+    out.path.spins.insert(out.path.spins.begin(), {Vec3::UnitY(), angle});
+  }
+  const std::size_t nx = copies.counts[0], ny = copies.counts[1];
+  const std::array<std::size_t, 3> place = {i % nx, i / nx % ny, i / (nx * ny)};
+  for (int k = 0; k < 3; ++k)
+    for (Curve::Key& key : out.path.position[k].keys)
+      key.value += copies.spacing[k] * static_cast<double>(place[k]);
+  return out;
+}
+
+std::string name_of_copy(const std::string& name, std::size_t i) {
+  return name + "-" + std::to_string(i + 1);
+}
+
+}  // namespace contactcheck

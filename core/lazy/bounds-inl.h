@@ -1,20 +1,22 @@
 // Bounds of the eight children of a block, from deformed lattice nodes. Compiled once per
 // instruction set (kernels.cpp).
 //
-// Slack. Let u = 2^-24 and M the largest |coordinate| of the body's nodes in its own frame, where
-// all values of a hull lie. A node's float is wrong by u M (and by the rounding of x - origin in
-// double, below). A blend b + s (c - b) of two values wrong by e each adds 2 u M for the
-// difference, 2 u M for the product (none where it is fused) and u M for the sum: 5 u M. Three
-// nested blends: 16 u M in all. An edge is wrong by 2 u M for its nodes and 2 u M for the
-// difference, its product with the reach by another 2 u M; three axes: 18 u M, and three sums of
-// values up to 7 M: 21 u M. Pushing a box outward rounds once more, at 8 M. Below 50 u M in all,
-// to first order; 64 u M is the slack. Slabs: n has components of at most 1, n . node is at most
-// 2 M and wrong by 6 u M; the expansion adds differences of up to 16 M in about 20 roundings, times
-// half-widths of at most 1/2 each, and m.c of up to 381 times a slope of up to 8 M / 127: below
-// 1000 u M in all. The test of two slabs in one frame (traverse-inl.h) sums about 20 products of
-// values up to 9 M with factors of at most 2: below 800 u M. 2048 u M is the slack of slabs. To
-// both come, in units of the world, the error of the canonical mapping (mapping.h), that of x -
-// origin (2^-53 of the largest coordinate) and float underflow.
+// Slack. Let u = 2^-24 and M the largest |coordinate| of the body's nodes in its frame, where all
+// values of a hull lie. A node's float is wrong by u M (and by the rounding of x - origin in double,
+// below). In an expansion, differences of nodes are at most 2 M and wrong by 4 u M, and a blend
+// b + s (c - b) adds 2 u M for the difference, 2 u M for the product (none where it is fused) and
+// u M for the sum. So, each times its half-widths of at most 1/2: the value is wrong by 16 u M, the
+// three slopes (at most 2 M, wrong by 14 u M) by 21 u M, three second derivatives (4 M, wrong by
+// 18 u M) by 14 u M, the third (8 M, wrong by 20 u M) by 3 u M; products and sums of them, at most
+// 4 M, add 7 roundings of u 4 M: 82 u M in all. A hull's edges are wrong by 4 u M, their products
+// with reaches by 2 u M more, and it adds three sums of values up to 7 M: 39 u M. Pushing a box
+// outward rounds once more, at 8 M. Below 95 u M, to first order; 128 u M is the slack.
+// Slabs: n has components of at most 1, so sums over the axes are at most three times as large and
+// as wrong, and m.c of up to 381 comes in times a slope of up to 8 M / 127: below 500 u M. The test
+// of two slabs in one frame (traverse-inl.h) sums about 20 products of values up to 9 M with factors
+// of at most 2: below 800 u M. 2048 u M is the slack of slabs.
+// To both come, in units of the world, the error of the canonical mapping (mapping.h), that of
+// x - origin (2^-53 of the largest coordinate) and float underflow.
 
 #if defined(CONTACTCHECK_LAZY_BOUNDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_BOUNDS_INL
@@ -44,11 +46,6 @@ struct Range {
   FloatVec lo, hi;
 };
 
-HWY_INLINE void include(Range& range, FloatVec x) {
-  range.lo = hn::Min(range.lo, x);
-  range.hi = hn::Max(range.hi, x);
-}
-
 // Local coordinates of the children in one home cell: exact, quantised values are floats.
 HWY_INLINE FloatVec local_of(const std::array<std::uint16_t, kBlockWidth>& steps,
                              std::size_t first) {
@@ -57,34 +54,6 @@ HWY_INLINE FloatVec local_of(const std::array<std::uint16_t, kBlockWidth>& steps
   const hn::Rebind<std::int32_t, FloatLanes> d32;
   const auto wide = hn::PromoteTo(d32, hn::LoadU(d16, steps.data() + first));
   return hn::Mul(hn::ConvertTo(d, wide), hn::Set(d, static_cast<float>(1 / HomePieces::kSteps)));
-}
-
-struct BoxLanes {
-  FloatVec lo[3], hi[3];
-};
-
-// One coordinate of the images of the eight corners of each lane's box. `corner`: that coordinate
-// of the cell's nodes.
-HWY_INLINE Range image_range(const float (&corner)[8], const BoxLanes& box) {
-  const FloatLanes d;
-  Range range{hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
-  FloatVec along_s[2][4];  // at the low and high end of s, per edge
-  for (int edge = 0; edge < 4; ++edge) {
-    const auto from = hn::Set(d, corner[2 * edge]);
-    const auto way = hn::Set(d, corner[2 * edge + 1] - corner[2 * edge]);
-    along_s[0][edge] = hn::MulAdd(box.lo[0], way, from);
-    along_s[1][edge] = hn::MulAdd(box.hi[0], way, from);
-  }
-  for (const auto& edge : along_s) {
-    const auto near_way = hn::Sub(edge[1], edge[0]), far_way = hn::Sub(edge[3], edge[2]);
-    for (const auto& t : {box.lo[1], box.hi[1]}) {
-      const auto near = hn::MulAdd(t, near_way, edge[0]);
-      const auto way = hn::Sub(hn::MulAdd(t, far_way, edge[2]), near);
-      include(range, hn::MulAdd(box.lo[2], way, near));
-      include(range, hn::MulAdd(box.hi[2], way, near));
-    }
-  }
-  return range;
 }
 
 struct CellCorners {
@@ -99,47 +68,66 @@ HWY_INLINE CellCorners corners_in_frame(const LazyState& state, std::uint32_t ce
   return out;
 }
 
-// Half-widths and middle of each lane's piece: exact.
+// Middle and half-widths of each lane's piece in one home cell: exact.
 struct PieceLanes {
   FloatVec middle[3], half[3];
 };
 
-HWY_INLINE PieceLanes piece_lanes(const BoxLanes& box) {
-  const FloatLanes d;
-  const auto half = hn::Set(d, 0.5f);
+HWY_INLINE PieceLanes piece_lanes(const HomePieces& home, std::size_t first) {
+  const auto half = hn::Set(FloatLanes(), 0.5f);
   PieceLanes out;
   for (int k = 0; k < 3; ++k) {
-    out.middle[k] = hn::Mul(half, hn::Add(box.lo[k], box.hi[k]));
-    out.half[k] = hn::Mul(half, hn::Sub(box.hi[k], box.lo[k]));
+    const auto lo = local_of(home.lo[k], first), hi = local_of(home.hi[k], first);
+    out.middle[k] = hn::Mul(half, hn::Add(lo, hi));
+    out.half[k] = hn::Mul(half, hn::Sub(hi, lo));
   }
   return out;
 }
 
 // A trilinear function about a point: value, gradient, mixed derivatives.
 struct Expansion {
-  FloatVec value, s, t, u, st, su, tu, stu;
+  FloatVec value, gradient[3], st, su, tu, stu;
 };
 
-HWY_INLINE Expansion expand(const FloatVec (&corner)[8], const FloatVec (&at)[3]) {
-  FloatVec along_s[4], edge[4];
+// `corner`: the function at the cell's nodes.
+HWY_INLINE Expansion expand(const float (&corner)[8], const FloatVec (&at)[3]) {
+  const FloatLanes d;
+  float edge[4];
+  FloatVec along_s[4];
   for (int j = 0; j < 4; ++j) {
-    edge[j] = hn::Sub(corner[2 * j + 1], corner[2 * j]);
-    along_s[j] = hn::MulAdd(at[0], edge[j], corner[2 * j]);
+    edge[j] = corner[2 * j + 1] - corner[2 * j];
+    along_s[j] = hn::MulAdd(at[0], hn::Set(d, edge[j]), hn::Set(d, corner[2 * j]));
   }
+  const float near_st = edge[1] - edge[0], far_st = edge[3] - edge[2];
   const auto near_t = hn::Sub(along_s[1], along_s[0]), far_t = hn::Sub(along_s[3], along_s[2]);
-  const auto near_st = hn::Sub(edge[1], edge[0]), far_st = hn::Sub(edge[3], edge[2]);
   const auto near = hn::MulAdd(at[1], near_t, along_s[0]);
-  const auto near_s = hn::MulAdd(at[1], near_st, edge[0]);
+  const auto near_s = hn::MulAdd(at[1], hn::Set(d, near_st), hn::Set(d, edge[0]));
+  const auto far_s = hn::MulAdd(at[1], hn::Set(d, far_st), hn::Set(d, edge[2]));
   Expansion out;
-  out.u = hn::Sub(hn::MulAdd(at[1], far_t, along_s[2]), near);
-  out.su = hn::Sub(hn::MulAdd(at[1], far_st, edge[2]), near_s);
+  out.gradient[2] = hn::Sub(hn::MulAdd(at[1], far_t, along_s[2]), near);
+  out.su = hn::Sub(far_s, near_s);
   out.tu = hn::Sub(far_t, near_t);
-  out.stu = hn::Sub(far_st, near_st);
-  out.value = hn::MulAdd(at[2], out.u, near);
-  out.s = hn::MulAdd(at[2], out.su, near_s);
-  out.t = hn::MulAdd(at[2], out.tu, near_t);
-  out.st = hn::MulAdd(at[2], out.stu, near_st);
+  out.stu = hn::Set(d, far_st - near_st);
+  out.value = hn::MulAdd(at[2], out.gradient[2], near);
+  out.gradient[0] = hn::MulAdd(at[2], out.su, near_s);
+  out.gradient[1] = hn::MulAdd(at[2], out.tu, near_t);
+  out.st = hn::MulAdd(at[2], out.stu, hn::Set(d, near_st));
   return out;
+}
+
+// How far the mixed terms take the function from its tangent within the piece.
+HWY_INLINE FloatVec curvature(const Expansion& f, const FloatVec (&e)[3]) {
+  const auto st = hn::Mul(e[0], e[1]);
+  auto wide = hn::Mul(hn::Abs(f.st), st);
+  wide = hn::MulAdd(hn::Abs(f.su), hn::Mul(e[0], e[2]), wide);
+  wide = hn::MulAdd(hn::Abs(f.tu), hn::Mul(e[1], e[2]), wide);
+  return hn::MulAdd(hn::Abs(f.stu), hn::Mul(st, e[2]), wide);
+}
+
+HWY_INLINE Range range_over(const Expansion& f, const FloatVec (&e)[3]) {
+  auto wide = curvature(f, e);
+  for (int k = 0; k < 3; ++k) wide = hn::MulAdd(hn::Abs(f.gradient[k]), e[k], wide);
+  return {hn::Sub(f.value, wide), hn::Add(f.value, wide)};
 }
 
 struct SlabDirection {
@@ -156,30 +144,19 @@ HWY_INLINE FloatVec signed_steps(const std::array<std::int8_t, kBlockWidth>& ste
   return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, steps.data() + first)));
 }
 
-// n: the image of the surface's normal, by the cofactors of the Jacobian in the middle of each
-// child. Whatever it is, bounds along it are right; this one makes them tight.
-HWY_INLINE SlabDirection slab_direction(const LazyState& state, const BlockSlabs& slabs,
+// n: the image of the surface's normal, by the cofactors of the Jacobian in the block's first home
+// cell. Whatever it is, bounds along it are right; this one makes them tight.
+HWY_INLINE SlabDirection slab_direction(const Expansion (&x)[3], const BlockSlabs& slabs,
                                         std::size_t first) {
   const FloatLanes d;
   SlabDirection out;
-  FloatVec at[3], s[3], t[3], u[3];
-  for (int k = 0; k < 3; ++k) {
-    out.local[k] = signed_steps(slabs.normal[k], first);
-    at[k] = local_of(slabs.middle[k], first);
-  }
-  const CellCorners corners = corners_in_frame(state, slabs.cell);
-  for (int k = 0; k < 3; ++k) {
-    FloatVec corner[8];
-    for (int c = 0; c < 8; ++c) corner[c] = hn::Set(d, corners.axis[k][c]);
-    const Expansion image = expand(corner, at);
-    s[k] = image.s, t[k] = image.t, u[k] = image.u;
-  }
+  for (int k = 0; k < 3; ++k) out.local[k] = signed_steps(slabs.normal[k], first);
   auto square = hn::Zero(d), length2 = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const auto tu = hn::Sub(hn::Mul(t[i], u[j]), hn::Mul(t[j], u[i]));
-    const auto us = hn::Sub(hn::Mul(u[i], s[j]), hn::Mul(u[j], s[i]));
-    const auto st = hn::Sub(hn::Mul(s[i], t[j]), hn::Mul(s[j], t[i]));
+    const auto &a = x[(k + 1) % 3].gradient, &b = x[(k + 2) % 3].gradient;
+    const auto tu = hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(b[1], a[2]));
+    const auto us = hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(b[2], a[0]));
+    const auto st = hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(b[0], a[1]));
     out.world[k] =
         hn::MulAdd(out.local[0], tu, hn::MulAdd(out.local[1], us, hn::Mul(out.local[2], st)));
     length2 = hn::MulAdd(out.world[k], out.world[k], length2);
@@ -193,34 +170,38 @@ HWY_INLINE SlabDirection slab_direction(const LazyState& state, const BlockSlabs
   return out;
 }
 
+// n . X out of the expansions of the three coordinates.
+HWY_INLINE Expansion along(const SlabDirection& n, const Expansion (&x)[3]) {
+  const auto sum = [&](auto part) HWY_ATTR {
+    return hn::MulAdd(n.world[0], part(x[0]),
+                      hn::MulAdd(n.world[1], part(x[1]), hn::Mul(n.world[2], part(x[2]))));
+  };
+  Expansion out;
+  out.value = sum([](const Expansion& e) HWY_ATTR { return e.value; });
+  for (int k = 0; k < 3; ++k)
+    out.gradient[k] = sum([k](const Expansion& e) HWY_ATTR { return e.gradient[k]; });
+  out.st = sum([](const Expansion& e) HWY_ATTR { return e.st; });
+  out.su = sum([](const Expansion& e) HWY_ATTR { return e.su; });
+  out.tu = sum([](const Expansion& e) HWY_ATTR { return e.tu; });
+  out.stu = sum([](const Expansion& e) HWY_ATTR { return e.stu; });
+  return out;
+}
+
 // n . X over the vertices of each lane in one home cell; derivation in lattice_tree.h.
-HWY_INLINE Range slab_range(const CellCorners& cell, const HomePieces& home, const BoxLanes& box,
+HWY_INLINE Range slab_range(const Expansion& f, const HomePieces& home, const PieceLanes& piece,
                             const SlabDirection& n, std::size_t first) {
   const FloatLanes d;
-  FloatVec corner[8];
-  for (int c = 0; c < 8; ++c)
-    corner[c] = hn::MulAdd(n.world[0], hn::Set(d, cell.axis[0][c]),
-                           hn::MulAdd(n.world[1], hn::Set(d, cell.axis[1][c]),
-                                      hn::Mul(n.world[2], hn::Set(d, cell.axis[2][c]))));
-  const PieceLanes piece = piece_lanes(box);
-  const Expansion f = expand(corner, piece.middle);
-  const FloatVec gradient[3] = {f.s, f.t, f.u};
-  auto along = hn::Zero(d), middle = hn::Zero(d);
+  auto slope = hn::Zero(d), middle = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
-    along = hn::MulAdd(gradient[k], n.local[k], along);
+    slope = hn::MulAdd(f.gradient[k], n.local[k], slope);
     middle = hn::MulAdd(piece.middle[k], n.local[k], middle);
   }
-  along = hn::Mul(along, n.inverse_square);
-  const auto& e = piece.half;
-  const auto st = hn::Mul(e[0], e[1]);
-  auto wide = hn::Mul(hn::Abs(f.st), st);
-  wide = hn::MulAdd(hn::Abs(f.su), hn::Mul(e[0], e[2]), wide);
-  wide = hn::MulAdd(hn::Abs(f.tu), hn::Mul(e[1], e[2]), wide);
-  wide = hn::MulAdd(hn::Abs(f.stu), hn::Mul(st, e[2]), wide);
+  slope = hn::Mul(slope, n.inverse_square);
+  auto wide = curvature(f, piece.half);
   for (int k = 0; k < 3; ++k)
-    wide = hn::MulAdd(hn::Abs(hn::NegMulAdd(along, n.local[k], gradient[k])), e[k], wide);
-  const auto one = hn::Mul(along, hn::Sub(hn::LoadU(d, home.slab_lo.data() + first), middle));
-  const auto other = hn::Mul(along, hn::Sub(hn::LoadU(d, home.slab_hi.data() + first), middle));
+    wide = hn::MulAdd(hn::Abs(hn::NegMulAdd(slope, n.local[k], f.gradient[k])), piece.half[k], wide);
+  const auto one = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_lo.data() + first), middle));
+  const auto other = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_hi.data() + first), middle));
   return {hn::Sub(hn::Add(f.value, hn::Min(one, other)), wide),
           hn::Add(hn::Add(f.value, hn::Max(one, other)), wide)};
 }
@@ -246,32 +227,37 @@ HWY_INLINE void store_slabs(const Range& range, const SlabDirection& n, float sl
   hn::Store(hn::IfThenElse(sound, reach, hn::Set(d, kNoSlab)), d, out.half + first);
 }
 
+HWY_INLINE void store_boxes(const Range (&range)[3], float slack, std::size_t first,
+                            LaneBoxes& out) {
+  const FloatLanes d;
+  const auto wide = hn::Set(d, slack);
+  for (int k = 0; k < 3; ++k) {
+    hn::Store(hn::Sub(range[k].lo, wide), d, out.lo[k] + first);
+    hn::Store(hn::Add(range[k].hi, wide), d, out.hi[k] + first);
+  }
+}
+
+// The block's first home cell is that of most of its vertices.
 HWY_INLINE void bound_pieces(const LazyState& state, const TreeBlock& block,
                              const BlockBounds& out) {
   const FloatLanes d;
-  const auto slack = hn::Set(d, state.slack);
   const Range nothing{hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(d)) {
-    const SlabDirection n = slab_direction(state, state.tree->slabs[block.slabs], first);
+    SlabDirection n;
     Range total[3] = {nothing, nothing, nothing}, slab = nothing;
     for (std::uint32_t p = block.begin; p < block.end; ++p) {
       const HomePieces& home = state.tree->pieces[p];
-      const auto bits = static_cast<std::uint8_t>(home.children >> first);
-      if (bits == 0) continue;
-      const auto present = hn::LoadMaskBits(d, &bits);
       const CellCorners corners = corners_in_frame(state, home.cell);
-      BoxLanes box;
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] = local_of(home.lo[k], first);
-        box.hi[k] = local_of(home.hi[k], first);
-      }
-      for (int k = 0; k < 3; ++k) join(total[k], image_range(corners.axis[k], box), present);
-      join(slab, slab_range(corners, home, box, n, first), present);
+      const PieceLanes piece = piece_lanes(home, first);
+      Expansion x[3];
+      for (int k = 0; k < 3; ++k) x[k] = expand(corners.axis[k], piece.middle);
+      if (p == block.begin) n = slab_direction(x, state.tree->slabs[block.slabs], first);
+      const auto bits = static_cast<std::uint8_t>(home.children >> first);
+      const auto present = hn::LoadMaskBits(d, &bits);
+      for (int k = 0; k < 3; ++k) join(total[k], range_over(x[k], piece.half), present);
+      join(slab, slab_range(along(n, x), home, piece, n, first), present);
     }
-    for (int k = 0; k < 3; ++k) {
-      hn::Store(hn::Sub(total[k].lo, slack), d, out.box->lo[k] + first);
-      hn::Store(hn::Add(total[k].hi, slack), d, out.box->hi[k] + first);
-    }
+    store_boxes(total, state.slack, first, *out.box);
     store_slabs(slab, n, state.slab_slack, first, *out.slab);
   }
 }

@@ -72,8 +72,11 @@ class TreeBuilder {
       for (const Part& child : part.children) add_hull(child);
     } else {
       block.slabs = static_cast<std::uint32_t>(out_.slabs.size());
-      out_.slabs.push_back(slabs_of(part, most_common_home(part)));
-      for (std::uint32_t cell : homes) add_pieces(cell, bounds, part, out_.slabs.back());
+      const std::uint32_t main = most_common_home(part);
+      out_.slabs.push_back(slabs_of(part, main));
+      add_pieces(main, bounds, part, out_.slabs.back());
+      for (std::uint32_t cell : homes)
+        if (cell != main) add_pieces(cell, bounds, part, out_.slabs.back());
     }
     block.end = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
   }
@@ -105,19 +108,10 @@ class TreeBuilder {
 
   BlockSlabs slabs_of(const Part& part, std::uint32_t cell) const {
     BlockSlabs out;
-    out.cell = cell;
-    const Aabb box = shape_.lattice->cell_box(cell);
+    const Vec3 sides = shape_.lattice->cell_box(cell).extent();
     for (std::uint32_t c = 0; c < part.children.size(); ++c) {
-      const Eigen::Array3i normal = normal_of(part.children[c], box.extent());
-      Aabb bounds;
-      for (std::uint32_t t : triangles(part.children[c]))
-        for (std::uint32_t v : corners(t)) bounds.extend(rest(v));
-      const Vec3 middle = (bounds.center() - box.lo).cwiseQuotient(box.extent());
-      for (int k = 0; k < 3; ++k) {
-        out.normal[k][c] = static_cast<std::int8_t>(normal[k]);
-        out.middle[k][c] =
-            static_cast<std::uint16_t>(std::clamp(middle[k], 0.0, 1.0) * HomePieces::kSteps);
-      }
+      const Eigen::Array3i normal = normal_of(part.children[c], sides);
+      for (int k = 0; k < 3; ++k) out.normal[k][c] = static_cast<std::int8_t>(normal[k]);
     }
     return out;
   }

@@ -8,9 +8,9 @@
 // Why the bounds contain every mapped vertex. A vertex v of a child lies in its home cell h, with
 // local coordinates x in [0, 1]^3, and its exact image is the trilinear blend of h's eight nodes.
 // A child is bounded in one of two ways.
-//   Pieces: for every home cell h of its vertices, the bounds of their x in h. The blend of h over
-//   such a box is a blend of the images of the box's corners with weights in [0, 1] that sum to 1:
-//   the image of x lies in their convex hull. The child's box is the union over its home cells.
+//   Pieces: for every home cell h of its vertices, the bounds of their x in h. About the middle of
+//   such a box each coordinate is its value there, its gradient times d, and the mixed terms below
+//   (with no slab: g.d within |g| e). The child's box is the union over its home cells.
 //   Hulls, for children that span many cells: all nodes of the cells that own its triangles, and
 //   for each vertex with another home h the way from there: some owner cell o of the child shares a
 //   face, edge or node with h. Moving x in h, axis by axis, to what they share changes the image by
@@ -66,19 +66,18 @@ struct HomePieces {
 };
 
 /// Per child of a block bounded by pieces: the normal m of its surface at rest, in local
-/// coordinates, and where in `cell` (clamped to it) its middle lies.
+/// coordinates.
 struct BlockSlabs {
   static constexpr double kNormalSteps = 127.0;  ///< of the largest component
-  std::uint32_t cell = 0;
   std::array<std::array<std::int8_t, kBlockWidth>, 3> normal{};
-  std::array<std::array<std::uint16_t, kBlockWidth>, 3> middle{};  ///< in steps of HomePieces
 };
 
 struct TreeBlock {
   std::array<TreeChild, kBlockWidth> child{};
   std::uint32_t children = 0;
   bool hull = false;  ///< bounded by hulls, else by pieces
-  /// Range in `pieces`, one per home cell; of a hull in `hulls`, one per child.
+  /// Range in `pieces`, one per home cell, that of most vertices first; of a hull in `hulls`, one
+  /// per child.
   std::uint32_t begin = 0, end = 0;
   std::uint32_t slabs = 0;  ///< index in `slabs`, unless a hull
 };

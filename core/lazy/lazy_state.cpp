@@ -66,7 +66,7 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   const double world = mapping_error_bound(state.largest) +
                        4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
   const double common = world * scale * 1.01 + 1e-37;
-  state.slack = round_up(64.0 * kFloatUnit * state.reach + common);
+  state.slack = round_up(128.0 * kFloatUnit * state.reach + common);
   state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 

@@ -255,7 +255,7 @@ bool same(const LatticeTree& a, const LatticeTree& b) {
            std::tie(y.cell, y.children, y.lo, y.hi, y.slab_lo, y.slab_hi);
   };
   const auto slabs = [](const BlockSlabs& x, const BlockSlabs& y) {
-    return std::tie(x.cell, x.normal, x.middle) == std::tie(y.cell, y.normal, y.middle);
+    return x.normal == y.normal;
   };
   const auto hulls = [](const HullChild& x, const HullChild& y) {
     return std::tie(x.node_begin, x.node_end, x.reach) ==

@@ -33,42 +33,61 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
   std::map<const BodyShape*, std::shared_ptr<const LatticeTree>> known;
   for (const Body& body : bodies) {
     std::shared_ptr<const LatticeTree>& tree = known[body.shape.get()];
-    if (!tree) tree = std::make_shared<const LatticeTree>(make_lattice_tree(*body.shape));
+    const bool refitted = refits(*body.shape, config_.bounds);
+    if (!tree)
+      tree = std::make_shared<const LatticeTree>(
+          make_lattice_tree(*body.shape, refitted ? TreeUse::kVertices : TreeUse::kNodes));
     trees_.push_back(tree);
     LazyState& state = states_.emplace_back();
     state.shape = body.shape.get();
     state.tree = tree.get();
-    state.from_vertices = refits(*body.shape, config_.bounds);
+    state.from_vertices = refitted;
   }
   mapped_.assign(bodies.size(), {});
 }
 
-void LazyDetector::begin_body(const BodyState& body, std::size_t index) {
-  LazyState& state = states_[index];
+void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
   const BodyShape& shape = *state.shape;
   CONTACTCHECK_INVARIANT(body.nodes.size() == shape.node_count(), "one position per node");
   if (needs_vertices()) {
     CONTACTCHECK_INVARIANT(body.vertices.size() == shape.mesh.vertices.size(),
                            "one position per vertex");
-    return begin_frame(state, body.vertices);
+    begin_frame(state, body.vertices);
+  } else if (shape.lattice) {
+    begin_frame_by_nodes(state, body.nodes);
+  } else {
+    begin_frame(state, body.nodes);
   }
-  if (!state.from_vertices || !shape.lattice) return begin_frame(state, body.nodes);
-  mapped_[index].resize(shape.mesh.vertices.size());
-  map_body(shape, body.nodes, mapped_[index]);
-  begin_frame(state, mapped_[index]);
+}
+
+// Bounds of bodies that are refitted; those of others are made on demand.
+void LazyDetector::refit(std::size_t index) {
+  LazyState& state = states_[index];
+  if (!state.from_vertices || state.block_frame[0] == state.frame) return;
+  if (state.vertices.empty()) {
+    mapped_[index].resize(state.shape->mesh.vertices.size());
+    map_body(*state.shape, state.nodes, mapped_[index]);
+    state.vertices = mapped_[index];
+  }
+  kernels_.bound_all(state, scratch_.counters);
 }
 
 void LazyDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
   scratch_.counters = {};
-  for (std::size_t b = 0; b < states_.size(); ++b) begin_body(frame.bodies[b], b);
-  place(states_);
   std::vector<Aabb> boxes;
-  for (LazyState& state : states_) {
-    boxes.push_back(state.box);
-    if (state.from_vertices) kernels_.bound_all(state, scratch_.counters);
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    begin_body(frame.bodies[b], states_[b]);
+    boxes.push_back(states_[b].box);
   }
+  place(states_);
   find_candidate_bodies(boxes, candidates_);
+  // full-refit is what it says; ffd-lazy leaves out bodies that meet no other.
+  for (std::size_t b = 0; needs_vertices() && b < states_.size(); ++b) refit(b);
+  for (const BodyPair& pair : candidates_) {
+    refit(pair.a);
+    refit(pair.b);
+  }
 }
 
 void LazyDetector::test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out) {
@@ -129,8 +148,9 @@ std::uint64_t LazyDetector::brute_force_pairs() const {
 
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {
   for (std::size_t b = 0; b < states_.size(); ++b) {
+    refit(b);
     find_near_nodes(states_[b]);
-    kernels_.bound_all(states_[b], scratch_.counters);
+    if (!states_[b].from_vertices) kernels_.bound_all(states_[b], scratch_.counters);
     const std::string broken = contactcheck::validate(states_[b], vertices[b]);
     if (!broken.empty()) return "body " + std::to_string(b) + ": " + broken;
     for (const Vec3& v : vertices[b])

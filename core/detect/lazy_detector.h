@@ -44,7 +44,8 @@ class LazyDetector : public Detector {
   std::size_t instance_bytes() const;
 
  private:
-  void begin_body(const BodyState& body, std::size_t index);
+  void begin_body(const BodyState& body, LazyState& state);
+  void refit(std::size_t index);
   std::uint64_t brute_force_pairs() const;
   void test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out);
 

@@ -2,21 +2,21 @@
 // instruction set (kernels.cpp).
 //
 // Slack. Let u = 2^-24 and M the largest |coordinate| of the body's nodes in its frame, where all
-// values of a hull lie. A node's float is wrong by u M (and by the rounding of x - origin in double,
-// below). In an expansion, differences of nodes are at most 2 M and wrong by 4 u M, and a blend
-// b + s (c - b) adds 2 u M for the difference, 2 u M for the product (none where it is fused) and
-// u M for the sum. So, each times its half-widths of at most 1/2: the value is wrong by 16 u M, the
-// three slopes (at most 2 M, wrong by 14 u M) by 21 u M, three second derivatives (4 M, wrong by
-// 18 u M) by 14 u M, the third (8 M, wrong by 20 u M) by 3 u M; products and sums of them, at most
-// 4 M, add 7 roundings of u 4 M: 82 u M in all. A hull's edges are wrong by 4 u M, their products
-// with reaches by 2 u M more, and it adds three sums of values up to 7 M: 39 u M. Pushing a box
-// outward rounds once more, at 8 M. Below 95 u M, to first order; 128 u M is the slack.
+// values of a hull lie. A node's float is wrong by u M (and by the rounding of x - origin in
+// double, below). In an expansion, differences of nodes are at most 2 M and wrong by 4 u M, and a
+// blend b + s (c - b) adds 2 u M for the difference, 2 u M for the product (none where it is fused)
+// and u M for the sum. So, each times its half-widths of at most 1/2: the value is wrong by 16 u M,
+// the three slopes (at most 2 M, wrong by 14 u M) by 21 u M, three second derivatives (4 M, wrong
+// by 18 u M) by 14 u M, the third (8 M, wrong by 20 u M) by 3 u M; products and sums of them, at
+// most 4 M, add 7 roundings of u 4 M: 82 u M in all. A hull's edges are wrong by 4 u M, their
+// products with reaches by 2 u M more, and it adds three sums of values up to 7 M: 39 u M. Pushing
+// a box outward rounds once more, at 8 M. Below 95 u M, to first order; 128 u M is the slack.
 // Slabs: n has components of at most 1, so sums over the axes are at most three times as large and
 // as wrong, and m.c of up to 381 comes in times a slope of up to 8 M / 127: below 500 u M. The test
-// of two slabs in one frame (traverse-inl.h) sums about 20 products of values up to 9 M with factors
-// of at most 2: below 800 u M. 2048 u M is the slack of slabs.
-// To both come, in units of the world, the error of the canonical mapping (mapping.h), that of
-// x - origin (2^-53 of the largest coordinate) and float underflow.
+// of two slabs in one frame (traverse-inl.h) sums about 20 products of values up to 9 M with
+// factors of at most 2: below 800 u M. 2048 u M is the slack of slabs. To both come, in units of
+// the world, the error of the canonical mapping (mapping.h), that of x - origin (2^-53 of the
+// largest coordinate) and float underflow.
 
 #if defined(CONTACTCHECK_LAZY_BOUNDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_BOUNDS_INL
@@ -199,7 +199,8 @@ HWY_INLINE Range slab_range(const Expansion& f, const HomePieces& home, const Pi
   slope = hn::Mul(slope, n.inverse_square);
   auto wide = curvature(f, piece.half);
   for (int k = 0; k < 3; ++k)
-    wide = hn::MulAdd(hn::Abs(hn::NegMulAdd(slope, n.local[k], f.gradient[k])), piece.half[k], wide);
+    wide =
+        hn::MulAdd(hn::Abs(hn::NegMulAdd(slope, n.local[k], f.gradient[k])), piece.half[k], wide);
   const auto one = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_lo.data() + first), middle));
   const auto other = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_hi.data() + first), middle));
   return {hn::Sub(hn::Add(f.value, hn::Min(one, other)), wide),

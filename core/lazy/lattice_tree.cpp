@@ -21,19 +21,25 @@ using LocalBounds = std::map<std::uint32_t, Aabb>;  // per home cell
 
 class TreeBuilder {
  public:
-  TreeBuilder(const BodyShape& shape, const Partition& partition, LatticeTree& out)
-      : shape_(shape), partition_(partition), out_(out) {}
+  TreeBuilder(const BodyShape& shape, const Partition& partition, TreeUse use, LatticeTree& out)
+      : shape_(shape),
+        partition_(partition),
+        bounded_(shape.lattice && use == TreeUse::kNodes),
+        out_(out) {}
 
   std::uint32_t add_block(const Part& part) {
     const auto index = static_cast<std::uint32_t>(out_.blocks.size());
     out_.blocks.emplace_back();
     TreeBlock block;
     block.children = static_cast<std::uint32_t>(part.children.size());
-    if (shape_.lattice) bound_children(part, block);
+    if (bounded_) bound_children(part, block);
     for (std::uint32_t c = 0; c < block.children; ++c) {
       const Part& child = part.children[c];
-      block.child[c].value =
-          child.children.empty() ? (TreeChild::kLeaf | add_leaf(child)) : add_block(child);
+      // A hull is as large as its cells: a leaf gets a block of its own, bounded by pieces, so that
+      // it does not meet whatever comes near its cells.
+      block.child[c].value = !child.children.empty() ? add_block(child)
+                             : block.hull            ? add_block({child.first, child.last, {child}})
+                                                     : (TreeChild::kLeaf | add_leaf(child));
     }
     out_.blocks[index] = block;
     return index;
@@ -66,7 +72,7 @@ class TreeBuilder {
       bounds.push_back(local_bounds(child));
       for (const auto& [cell, box] : bounds.back()) homes.insert(cell);
     }
-    block.hull = homes.size() > kMostHomes && owners(part).size() > 1;
+    block.hull = homes.size() > kMostHomes && part.children.size() > 1 && owners(part).size() > 1;
     block.begin = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
     if (block.hull) {
       for (const Part& child : part.children) add_hull(child);
@@ -239,6 +245,7 @@ class TreeBuilder {
 
   const BodyShape& shape_;
   const Partition& partition_;
+  const bool bounded_;
   LatticeTree& out_;
 };
 
@@ -270,11 +277,11 @@ std::size_t LatticeTree::bytes() const {
          bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local + bytes_of(runs);
 }
 
-LatticeTree make_lattice_tree(const BodyShape& shape) {
+LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use) {
   CONTACTCHECK_INVARIANT(!shape.mesh.triangles.empty(), "a tree of something");
   LatticeTree tree;
   const Partition partition = partition_triangles(shape);
-  TreeBuilder(shape, partition, tree).add_block(partition.root);
+  TreeBuilder(shape, partition, use, tree).add_block(partition.root);
   tree.leaf_vertices.resize(tree.leaf_vertices.size() + kLeafPadding, 0);
   if (!shape.lattice) return tree;
   tree.edges = edges_of(*shape.lattice);

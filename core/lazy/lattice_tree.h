@@ -129,8 +129,12 @@ struct LatticeTree {
   std::size_t bytes() const;
 };
 
-/// Without a lattice the tree has its topology alone: bounds come from vertices.
+enum class TreeUse {
+  kNodes,    ///< bounded from lattice nodes
+  kVertices  ///< refitted to vertices: topology alone, as without a lattice
+};
+
 /// @pre the shape has triangles
-LatticeTree make_lattice_tree(const BodyShape& shape);
+LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use = TreeUse::kNodes);
 
 }  // namespace contactcheck

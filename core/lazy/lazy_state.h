@@ -123,6 +123,11 @@ struct LazyState {
 /// @pre shape, tree and from_vertices are set
 void begin_frame(LazyState& state, std::span<const Vec3> points);
 
+/// The same for a body that is refitted to its mapped vertices, before they are mapped: its box is
+/// that of the nodes. `vertices` is to be set before its blocks are bounded.
+/// @pre shape with a lattice, tree and from_vertices are set
+void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
+
 /// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame of each
 void place(std::span<LazyState> states);
 

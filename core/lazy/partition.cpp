@@ -1,6 +1,8 @@
 #include "core/lazy/partition.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <numeric>
 
 #include "core/lazy/lattice_tree.h"
@@ -14,58 +16,126 @@ std::uint32_t owner_of(const Embedding& embedding, const Triangle& t) {
   return b == c ? b : a;
 }
 
+// Two boxes of less than this share of the surface of the one round both are better apart.
+constexpr double kFarApart = 0.65;
+
 class Splitter {
  public:
   Splitter(const BodyShape& shape, Partition& out) : shape_(shape), out_(out) {
     for (const Triangle& t : shape.mesh.triangles) {
-      const std::vector<Vec3>& v = shape.mesh.vertices;
-      centers_.push_back((v[t[0]] + v[t[1]] + v[t[2]]) / 3.0);
+      Aabb& box = boxes_.emplace_back();
+      for (std::uint32_t v : t) box.extend(shape.mesh.vertices[v]);
     }
   }
 
   void grow(Part& part) {
     part.children = {{part.first, part.last, {}}};
+    std::vector<std::uint32_t> urgent = {urgency(part)};
     while (part.children.size() < kBlockWidth) {
-      const auto largest = std::max_element(
-          part.children.begin(), part.children.end(),
-          [](const Part& a, const Part& b) { return a.last - a.first < b.last - b.first; });
-      if (largest->last - largest->first <= kLeafTriangles) break;
-      const Part second{split(*largest), largest->last, {}};
-      largest->last = second.first;
-      part.children.insert(largest + 1, second);
+      const auto next = std::max_element(urgent.begin(), urgent.end()) - urgent.begin();
+      if (urgent[next] == 0) break;
+      Part& first = part.children[next];
+      const Part second{split(first), first.last, {}};
+      first.last = second.first;
+      urgent[next] = urgency(first);
+      part.children.insert(part.children.begin() + next + 1, second);
+      urgent.insert(urgent.begin() + next + 1, urgency(second));
     }
-    for (Part& child : part.children)
-      if (child.last - child.first > kLeafTriangles) grow(child);
+    for (std::size_t c = 0; c < part.children.size(); ++c)
+      if (urgent[c] > 0) grow(part.children[c]);
   }
 
  private:
   auto begin(const Part& part) { return out_.order.begin() + part.first; }
   auto end(const Part& part) { return out_.order.begin() + part.last; }
 
-  /// Sorts the range into two and returns where the second begins.
-  std::uint32_t split(const Part& part) {
-    if (!shape_.lattice) return split_at_median(part);
+  bool in_one_cell(const Part& part) {
     const std::uint32_t cell = out_.owner[*begin(part)];
-    const bool one_cell =
-        std::all_of(begin(part), end(part), [&](std::uint32_t t) { return out_.owner[t] == cell; });
-    return one_cell ? split_at_median(part) : split_between_cells(part);
+    return std::all_of(begin(part), end(part),
+                       [&](std::uint32_t t) { return out_.owner[t] == cell; });
   }
 
-  std::uint32_t split_at_median(const Part& part) {
-    Aabb box;
-    std::for_each(begin(part), end(part), [&](std::uint32_t t) { box.extend(centers_[t]); });
-    Eigen::Index axis;
-    box.extent().maxCoeff(&axis);
+  /// Largest first; 0: a leaf. Few triangles far from one another in one leaf would meet everything
+  /// between them.
+  std::uint32_t urgency(const Part& part) {
     const std::uint32_t count = part.last - part.first;
-    // Whole leaves on the left, at least one and about half of them.
+    if (count > kLeafTriangles) return count;
+    return count > 1 && best_cut(part).share < kFarApart ? 1 : 0;
+  }
+
+  struct Cut {
+    std::uint32_t at = 0;
+    double share = std::numeric_limits<double>::infinity();  ///< boxes of both over that of all
+  };
+
+  /// Leaves the range sorted so that the cut parts it.
+  Cut best_cut(const Part& part) {
+    std::array<Cut, 3> cuts;
+    for (int axis = 0; axis < 3; ++axis) cuts[axis] = best_cut(part, axis);
+    const auto best = std::min_element(
+        cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.share < b.share; });
+    sort(part, static_cast<int>(best - cuts.begin()));
+    return *best;
+  }
+
+  Cut best_cut(const Part& part, int axis) {
+    sort(part, axis);
+    const double whole = area(part.first, part.last);
+    Cut best;
+    for (std::uint32_t at = part.first + 1; at < part.last; ++at) {
+      const double share = (area(part.first, at) + area(at, part.last)) / whole;
+      if (share < best.share) best = {at, share};
+    }
+    return best;
+  }
+
+  void sort(const Part& part, int axis) {
+    std::sort(begin(part), end(part), [&](std::uint32_t a, std::uint32_t b) {
+      const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
+      return x != y ? x < y : a < b;
+    });
+  }
+
+  /// Surface of the box round the triangles of a range.
+  double area(std::uint32_t first, std::uint32_t last) const {
+    Aabb box;
+    for (std::uint32_t i = first; i < last; ++i) box.extend(boxes_[out_.order[i]]);
+    const Vec3 side = box.extent();
+    return side.x() * side.y() + side.y() * side.z() + side.z() * side.x();
+  }
+
+  /// Sorts the range into two and returns where the second begins.
+  std::uint32_t split(const Part& part) {
+    if (part.last - part.first <= kLeafTriangles) return best_cut(part).at;
+    if (!shape_.lattice || in_one_cell(part)) return split_at_median(part);
+    return split_between_cells(part);
+  }
+
+  // Whole leaves on the left, at least one and about half of them, along the axis that leaves the
+  // smallest boxes.
+  std::uint32_t split_at_median(const Part& part) {
+    const std::uint32_t count = part.last - part.first;
     const std::uint32_t leaves = (count + kLeafTriangles - 1) / kLeafTriangles;
-    const std::uint32_t left = std::min(leaves / 2 * kLeafTriangles, count - 1);
-    std::nth_element(begin(part), begin(part) + left, end(part),
+    const std::uint32_t middle =
+        part.first + std::min(std::max(leaves / 2, 1u) * kLeafTriangles, count - 1);
+    int best_axis = 0;
+    double best = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      sort_about(part, middle, axis);
+      const double cost = area(part.first, middle) * (middle - part.first) +
+                          area(middle, part.last) * (part.last - middle);
+      if (cost < best) best = cost, best_axis = axis;
+    }
+    sort_about(part, middle, best_axis);
+    return middle;
+  }
+
+  void sort_about(const Part& part, std::uint32_t middle, int axis) {
+    std::nth_element(begin(part), out_.order.begin() + middle, end(part),
                      [&](std::uint32_t a, std::uint32_t b) {
-                       const double x = centers_[a][axis], y = centers_[b][axis];
+                       const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
                        return x != y ? x < y : a < b;
                      });
-    return part.first + left;
   }
 
   // Of all planes between cells the one that parts the triangles most evenly.
@@ -95,7 +165,7 @@ class Splitter {
 
   const BodyShape& shape_;
   Partition& out_;
-  std::vector<Vec3> centers_;
+  std::vector<Aabb> boxes_;
 };
 
 }  // namespace

@@ -20,8 +20,8 @@ struct Partition {
   Part root;                         ///< with at least one child
 };
 
-/// Parts of several cells are split between cells, parts of one cell at the median of the widest
-/// axis of its triangles' centres, so that nearly all leaves are full. Deterministic.
+/// Parts of several cells are split between cells, parts of one cell at the median along the axis
+/// that leaves the smallest boxes, so that nearly all leaves are full. Deterministic.
 Partition partition_triangles(const BodyShape& shape);
 
 }  // namespace contactcheck

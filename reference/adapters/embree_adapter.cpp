@@ -5,8 +5,8 @@
 //   assertion in heuristic_openmerge_array.h; Debian's library is built with them). With
 //   flush-to-zero an extent that is denormal is none. Hence the padding below.
 // - Flush-to-zero and denormals-are-zero are on in the bounds callback and in the collide callback.
-//   They are off again when the call returns. So nothing is computed in a callback but sums, minima and
-//   maxima of normal floats, and nothing is judged there.
+//   They are off again when the call returns. So nothing is computed in a callback but sums,
+//   minima and maxima of normal floats, and nothing is judged there.
 // - "threads=1" as device configuration lowers oneTBB's limit for the whole process to one thread
 //   until the last device is gone, and with it every other detector that uses oneTBB. Calls from
 //   within an arena of one slot stay on the calling thread and leave the limit alone.

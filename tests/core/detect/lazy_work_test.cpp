@@ -49,6 +49,26 @@ TEST(LazyWork, BoundsNothingOfBodiesFarApart) {
   }
 }
 
+// Fewer triangles than a lattice of this many cells is worth: `auto` maps and refits.
+TEST(LazyWork, RefitsSmallMeshesOnlyWhereBodiesMeet) {
+  const Body ball = test::make_body("ball", test::sphere_mesh(Vec3::Zero(), 1.0, 3), {6, 6, 6});
+  Scene scene;
+  scene.bodies = {ball, ball, ball};
+  const auto at = [&](double x) { return rest_nodes_at(*ball.shape, Vec3(x, 0, 0)); };
+  scene.frames = {make_frame(scene.bodies, {at(0), at(1.9), at(9)})};
+  const std::size_t blocks = make_lattice_tree(*ball.shape, TreeUse::kVertices).blocks.size();
+  const auto detector = prepared({BoundSource::kCheaper}, scene);
+  ContactSet truth;
+  truth.triangles = test::true_pairs(scene, scene.frames[0]);
+  ASSERT_FALSE(truth.triangles.empty());
+  EXPECT_EQ(answer(*detector, scene.frames[0], Question::kTriangles).triangles, truth.triangles);
+  EXPECT_EQ(detector->counters().blocks_bounded, 2 * blocks);
+  EXPECT_EQ(detector->validate(scene.frames[0].vertices), "");
+  const auto full = prepared({BoundSource::kVertices}, scene);
+  answer(*full, scene.frames[0], Question::kTriangles);
+  EXPECT_EQ(full->counters().blocks_bounded, 3 * blocks);
+}
+
 TEST(LazyWork, MapsHardlyALeafInANearMiss) {
   const Vec3 direction = Vec3(1.0, 0.7, 0.4).normalized();
   const Scene scene = large_balls(2.02 * direction);
@@ -106,7 +126,7 @@ TEST(LazyWork, SharesTheTreeOfInstances) {
     detector.prepare(bodies);
     return detector.shared_bytes();
   };
-  EXPECT_EQ(bytes({ball}), make_lattice_tree(*ball.shape).bytes());
+  EXPECT_EQ(bytes({ball}), make_lattice_tree(*ball.shape, TreeUse::kVertices).bytes());
   EXPECT_EQ(bytes({ball, ball, ball}), bytes({ball}));
   EXPECT_EQ(bytes({ball, copy, ball}), 2 * bytes({ball}));
   EXPECT_EQ(bytes({}), 0u);

@@ -108,7 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{"ControlCharacter", R"("name": "right")", R"("name": "ri\nght")",
                ": bodies[1].name has a control character and cannot be a name."},
         Defect{"UnknownKey", R"("lattice": {"kept": 8})", R"("latice": {"kept": 8})",
-               ": bodies[1].latice is not a known key; allowed here: name, copies, mesh, lattice, motion, "
+               ": bodies[1].latice is not a known key; allowed here: name, copies, mesh, lattice, "
+               "motion, "
                "material, velocity."},
         Defect{"ZeroCells", "[1, 1, 1]", "[0, 1, 1]",
                ": bodies[0].lattice.cells[0] is 0; it must be a whole number from 1 to 128."},

@@ -26,10 +26,24 @@ using test::sentence_of;
 
 const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
 
+// Scenes that measure speed: hardly moving, of any size.
+bool measures_speed(const std::string& id) {
+  return id.starts_with("scaling-") || id == "near-miss" || id == "contact" || id == "small-pair" ||
+         id == "coincident";
+}
+
+std::vector<CatalogueEntry> speed_scenes() {
+  std::vector<CatalogueEntry> out;
+  for (const CatalogueEntry& entry : list_scenes(kFixtures))
+    if (measures_speed(entry.id)) out.push_back(entry);
+  return out;
+}
+
 // The scenes that are simulated, or those that follow a script.
 std::vector<CatalogueEntry> scenes_that_are(bool simulated) {
   std::vector<CatalogueEntry> out;
   for (const CatalogueEntry& entry : list_scenes(kFixtures)) {
+    if (measures_speed(entry.id)) continue;
     const JsonValue scene = parse_json(read_file_bytes(entry.file, "scene file"), entry.id);
     if ((scene.find("simulation") != nullptr) == simulated) out.push_back(entry);
   }
@@ -84,6 +98,26 @@ TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, FixtureScene, ::testing::ValuesIn(scenes_that_are(false)),
                          named);
+
+class SpeedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
+
+TEST_P(SpeedFixture, LoadsAndMovesALittleInSixCellsASide) {
+  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  const Scene scene = load_scene(GetParam().file);
+  EXPECT_EQ(scene.id, GetParam().id);
+  EXPECT_LE(scene.frames, 20u);
+  EXPECT_TRUE(scene.judges(Level::kTriangle));
+  const auto start = scene.nodes_of_frame(0), last = scene.nodes_of_frame(scene.frames - 1);
+  EXPECT_TRUE(start[0] != last[0]);  // late copies do not move within the scene
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    for (const auto& lines : scene.bodies[b].shape->lattice.value().lines)
+      EXPECT_EQ(lines.size(), 7u);
+    EXPECT_TRUE(std::all_of(last[b].begin(), last[b].end(),
+                            [](const Vec3& p) { return p.allFinite() && p.norm() < 20.0; }));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, SpeedFixture, ::testing::ValuesIn(speed_scenes()), named);
 
 class SimulatedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
 

@@ -13,6 +13,13 @@ struct Sphere {
   double radius = 0.0;
 };
 
+/// Relative error of a sum of three squared differences: each difference, square and sum rounds
+/// once; the square doubles the difference's error: below 5 * 2^-53. With a root or the square of a
+/// sum of radii below 9 * 2^-53 in all; 16 leaves room.
+inline constexpr double kSphereRoundUp = 1.0 + 16.0 * 0x1p-53;
+/// Covers underflow of the squares (each at most 2^-1075, their root about 2^-537).
+inline constexpr double kSphereTiny = 0x1p-500;
+
 /// The paper's test: centre distance strictly less than the sum of the radii, both squared.
 inline bool collide_strict(const Sphere& a, const Sphere& b) {
   const double reach = a.radius + b.radius;
@@ -21,15 +28,11 @@ inline bool collide_strict(const Sphere& a, const Sphere& b) {
 
 /// Closed, rounded outward: true whenever the exact closed balls share a point.
 inline bool collide_safe(const Sphere& a, const Sphere& b) {
-  // A sum of three squared differences is off by less than 5 * 2^-53 of itself (each difference,
-  // square and sum rounds once; the square doubles the difference's error), the square of the reach
-  // by less than 4: 16 leaves room. The smallest reach covers underflow of the squares.
-  constexpr double kUp = 1.0 + 16.0 * 0x1p-53;
-  constexpr double kTiny = 0x1p-500;
-  const double reach = (a.radius + b.radius) + kTiny;
+  const double reach = (a.radius + b.radius) + kSphereTiny;
   const double distance2 = (a.center - b.center).squaredNorm();
   // Beyond about 1e154 the squares overflow: nothing is known, nothing is excluded.
-  return !(distance2 > reach * reach * kUp) || distance2 > std::numeric_limits<double>::max();
+  return !(distance2 > reach * reach * kSphereRoundUp) ||
+         distance2 > std::numeric_limits<double>::max();
 }
 
 /// The smallest radius about `center` that holds every point, rounded up, plus `slack`: the closed

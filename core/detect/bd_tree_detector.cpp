@@ -93,42 +93,27 @@ void BdTreeDetector::query(Question question, ContactSet& out) {
 }
 
 StageRecord BdTreeDetector::trace_spheres() {
-  StageRecord record;
-  record.name = "spheres";
-  record.unit = "triangle pairs";
-  record.kind = StageRecord::Kind::kTriangles;
-  std::uint64_t before = 0;
-  for (std::uint64_t count : triangles_) {
-    record.in += before * count;
-    before += count;
-  }
+  std::vector<ElementPair> pairs;
   visit_leaves([&](const Leaves& leaves) {
     return visit_leaf_pairs({leaves.body_a, leaves.body_b}, trees_[leaves.body_a].tree(),
                             leaves.leaf_a, trees_[leaves.body_b].tree(), leaves.leaf_b,
                             [&](const ElementPair& pair) {
-                              record.elements.push_back(pair);
+                              pairs.push_back(pair);
                               return false;
                             });
   });
+  StageRecord record = triangle_record("spheres", brute_force_pairs(triangles_), std::move(pairs));
   record.visited = visited_;
   record.visited_unit = "sphere pairs";
-  canonicalize(record.elements);
-  record.out = record.elements.size();
   return record;
 }
 
 StageTrace BdTreeDetector::trace() {
   StageTrace out;
   out.stages.push_back(trace_spheres());
-  StageRecord exact;
-  exact.name = "triangles";
-  exact.unit = "triangle pairs";
-  exact.kind = StageRecord::Kind::kTriangles;
-  exact.in = out.stages[0].out;
-  find_triangles(exact.elements);
-  canonicalize(exact.elements);
-  exact.out = exact.elements.size();
-  out.stages.push_back(std::move(exact));
+  std::vector<ElementPair> exact;
+  find_triangles(exact);
+  out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/detect/triangle_pair_detector.h"
+#include "core/detect/triangle_record.h"
 #include "core/lazy/candidate_bodies.h"
 #include "core/types/check.h"
 
@@ -52,11 +53,11 @@ void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
   if (needs_vertices()) {
     CONTACTCHECK_INVARIANT(body.vertices.size() == shape.mesh.vertices.size(),
                            "one position per vertex");
-    begin_frame(state, body.vertices);
+    begin_frame_by_vertices(state, body.vertices);
   } else if (shape.lattice) {
     begin_frame_by_nodes(state, body.nodes);
   } else {
-    begin_frame(state, body.nodes);
+    begin_frame_by_vertices(state, body.nodes);
   }
 }
 
@@ -110,40 +111,20 @@ void LazyDetector::query(Question question, ContactSet& out) {
 }
 
 StageTrace LazyDetector::trace() {
-  StageRecord boxes;
-  boxes.name = "boxes";
-  boxes.unit = "triangle pairs";
-  boxes.kind = StageRecord::Kind::kTriangles;
-  StageRecord exact;
-  exact.name = "triangles";
-  exact.unit = "triangle pairs";
-  exact.kind = StageRecord::Kind::kTriangles;
-
+  std::vector<std::uint64_t> triangles;
+  for (const LazyState& state : states_) triangles.push_back(state.shape->mesh.triangles.size());
   const std::uint64_t before = scratch_.counters.block_pairs;
-  scratch_.candidates = &boxes.elements;
-  for (const BodyPair& pair : candidates_) test_pair(pair, false, exact.elements);
+  std::vector<ElementPair> tested, exact;
+  scratch_.candidates = &tested;
+  for (const BodyPair& pair : candidates_) test_pair(pair, false, exact);
   scratch_.candidates = nullptr;
-  canonicalize(boxes.elements);
-  canonicalize(exact.elements);
-  boxes.in = brute_force_pairs();
-  boxes.out = exact.in = boxes.elements.size();
-  boxes.visited = scratch_.counters.block_pairs - before;
-  boxes.visited_unit = "pairs of blocks of eight";
-  exact.out = exact.elements.size();
 
   StageTrace out;
-  out.stages.push_back(std::move(boxes));
-  out.stages.push_back(std::move(exact));
+  out.stages.push_back(triangle_record("boxes", brute_force_pairs(triangles), std::move(tested)));
+  out.stages[0].visited = scratch_.counters.block_pairs - before;
+  out.stages[0].visited_unit = "pairs of blocks of eight";
+  out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
   return out;
-}
-
-std::uint64_t LazyDetector::brute_force_pairs() const {
-  std::uint64_t pairs = 0, before = 0;
-  for (const LazyState& state : states_) {
-    pairs += before * state.shape->mesh.triangles.size();
-    before += state.shape->mesh.triangles.size();
-  }
-  return pairs;
 }
 
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {

@@ -46,7 +46,6 @@ class LazyDetector : public Detector {
  private:
   void begin_body(const BodyState& body, LazyState& state);
   void refit(std::size_t index);
-  std::uint64_t brute_force_pairs() const;
   void test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out);
 
   LazyConfig config_;

@@ -11,6 +11,7 @@
 
 #include "core/detect/detector.h"
 #include "core/detect/seen_pairs.h"
+#include "core/detect/triangle_record.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
 
@@ -86,15 +87,9 @@ class TrianglePairDetector : public Detector {
   StageTrace trace() override {
     StageTrace out;
     out.stages.push_back(trace_broad());
-    StageRecord exact;
-    exact.name = "triangles";
-    exact.unit = "triangle pairs";
-    exact.kind = StageRecord::Kind::kTriangles;
-    exact.in = out.stages[0].out;
-    find_triangles(exact.elements);
-    canonicalize(exact.elements);
-    exact.out = exact.elements.size();
-    out.stages.push_back(std::move(exact));
+    std::vector<ElementPair> exact;
+    find_triangles(exact);
+    out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
     return out;
   }
 
@@ -149,29 +144,18 @@ class TrianglePairDetector : public Detector {
     });
   }
 
-  std::uint64_t brute_force_pairs() const {
-    std::uint64_t pairs = 0, before = 0;
-    for (const BodyShape* shape : shapes_) {
-      pairs += before * shape->mesh.triangles.size();
-      before += shape->mesh.triangles.size();
-    }
-    return pairs;
-  }
-
   StageRecord trace_broad() {
-    StageRecord record;
-    record.name = Broad::kName;
-    record.unit = "triangle pairs";
-    record.kind = StageRecord::Kind::kTriangles;
-    record.in = brute_force_pairs();
+    std::vector<std::uint64_t> triangles;
+    for (const BodyShape* shape : shapes_) triangles.push_back(shape->mesh.triangles.size());
+    std::vector<ElementPair> pairs;
     broad_.visit_candidates([&](const ElementPair& pair) {
-      record.elements.push_back(pair);
+      pairs.push_back(pair);
       return false;
     });
+    StageRecord record =
+        triangle_record(Broad::kName, brute_force_pairs(triangles), std::move(pairs));
     record.visited = broad_.visited();
     record.visited_unit = Broad::kVisitedUnit;
-    canonicalize(record.elements);
-    record.out = record.elements.size();
     return record;
   }
 

@@ -25,15 +25,9 @@ void bound_all(LazyState& state, LazyCounters& counters) {
     bounds(state, block, counters);
 }
 
-const LeafCache& map_one_leaf(LazyState& state, std::uint32_t leaf, LazyCounters& counters) {
-  return map_leaf(state, leaf, counters);
-}
-
-BatchVerdict test_one_batch(const TriangleBatch& batch) { return test_batch(batch); }
-
 const LazyKernels& kernels() {
-  static const LazyKernels all = {hwy::TargetName(HWY_TARGET), collide, bound_all, test_one_batch,
-                                  map_one_leaf};
+  static const LazyKernels all = {hwy::TargetName(HWY_TARGET), collide, bound_all, test_batch,
+                                  map_leaf};
   return all;
 }
 

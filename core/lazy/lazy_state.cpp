@@ -32,16 +32,14 @@ void forget_frame(LazyState& state) {
 
 Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
 
-// `errors`: by how many errors of the mapping the box is widened.
-void set_box(std::span<const Vec3> points, double errors, LazyState& state) {
+void set_box(std::span<const Vec3> points, LazyState& state) {
   Vec3 lo = points[0], hi = points[0];
   for (const Vec3& p : points) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
   state.largest = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
-  const double error = errors > 0.0 ? errors * mapping_error_bound(state.largest) : 0.0;
-  state.box = {lo.array() - error, hi.array() + error};
+  state.box = {lo, hi};
 }
 
 // Finite whatever happens, so that boxes of lanes without a child stay empty; all content of a body
@@ -133,19 +131,21 @@ class Validation {
 
 }  // namespace
 
-void begin_frame(LazyState& state, std::span<const Vec3> points) {
-  if (!state.from_vertices) return begin_frame_by_nodes(state, points);
-  forget_frame(state);
-  state.vertices = points;
-  set_box(points, 0.0, state);
-}
-
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes) {
   forget_frame(state);
   state.nodes = nodes;
   state.vertices = {};
+  set_box(nodes, state);
   // Mapped vertices leave the hull of their nodes by rounding, no more.
-  set_box(nodes, 2.0, state);
+  const double error = 2.0 * mapping_error_bound(state.largest);
+  state.box.lo.array() -= error;
+  state.box.hi.array() += error;
+}
+
+void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices) {
+  forget_frame(state);
+  state.vertices = vertices;
+  set_box(vertices, state);
 }
 
 void place(std::span<LazyState> states) {

@@ -119,16 +119,14 @@ struct LazyState {
   FrameArena arena;
 };
 
-/// Forgets the last frame. `points`: the lattice's deformed nodes or, if `from_vertices`, vertices.
-/// @pre shape, tree and from_vertices are set
-void begin_frame(LazyState& state, std::span<const Vec3> points);
-
-/// The same for a body that is refitted to its mapped vertices, before they are mapped: its box is
-/// that of the nodes. `vertices` is to be set before its blocks are bounded.
-/// @pre shape with a lattice, tree and from_vertices are set
+/// Forgets the last frame; the body's box is that of its lattice's nodes. Where `from_vertices`,
+/// `vertices` is to be set before blocks are bounded. @pre shape, tree and from_vertices are set
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
 
-/// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame of each
+/// The same for a body whose vertices are known. @pre also from_vertices
+void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
+
+/// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame_by_... of each
 void place(std::span<LazyState> states);
 
 /// Takes the nodes into the body's frame and measures their edges, once per frame. @pre place

@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <new>
 
 #include "core/deform/mapping-inl.h"
@@ -81,16 +82,13 @@ HWY_INLINE void bound_triangles(const float* x, const LeafCorners& corners, std:
   }
 }
 
-// The least (or largest) of sixteen lanes.
+// The least (or largest) of eight lanes.
 template <bool least>
-HWY_INLINE float extreme(const float* a, const float* b) {
+HWY_INLINE float extreme(const float* lanes) {
   const FloatLanes d;
-  auto best = hn::Load(d, a);
-  const auto take = [&](const float* p) HWY_ATTR {
-    best = least ? hn::Min(best, hn::Load(d, p)) : hn::Max(best, hn::Load(d, p));
-  };
-  for (std::size_t i = hn::Lanes(d); i < kBlockWidth; i += hn::Lanes(d)) take(a + i);
-  for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) take(b + i);
+  auto best = hn::Load(d, lanes);
+  for (std::size_t i = hn::Lanes(d); i < kBlockWidth; i += hn::Lanes(d))
+    best = least ? hn::Min(best, hn::Load(d, lanes + i)) : hn::Max(best, hn::Load(d, lanes + i));
   return hn::GetLane(least ? hn::MinOfLanes(d, best) : hn::MaxOfLanes(d, best));
 }
 
@@ -117,8 +115,8 @@ HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
     for (std::uint32_t half = 0; half < 2; ++half)
       bound_triangles(near, state.tree->leaf_corners[index], half * kBlockWidth, leaf.triangles,
                       state.slack, boxes[half].lo[k], boxes[half].hi[k]);
-    boxes[2].lo[k][0] = extreme<true>(boxes[0].lo[k], boxes[1].lo[k]);
-    boxes[2].hi[k][0] = extreme<false>(boxes[0].hi[k], boxes[1].hi[k]);
+    boxes[2].lo[k][0] = std::min(extreme<true>(boxes[0].lo[k]), extreme<true>(boxes[1].lo[k]));
+    boxes[2].hi[k][0] = std::max(extreme<false>(boxes[0].hi[k]), extreme<false>(boxes[1].hi[k]));
   }
   cache.x = axes[0], cache.y = axes[1], cache.z = axes[2];
   cache.boxes = boxes, cache.whole = boxes + 2;

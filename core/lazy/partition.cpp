@@ -89,11 +89,17 @@ class Splitter {
     return best;
   }
 
-  void sort(const Part& part, int axis) {
-    std::sort(begin(part), end(part), [&](std::uint32_t a, std::uint32_t b) {
+  auto in_order_along(int axis) const {
+    return [this, axis](std::uint32_t a, std::uint32_t b) {
       const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
       return x != y ? x < y : a < b;
-    });
+    };
+  }
+
+  void sort(const Part& part, int axis) { std::sort(begin(part), end(part), in_order_along(axis)); }
+
+  void sort_about(const Part& part, std::uint32_t middle, int axis) {
+    std::nth_element(begin(part), out_.order.begin() + middle, end(part), in_order_along(axis));
   }
 
   /// Surface of the box round the triangles of a range.
@@ -128,14 +134,6 @@ class Splitter {
     }
     sort_about(part, middle, best_axis);
     return middle;
-  }
-
-  void sort_about(const Part& part, std::uint32_t middle, int axis) {
-    std::nth_element(begin(part), out_.order.begin() + middle, end(part),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
-                       return x != y ? x < y : a < b;
-                     });
   }
 
   // Of all planes between cells the one that parts the triangles most evenly.

@@ -46,8 +46,8 @@ HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
 HWY_INLINE FrameBox box_of_block(const LaneBoxes& lanes) {
   FrameBox box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = extreme<true>(lanes.lo[k], lanes.lo[k]);
-    box.hi[k] = extreme<false>(lanes.hi[k], lanes.hi[k]);
+    box.lo[k] = extreme<true>(lanes.lo[k]);
+    box.hi[k] = extreme<false>(lanes.hi[k]);
   }
   return box;
 }

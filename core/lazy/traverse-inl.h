@@ -58,7 +58,7 @@ struct MovedBounds {
 
 // From the frame of `from` to that of `to`. With u = 2^-24 and r the reaches of both together: the
 // difference of the origins is wrong by 3 * 2^-53 of them, its float and way - slack by u r each,
-// and the sum in apply() by u times its result, at most 8 r + r with strays: below 16 u r. The
+// and the sums in MovedBounds by u times their results, at most 9 r: below 16 u r. The
 // tests of slabs compare sums of about 20 products of values up to 9 r with factors of at most 2:
 // below 800 u r. The bodies' boxes overlap, so the way is at most r; else (rounding, or beyond the
 // doubles) nothing is excluded, by a finite number: empty lanes stay empty.
@@ -125,7 +125,7 @@ HWY_INLINE std::uint32_t unparted(const Bounds& one, const BlockBounds& lanes) {
   return out;
 }
 
-// Bit i: lane i shares a point with `box`.
+// Bit i: the box of lane i shares a point with that of `one`.
 template <class Bounds>
 HWY_INLINE std::uint32_t overlapping(const Bounds& one, const LaneBoxes& lanes) {
   const FloatLanes d;
@@ -181,10 +181,6 @@ class PairTraversal {
       if (!first_only_ || scratch_.leaf_pairs.size() < kLeafPairsAtOnce) continue;
       test_leaf_pairs();
       if (out_.size() > before) break;
-    }
-    if (first_only_ && out_.size() > before) {
-      out_.resize(before + 1);
-      return;
     }
     test_leaf_pairs();
     if (first_only_ && out_.size() > before) out_.resize(before + 1);

@@ -1,6 +1,7 @@
 // Scene files (JSON), described in fixtures/README.md, "Scenes".
 #include <algorithm>
 #include <deque>
+#include <set>
 #include <utility>
 
 #include "core/deform/name_check.h"
@@ -128,10 +129,11 @@ void add_copies(const JsonField& field, const std::string& name, const Workshop:
                 const MeshSpec& mesh, const Motion& motion, Scene& scene) {
   if (!field.has("motion")) field.at("copies").fail("needs a \"motion\" beside it");
   const CopiesSpec copies = parse_copies(field.at("copies"));
+  std::set<std::string> taken;
+  for (const Body& body : scene.bodies) taken.insert(body.name);
   for (std::size_t i = 0; i < copies.count(); ++i) {
     const std::string own = name_of_copy(name, i);
-    for (const Body& body : scene.bodies)
-      if (body.name == own) field.at("name").refuse("such that \"" + own + "\" is free");
+    if (taken.count(own)) field.at("name").refuse("such that \"" + own + "\" is free");
     add_body(field, own, made, mesh, motion_of_copy(copies, motion, i), scene);
   }
 }

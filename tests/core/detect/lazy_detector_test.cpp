@@ -215,7 +215,11 @@ std::vector<ElementPair> collided(const std::string& isa, const std::vector<Body
     states[b].shape = scene.bodies[b].shape.get();
     states[b].tree = &trees[b];
     states[b].from_vertices = !states[b].shape->lattice;
-    begin_frame(states[b], scene.frames[2].nodes[b]);
+    if (states[b].from_vertices) {
+      begin_frame_by_vertices(states[b], scene.frames[2].nodes[b]);
+    } else {
+      begin_frame_by_nodes(states[b], scene.frames[2].nodes[b]);
+    }
   }
   LazyScratch scratch;
   place(states);

@@ -68,7 +68,11 @@ class OneBody {
     nodes_ = std::move(nodes);
     vertices_.resize(shape_->mesh.vertices.size());
     map_body(*shape_, nodes_, vertices_);
-    begin_frame(state(), state().from_vertices ? vertices_ : nodes_);
+    if (state().from_vertices) {
+      begin_frame_by_vertices(state(), vertices_);
+    } else {
+      begin_frame_by_nodes(state(), nodes_);
+    }
     states_[1].box = {Vec3::Constant(-company), Vec3::Constant(company)};
     place({states_.data(), company > 0.0 ? 2u : 1u});
     find_near_nodes(state());

@@ -41,6 +41,12 @@ struct StageTrace {
   std::vector<std::vector<std::uint32_t>> owner;
 };
 
+/// A number of things done, by name: "leaves mapped".
+struct Count {
+  std::string name;
+  std::uint64_t value = 0;
+};
+
 /// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
 /// frames may come in any order and repeat. A detector holds no state that changes the answer to a
 /// later frame. Two detectors (also of one kind) may be used by two threads at once. Exceptions are
@@ -64,6 +70,9 @@ class Detector {
   virtual void query(Question question, ContactSet& out) = 0;
   /// The stages of the last updated frame; empty for detectors without stages. Untimed.
   virtual StageTrace trace() { return {}; }
+  /// What the last updated frame took, counted in the detector's own units, always the same names
+  /// in the same order; since its update, so asking once more adds to it. Untimed.
+  virtual std::vector<Count> counts() { return {}; }
   /// What a reader must know about the answer to the last updated frame: limits that were reached,
   /// triangles that the library cannot see. One sentence each, the same words for the same fact in
   /// every frame, without numbers that change from frame to frame. Untimed.

@@ -26,7 +26,11 @@ bool refits(const BodyShape& shape, BoundSource bounds) {
 }  // namespace
 
 LazyDetector::LazyDetector(const LazyConfig& config)
-    : config_(config), kernels_(lazy_kernels(config.isa)), semantics_(exact_triangle_semantics()) {}
+    : config_(config),
+      kernels_(lazy_kernels(config.isa)),
+      semantics_(exact_triangle_semantics()),
+      team_(config.threads),
+      tasks_(kernels_, team_) {}
 
 void LazyDetector::prepare(const std::vector<Body>& bodies) {
   trees_.clear();
@@ -61,21 +65,36 @@ void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
   }
 }
 
-// Bounds of bodies that are refitted; those of others are made on demand.
-void LazyDetector::refit(std::size_t index) {
+// What the tests of a body's pairs start from: all its bounds where it is refitted, else its nodes;
+// bounds are then made on demand.
+void LazyDetector::bound(std::size_t index, LazyScratch& scratch) {
   LazyState& state = states_[index];
-  if (!state.from_vertices || state.block_frame[0] == state.frame) return;
+  if (!state.from_vertices) return find_near_nodes(state);
   if (state.vertices.empty()) {
     mapped_[index].resize(state.shape->mesh.vertices.size());
     map_body(*state.shape, state.nodes, mapped_[index]);
     state.vertices = mapped_[index];
   }
-  kernels_.bound_all(state, scratch_.counters);
+  kernels_.bound_all(state, scratch.arena);
+}
+
+// full-refit is what it says; ffd-lazy leaves out bodies that meet no other.
+void LazyDetector::bound_bodies_that_meet() {
+  std::vector<bool> wanted(states_.size(), needs_vertices());
+  for (const BodyPair& pair : candidates_) wanted[pair.a] = wanted[pair.b] = true;
+  to_bound_.clear();
+  for (std::size_t b = 0; b < wanted.size(); ++b)
+    if (wanted[b]) to_bound_.push_back(b);
+  team_.for_each(to_bound_.size(),
+                 [this](std::size_t i, LazyScratch& scratch) { bound(to_bound_[i], scratch); });
 }
 
 void LazyDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
-  scratch_.counters = {};
+  for (LazyScratch& scratch : team_.scratch()) {
+    scratch.arena.clear();
+    scratch.counters = {};
+  }
   std::vector<Aabb> boxes;
   for (std::size_t b = 0; b < states_.size(); ++b) {
     begin_body(frame.bodies[b], states_[b]);
@@ -83,55 +102,63 @@ void LazyDetector::update(const Frame& frame) {
   }
   place(states_);
   find_candidate_bodies(boxes, candidates_);
-  // full-refit is what it says; ffd-lazy leaves out bodies that meet no other.
-  for (std::size_t b = 0; needs_vertices() && b < states_.size(); ++b) refit(b);
-  for (const BodyPair& pair : candidates_) {
-    refit(pair.a);
-    refit(pair.b);
-  }
-}
-
-void LazyDetector::test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out) {
-  find_near_nodes(states_[pair.a]);
-  find_near_nodes(states_[pair.b]);
-  kernels_.collide({pair, states_[pair.a], states_[pair.b]}, first_only, scratch_, out);
+  bound_bodies_that_meet();
 }
 
 void LazyDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-  for (const BodyPair& pair : candidates_) {
-    if (question == Question::kTriangles) {
-      test_pair(pair, false, out.triangles);
-      continue;
-    }
-    found_.clear();
-    test_pair(pair, true, found_);
-    if (!found_.empty()) out.bodies.push_back(pair);
-  }
+  if (question == Question::kTriangles)
+    return tasks_.run(states_, candidates_, false, out.triangles);
+  found_.clear();
+  tasks_.run(states_, candidates_, true, found_);
+  for (const ElementPair& pair : found_) out.bodies.push_back({pair.body_a, pair.body_b});
 }
 
+// On one thread: what is tested is the same.
 StageTrace LazyDetector::trace() {
   std::vector<std::uint64_t> triangles;
   for (const LazyState& state : states_) triangles.push_back(state.shape->mesh.triangles.size());
-  const std::uint64_t before = scratch_.counters.block_pairs;
+  LazyScratch& scratch = team_.scratch()[0];
+  const std::uint64_t before = scratch.counters.block_pairs;
   std::vector<ElementPair> tested, exact;
-  scratch_.candidates = &tested;
-  for (const BodyPair& pair : candidates_) test_pair(pair, false, exact);
-  scratch_.candidates = nullptr;
+  scratch.candidates = &tested;
+  for (const BodyPair& pair : candidates_)
+    kernels_.collide({pair, states_[pair.a], states_[pair.b]}, false, scratch, exact);
+  scratch.candidates = nullptr;
 
   StageTrace out;
   out.stages.push_back(triangle_record("boxes", brute_force_pairs(triangles), std::move(tested)));
-  out.stages[0].visited = scratch_.counters.block_pairs - before;
+  out.stages[0].visited = scratch.counters.block_pairs - before;
   out.stages[0].visited_unit = "pairs of blocks of eight";
   out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
   return out;
 }
 
+LazyCounters LazyDetector::counters() const {
+  LazyCounters sum;
+  for (const LazyState& state : states_) count_made(state, sum);
+  for (const LazyScratch& scratch : team_.scratch()) {
+    sum.block_pairs += scratch.counters.block_pairs;
+    sum.leaf_pairs += scratch.counters.leaf_pairs;
+    sum.triangle_tests += scratch.counters.triangle_tests;
+    sum.filter_failures += scratch.counters.filter_failures;
+  }
+  return sum;
+}
+
+std::vector<Count> LazyDetector::counts() {
+  const LazyCounters c = counters();
+  return {{"blocks bounded", c.blocks_bounded},   {"leaves mapped", c.leaves_mapped},
+          {"vertices mapped", c.vertices_mapped}, {"block pairs", c.block_pairs},
+          {"leaf pairs", c.leaf_pairs},           {"triangle tests", c.triangle_tests},
+          {"exact tests", c.filter_failures}};
+}
+
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {
   for (std::size_t b = 0; b < states_.size(); ++b) {
-    refit(b);
-    find_near_nodes(states_[b]);
-    if (!states_[b].from_vertices) kernels_.bound_all(states_[b], scratch_.counters);
+    LazyScratch& scratch = team_.scratch()[0];
+    bound(b, scratch);
+    if (!states_[b].from_vertices) kernels_.bound_all(states_[b], scratch.arena);
     const std::string broken = contactcheck::validate(states_[b], vertices[b]);
     if (!broken.empty()) return "body " + std::to_string(b) + ": " + broken;
     for (const Vec3& v : vertices[b])
@@ -152,9 +179,8 @@ std::size_t LazyDetector::shared_bytes() const {
 std::size_t LazyDetector::instance_bytes() const {
   std::size_t bytes = 0;
   for (const LazyState& s : states_)
-    bytes += s.near_nodes.size() * sizeof(Float4) + s.arena.bytes() +
-             s.block_bounds.size() * (sizeof(BlockBounds) + sizeof(std::uint32_t)) +
-             s.leaves.size() * (sizeof(LeafCache*) + sizeof(std::uint32_t));
+    bytes += s.near_nodes.size() * sizeof(Float4) + s.blocks.bytes() + s.leaves.bytes();
+  for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   return bytes;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/detect/detector.h"
-#include "core/lazy/kernels.h"
+#include "core/lazy/pair_tasks.h"
 
 namespace contactcheck {
 
@@ -20,9 +20,11 @@ enum class BoundSource {
 struct LazyConfig {
   BoundSource bounds = BoundSource::kCheaper;
   std::string isa = "best";
+  std::size_t threads = 1;
 };
 
-/// Exact for all finite doubles: bounds only cull, and contain what they stand for.
+/// Exact for all finite doubles: bounds only cull, and contain what they stand for. The contacts do
+/// not depend on the instruction set nor on the number of threads.
 class LazyDetector : public Detector {
  public:
   explicit LazyDetector(const LazyConfig& config);
@@ -33,20 +35,21 @@ class LazyDetector : public Detector {
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;
   StageTrace trace() override;
+  std::vector<Count> counts() override;
 
   /// Bounds everything in the frame of the last update and checks it against `vertices`, per body;
   /// "" or a sentence for the first broken promise.
   std::string validate(const std::vector<std::vector<Vec3>>& vertices);
   /// Since the last update.
-  const LazyCounters& counters() const { return scratch_.counters; }
+  LazyCounters counters() const;
   /// Bytes of all trees; of all that the bodies hold beside them.
   std::size_t shared_bytes() const;
   std::size_t instance_bytes() const;
 
  private:
   void begin_body(const BodyState& body, LazyState& state);
-  void refit(std::size_t index);
-  void test_pair(const BodyPair& pair, bool first_only, std::vector<ElementPair>& out);
+  void bound(std::size_t index, LazyScratch& scratch);
+  void bound_bodies_that_meet();
 
   LazyConfig config_;
   const LazyKernels& kernels_;
@@ -55,8 +58,10 @@ class LazyDetector : public Detector {
   std::vector<LazyState> states_;
   std::vector<std::vector<Vec3>> mapped_;  // per body that is mapped here
   std::vector<BodyPair> candidates_;
+  std::vector<std::size_t> to_bound_;
   std::vector<ElementPair> found_;
-  LazyScratch scratch_;
+  ThreadTeam team_;
+  PairTasks tasks_;
 };
 
 }  // namespace contactcheck

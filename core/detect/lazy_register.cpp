@@ -14,17 +14,26 @@ OptionInfo isa_option() {
   return choice_option("isa", "best", std::move(choices), "instruction set of the inner loops");
 }
 
+OptionInfo threads_option() {
+  return numeric_option("threads", "1", 1, 256, true, "contacts do not depend on it");
+}
+
+std::size_t threads_of(const Options& options) {
+  return static_cast<std::size_t>(number_option(options, "threads"));
+}
+
 void add_ffd_lazy(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "ffd-lazy";
   info.summary = "tree bounded lazily from lattice nodes, SIMD; exact triangle test";
   info.options = {choice_option("bounds", "auto", {"auto", "nodes"},
                                 "auto: bodies small for their lattice are mapped and refitted"),
-                  isa_option()};
+                  isa_option(), threads_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
     LazyConfig config;
     config.bounds = options.at("bounds") == "auto" ? BoundSource::kCheaper : BoundSource::kNodes;
     config.isa = options.at("isa");
+    config.threads = threads_of(options);
     return std::make_unique<LazyDetector>(config);
   };
   catalog.add(std::move(info));
@@ -34,9 +43,10 @@ void add_full_refit(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "full-refit";
   info.summary = "the same tree and tests, refitted to all mapped vertices in every frame";
-  info.options = {isa_option()};
+  info.options = {isa_option(), threads_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
-    return std::make_unique<LazyDetector>(LazyConfig{BoundSource::kVertices, options.at("isa")});
+    return std::make_unique<LazyDetector>(
+        LazyConfig{BoundSource::kVertices, options.at("isa"), threads_of(options)});
   };
   catalog.add(std::move(info));
 }

@@ -45,25 +45,17 @@ HWY_INLINE void no_slabs(LaneSlabs& out) {
 }
 
 // The bounds of a block's children in this frame.
-HWY_INLINE const BlockBounds& bounds(LazyState& state, std::uint32_t index,
-                                     LazyCounters& counters) {
-  BlockBounds& out = state.block_bounds[index];
-  if (state.block_frame[index] == state.frame) return out;
-  struct Room {
-    LaneBoxes box;
-    LaneSlabs slab;
-  };
-  auto* const room = static_cast<Room*>(state.arena.take(sizeof(Room)));
-  out = {&room->box, &room->slab};
+HWY_INLINE const BlockBounds& bounds(LazyState& state, std::uint32_t index, FrameArena& arena) {
+  if (const BlockBounds* known = state.blocks.find(index)) return *known;
+  auto& out = *static_cast<BlockBounds*>(arena.take(sizeof(BlockBounds)));
   const TreeBlock& block = state.tree->blocks[index];
   if (block.hull) {
-    bound_hulls(state, block, *out.box);
-    no_slabs(*out.slab);
+    bound_hulls(state, block, out.box);
+    no_slabs(out.slab);
   } else {
     bound_pieces(state, block, out);
   }
-  state.block_frame[index] = state.frame;
-  ++counters.blocks_bounded;
+  state.blocks.put(index, &out);
   return out;
 }
 

@@ -19,15 +19,25 @@ void collide(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
   PairTraversal(bodies, first_only, scratch, out).run();
 }
 
-void bound_all(LazyState& state, LazyCounters& counters) {
-  if (state.from_vertices) return refit(state, counters);
+void spread(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, PairFront& front) {
+  std::vector<ElementPair> none;
+  PairTraversal(bodies, false, scratch, none).spread(slots, front);
+}
+
+void collide_part(BodiesToTest bodies, FrontPart part, bool first_only, LazyScratch& scratch,
+                  std::vector<ElementPair>& out) {
+  PairTraversal(bodies, first_only, scratch, out).run(part);
+}
+
+void bound_all(LazyState& state, FrameArena& arena) {
+  if (state.from_vertices) return refit(state, arena);
   for (std::uint32_t block = 0; block < state.tree->blocks.size(); ++block)
-    bounds(state, block, counters);
+    bounds(state, block, arena);
 }
 
 const LazyKernels& kernels() {
-  static const LazyKernels all = {hwy::TargetName(HWY_TARGET), collide, bound_all, test_batch,
-                                  map_leaf};
+  static const LazyKernels all = {
+      hwy::TargetName(HWY_TARGET), collide, spread, collide_part, bound_all, test_batch, map_leaf};
   return all;
 }
 

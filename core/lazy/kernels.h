@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,26 @@ struct LeafPair {
   std::uint32_t a, b;
 };
 
-/// Memory that one thread reuses from pair to pair.
+/// What is left of the test of two bodies: slots whose bounds meet and are still to be opened, and
+/// leaves whose triangles are still to be tested.
+struct PairFront {
+  std::vector<SlotPair> slots;
+  std::vector<LeafPair> leaves;
+};
+
+/// A part of a front.
+struct FrontPart {
+  std::span<const SlotPair> slots;
+  std::span<const LeafPair> leaves;
+};
+
+/// What one thread works with. Lives as long as the states that point into its arena.
 struct LazyScratch {
-  std::vector<SlotPair> stack;
-  std::vector<LeafPair> leaf_pairs;
+  FrameArena arena;
+  PairFront open;
+  std::vector<SlotPair> level;
   TriangleBatch batch{};
-  LazyCounters counters;
+  LazyCounters counters;                           ///< without what count_made() adds
   std::vector<ElementPair>* candidates = nullptr;  ///< takes down every pair tested, if any
 };
 
@@ -42,12 +57,17 @@ struct LazyKernels {
   /// Appends the intersecting pairs of triangles, each once; stops at the first if `first_only`.
   void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                   std::vector<ElementPair>& out);
+  /// Opens what meets, level by level, until so many slots are open or none is left to be opened.
+  void (*spread)(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, PairFront& front);
+  /// collide() of a part of what spread() has left; the parts together find what collide() finds.
+  void (*collide_part)(BodiesToTest bodies, FrontPart part, bool first_only, LazyScratch& scratch,
+                       std::vector<ElementPair>& out);
   /// Bounds every block of the body, in order of their indices. For refitted bodies and validate().
-  void (*bound_all)(LazyState& state, LazyCounters& counters);
+  void (*bound_all)(LazyState& state, FrameArena& arena);
   /// The filtered test of up to eight pairs.
   BatchVerdict (*test_batch)(const TriangleBatch& batch);
   /// Maps one leaf, once per frame.
-  const LeafCache& (*map_leaf)(LazyState& state, std::uint32_t leaf, LazyCounters& counters);
+  const LeafCache& (*map_leaf)(LazyState& state, std::uint32_t leaf, FrameArena& arena);
 };
 
 /// The kernels for this processor, or for a named instruction set.

@@ -16,17 +16,8 @@ double half_width(const Aabb& box) {
 }
 
 void forget_frame(LazyState& state) {
-  const std::size_t blocks = state.tree->blocks.size(), leaves = state.tree->leaves.size();
-  if (state.block_frame.size() != blocks ||
-      state.frame == std::numeric_limits<std::uint32_t>::max()) {
-    state.block_frame.assign(blocks, 0);
-    state.leaf_frame.assign(leaves, 0);
-    state.block_bounds.resize(blocks);
-    state.leaves.resize(leaves);
-    state.frame = 0;
-  }
-  ++state.frame;
-  state.arena.clear();
+  state.blocks.begin_frame(state.tree->blocks.size());
+  state.leaves.begin_frame(state.tree->leaves.size());
   state.nodes_known = false;
 }
 
@@ -50,13 +41,16 @@ float round_up(double slack) {
                         std::numeric_limits<float>::infinity());
 }
 
-bool lane_holds(const BlockBounds& bounds, std::uint32_t lane, const Vec3& p) {
+bool box_holds(const LaneBoxes& box, std::uint32_t lane, const Vec3& p) {
   for (int k = 0; k < 3; ++k)
-    if (!(bounds.box->lo[k][lane] <= p[k] && p[k] <= bounds.box->hi[k][lane])) return false;
-  if (bounds.slab == nullptr) return true;
+    if (!(box.lo[k][lane] <= p[k] && p[k] <= box.hi[k][lane])) return false;
+  return true;
+}
+
+bool slab_holds(const LaneSlabs& slab, std::uint32_t lane, const Vec3& p) {
   double along = 0.0;
-  for (int k = 0; k < 3; ++k) along += bounds.slab->normal[k][lane] * p[k];
-  return std::abs(along - bounds.slab->middle[lane]) <= bounds.slab->half[lane];
+  for (int k = 0; k < 3; ++k) along += slab.normal[k][lane] * p[k];
+  return std::abs(along - slab.middle[lane]) <= slab.half[lane];
 }
 
 // The power of two that brings x to about 1, as near as it and its inverse are doubles.
@@ -112,12 +106,18 @@ class Validation {
     std::uint32_t block, lane;
   };
 
+  bool holds(const Slot& slot, const Vec3& p) const {
+    const BlockBounds& bounds = *state_.blocks.find(slot.block);
+    return box_holds(bounds.box, slot.lane, p) &&
+           (state_.from_vertices || slab_holds(bounds.slab, slot.lane, p));
+  }
+
   std::string leaf(std::uint32_t index) const {
     const TreeLeaf& leaf = state_.tree->leaves[index];
     for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
       const std::uint32_t v = state_.tree->leaf_vertices[leaf.first_vertex + i];
       for (const Slot& slot : path_)
-        if (!lane_holds(state_.block_bounds[slot.block], slot.lane, in_frame(state_, vertices_[v])))
+        if (!holds(slot, in_frame(state_, vertices_[v])))
           return "vertex " + std::to_string(v) + " leaves lane " + std::to_string(slot.lane) +
                  " of block " + std::to_string(slot.block);
     }
@@ -173,6 +173,16 @@ void find_near_nodes(LazyState& state) {
   for (int axis = 0; axis < 3; ++axis)
     state.longest_edge[axis] = longest_edge(state, state.tree->edges[axis]);
   state.nodes_known = true;
+}
+
+void count_made(const LazyState& state, LazyCounters& counters) {
+  for (std::uint32_t b = 0; b < state.blocks.size(); ++b)
+    if (state.blocks.find(b) != nullptr) ++counters.blocks_bounded;
+  for (std::uint32_t l = 0; l < state.leaves.size(); ++l) {
+    if (state.leaves.find(l) == nullptr) continue;
+    ++counters.leaves_mapped;
+    counters.vertices_mapped += state.tree->leaves[l].vertices;
+  }
 }
 
 std::string validate(const LazyState& state, std::span<const Vec3> vertices) {

@@ -1,5 +1,5 @@
 // What the lazy detector knows about one body in one frame. Bounds and mapped leaves are made when
-// first asked for and stamped with the frame.
+// first asked for, by any thread, and stamped with the frame.
 //
 // Bounds are floats in the body's frame: (x - origin) * scale, with a power of two common to all
 // bodies as scale. The origin is the middle of the scene where bodies are not small beside it, else
@@ -10,11 +10,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/lazy/frame_memory.h"
 #include "core/lazy/lattice_tree.h"
 #include "core/types/vec3.h"
 
@@ -39,10 +39,10 @@ struct alignas(64) LaneSlabs {
 };
 inline constexpr float kNoSlab = 1e30f;
 
-/// In the arena.
+/// Of the eight children of a block.
 struct BlockBounds {
-  LaneBoxes* box = nullptr;
-  LaneSlabs* slab = nullptr;  ///< none where bounds come from vertices
+  LaneBoxes box;
+  LaneSlabs slab;  ///< never written where bounds come from vertices
 };
 
 /// The mapped leaf: its vertices, world coordinates as map_point() gives them, and the boxes of its
@@ -55,35 +55,8 @@ struct LeafCache {
   const LaneBoxes* whole = nullptr;  ///< lane 0: of all of them
 };
 
-/// Memory that lives until the next frame; nothing is freed and pointers stay valid.
-class FrameArena {
- public:
-  void clear() { chunk_ = used_ = 0; }
-  /// Aligned to 64 bytes. @pre bytes <= kChunk
-  void* take(std::size_t bytes) {
-    bytes = (bytes + 63) / 64 * 64;
-    if (chunk_ == chunks_.size() || used_ + bytes > kChunk) next_chunk();
-    void* out = chunks_[chunk_]->bytes + used_;
-    used_ += bytes;
-    return out;
-  }
-  std::size_t bytes() const { return chunks_.size() * kChunk; }
-
- private:
-  static constexpr std::size_t kChunk = std::size_t{1} << 16;
-  struct alignas(64) Chunk {
-    std::byte bytes[kChunk];
-  };
-  void next_chunk() {
-    if (chunk_ < chunks_.size() && used_ > 0) ++chunk_;
-    if (chunk_ == chunks_.size()) chunks_.push_back(std::unique_ptr<Chunk>(new Chunk));
-    used_ = 0;
-  }
-  std::vector<std::unique_ptr<Chunk>> chunks_;
-  std::size_t chunk_ = 0, used_ = 0;
-};
-
-/// What was done, since the last update.
+/// What was done, since the last update. The first three depend on the frame and on what was asked,
+/// not on how many threads did it; so do the others where all pairs were asked for.
 struct LazyCounters {
   std::uint64_t blocks_bounded = 0;  ///< eight children each
   std::uint64_t leaves_mapped = 0;
@@ -112,11 +85,8 @@ struct LazyState {
   std::array<Float4, 3> longest_edge;  ///< per lattice axis: largest |component| of its edges
   bool nodes_known = false;
 
-  std::uint32_t frame = 0;
-  std::vector<std::uint32_t> block_frame, leaf_frame;  ///< when last bounded, mapped
-  std::vector<BlockBounds> block_bounds;
-  std::vector<LeafCache*> leaves;  ///< in the arena
-  FrameArena arena;
+  FrameTable<BlockBounds> blocks;
+  FrameTable<LeafCache> leaves;
 };
 
 /// Forgets the last frame; the body's box is that of its lattice's nodes. Where `from_vertices`,
@@ -128,6 +98,9 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 
 /// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame_by_... of each
 void place(std::span<LazyState> states);
+
+/// Adds the blocks, leaves and vertices made in this frame.
+void count_made(const LazyState& state, LazyCounters& counters);
 
 /// Takes the nodes into the body's frame and measures their edges, once per frame. @pre place
 void find_near_nodes(LazyState& state);

@@ -92,14 +92,13 @@ HWY_INLINE float extreme(const float* lanes) {
   return hn::GetLane(least ? hn::MinOfLanes(d, best) : hn::MaxOfLanes(d, best));
 }
 
-HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
-                                     LazyCounters& counters) {
+HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index, FrameArena& arena) {
   static_assert(kLeafTriangles == 2 * kBlockWidth);
-  if (state.leaf_frame[index] == state.frame) return *state.leaves[index];
+  if (const LeafCache* known = state.leaves.find(index)) return *known;
   const TreeLeaf& leaf = state.tree->leaves[index];
   const std::size_t room = (leaf.vertices + kLeafPadding + 7u) / 8 * 8;
   auto* const world = static_cast<double*>(
-      state.arena.take(3 * room * sizeof(double) + 3 * sizeof(LaneBoxes) + sizeof(LeafCache)));
+      arena.take(3 * room * sizeof(double) + 3 * sizeof(LaneBoxes) + sizeof(LeafCache)));
   double* axes[3] = {world, world + room, world + 2 * room};
   if (state.from_vertices) {
     copy_vertices(state, leaf, axes);
@@ -108,7 +107,6 @@ HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
   }
   auto* const boxes = reinterpret_cast<LaneBoxes*>(world + 3 * room);
   LeafCache& cache = *new (boxes + 3) LeafCache;
-  state.leaves[index] = &cache;
   HWY_ALIGN float near[3 * kLeafTriangles + kBlockWidth];
   for (int k = 0; k < 3; ++k) {
     to_frame(axes[k], state.origin[k], state.scale, leaf.vertices, near);
@@ -120,9 +118,7 @@ HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index,
   }
   cache.x = axes[0], cache.y = axes[1], cache.z = axes[2];
   cache.boxes = boxes, cache.whole = boxes + 2;
-  state.leaf_frame[index] = state.frame;
-  ++counters.leaves_mapped;
-  counters.vertices_mapped += leaf.vertices;
+  state.leaves.put(index, &cache);
   return cache;
 }
 

@@ -223,8 +223,7 @@ HWY_INLINE void store_boxes(const Range (&range)[3], float slack, std::size_t fi
 }
 
 // The block's first home cell is that of most of its vertices.
-HWY_INLINE void bound_pieces(const LazyState& state, const TreeBlock& block,
-                             const BlockBounds& out) {
+HWY_INLINE void bound_pieces(const LazyState& state, const TreeBlock& block, BlockBounds& out) {
   const FloatLanes d;
   const Range nothing{hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(d)) {
@@ -242,8 +241,8 @@ HWY_INLINE void bound_pieces(const LazyState& state, const TreeBlock& block,
       for (int k = 0; k < 3; ++k) join(total[k], range_over(x[k], piece.half), present);
       join(slab, slab_range(along(n, x), home, piece, n, first), present);
     }
-    store_boxes(total, state.slack, first, *out.box);
-    store_slabs(slab, n, state.slab_slack, first, *out.slab);
+    store_boxes(total, state.slack, first, out.box);
+    store_slabs(slab, n, state.slab_slack, first, out.slab);
   }
 }
 

@@ -52,11 +52,12 @@ HWY_INLINE FrameBox box_of_block(const LaneBoxes& lanes) {
   return box;
 }
 
-HWY_INLINE void refit(LazyState& state, LazyCounters& counters) {
+HWY_INLINE void refit(LazyState& state, FrameArena& arena) {
   const LatticeTree& tree = *state.tree;
   for (std::size_t index = tree.blocks.size(); index-- > 0;) {
     const TreeBlock& block = tree.blocks[index];
-    auto& out = *static_cast<LaneBoxes*>(state.arena.take(sizeof(LaneBoxes)));
+    auto& bounds = *static_cast<BlockBounds*>(arena.take(sizeof(BlockBounds)));
+    LaneBoxes& out = bounds.box;
     for (std::uint32_t c = 0; c < kBlockWidth; ++c) {
       FrameBox box;
       if (c >= block.children) {
@@ -64,16 +65,14 @@ HWY_INLINE void refit(LazyState& state, LazyCounters& counters) {
       } else if (block.child[c].leaf()) {
         box = box_of_leaf(state, tree.leaves[block.child[c].index()]);
       } else {
-        box = box_of_block(*state.block_bounds[block.child[c].index()].box);
+        box = box_of_block(state.blocks.find(block.child[c].index())->box);
       }
       for (int k = 0; k < 3; ++k) {
         out.lo[k][c] = box.lo[k];
         out.hi[k][c] = box.hi[k];
       }
     }
-    state.block_bounds[index] = {&out, nullptr};
-    state.block_frame[index] = state.frame;
-    ++counters.blocks_bounded;
+    state.blocks.put(static_cast<std::uint32_t>(index), &bounds);
   }
 }
 

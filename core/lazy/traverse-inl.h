@@ -97,16 +97,16 @@ HWY_INLINE std::uint32_t unparted(const Bounds& one, const BlockBounds& lanes) {
     auto along = hn::Zero(d);
     for (int k = 0; k < 3; ++k) {
       n[k] = hn::Set(d, one.normal(k));
-      m[k] = hn::Load(d, lanes.slab->normal[k] + i);
+      m[k] = hn::Load(d, lanes.slab.normal[k] + i);
       along = hn::MulAdd(n[k], m[k], along);
     }
     const auto size = hn::Abs(along);
-    const auto middle = hn::Load(d, lanes.slab->middle + i);
-    const auto half = hn::Load(d, lanes.slab->half + i);
+    const auto middle = hn::Load(d, lanes.slab.middle + i);
+    const auto half = hn::Load(d, lanes.slab.half + i);
     auto theirs = hn::Mul(along, middle), their_half = hn::Mul(size, half);
     auto ours = hn::Mul(along, middle1), our_half = hn::Mul(size, half1);
     for (int k = 0; k < 3; ++k) {
-      const auto lo = hn::Load(d, lanes.box->lo[k] + i), hi = hn::Load(d, lanes.box->hi[k] + i);
+      const auto lo = hn::Load(d, lanes.box.lo[k] + i), hi = hn::Load(d, lanes.box.hi[k] + i);
       const auto rest = hn::NegMulAdd(along, m[k], n[k]);
       theirs = hn::MulAdd(rest, hn::Mul(point5, hn::Add(lo, hi)), theirs);
       their_half = hn::MulAdd(hn::Abs(rest), hn::Mul(point5, hn::Sub(hi, lo)), their_half);
@@ -146,7 +146,7 @@ HWY_INLINE std::uint32_t overlapping(const Bounds& one, const LaneBoxes& lanes) 
 
 template <class Bounds>
 HWY_INLINE std::uint32_t meeting_lanes(const Bounds& one, bool slabs, const BlockBounds& lanes) {
-  const std::uint32_t hits = overlapping(one, *lanes.box);
+  const std::uint32_t hits = overlapping(one, lanes.box);
   return hits != 0 && slabs ? hits & unparted(one, lanes) : hits;
 }
 
@@ -165,29 +165,53 @@ class PairTraversal {
         first_only_(first_only),
         scratch_(scratch),
         out_(out),
+        slabs_(!bodies.a.from_vertices && !bodies.b.from_vertices),
         to_a_(shift_between(bodies.b, bodies.a)),
-        to_b_(shift_between(bodies.a, bodies.b)) {}
+        to_b_(shift_between(bodies.a, bodies.b)) {
+    scratch.open.slots.clear();
+    scratch.open.leaves.clear();
+    scratch.batch.count = 0;
+  }
 
   HWY_INLINE void run() {
-    scratch_.stack.clear();
-    scratch_.leaf_pairs.clear();
-    scratch_.batch.count = 0;
-    const std::size_t before = out_.size();
     cross(0, 0xff, 0);
-    while (!scratch_.stack.empty()) {
-      const SlotPair slots = scratch_.stack.back();
-      scratch_.stack.pop_back();
-      open(slots);
-      if (!first_only_ || scratch_.leaf_pairs.size() < kLeafPairsAtOnce) continue;
+    finish();
+  }
+
+  HWY_INLINE void run(const FrontPart& part) {
+    scratch_.open.slots.assign(part.slots.begin(), part.slots.end());
+    scratch_.open.leaves.assign(part.leaves.begin(), part.leaves.end());
+    finish();
+  }
+
+  HWY_INLINE void spread(std::size_t slots, PairFront& front) {
+    cross(0, 0xff, 0);
+    while (!scratch_.open.slots.empty() && scratch_.open.slots.size() < slots) {
+      scratch_.level.swap(scratch_.open.slots);
+      scratch_.open.slots.clear();
+      for (const SlotPair& pair : scratch_.level) open(pair);
+    }
+    front.slots.swap(scratch_.open.slots);
+    front.leaves.swap(scratch_.open.leaves);
+  }
+
+ private:
+  static constexpr std::size_t kLeafPairsAtOnce = 16;
+
+  HWY_INLINE void finish() {
+    std::vector<SlotPair>& slots = scratch_.open.slots;
+    const std::size_t before = out_.size();
+    while (!slots.empty()) {
+      const SlotPair pair = slots.back();
+      slots.pop_back();
+      open(pair);
+      if (!first_only_ || scratch_.open.leaves.size() < kLeafPairsAtOnce) continue;
       test_leaf_pairs();
       if (out_.size() > before) break;
     }
     test_leaf_pairs();
     if (first_only_ && out_.size() > before) out_.resize(before + 1);
   }
-
- private:
-  static constexpr std::size_t kLeafPairsAtOnce = 16;
 
   TreeChild child_a(std::uint32_t block, std::uint32_t lane) const {
     return bodies_.a.tree->blocks[block].child[lane];
@@ -200,27 +224,26 @@ class PairTraversal {
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
     if (a.leaf() && b.leaf()) {
-      scratch_.leaf_pairs.push_back({a.index(), b.index()});
+      scratch_.open.leaves.push_back({a.index(), b.index()});
       ++scratch_.counters.leaf_pairs;
     } else {
-      scratch_.stack.push_back(slots);
+      scratch_.open.slots.push_back(slots);
     }
   }
 
   // Lanes of a block that may meet one child of the other tree.
-  static HWY_INLINE std::uint32_t meeting(const BlockBounds& bounds, std::uint32_t lane,
-                                          const Shift& shift, const BlockBounds& lanes) {
-    const bool slabs = bounds.slab != nullptr && lanes.slab != nullptr;
-    const ChildBounds one{*bounds.box, bounds.slab, lane};
-    return shift.none ? meeting_lanes(one, slabs, lanes)
-                      : meeting_lanes(MovedBounds{one, shift}, slabs, lanes);
+  HWY_INLINE std::uint32_t meeting(const BlockBounds& bounds, std::uint32_t lane,
+                                   const Shift& shift, const BlockBounds& lanes) const {
+    const ChildBounds one{bounds.box, &bounds.slab, lane};
+    return shift.none ? meeting_lanes(one, slabs_, lanes)
+                      : meeting_lanes(MovedBounds{one, shift}, slabs_, lanes);
   }
 
   // All children of one block, as far as `lanes` says, against those of another.
   HWY_INLINE void cross(std::uint32_t block_a, std::uint32_t lanes, std::uint32_t block_b) {
     ++scratch_.counters.block_pairs;
-    const BlockBounds& bounds_a = bounds(bodies_.a, block_a, scratch_.counters);
-    const BlockBounds& bounds_b = bounds(bodies_.b, block_b, scratch_.counters);
+    const BlockBounds& bounds_a = bounds(bodies_.a, block_a, scratch_.arena);
+    const BlockBounds& bounds_b = bounds(bodies_.b, block_b, scratch_.arena);
     lanes &= (1u << bodies_.a.tree->blocks[block_a].children) - 1;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(lanes));
@@ -233,17 +256,17 @@ class PairTraversal {
   HWY_INLINE void open(const SlotPair& slots) {
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
-    const BlockBounds& above_a = bodies_.a.block_bounds[slots.block_a];
-    const BlockBounds& above_b = bodies_.b.block_bounds[slots.block_b];
+    const BlockBounds& above_a = bounds(bodies_.a, slots.block_a, scratch_.arena);
+    const BlockBounds& above_b = bounds(bodies_.b, slots.block_b, scratch_.arena);
     if (a.leaf()) {
-      const BlockBounds& lanes = bounds(bodies_.b, b.index(), scratch_.counters);
+      const BlockBounds& lanes = bounds(bodies_.b, b.index(), scratch_.arena);
       std::uint32_t hits = meeting(above_a, slots.lane_a, to_b_, lanes);
       for (; hits != 0; hits &= hits - 1)
         meet({slots.block_a, slots.lane_a, b.index(),
               static_cast<std::uint32_t>(std::countr_zero(hits))});
       return;
     }
-    const BlockBounds& lanes = bounds(bodies_.a, a.index(), scratch_.counters);
+    const BlockBounds& lanes = bounds(bodies_.a, a.index(), scratch_.arena);
     std::uint32_t hits = meeting(above_b, slots.lane_b, to_a_, lanes);
     if (!b.leaf()) return hits == 0 ? void() : cross(a.index(), hits, b.index());
     for (; hits != 0; hits &= hits - 1)
@@ -252,8 +275,8 @@ class PairTraversal {
   }
 
   HWY_INLINE void test_leaf_pairs() {
-    for (const LeafPair& pair : scratch_.leaf_pairs) test_leaves(pair);
-    scratch_.leaf_pairs.clear();
+    for (const LeafPair& pair : scratch_.open.leaves) test_leaves(pair);
+    scratch_.open.leaves.clear();
     flush();
   }
 
@@ -265,8 +288,8 @@ class PairTraversal {
   }
 
   HWY_INLINE void test_leaves(const LeafPair& pair) {
-    const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.counters);
-    const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.counters);
+    const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.arena);
+    const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.arena);
     if (meeting_triangles(*a.whole, 0, to_b_, b) == 0) return;
     for (std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a); in_a != 0;
          in_a &= in_a - 1) {
@@ -329,6 +352,7 @@ class PairTraversal {
   bool first_only_;
   LazyScratch& scratch_;
   std::vector<ElementPair>& out_;
+  bool slabs_;
   Shift to_a_, to_b_;
 };
 

@@ -13,6 +13,8 @@ constexpr const char* kVariants[] = {"spatial-hash:table=1",
                                      "ffd-aabb:bounds=safe",
                                      "ffd-aabb-sphere2:bounds=safe",
                                      "ffd-aabb-sphere2+tri:bounds=paper",
+                                     "ffd-lazy:threads=2",
+                                     "full-refit:threads=2",
                                      "bullet-vf:scale=1",
                                      "libccd-gjk:pieces=boxes",
                                      "libccd-mpr:pieces=boxes"};

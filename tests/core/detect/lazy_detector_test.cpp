@@ -225,7 +225,7 @@ std::vector<ElementPair> collided(const std::string& isa, const std::vector<Body
   place(states);
   for (LazyState& state : states) {
     find_near_nodes(state);
-    if (state.from_vertices) lazy_kernels(isa).bound_all(state, scratch.counters);
+    if (state.from_vertices) lazy_kernels(isa).bound_all(state, scratch.arena);
   }
   std::vector<ElementPair> out;
   for (const BodyPair& pair : order)

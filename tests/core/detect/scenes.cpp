@@ -119,7 +119,8 @@ std::vector<std::string> family_with_triangles() {
 
 std::vector<std::string> exact_detectors() {
   std::vector<std::string> names = family_with_triangles();
-  for (const char* name : {"ffd-lazy", "ffd-lazy:bounds=nodes", "full-refit"})
+  for (const char* name : {"ffd-lazy", "ffd-lazy:bounds=nodes", "ffd-lazy:bounds=nodes,threads=3",
+                           "full-refit", "full-refit:threads=2"})
     names.push_back(name);
   for (const std::string& isa : lazy_isas()) names.push_back("ffd-lazy:bounds=nodes,isa=" + isa);
   return names;

@@ -147,10 +147,10 @@ TEST(LazyBounds, AreTestedWithTrianglesBetweenCellsThatAreNoNeighbours) {
 template <typename Spoil>
 int reported_lanes(OneBody& body, bool hull, Spoil&& spoil) {
   int reported = 0;
-  for (std::size_t b = 0; b < body.tree().blocks.size(); ++b) {
+  for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b) {
     const TreeBlock& block = body.tree().blocks[b];
     for (std::uint32_t c = 0; block.hull == hull && c < block.children; ++c) {
-      LaneBoxes& boxes = *body.state().block_bounds[b].box;
+      LaneBoxes& boxes = body.state().blocks.find(b)->box;
       const LaneBoxes before = boxes;
       for (int k = 0; k < 3; ++k) spoil(boxes.lo[k][c], boxes.hi[k][c]);
       const std::string text = validate(body.state(), body.vertices());
@@ -210,9 +210,9 @@ TEST(LazyBounds, SlabsShrunkOrMovedAreReported) {
     body.begin(rest_nodes_at(body.shape(), Vec3(3, 4, 5)));
     ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
     int lanes = 0, narrow = 0, moved = 0;
-    for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+    for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
       for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c, ++lanes) {
-        LaneSlabs& slabs = *body.state().block_bounds[b].slab;
+        LaneSlabs& slabs = body.state().blocks.find(b)->slab;
         ASSERT_LT(slabs.half[c], kNoSlab);
         const LaneSlabs before = slabs;
         slabs.half[c] *= 0.9f;
@@ -235,14 +235,14 @@ TEST(LazyBounds, SlabsAreThinAcrossTheSurfaceUnderDeformation) {
   body.begin(deformed_nodes(body.shape(), {0.05}, random));
   ASSERT_EQ(body.broken(lazy_kernels()), "");
   int lanes = 0, thin = 0;
-  for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+  for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
     for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
          ++c, ++lanes) {
-      const BlockBounds& bounds = body.state().block_bounds[b];
+      const BlockBounds& bounds = *body.state().blocks.find(b);
       float longest = 0.0f;
       for (int k = 0; k < 3; ++k)
-        longest = std::max(longest, bounds.box->hi[k][c] - bounds.box->lo[k][c]);
-      thin += 2.0f * bounds.slab->half[c] < 0.4f * longest;
+        longest = std::max(longest, bounds.box.hi[k][c] - bounds.box.lo[k][c]);
+      thin += 2.0f * bounds.slab.half[c] < 0.4f * longest;
     }
   EXPECT_GT(lanes, 500);
   EXPECT_GT(thin, 9 * lanes / 10);
@@ -264,10 +264,10 @@ TEST(LazyBounds, OfRefittedBodiesShrunkOrMovedByOnePercentAreReportedUnderDeform
 }
 
 // How far a lane sticks out beyond its vertices, at most.
-double excess(OneBody& body, std::size_t block, std::uint32_t lane, int axis) {
+double excess(OneBody& body, std::uint32_t block, std::uint32_t lane, int axis) {
   const auto triangles = triangles_under(body.tree(), body.tree().blocks[block].child[lane]);
   const Aabb truth = body.box_of(triangles);
-  const LaneBoxes& boxes = *body.state().block_bounds[block].box;
+  const LaneBoxes& boxes = body.state().blocks.find(block)->box;
   return std::max(truth.lo[axis] - boxes.lo[axis][lane], boxes.hi[axis][lane] - truth.hi[axis]);
 }
 
@@ -279,7 +279,7 @@ TEST(LazyBounds, OfPiecesAreTightAtRest) {
       ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
       ASSERT_FALSE(body.tree().blocks[0].hull);
       const Vec3 cell = body.state().scale * body.shape().lattice->cell_box(0).extent();
-      for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+      for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
         for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
              ++c)
           for (int k = 0; k < 3; ++k)
@@ -296,10 +296,10 @@ TEST(LazyBounds, LeaveLanesWithoutAChildEmpty) {
       OneBody body(named.shape, false);
       body.begin(rest_nodes_at(*named.shape, Vec3(1e300, 0, 0)));  // slack without a limit
       ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
-      for (std::size_t b = 0; b < body.tree().blocks.size(); ++b)
+      for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
         for (std::uint32_t c = body.tree().blocks[b].children; c < kBlockWidth; ++c, ++empty)
           for (int k = 0; k < 3; ++k) {
-            const LaneBoxes& boxes = *body.state().block_bounds[b].box;
+            const LaneBoxes& boxes = body.state().blocks.find(b)->box;
             EXPECT_GT(boxes.lo[k][c], boxes.hi[k][c]) << named.name << " " << isa;
           }
     }
@@ -309,13 +309,16 @@ TEST(LazyBounds, LeaveLanesWithoutAChildEmpty) {
 TEST(LazyBounds, AreMadeOncePerFrame) {
   OneBody body(shapes()[1].shape, false);
   body.begin(rest_nodes_at(body.shape(), Vec3::Zero()));
-  LazyCounters counters;
-  lazy_kernels().bound_all(body.state(), counters);
-  lazy_kernels().bound_all(body.state(), counters);
-  EXPECT_EQ(counters.blocks_bounded, body.tree().blocks.size());
+  EXPECT_EQ(body.made().blocks_bounded, 0u);
+  lazy_kernels().bound_all(body.state(), body.arena());
+  const BlockBounds* const first = body.state().blocks.find(0);
+  lazy_kernels().bound_all(body.state(), body.arena());
+  EXPECT_EQ(body.state().blocks.find(0), first);
+  EXPECT_EQ(body.made().blocks_bounded, body.tree().blocks.size());
   body.begin(rest_nodes_at(body.shape(), Vec3(5, 0, 0)));
-  lazy_kernels().bound_all(body.state(), counters);
-  EXPECT_EQ(counters.blocks_bounded, 2 * body.tree().blocks.size());
+  EXPECT_EQ(body.made().blocks_bounded, 0u);
+  lazy_kernels().bound_all(body.state(), body.arena());
+  EXPECT_EQ(body.made().blocks_bounded, body.tree().blocks.size());
   EXPECT_EQ(validate(body.state(), body.vertices()), "");
 }
 

@@ -41,9 +41,8 @@ void for_each_mapped_leaf(Check&& check) {
         for (const std::string& isa : lazy_isas()) {
           SCOPED_TRACE(isa);
           body.begin(deformed_nodes(*shape, how, random));
-          LazyCounters counters;
           for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l)
-            check(body, l, lazy_kernels(isa).map_leaf(body.state(), l, counters));
+            check(body, l, lazy_kernels(isa).map_leaf(body.state(), l, body.arena()));
         }
     }
 }
@@ -113,9 +112,8 @@ TEST(MapLeaf, GivesTightBoxes) {
   OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false);
   test::TriangleSource random(12);
   body.begin(deformed_nodes(body.shape(), {0.3}, random));
-  LazyCounters counters;
   for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l) {
-    const LeafCache& cache = lazy_kernels().map_leaf(body.state(), l, counters);
+    const LeafCache& cache = lazy_kernels().map_leaf(body.state(), l, body.arena());
     const TreeLeaf& leaf = body.tree().leaves[l];
     const Aabb truth = body.box_of(
         std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle, leaf.triangles));
@@ -130,16 +128,16 @@ TEST(MapLeaf, MapsOncePerFrameAndAnewInTheNext) {
   for (const std::string& isa : lazy_isas()) {
     OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false);
     const LazyKernels& kernels = lazy_kernels(isa);
-    LazyCounters counters;
     body.begin(rest_nodes_at(body.shape(), Vec3::Zero()));
-    const double* const first = kernels.map_leaf(body.state(), 2, counters).x;
-    EXPECT_EQ(kernels.map_leaf(body.state(), 2, counters).x, first);
-    EXPECT_EQ(counters.leaves_mapped, 1u);
-    EXPECT_EQ(counters.vertices_mapped, body.tree().leaves[2].vertices);
+    const double* const first = kernels.map_leaf(body.state(), 2, body.arena()).x;
+    EXPECT_EQ(kernels.map_leaf(body.state(), 2, body.arena()).x, first);
+    EXPECT_EQ(body.made().leaves_mapped, 1u);
+    EXPECT_EQ(body.made().vertices_mapped, body.tree().leaves[2].vertices);
     const double before = *first;
     body.begin(rest_nodes_at(body.shape(), Vec3(1, 0, 0)));
-    EXPECT_NEAR(*kernels.map_leaf(body.state(), 2, counters).x, before + 1.0, 1e-12);
-    EXPECT_EQ(counters.leaves_mapped, 2u);
+    EXPECT_EQ(body.made().leaves_mapped, 0u);
+    EXPECT_NEAR(*kernels.map_leaf(body.state(), 2, body.arena()).x, before + 1.0, 1e-12);
+    EXPECT_EQ(body.made().leaves_mapped, 1u);
   }
 }
 

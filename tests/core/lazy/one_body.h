@@ -66,6 +66,7 @@ class OneBody {
   /// `company`: half-width of another body in the scene, about the origin; 0: the body is alone.
   void begin(std::vector<Vec3> nodes, double company = 0.0) {
     nodes_ = std::move(nodes);
+    arena_.clear();
     vertices_.resize(shape_->mesh.vertices.size());
     map_body(*shape_, nodes_, vertices_);
     if (state().from_vertices) {
@@ -79,12 +80,17 @@ class OneBody {
   }
   /// Bounds everything; "" or the first broken promise.
   std::string broken(const LazyKernels& kernels) {
-    LazyCounters counters;
-    kernels.bound_all(state(), counters);
+    kernels.bound_all(state(), arena_);
     return validate(state(), vertices_);
   }
 
   LazyState& state() { return states_[0]; }
+  FrameArena& arena() { return arena_; }
+  LazyCounters made() const {
+    LazyCounters out;
+    count_made(states_[0], out);
+    return out;
+  }
   const LatticeTree& tree() const { return tree_; }
   const BodyShape& shape() const { return *shape_; }
   const std::vector<Vec3>& vertices() const { return vertices_; }
@@ -102,6 +108,7 @@ class OneBody {
   ShapePtr shape_;
   LatticeTree tree_;
   std::array<LazyState, 2> states_;
+  FrameArena arena_;
   std::vector<Vec3> nodes_, vertices_;
 };
 

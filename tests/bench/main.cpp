@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   contactcheck::bench::register_mapping_benchmarks();
   contactcheck::bench::register_narrow_benchmarks();
   contactcheck::bench::register_broad_benchmarks();
+  contactcheck::bench::register_lazy_benchmarks();
   contactcheck::bench::register_pipeline_benchmarks();
   contactcheck::bench::register_oracle_benchmarks();
   contactcheck::bench::register_supervision_benchmarks();

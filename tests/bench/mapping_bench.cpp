@@ -6,7 +6,6 @@
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 
-#include <chrono>
 #include <string>
 
 #include "core/deform/mapping.h"
@@ -14,6 +13,7 @@
 #include "tests/bench/plain_gather.h"
 #include "tests/bench/register.h"
 #include "tests/bench/statistics.h"
+#include "tests/bench/stopwatch.h"
 
 namespace contactcheck::bench {
 namespace {
@@ -22,14 +22,6 @@ namespace {
 void choose_target(std::int64_t target) {
   hwy::SetSupportedTargetsForTest(target);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
-template <typename Work>
-double seconds_of(Work&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  benchmark::ClobberMemory();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void compare_with_gather(benchmark::State& state, const BenchBody& body, std::int64_t target) {

@@ -6,6 +6,7 @@ namespace contactcheck::bench {
 void register_mapping_benchmarks();
 void register_narrow_benchmarks();
 void register_broad_benchmarks();
+void register_lazy_benchmarks();
 void register_pipeline_benchmarks();
 void register_oracle_benchmarks();
 void register_supervision_benchmarks();

@@ -95,7 +95,7 @@ HWY_INLINE PointRange bound_hull(const LazyState& state, const HullChild& hull) 
   return all;
 }
 
-HWY_INLINE void bound_hulls(const LazyState& state, const TreeBlock& block, LaneBoxes& out) {
+HWY_NOINLINE void bound_hulls(const LazyState& state, const TreeBlock& block, LaneBoxes& out) {
   for (std::uint32_t c = 0; c < kBlockWidth; ++c) {
     PointRange range = no_points();
     if (c < block.children) range = bound_hull(state, state.tree->hulls[block.begin + c]);

@@ -55,8 +55,9 @@ struct LeafCache {
   const LaneBoxes* whole = nullptr;  ///< lane 0: of all of them
 };
 
-/// What was done, since the last update. The first three depend on the frame and on what was asked,
-/// not on how many threads did it; so do the others where all pairs were asked for.
+/// What was done, since the last update. Where all pairs were asked for, all but the first depend
+/// on the frame alone; which blocks are bounded depends on the order of the pairs, so on the
+/// threads.
 struct LazyCounters {
   std::uint64_t blocks_bounded = 0;  ///< eight children each
   std::uint64_t leaves_mapped = 0;

@@ -223,7 +223,7 @@ HWY_INLINE void store_boxes(const Range (&range)[3], float slack, std::size_t fi
 }
 
 // The block's first home cell is that of most of its vertices.
-HWY_INLINE void bound_pieces(const LazyState& state, const TreeBlock& block, BlockBounds& out) {
+HWY_NOINLINE void bound_pieces(const LazyState& state, const TreeBlock& block, BlockBounds& out) {
   const FloatLanes d;
   const Range nothing{hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(d)) {

@@ -23,6 +23,23 @@ namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The bits that are set, lowest first: for (std::uint32_t bit : Bits(word)).
+class Bits {
+ public:
+  explicit Bits(std::uint32_t word) : word_(word) {}
+  Bits begin() const { return *this; }
+  Bits end() const { return Bits(0); }
+  std::uint32_t operator*() const { return static_cast<std::uint32_t>(std::countr_zero(word_)); }
+  Bits& operator++() {
+    word_ &= word_ - 1;
+    return *this;
+  }
+  bool operator!=(const Bits& other) const { return word_ != other.word_; }
+
+ private:
+  std::uint32_t word_;
+};
+
 struct Shift {
   float way[3], slack, slab_slack;
   bool none;  // one frame for both
@@ -157,6 +174,7 @@ HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32
   return shift.none ? overlapping(one, lanes) : overlapping(MovedBounds{one, shift}, lanes);
 }
 
+// Steps are calls: inlined into one another they would be compiled a hundred times.
 class PairTraversal {
  public:
   PairTraversal(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
@@ -174,7 +192,7 @@ class PairTraversal {
   }
 
   HWY_INLINE void run() {
-    cross(0, 0xff, 0);
+    cross_roots();
     finish();
   }
 
@@ -185,7 +203,7 @@ class PairTraversal {
   }
 
   HWY_INLINE void spread(std::size_t slots, PairFront& front) {
-    cross(0, 0xff, 0);
+    cross_roots();
     while (!scratch_.open.slots.empty() && scratch_.open.slots.size() < slots) {
       scratch_.level.swap(scratch_.open.slots);
       scratch_.open.slots.clear();
@@ -220,6 +238,13 @@ class PairTraversal {
     return bodies_.b.tree->blocks[block].child[lane];
   }
 
+  HWY_INLINE void cross_roots() {
+    const auto children = [](const LazyState& body) {
+      return (1u << body.tree->blocks[0].children) - 1;
+    };
+    cross(0, children(bodies_.a), 0, children(bodies_.b));
+  }
+
   HWY_INLINE void meet(const SlotPair& slots) {
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
@@ -239,39 +264,61 @@ class PairTraversal {
                       : meeting_lanes(MovedBounds{one, shift}, slabs_, lanes);
   }
 
-  // All children of one block, as far as `lanes` says, against those of another.
-  HWY_INLINE void cross(std::uint32_t block_a, std::uint32_t lanes, std::uint32_t block_b) {
+  // The named children of one block against those of another. What is tested one by one is the
+  // side that has fewer.
+  HWY_NOINLINE void cross(std::uint32_t block_a, std::uint32_t in_a, std::uint32_t block_b,
+                          std::uint32_t in_b) {
     ++scratch_.counters.block_pairs;
     const BlockBounds& bounds_a = bounds(bodies_.a, block_a, scratch_.arena);
     const BlockBounds& bounds_b = bounds(bodies_.b, block_b, scratch_.arena);
-    lanes &= (1u << bodies_.a.tree->blocks[block_a].children) - 1;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      std::uint32_t hits = meeting(bounds_a, i, to_b_, bounds_b);
-      for (; hits != 0; hits &= hits - 1)
-        meet({block_a, i, block_b, static_cast<std::uint32_t>(std::countr_zero(hits))});
+    if (std::popcount(in_a) <= std::popcount(in_b)) {
+      for (std::uint32_t i : Bits(in_a))
+        for (std::uint32_t j : Bits(in_b & meeting(bounds_a, i, to_b_, bounds_b)))
+          meet({block_a, i, block_b, j});
+    } else {
+      for (std::uint32_t j : Bits(in_b))
+        for (std::uint32_t i : Bits(in_a & meeting(bounds_b, j, to_a_, bounds_a)))
+          meet({block_a, i, block_b, j});
     }
   }
 
-  HWY_INLINE void open(const SlotPair& slots) {
+  // Children of a below the slot that may meet the slot of b, and the other way round.
+  HWY_NOINLINE std::uint32_t below_a(const SlotPair& slots) {
+    const BlockBounds& above_b = bounds(bodies_.b, slots.block_b, scratch_.arena);
+    const TreeChild a = child_a(slots.block_a, slots.lane_a);
+    return meeting(above_b, slots.lane_b, to_a_, bounds(bodies_.a, a.index(), scratch_.arena));
+  }
+  HWY_NOINLINE std::uint32_t below_b(const SlotPair& slots) {
+    const BlockBounds& above_a = bounds(bodies_.a, slots.block_a, scratch_.arena);
+    const TreeChild b = child_b(slots.block_b, slots.lane_b);
+    return meeting(above_a, slots.lane_a, to_b_, bounds(bodies_.b, b.index(), scratch_.arena));
+  }
+
+  HWY_NOINLINE void open(const SlotPair& slots) {
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
-    const BlockBounds& above_a = bounds(bodies_.a, slots.block_a, scratch_.arena);
-    const BlockBounds& above_b = bounds(bodies_.b, slots.block_b, scratch_.arena);
     if (a.leaf()) {
-      const BlockBounds& lanes = bounds(bodies_.b, b.index(), scratch_.arena);
-      std::uint32_t hits = meeting(above_a, slots.lane_a, to_b_, lanes);
-      for (; hits != 0; hits &= hits - 1)
-        meet({slots.block_a, slots.lane_a, b.index(),
-              static_cast<std::uint32_t>(std::countr_zero(hits))});
-      return;
+      for (std::uint32_t j : Bits(below_b(slots)))
+        meet({slots.block_a, slots.lane_a, b.index(), j});
+    } else if (b.leaf()) {
+      for (std::uint32_t i : Bits(below_a(slots)))
+        meet({a.index(), i, slots.block_b, slots.lane_b});
+    } else {
+      open_both(slots, a.index(), b.index());
     }
-    const BlockBounds& lanes = bounds(bodies_.a, a.index(), scratch_.arena);
-    std::uint32_t hits = meeting(above_b, slots.lane_b, to_a_, lanes);
-    if (!b.leaf()) return hits == 0 ? void() : cross(a.index(), hits, b.index());
-    for (; hits != 0; hits &= hits - 1)
-      meet({a.index(), static_cast<std::uint32_t>(std::countr_zero(hits)), slots.block_b,
-            slots.lane_b});
+  }
+
+  // Begins with the block whose bounds are known: the other may not be needed.
+  void open_both(const SlotPair& slots, std::uint32_t a, std::uint32_t b) {
+    std::uint32_t in_a = 0, in_b = 0;
+    if (bodies_.b.blocks.find(b) != nullptr) {
+      in_b = below_b(slots);
+      if (in_b != 0) in_a = below_a(slots);
+    } else {
+      in_a = below_a(slots);
+      if (in_a != 0) in_b = below_b(slots);
+    }
+    if (in_a != 0 && in_b != 0) cross(a, in_a, b, in_b);
   }
 
   HWY_INLINE void test_leaf_pairs() {
@@ -287,17 +334,14 @@ class PairTraversal {
            overlapping_triangles(box, lane, shift, leaf.boxes[1]) << kBlockWidth;
   }
 
-  HWY_INLINE void test_leaves(const LeafPair& pair) {
+  HWY_NOINLINE void test_leaves(const LeafPair& pair) {
     const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.arena);
     const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.arena);
     if (meeting_triangles(*a.whole, 0, to_b_, b) == 0) return;
-    for (std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a); in_a != 0;
-         in_a &= in_a - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(in_a));
-      std::uint32_t hits = meeting_triangles(a.boxes[i / kBlockWidth], i % kBlockWidth, to_b_, b);
-      for (; hits != 0; hits &= hits - 1)
-        add_pair(pair, a, i, b, static_cast<std::uint32_t>(std::countr_zero(hits)));
-    }
+    for (std::uint32_t i : Bits(meeting_triangles(*b.whole, 0, to_a_, a)))
+      for (std::uint32_t j :
+           Bits(meeting_triangles(a.boxes[i / kBlockWidth], i % kBlockWidth, to_b_, b)))
+        add_pair(pair, a, i, b, j);
   }
 
   HWY_INLINE void add_pair(const LeafPair& leaves, const LeafCache& a, std::uint32_t i,
@@ -326,25 +370,21 @@ class PairTraversal {
     }
   }
 
-  HWY_INLINE void flush() {
+  HWY_NOINLINE void flush() {
     TriangleBatch& batch = scratch_.batch;
     if (batch.count == 0) return;
     const BatchVerdict verdict = test_batch(batch);
     std::uint32_t meeting = verdict.meet;
-    for (std::uint32_t left = verdict.unknown; left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    for (std::uint32_t lane : Bits(verdict.unknown))
       if (triangles_intersect(batch.points(0, lane), batch.points(1, lane))) meeting |= 1u << lane;
-    }
     if (scratch_.candidates != nullptr)
       for (std::size_t lane = 0; lane < batch.count; ++lane)
         scratch_.candidates->push_back(
             {bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
     scratch_.counters.triangle_tests += batch.count;
     scratch_.counters.filter_failures += static_cast<std::uint64_t>(std::popcount(verdict.unknown));
-    for (; meeting != 0; meeting &= meeting - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(meeting));
+    for (std::uint32_t lane : Bits(meeting))
       out_.push_back({bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
-    }
     batch.count = 0;
   }
 

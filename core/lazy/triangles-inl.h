@@ -134,6 +134,17 @@ struct Verdict {
   PairMask meet, unknown;
 };
 
+HWY_INLINE PairMask equal(const PointOf& a, const PointOf& b) {
+  return hn::And(hn::Eq(a.x, b.x), hn::And(hn::Eq(a.y, b.y), hn::Eq(a.z, b.z)));
+}
+
+HWY_INLINE PairMask share_a_corner(const PointOf (&p)[3], const PointOf (&q)[3]) {
+  auto any = equal(p[0], q[0]);
+  for (const PointOf& a : p)
+    for (const PointOf& b : q) any = hn::Or(any, equal(a, b));
+  return any;
+}
+
 HWY_INLINE Verdict test_lanes(const TriangleBatch& batch, std::size_t first) {
   PointOf p[3], q[3];
   for (int c = 0; c < 3; ++c) {
@@ -154,10 +165,13 @@ HWY_INLINE Verdict test_lanes(const TriangleBatch& batch, std::size_t first) {
   const auto meet = hn::And(hn::Lt(begin, minus_bound), hn::Lt(end, minus_bound));
   const auto miss = hn::Or(hn::Gt(begin, bound), hn::Gt(end, bound));
   known = hn::And(known, hn::Or(meet, miss));
-  return {hn::And(hn::AndNot(apart, known), meet), hn::Not(hn::Or(apart, known))};
+  Verdict out = {hn::And(hn::AndNot(apart, known), meet), hn::Not(hn::Or(apart, known))};
+  if (hn::AllFalse(PairLanes(), out.unknown)) return out;
+  const auto share = hn::And(out.unknown, share_a_corner(p, q));
+  return {hn::Or(out.meet, share), hn::AndNot(share, out.unknown)};
 }
 
-HWY_INLINE BatchVerdict test_batch(const TriangleBatch& batch) {
+HWY_NOINLINE BatchVerdict test_batch(const TriangleBatch& batch) {
   const PairLanes d;
   BatchVerdict out;
   for (std::size_t first = 0; first < batch.count; first += hn::Lanes(d)) {

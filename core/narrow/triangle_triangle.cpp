@@ -96,9 +96,19 @@ bool special_triangles_meet(const TrianglePoints& p, const TrianglePoints& q) {
   return std::visit(ShapesMeet{}, shape_of(p), shape_of(q));
 }
 
+// Meshes that coincide or were cut from one another meet in corners most of all, and there every
+// sign would need exact arithmetic.
+bool share_a_corner(const TrianglePoints& p, const TrianglePoints& q) {
+  for (const Vec3& a : p)
+    for (const Vec3& b : q)
+      if (a.x() == b.x() && a.y() == b.y() && a.z() == b.z()) return true;
+  return false;
+}
+
 }  // namespace
 
 bool triangles_intersect(const TrianglePoints& p, const TrianglePoints& q) {
+  if (share_a_corner(p, q)) return true;
   const Sides q_sides = sides_of_plane(p, q);
   if (all_strictly_on_one_side(q_sides)) return false;
   const Sides p_sides = sides_of_plane(q, p);

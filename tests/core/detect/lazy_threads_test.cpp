@@ -91,7 +91,9 @@ TEST(LazyThreads, DoTheWorkOfOneThread) {
       const std::vector<Outcome> many = outcomes(scene, BoundSource::kNodes, threads);
       for (std::size_t f = 0; f < one.size(); ++f) {
         const LazyCounters &a = one[f].all_pairs, &b = many[f].all_pairs;
-        EXPECT_EQ(a.blocks_bounded, b.blocks_bounded);
+        // Whose block is known already depends on who came first.
+        EXPECT_GE(4 * b.blocks_bounded, 3 * a.blocks_bounded);
+        EXPECT_LT(3 * b.blocks_bounded, 4 * a.blocks_bounded + 1);
         EXPECT_EQ(a.leaves_mapped, b.leaves_mapped);
         EXPECT_EQ(a.vertices_mapped, b.vertices_mapped);
         EXPECT_EQ(a.block_pairs, b.block_pairs);

@@ -190,23 +190,50 @@ TEST(TriangleBatch, IsNeverWrongWhereAxesHaveVeryDifferentScales) {
       }
 }
 
+const TrianglePoints kFlat = {Vec3(0, 0, 0), Vec3(8, 0, 1), Vec3(0, 8, 2)};
+
+// Pairs that have a corner in common.
+std::vector<Pair> pairs_with_a_common_corner() {
+  const Vec3 inside(2, 2, 0.75);
+  return {
+      {kFlat, kFlat},
+      {kFlat, {kFlat[1], kFlat[0], Vec3(3, -5, 7)}},          // an edge
+      {kFlat, {kFlat[0], Vec3(-3, -4, 7), Vec3(-5, -1, 6)}},  // a corner
+      {kFlat, {Vec3(-3, -4, 7), Vec3(-5, -1, 6), kFlat[2]}},  // another
+      {kFlat, {0.5 * kFlat[1], 0.5 * kFlat[2], kFlat[0]}},    // coplanar
+      {kFlat, {kFlat[2], kFlat[2], kFlat[2]}},                // a point
+      {{inside, inside, inside}, {inside, inside, inside}},
+  };
+}
+
 // Pairs that meet, but in their boundaries, in one plane, or as less than triangles. Of short
 // binary fractions, so that they do so exactly.
 std::vector<Pair> touching_pairs() {
-  const TrianglePoints flat = {Vec3(0, 0, 0), Vec3(8, 0, 1), Vec3(0, 8, 2)};
+  const TrianglePoints flat = kFlat;
   const Vec3 inside(2, 2, 0.75);
   return {
-      {flat, flat},
-      {flat, {flat[1], flat[0], Vec3(3, -5, 7)}},                      // an edge
-      {flat, {flat[0], Vec3(-3, -4, 7), Vec3(-5, -1, 6)}},             // a corner
       {flat, {inside, Vec3(1, 1, 9), Vec3(4, 1, 8)}},                  // a corner in the interior
       {flat, {Vec3(4, 0, 0.5), Vec3(4, -2, 8), Vec3(5, -2, 8)}},       // a corner on an edge
       {flat, {Vec3(4, -1, -0.5), Vec3(4, 1, 1.5), Vec3(4, -9, 1)}},    // edge against edge
       {flat, {inside, inside, inside}},                                // a point
       {flat, {inside - Vec3::Ones(), inside, inside + Vec3::Ones()}},  // a segment
-      {flat, {0.5 * flat[1], 0.5 * flat[2], flat[0]}},                 // coplanar
-      {{inside, inside, inside}, {inside, inside, inside}},
+      {flat, {0.5 * flat[1], 0.5 * flat[2], Vec3(1, 1, 0.375)}},       // coplanar
   };
+}
+
+TEST(TriangleBatch, SeesCommonCornersAtEveryScale) {
+  for (const std::string& isa : lazy_isas())
+    for (double scale : {0x1p-1070, 0x1p-332, 0x1p-100, 1.0, 0x1p300, 0x1p1000})
+      for (std::size_t lane = 0; lane < kBatchWidth; ++lane)
+        for (const Pair& pair : pairs_with_a_common_corner()) {
+          TriangleBatch batch{};
+          set_lane(batch, lane, moved(pair, scale, Vec3::Zero()));
+          batch.count = lane + 1;
+          ASSERT_TRUE(triangles_intersect(batch.points(0, lane), batch.points(1, lane)));
+          const BatchVerdict verdict = lazy_kernels(isa).test_batch(batch);
+          EXPECT_EQ(verdict.meet >> lane, 1u) << isa << " " << lane << " " << scale;
+          EXPECT_EQ(verdict.unknown >> lane, 0u);
+        }
 }
 
 TEST(TriangleBatch, LeavesPairsThatMeetWithoutCrossingToTheExactTest) {
@@ -225,7 +252,8 @@ TEST(TriangleBatch, LeavesPairsThatMeetWithoutCrossingToTheExactTest) {
 }
 
 TEST(TriangleBatch, DecidesEachLaneForItself) {
-  const TrianglePoints flat = {Vec3(0, 0, 0), Vec3(8, 0, 1), Vec3(0, 8, 2)};
+  const TrianglePoints flat = kFlat;
+  const Pair touching = {flat, {Vec3(2, 2, 0.75), Vec3(1, 1, 9), Vec3(4, 1, 8)}};
   const Pair crossing = {flat, {Vec3(2, 2, -5), Vec3(2, 1, 6), Vec3(3, 2, 6)}};
   const Pair apart = {flat, {Vec3(2, 2, 5), Vec3(2, 1, 6), Vec3(3, 2, 6)}};
   for (const std::string& isa : lazy_isas())
@@ -234,7 +262,7 @@ TEST(TriangleBatch, DecidesEachLaneForItself) {
       BatchVerdict expected;
       batch.count = kBatchWidth;
       for (std::uint32_t lane = 0, rest = pattern; lane < kBatchWidth; ++lane, rest /= 3) {
-        set_lane(batch, lane, rest % 3 == 0 ? apart : rest % 3 == 1 ? crossing : Pair{flat, flat});
+        set_lane(batch, lane, rest % 3 == 0 ? apart : rest % 3 == 1 ? crossing : touching);
         (rest % 3 == 1 ? expected.meet : expected.unknown) |= std::uint32_t{rest % 3 != 0} << lane;
       }
       const BatchVerdict verdict = lazy_kernels(isa).test_batch(batch);

@@ -9,6 +9,7 @@
 
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
+#include "core/types/count.h"
 #include "core/types/frame.h"
 #include "core/types/semantics.h"
 
@@ -39,12 +40,6 @@ struct StageRecord {
 struct StageTrace {
   std::vector<StageRecord> stages;
   std::vector<std::vector<std::uint32_t>> owner;
-};
-
-/// A number of things done, by name: "leaves mapped".
-struct Count {
-  std::string name;
-  std::uint64_t value = 0;
 };
 
 /// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;

@@ -148,10 +148,10 @@ LazyCounters LazyDetector::counters() const {
 
 std::vector<Count> LazyDetector::counts() {
   const LazyCounters c = counters();
-  return {{"blocks bounded", c.blocks_bounded},   {"leaves mapped", c.leaves_mapped},
-          {"vertices mapped", c.vertices_mapped}, {"block pairs", c.block_pairs},
-          {"leaf pairs", c.leaf_pairs},           {"triangle tests", c.triangle_tests},
-          {"exact tests", c.filter_failures}};
+  return {{"blocks_bounded", c.blocks_bounded},   {"leaves_mapped", c.leaves_mapped},
+          {"vertices_mapped", c.vertices_mapped}, {"block_pairs", c.block_pairs},
+          {"leaf_pairs", c.leaf_pairs},           {"triangle_tests", c.triangle_tests},
+          {"exact_tests", c.filter_failures}};
 }
 
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {

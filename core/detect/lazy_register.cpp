@@ -1,5 +1,6 @@
 #include "core/detect/lazy_register.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "core/detect/lazy_detector.h"
@@ -9,8 +10,12 @@ namespace contactcheck {
 namespace {
 
 OptionInfo isa_option() {
-  std::vector<std::string> choices = lazy_isas();
+  std::vector<std::string> choices = compiled_lazy_isas();
   choices.insert(choices.begin(), "best");
+  // Suites name them on every machine; where one is missing its detector is absent.
+  for (const char* other : {"AVX3", "AVX2", "SSE4", "NEON"})
+    if (std::find(choices.begin(), choices.end(), other) == choices.end())
+      choices.emplace_back(other);
   return choice_option("isa", "best", std::move(choices), "instruction set of the inner loops");
 }
 

@@ -81,22 +81,29 @@ std::vector<Compiled> compiled_targets() {
   };
 }
 
-std::vector<const LazyKernels*> usable_kernels() {
-  const auto supported = static_cast<std::int64_t>(hwy::SupportedTargets());
+std::vector<const LazyKernels*> kernels_among(std::int64_t targets) {
   std::vector<const LazyKernels*> out;
   for (const Compiled& c : compiled_targets())
-    if ((c.target & supported) != 0 && (out.empty() || out.back() != &c.kernels()))
+    if ((c.target & targets) != 0 && (out.empty() || out.back() != &c.kernels()))
       out.push_back(&c.kernels());
   return out;
 }
 
-}  // namespace
+std::vector<const LazyKernels*> usable_kernels() {
+  return kernels_among(static_cast<std::int64_t>(hwy::SupportedTargets()));
+}
 
-std::vector<std::string> lazy_isas() {
+std::vector<std::string> names_of(const std::vector<const LazyKernels*>& all) {
   std::vector<std::string> names;
-  for (const LazyKernels* kernels : usable_kernels()) names.emplace_back(kernels->name);
+  for (const LazyKernels* kernels : all) names.emplace_back(kernels->name);
   return names;
 }
+
+}  // namespace
+
+std::vector<std::string> lazy_isas() { return names_of(usable_kernels()); }
+
+std::vector<std::string> compiled_lazy_isas() { return names_of(kernels_among(HWY_TARGETS)); }
 
 const LazyKernels& lazy_kernels(const std::string& isa) {
   std::string known = "best";
@@ -104,7 +111,7 @@ const LazyKernels& lazy_kernels(const std::string& isa) {
     if (isa == "best" || isa == kernels->name) return *kernels;
     known += std::string(", ") + kernels->name;
   }
-  throw InputError("no kernels for instruction set \"" + isa + "\" here; there are " + known);
+  throw Unavailable("instruction set " + isa + " does not run here; there are " + known);
 }
 
 }  // namespace contactcheck

@@ -71,10 +71,12 @@ struct LazyKernels {
 };
 
 /// The kernels for this processor, or for a named instruction set.
-/// @throws InputError naming what there is when it is not compiled in or does not run here
+/// @throws Unavailable, naming what there is, when it is not compiled in or does not run here
 const LazyKernels& lazy_kernels(const std::string& isa = "best");
 
-/// Compiled in and able to run here, best first.
+/// Able to run here, best first.
 std::vector<std::string> lazy_isas();
+/// Compiled in, best first.
+std::vector<std::string> compiled_lazy_isas();
 
 }  // namespace contactcheck

@@ -22,6 +22,12 @@ class RefusedInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What this machine lacks: the run's status becomes `absent`.
+class Unavailable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 [[noreturn]] void invariant_failed(const char* expression, const char* file, int line,
                                    const std::string& message);
 

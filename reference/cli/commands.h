@@ -20,8 +20,9 @@ struct RunArguments {
   std::filesystem::path out = "out";
   bool timing = true, quiet = false;
   std::uint32_t threads = 1;
-  bool closed_loop = false;  ///< simulated scenes: drive them with every detector too
-  double call_limit = 60.0;  ///< seconds
+  std::vector<std::string> isas;  ///< instruction sets; empty: the best
+  bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
+  double call_limit = 60.0;       ///< seconds
   std::uint64_t memory_limit_mib = 4096;
   std::string command_line;  ///< for the record
 };

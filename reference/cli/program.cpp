@@ -58,8 +58,8 @@ void add_limits(CLI::App& run, Choices& c) {
 void add_threads(CLI::App& command, Choices& c) {
   command
       .add_option("--threads", c.run.threads,
-                  "threads that deform the bodies of simulated scenes (default 1); results do not "
-                  "depend on it, times do")
+                  "threads of detectors that can use them, and that deform the bodies of "
+                  "simulated scenes (default 1); results do not depend on it, times do")
       ->check(CLI::Range(1, 256));
 }
 
@@ -83,6 +83,11 @@ void add_run(CLI::App& app, Choices& c) {
                 "simulated scenes: let every detector drive the simulation too, and time whole "
                 "steps");
   add_threads(*run, c);
+  run->add_option("--isa", c.run.isas,
+                  "instruction set of detectors that have a choice (default best), repeatable: "
+                  "every such detector runs with each")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   add_limits(*run, c);
   run->add_flag("--no-timing", c.no_timing, "judge only");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
@@ -90,7 +95,8 @@ void add_run(CLI::App& app, Choices& c) {
       "Examples:\n"
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
-      "  contactcheck run out/recordings/bunny-touch.ccr --no-timing");
+      "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
+      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {

@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,61 +10,17 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/run_and_report.h"
+#include "reference/cli/run_tasks.h"
 #include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
 #include "reference/run/suite_run.h"
-#include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
-#include "reference/scene/suite_file.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::vector<std::string> canonical_detectors(const std::vector<std::string>& names,
-                                             const DetectorCatalog& catalog) {
-  std::vector<std::string> out;
-  for (const std::string& name : names) {
-    const std::string canonical = catalog.parse(name).name;
-    if (std::find(out.begin(), out.end(), canonical) == out.end()) out.push_back(canonical);
-  }
-  return out;
-}
-
-Suite default_suite(const fs::path& fixtures) {
-  return load_suite(find_target("default", fixtures).file);
-}
-
-void add_task(const fs::path& file, const std::vector<std::string>& detectors,
-              const DetectorCatalog& catalog, std::vector<SceneTask>& tasks) {
-  for (const SceneTask& task : tasks)
-    if (task.file == file) return;
-  tasks.push_back({"", file, canonical_detectors(detectors, catalog)});
-}
-
-std::vector<SceneTask> make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  const fs::path fixtures = fixtures_directory();
-  std::vector<std::string> targets = arguments.targets;
-  if (targets.empty()) targets.push_back("default");
-  std::vector<SceneTask> tasks;
-  for (const std::string& name : targets) {
-    const Target target = find_target(name, fixtures);
-    const bool is_suite = target.kind == TargetKind::kSuite;
-    std::vector<std::string> detectors = arguments.detectors;
-    if (is_suite) {
-      const Suite suite = load_suite(target.file);
-      if (detectors.empty()) detectors = suite.detectors;
-      for (const std::string& scene : suite.scenes)
-        add_task(find_scene(scene, fixtures), detectors, catalog, tasks);
-    } else {
-      if (detectors.empty()) detectors = default_suite(fixtures).detectors;
-      add_task(target.file, detectors, catalog, tasks);
-    }
-  }
-  return tasks;
-}
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
 void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
@@ -106,7 +61,9 @@ void print_outcome(const RunArguments& arguments, const Json& results) {
 
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
-  request.tasks = make_tasks(arguments, catalog);
+  RunTasks tasks = make_tasks(arguments, catalog);
+  request.tasks = std::move(tasks.scenes);
+  request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, request.tasks);
   check_out(arguments.out);
   request.settings.frames = arguments.frames;

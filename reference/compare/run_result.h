@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/types/contact_set.h"
+#include "core/types/count.h"
 #include "core/types/semantics.h"
 
 namespace contactcheck {
@@ -117,6 +118,8 @@ struct RunResult {
   GradedErrors graded;
   std::vector<Episode> episodes;
   std::vector<StageResult> stages;
+  /// What the detector says it did for its own question, summed over frames; in its own units.
+  std::vector<Count> counters;
   double prepare_ms = 0.0;
   std::uint64_t memory_bytes = 0;
   std::uint64_t contact_hash = 0;

@@ -109,6 +109,12 @@ Json stages_json(const RunResult& run) {
   return out;
 }
 
+Json counters_json(const std::vector<Count>& counters) {
+  Json out = Json::object();
+  for (const Count& count : counters) out[count.name] = count.value;
+  return out;
+}
+
 Json per_frame_json(const PerFrame& f) {
   Json covered = Json::array();
   for (const auto& share : f.covered_length_fraction) covered.push_back(nullable(share));
@@ -162,6 +168,7 @@ Json to_json(const RunResult& run) {
   out["not_judged"] = not_judged;
   out["geometry"] = geometry_json(run);
   out["stages"] = stages_json(run);
+  if (!run.counters.empty()) out["counters"] = counters_json(run.counters);
   out["time_ms"] = {{"prepare", run.prepare_ms}};
   out["memory_bytes"] = run.memory_bytes;
   out["contact_hash"] = hex(run.contact_hash);

@@ -7,6 +7,7 @@
 
 #include "reference/report/claims.h"
 #include "reference/report/format.h"
+#include "reference/report/goals_table.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
@@ -66,6 +67,16 @@ std::string summary_section(const Json& results) {
   return out + "\n";
 }
 
+std::string goals_section(const Json& results) {
+  std::string rows;
+  for (const auto& cells : goal_lines(results)) rows += table_line(cells);
+  if (rows.empty()) return "";
+  return "## Goals of the suite\n\nTimes are medians; a ratio over a detector is its time over "
+         "that "
+         "of the detector named, with a 95 % interval.\n\n" +
+         table_head(goal_columns()) + rows + "\n";
+}
+
 std::string disagreements_list(const Json& results, const std::string& scene) {
   std::string out;
   for (const Json& d : results.at("disagreements")) {
@@ -102,8 +113,8 @@ std::string scene_section(const Json& results, const Json& scene) {
                      scene.at("contact_frames").get<std::size_t>(),
                      format_number(scene.at("size"))) +
          bodies_table(scene) + truth_line(scene) + result_table(runs) + levels_table(runs) +
-         graded_table(runs) + stages_table(runs) + times_table(runs) + speedups_table(runs) +
-         notes_list(runs) + disagreements_list(results, id);
+         graded_table(runs) + stages_table(runs) + times_table(runs) + counters_table(runs) +
+         speedups_table(runs) + notes_list(runs) + disagreements_list(results, id);
 }
 
 // What each detector claims, from its first run that is `ok`.
@@ -132,8 +143,8 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out =
-      "# contactcheck report\n\n" + machine_section(results) + summary_section(results);
+  std::string out = "# contactcheck report\n\n" + machine_section(results) +
+                    summary_section(results) + goals_section(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   for (const Json& scene : results.at("scenes")) out += scene_section(results, scene);

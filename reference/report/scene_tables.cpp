@@ -145,6 +145,23 @@ std::string times_table(const RunList& runs) {
                       rows);
 }
 
+std::string counters_table(const RunList& runs) {
+  std::string rows;
+  for (const Json& run : runs) {
+    if (!is_ok(run) || !run.contains("counters")) continue;
+    std::string counts;
+    for (const auto& [name, sum] : run.at("counters").items()) {
+      std::string words = name;
+      std::replace(words.begin(), words.end(), '_', ' ');
+      counts += (counts.empty() ? "" : ", ") +
+                format_number(sum.get<double>() / run.at("frames").get<double>()) + " " + words;
+    }
+    rows += table_line({detector_of(run), counts});
+  }
+  return titled_table("Work per frame (means):", {{"detector", true, ""}, {"counted", true, ""}},
+                      rows);
+}
+
 std::string speedups_table(const RunList& runs) {
   std::string rows;
   for (const Json& run : runs) {

@@ -17,6 +17,8 @@ std::string graded_table(const RunList& runs);
 /// Which stage lost which true pairs, and what it visited.
 std::string stages_table(const RunList& runs);
 std::string times_table(const RunList& runs);
+/// What detectors count, mean per frame.
+std::string counters_table(const RunList& runs);
 /// Every speed-up with its interval, by question and reference.
 std::string speedups_table(const RunList& runs);
 

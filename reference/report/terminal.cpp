@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/report/goals_table.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
 
@@ -98,6 +99,8 @@ std::string terminal_tables(const Json& results, bool color) {
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
            table(summary_columns(), summary_lines(results), color);
+  if (!goal_lines(results).empty())
+    out += paint("goals", kBold, color) + "\n" + table(goal_columns(), goal_lines(results), color);
   return out + legend();
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <optional>
 
+#include "core/types/check.h"
 #include "reference/compare/episodes.h"
 #include "reference/compare/graded_judge.h"
 #include "reference/compare/judge.h"
@@ -109,6 +110,17 @@ class AccuracyPass {
     note_environment(guard_, "query", result_);
     contacts_.canonicalize();
     check(contacts_);
+    add_counts();
+  }
+
+  void add_counts() {
+    const std::vector<Count> counts = detector_.counts();
+    if (result_.counters.empty()) {
+      result_.counters = counts;
+      return;
+    }
+    CONTACTCHECK_INVARIANT(counts.size() == result_.counters.size(), "the same counts every frame");
+    for (std::size_t i = 0; i < counts.size(); ++i) result_.counters[i].value += counts[i].value;
   }
 
   void answer_other_questions(const AnswerCheck& check) {

@@ -12,6 +12,7 @@
 #include "reference/adapters/register.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
+#include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
 #include "reference/run/printable.h"
@@ -201,13 +202,18 @@ class SceneRunner {
     return times;
   }
 
+  bool is_reference(const std::string& name) const {
+    return std::find(std::begin(kReferences), std::end(kReferences), name) !=
+               std::end(kReferences) ||
+           std::find(task_.references.begin(), task_.references.end(), name) !=
+               task_.references.end();
+  }
+
   void add_speedups(std::uint32_t other, const std::vector<ProcessSamples>& theirs,
                     const ProcessSamples& own, const std::vector<bool>& contact,
                     RunTimes& times) const {
     const std::string& name = task_.detectors[other];
-    if (std::none_of(std::begin(kReferences), std::end(kReferences),
-                     [&](const char* reference) { return name == reference; }))
-      return;
+    if (!is_reference(name)) return;
     for (const ProcessSamples& reference : theirs) {
       if (reference.front().question != own.front().question) continue;
       if (const auto s = compute_speedup(reference, own, contact))
@@ -272,6 +278,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                   {"scenes", scenes},
                   {"runs", runs},
                   {"disagreements", disagreements}};
+  if (!request.goals.empty()) results["goals"] = measure_goals(request.goals, results);
   write_file_atomically(request.out / "results.json", results.dump(1) + "\n");
   return results;
 }

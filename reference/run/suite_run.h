@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/run/job.h"
+#include "reference/scene/suite_file.h"
 
 namespace contactcheck {
 
@@ -15,10 +16,13 @@ struct SceneTask {
   std::string id;
   std::filesystem::path file;          ///< .json or .ccr
   std::vector<std::string> detectors;  ///< canonical names
+  /// Of these, whom speed-ups are given against beside the usual references.
+  std::vector<std::string> references;
 };
 
 struct SuiteRequest {
   std::vector<SceneTask> tasks;
+  std::vector<SuiteGoal> goals;      ///< canonical names of detectors
   RunSettings settings;              ///< detectors are taken from the tasks
   std::filesystem::path out;         ///< existing, writable
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`

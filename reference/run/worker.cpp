@@ -102,6 +102,9 @@ class Worker {
     const FloatEnvironmentGuard guard;
     try {
       work();
+    } catch (const Unavailable& e) {
+      entry.result.status = RunStatus::kAbsent;
+      entry.result.message = e.what();
     } catch (const RefusedInput& e) {
       entry.result.status = RunStatus::kRefused;
       entry.result.message = e.what();

@@ -9,14 +9,61 @@
 namespace contactcheck {
 namespace {
 
-std::vector<std::string> parse_names(const JsonField& field, bool ids) {
+void require_new(const JsonField& field, const std::string& name,
+                 const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) field.refuse("named once only");
+}
+
+std::vector<std::string> parse_detectors(const JsonField& field) {
   std::vector<std::string> names;
   for (const JsonField& item : field.items(1)) {
-    const std::string name = ids ? parse_id(item) : item.text();
-    if (std::find(names.begin(), names.end(), name) != names.end()) item.refuse("named once only");
+    const std::string name = item.text();
+    require_new(item, name, names);
     names.push_back(name);
   }
   return names;
+}
+
+// "ID", or an object where the scene has detectors of its own.
+SuiteScene parse_scene(const JsonField& field) {
+  if (!field.is(JsonValue::Kind::kObject)) return {parse_id(field), {}};
+  field.only_keys({"scene", "detectors"});
+  return {parse_id(field.at("scene")), parse_detectors(field.at("detectors"))};
+}
+
+std::vector<SuiteScene> parse_scenes(const JsonField& field) {
+  std::vector<SuiteScene> scenes;
+  std::vector<std::string> ids;
+  for (const JsonField& item : field.items(1)) {
+    scenes.push_back(parse_scene(item));
+    require_new(item, scenes.back().id, ids);
+    ids.push_back(scenes.back().id);
+  }
+  return scenes;
+}
+
+SuiteGoal parse_goal(const JsonField& field) {
+  constexpr NumberRange kAboveZero{0.0, true};
+  field.only_keys(
+      {"goal", "scene", "detector", "over", "over_scene", "per", "part", "at_least", "at_most"});
+  SuiteGoal goal;
+  goal.name = field.at("goal").text();
+  goal.scene = parse_id(field.at("scene"));
+  goal.detector = field.at("detector").text();
+  const std::string kind = field.exactly_one_of({"over", "over_scene", "per"});
+  if (kind == "over") {
+    goal.other = field.at("over").text();
+  } else if (kind == "over_scene") {
+    goal.kind = SuiteGoal::Kind::kOverScene;
+    goal.other = parse_id(field.at("over_scene"));
+  } else {
+    goal.kind = SuiteGoal::Kind::kPerPair;
+    field.at("per").one_of({"pair"});
+  }
+  goal.part = field.at("part").one_of({"cold", "hot", "contact_frames"});
+  const std::string bound = field.exactly_one_of({"at_least", "at_most"});
+  (bound == "at_least" ? goal.at_least : goal.at_most) = field.at(bound).number(kAboveZero);
+  return goal;
 }
 
 }  // namespace
@@ -25,12 +72,14 @@ Suite load_suite(const std::filesystem::path& file) {
   const std::string document = "suite file " + in_quotes(file.string());
   const JsonValue value = parse_json(read_file_bytes(file, "suite file"), document);
   const JsonField root(value, document);
-  root.only_keys({"id", "title", "scenes", "detectors"});
+  root.only_keys({"id", "title", "scenes", "detectors", "goals"});
   Suite suite;
   suite.id = parse_id(root.at("id"));
   suite.title = root.has("title") ? root.at("title").text() : suite.id;
-  suite.scenes = parse_names(root.at("scenes"), true);
-  suite.detectors = parse_names(root.at("detectors"), false);
+  suite.scenes = parse_scenes(root.at("scenes"));
+  suite.detectors = parse_detectors(root.at("detectors"));
+  if (root.has("goals"))
+    for (const JsonField& item : root.at("goals").items(1)) suite.goals.push_back(parse_goal(item));
   return suite;
 }
 

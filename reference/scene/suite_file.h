@@ -2,17 +2,40 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace contactcheck {
 
+/// Names of detectors are as on the command line, all different. Whether they exist is the
+/// registry's business.
+struct SuiteScene {
+  std::string id;
+  std::vector<std::string> detectors;  ///< empty: those of the suite
+};
+
+/// What a suite hopes to measure. Missing it is a result, not a failure.
+struct SuiteGoal {
+  enum class Kind {
+    kOver,       ///< time(other) / time(detector)
+    kOverScene,  ///< time(detector) / its time in the other scene
+    kPerPair     ///< microseconds per true pair of triangles
+  };
+  std::string name;  ///< one line
+  std::string scene, detector;
+  Kind kind = Kind::kOver;
+  std::string other;  ///< detector or scene, by kind
+  std::string part;   ///< "cold", "hot", "contact_frames" (cold, frames with contact)
+  std::optional<double> at_least, at_most;  ///< one of them
+};
+
 struct Suite {
   std::string id;
   std::string title;                   ///< one line
-  std::vector<std::string> scenes;     ///< ids, all different; at least one
-  std::vector<std::string> detectors;  ///< names as on the command line, all different; at least
-                                       ///< one. Whether they exist is the registry's business.
+  std::vector<SuiteScene> scenes;      ///< ids all different; at least one
+  std::vector<std::string> detectors;  ///< at least one
+  std::vector<SuiteGoal> goals;
 };
 
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/lazy/kernels.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
@@ -158,6 +159,49 @@ TEST_F(RunCommand, DetectorNamedTwiceRunsOnce) {
                   "ffd-aabb:bounds=paper", "--detector", "ffd-aabb"});
   ASSERT_EQ(results.at("runs").size(), 1u);
   EXPECT_EQ(results.at("runs").at(0).at("detector"), "ffd-aabb");
+}
+
+TEST_F(RunCommand, ThreadsAndInstructionSetsChangeNoContact) {
+  std::vector<std::string> arguments = {scene_,       "--no-timing", "--quiet",  "--threads",
+                                        "3",          "--detector",  "ffd-lazy", "--detector",
+                                        "full-refit", "--detector",  "fcl-aabb"};
+  for (const std::string& isa : lazy_isas()) arguments.insert(arguments.end(), {"--isa", isa});
+  const json results = run("out", arguments);
+  const std::map<std::string, std::string> hashes = hashes_of(results);
+  EXPECT_EQ(hashes.size(), 2 * lazy_isas().size() + 1);
+  for (const auto& [detector, hash] : hashes) {
+    EXPECT_EQ(hash, hashes.at("fcl-aabb")) << detector;
+    EXPECT_TRUE(detector == "fcl-aabb" || detector.ends_with(",threads=3")) << detector;
+  }
+  const json& counters = results.at("runs").at(0).at("counters");
+  EXPECT_GT(counters.at("triangle_tests"), 0);
+  EXPECT_GT(counters.at("blocks_bounded"), 0);
+}
+
+TEST_F(RunCommand, OptionsInANameStandAgainstThreadsAndIsa) {
+  const json results = run("out", {scene_, "--no-timing", "--quiet", "--threads", "3", "--isa",
+                                   lazy_isas().front(), "--detector", "ffd-lazy:threads=2"});
+  EXPECT_EQ(results.at("runs").at(0).at("detector"),
+            "ffd-lazy:isa=" + lazy_isas().front() + ",threads=2");
+}
+
+TEST_F(RunCommand, InstructionSetsThatNobodyUsesAreRefused) {
+  const Outcome outcome = contactcheck_program(
+      {"run", scene_, "--detector", "fcl-aabb", "--isa", "best", "--out", scratch_.folder() / "o"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--isa best: no detector of this run"));
+}
+
+TEST_F(RunCommand, InstructionSetOfAnotherMachineIsAbsent) {
+  const std::vector<std::string> here = lazy_isas();
+  for (const std::string isa : {"AVX3", "NEON"}) {
+    if (std::find(here.begin(), here.end(), isa) != here.end()) continue;
+    const json results =
+        run("out", {scene_, "--no-timing", "--detector", "ffd-lazy", "--isa", isa});
+    EXPECT_EQ(results.at("runs").at(0).at("status"), "absent");
+    EXPECT_THAT(results.at("runs").at(0).at("message").get<std::string>(), HasSubstr(isa));
+    EXPECT_THAT(last_.out, HasSubstr("absent: ffd-lazy:isa=" + isa));
+  }
 }
 
 TEST_F(RunCommand, FramesReplaceThoseOfTheScene) {

@@ -74,6 +74,15 @@ TEST(StagesTable, ShowsWhatAStageVisited) {
               HasSubstr("| bullet-vf | tree | triangle pairs | 900 | 30 | 77 node pairs | 1 |"));
 }
 
+TEST(CountersTable, GivesMeansPerFrameOfDetectorsThatCount) {
+  Json run = near_run();
+  EXPECT_EQ(counters_table({run}), "");
+  run["frames"] = 50;
+  run["counters"] = {{"leaves_mapped", 600}, {"exact_tests", 0}};
+  EXPECT_THAT(counters_table({run}),
+              HasSubstr("| bullet-vf | 12.0 leaves mapped, 0 exact tests |"));
+}
+
 TEST(SpeedupsTable, HasTheOptionsOfBothSides) {
   EXPECT_THAT(
       speedups_table({near_run()}),

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
   SuiteRequest request;
-  request.tasks = {{"fake", scratch.write(scene + ".json", "{}"), {"one", "two", "three"}}};
+  request.tasks = {{"fake", scratch.write(scene + ".json", "{}"), {"one", "two", "three"}, {}}};
   request.settings.timing = false;
   request.out = scratch.folder() / "out";
   request.executable = CONTACTCHECK_FAKE_WORKER;

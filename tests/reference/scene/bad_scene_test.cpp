@@ -245,6 +245,60 @@ TEST(SuiteFile, DefectsAreRefusedWithOneSentence) {
   EXPECT_EQ(refusal(R"({"id": "u", "scenes": ["a"]})"), "detectors is missing.");
   EXPECT_EQ(refusal(R"({"id": "u", "scenes": ["a"], "detectors": [""]})"),
             "detectors[0] is \"\"; it must be a text that is not empty.");
+  EXPECT_EQ(refusal(R"({"id": "u", "scenes": ["a", {"scene": "a", "detectors": ["e"]}],
+                        "detectors": ["d"]})"),
+            "scenes[1] is an object; it must be named once only.");
+  EXPECT_EQ(refusal(R"({"id": "u", "scenes": [{"scene": "a"}], "detectors": ["d"]})"),
+            "scenes[0].detectors is missing.");
+}
+
+TEST(SuiteFile, DefectsOfGoalsAreRefusedWithOneSentence) {
+  const Scratch scratch;
+  const auto refusal = [&](const std::string& goal) {
+    const std::filesystem::path file = scratch.write(
+        "u.json", R"({"id": "u", "scenes": ["a"], "detectors": ["d"], "goals": [)" + goal + "]}");
+    const std::string sentence = sentence_of([&] { load_suite(file); });
+    return sentence.substr(("suite file \"" + file.string() + "\": ").size());
+  };
+  EXPECT_EQ(refusal(""), "goals is an array of 0; it must be an array of at least 1.");
+  EXPECT_EQ(
+      refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e", "per": "pair",
+                        "part": "cold", "at_least": 1})"),
+      "goals[0] has both \"over\" and \"per\"; exactly one of over, over_scene, per is allowed.");
+  EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "per": "vertex",
+                        "part": "cold", "at_least": 1})"),
+            "goals[0].per is \"vertex\"; it must be one of pair.");
+  EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e",
+                        "part": "tepid", "at_least": 1})"),
+            "goals[0].part is \"tepid\"; it must be one of cold, hot, contact_frames.");
+  EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e",
+                        "part": "cold", "at_most": 0})"),
+            "goals[0].at_most is 0; it must be a number above 0.");
+}
+
+TEST(SuiteFile, HoldsScenesWithDetectorsOfTheirOwnAndGoals) {
+  const Scratch scratch;
+  const Suite suite = load_suite(scratch.write("u.json", R"({
+    "id": "u", "scenes": ["a", {"scene": "b", "detectors": ["e", "f"]}], "detectors": ["d"],
+    "goals": [
+      {"goal": "faster", "scene": "a", "detector": "d", "over": "e", "part": "hot", "at_least": 2},
+      {"goal": "flat", "scene": "b", "detector": "d", "over_scene": "a", "part": "cold",
+       "at_most": 1.1},
+      {"goal": "cheap", "scene": "a", "detector": "d", "per": "pair", "part": "contact_frames",
+       "at_most": 0.5}]})"));
+  ASSERT_EQ(suite.scenes.size(), 2u);
+  EXPECT_TRUE(suite.scenes[0].detectors.empty());
+  EXPECT_EQ(suite.scenes[1].detectors, (std::vector<std::string>{"e", "f"}));
+  ASSERT_EQ(suite.goals.size(), 3u);
+  EXPECT_EQ(suite.goals[0].kind, SuiteGoal::Kind::kOver);
+  EXPECT_EQ(suite.goals[0].other, "e");
+  EXPECT_EQ(suite.goals[0].at_least, 2.0);
+  EXPECT_EQ(suite.goals[0].at_most, std::nullopt);
+  EXPECT_EQ(suite.goals[1].kind, SuiteGoal::Kind::kOverScene);
+  EXPECT_EQ(suite.goals[1].other, "a");
+  EXPECT_EQ(suite.goals[2].kind, SuiteGoal::Kind::kPerPair);
+  EXPECT_EQ(suite.goals[2].part, "contact_frames");
+  EXPECT_EQ(suite.goals[2].at_most, 0.5);
 }
 
 }  // namespace

@@ -142,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(Fixtures, SimulatedFixture, ::testing::ValuesIn(scenes_
 TEST(Catalogue, HasTheScenesOfTheDefaultSuite) {
   const Suite suite = load_suite(kFixtures / "suites" / "default.json");
   EXPECT_GE(suite.scenes.size(), 6u);
-  for (const std::string& id : suite.scenes) {
+  for (const SuiteScene& scene : suite.scenes) {
+    const std::string& id = scene.id;
     EXPECT_EQ(find_scene(id, kFixtures), kFixtures / "scenes" / (id + ".json"));
   }
 }

@@ -178,6 +178,17 @@ def run_errors(place, run):
         yield f"{place}/time_ms/timed_frames", f"exceeds the run's {run['frames']} frames"
 
 
+def goal_errors(place, goal):
+    measured = goal["measured"]
+    if measured is None:
+        return
+    if "low" in goal and not goal["low"] <= measured <= goal["high"]:
+        yield f"{place}/measured", "lies outside its interval"
+    least, most = goal.get("at_least"), goal.get("at_most")
+    if goal["met"] != (measured >= least if least is not None else measured <= most):
+        yield f"{place}/met", f"is {goal['met']} for {measured}"
+
+
 def consistency_errors(results):
     """What a schema cannot state. Expects results that satisfy the schema."""
     runs = {}
@@ -188,6 +199,8 @@ def consistency_errors(results):
             yield place, f"scene {key[0]} with detector {key[1]} stands twice"
         runs[key] = run
         yield from run_errors(place, run)
+    for number, goal in enumerate(results.get("goals", [])):
+        yield from goal_errors(f"/goals/{number}", goal)
     for number, disagreement in enumerate(results["disagreements"]):
         place = f"/disagreements/{number}"
         run = runs.get((disagreement["scene"], disagreement["detector"]))

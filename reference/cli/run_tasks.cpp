@@ -1,0 +1,135 @@
+#include "reference/cli/run_tasks.h"
+
+#include <algorithm>
+
+#include "core/types/check.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/suite_file.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+void add_new(const std::string& name, Names& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+const OptionInfo* option_of(const DetectorCatalog& catalog, const DetectorSpec& spec,
+                            const std::string& option) {
+  for (const OptionInfo& o : catalog.find(spec.id)->options)
+    if (o.name == option) return &o;
+  return nullptr;
+}
+
+/// Names as given on the command line or by a suite, made those that run.
+class DetectorNames {
+ public:
+  DetectorNames(const RunArguments& arguments, const DetectorCatalog& catalog)
+      : arguments_(arguments), catalog_(catalog) {}
+
+  Names resolved(const Names& given) {
+    Names out;
+    for (const std::string& name : given)
+      for (const std::string& with_isa : with_isas(catalog_.parse(name).name))
+        add_new(with_threads(with_isa), out);
+    return out;
+  }
+
+  // An option that nobody takes would be a silent lie about what ran.
+  void require_use_of_isas() const {
+    if (!arguments_.isas.empty() && !isas_used_)
+      throw InputError("--isa " + arguments_.isas.front() +
+                       ": no detector of this run has instruction sets to choose from");
+  }
+
+ private:
+  // What the name says already stays.
+  std::string with(const std::string& name, const std::string& option,
+                   const std::string& value) const {
+    const DetectorSpec spec = catalog_.parse(name);
+    const OptionInfo* info = option_of(catalog_, spec, option);
+    if (info == nullptr || spec.options.at(option) != info->default_value) return name;
+    const char* const mark = name.find(':') == std::string::npos ? ":" : ",";
+    return catalog_.parse(name + mark + option + "=" + value).name;
+  }
+
+  std::string with_threads(const std::string& name) const {
+    return with(name, "threads", std::to_string(arguments_.threads));
+  }
+
+  Names with_isas(const std::string& name) {
+    if (arguments_.isas.empty()) return {name};
+    if (option_of(catalog_, catalog_.parse(name), "isa") != nullptr) isas_used_ = true;
+    Names out;
+    for (const std::string& isa : arguments_.isas) add_new(with(name, "isa", isa), out);
+    return out;
+  }
+
+  const RunArguments& arguments_;
+  const DetectorCatalog& catalog_;
+  bool isas_used_ = false;
+};
+
+class TaskMaker {
+ public:
+  TaskMaker(const RunArguments& arguments, const DetectorCatalog& catalog)
+      : arguments_(arguments), catalog_(catalog), names_(arguments, catalog) {}
+
+  RunTasks make() {
+    Names targets = arguments_.targets;
+    if (targets.empty()) targets.push_back("default");
+    for (const std::string& name : targets) {
+      const Target target = find_target(name, fixtures_);
+      if (target.kind == TargetKind::kSuite) {
+        add_suite(load_suite(target.file));
+      } else {
+        add_scene(target.file, default_detectors());
+      }
+    }
+    names_.require_use_of_isas();
+    return std::move(tasks_);
+  }
+
+ private:
+  Names default_detectors() const {
+    return load_suite(find_target("default", fixtures_).file).detectors;
+  }
+
+  void add_suite(const Suite& suite) {
+    for (const SuiteScene& scene : suite.scenes)
+      add_scene(find_scene(scene.id, fixtures_),
+                scene.detectors.empty() ? suite.detectors : scene.detectors);
+    for (SuiteGoal goal : suite.goals) {
+      goal.detector = catalog_.parse(goal.detector).name;
+      if (goal.kind == SuiteGoal::Kind::kOver) goal.other = catalog_.parse(goal.other).name;
+      for (SceneTask& task : tasks_.scenes)
+        if (task.file == find_scene(goal.scene, fixtures_) && goal.kind == SuiteGoal::Kind::kOver)
+          add_new(goal.other, task.references);
+      tasks_.goals.push_back(std::move(goal));
+    }
+  }
+
+  void add_scene(const fs::path& file, const Names& detectors) {
+    const Names& chosen = arguments_.detectors.empty() ? detectors : arguments_.detectors;
+    const Names resolved = names_.resolved(chosen);
+    for (const SceneTask& task : tasks_.scenes)
+      if (task.file == file) return;
+    tasks_.scenes.push_back({"", file, resolved, {}});
+  }
+
+  const RunArguments& arguments_;
+  const DetectorCatalog& catalog_;
+  const fs::path fixtures_ = fixtures_directory();
+  DetectorNames names_;
+  RunTasks tasks_;
+};
+
+}  // namespace
+
+RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  return TaskMaker(arguments, catalog).make();
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,50 @@
+#include "reference/report/goals_table.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/report/markdown.h"
+#include "reference/report/terminal.h"
+#include "tests/reference/report/sample_results.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Json with_goals() {
+  Json results = test::sample_results();
+  results["goals"] = Json::parse(R"([
+    {"goal": "faster", "scene": "s", "detector": "d", "part": "cold", "over": "embree",
+     "at_least": 12.0, "measured": 11.95, "low": 11.5, "high": 12.5, "unit": "x", "met": false},
+    {"goal": "cheap", "scene": "s", "detector": "d", "part": "hot", "per": "pair",
+     "at_most": 0.15, "measured": 0.125, "unit": "us", "met": true},
+    {"goal": "wide", "scene": "t", "detector": "e", "part": "cold", "over": "d",
+     "at_most": 1.4, "measured": null, "why": "e: not here", "met": null}])");
+  return results;
+}
+
+TEST(GoalsTable, SaysWhatWasWantedMeasuredAndMet) {
+  const auto lines = goal_lines(with_goals());
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_THAT(lines[0], ElementsAre("faster", "s", "d", ">= 12.0x", "11.9x [11.5, 12.5]", "no"));
+  EXPECT_THAT(lines[1], ElementsAre("cheap", "s", "d", "<= 0.150 us", "0.125 us", "yes"));
+  EXPECT_THAT(lines[2],
+              ElementsAre("wide", "t", "e", "<= 1.40x", "-", "not measured: e: not here"));
+}
+
+TEST(GoalsTable, IsInBothReportsOfSuitesThatHaveGoalsAlone) {
+  EXPECT_THAT(markdown_report(with_goals()), HasSubstr("## Goals of the suite"));
+  EXPECT_THAT(terminal_tables(with_goals(), false), HasSubstr("not measured: e: not here"));
+  EXPECT_THAT(goal_lines(test::sample_results()), IsEmpty());
+  EXPECT_THAT(markdown_report(test::sample_results()), Not(HasSubstr("Goals")));
+  EXPECT_THAT(terminal_tables(test::sample_results(), false), Not(HasSubstr("goals")));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,126 @@
+// Triangles of two leaves against each other: boxes, then the exact test in batches.
+// Compiled once per instruction set (kernels.cpp).
+
+#if defined(CONTACTCHECK_LAZY_LEAF_PAIRS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONTACTCHECK_LAZY_LEAF_PAIRS_INL
+#undef CONTACTCHECK_LAZY_LEAF_PAIRS_INL
+#else
+#define CONTACTCHECK_LAZY_LEAF_PAIRS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "core/lazy/kernels.h"
+#include "core/lazy/leaves-inl.h"
+#include "core/lazy/meeting-inl.h"
+#include "core/lazy/triangles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace contactcheck {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A box of a leaf, or of one of its triangles, beside boxes of the other body's triangles.
+HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32_t lane,
+                                               const Shift& shift, const LaneBoxes& lanes) {
+  const ChildBounds one{box, nullptr, lane};
+  return shift.none ? overlapping(one, lanes) : overlapping(MovedBounds{one, shift}, lanes);
+}
+
+// Tests of leaf pairs of two bodies; flush() when all are in.
+class LeafPairTests {
+ public:
+  LeafPairTests(const BodiesToTest& bodies, const Shift& to_a, const Shift& to_b,
+                LazyScratch& scratch, std::vector<ElementPair>& out)
+      : bodies_(bodies), to_a_(to_a), to_b_(to_b), scratch_(scratch), out_(out) {
+    scratch.batch.count = 0;
+  }
+
+  HWY_NOINLINE void test(const LeafPair& pair) {
+    const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.arena);
+    const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.arena);
+    const std::uint32_t in_b = meeting_triangles(*a.whole, 0, to_b_, b);
+    if (in_b == 0) return;
+    const std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a);
+    // One by one on the side that has fewer.
+    if (std::popcount(in_a) <= std::popcount(in_b)) {
+      for (std::uint32_t i : Bits(in_a))
+        for (std::uint32_t j : Bits(in_b & partners(a, i, to_b_, b))) add_pair(pair, a, i, b, j);
+    } else {
+      for (std::uint32_t j : Bits(in_b))
+        for (std::uint32_t i : Bits(in_a & partners(b, j, to_a_, a))) add_pair(pair, a, i, b, j);
+    }
+  }
+
+  HWY_NOINLINE void flush() {
+    TriangleBatch& batch = scratch_.batch;
+    if (batch.count == 0) return;
+    const BatchVerdict verdict = test_batch(batch);
+    std::uint32_t meeting = verdict.meet;
+    for (std::uint32_t lane : Bits(verdict.unknown))
+      if (triangles_intersect(batch.points(0, lane), batch.points(1, lane))) meeting |= 1u << lane;
+    if (scratch_.candidates != nullptr)
+      for (std::size_t lane = 0; lane < batch.count; ++lane)
+        scratch_.candidates->push_back(
+            {bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
+    scratch_.counters.triangle_tests += batch.count;
+    scratch_.counters.filter_failures += static_cast<std::uint64_t>(std::popcount(verdict.unknown));
+    for (std::uint32_t lane : Bits(meeting))
+      out_.push_back({bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
+    batch.count = 0;
+  }
+
+ private:
+  // Triangles of one leaf, sixteen bits, whose boxes meet that of one triangle of the other.
+  static HWY_INLINE std::uint32_t meeting_triangles(const LaneBoxes& box, std::uint32_t lane,
+                                                    const Shift& shift, const LeafCache& leaf) {
+    return overlapping_triangles(box, lane, shift, leaf.boxes[0]) |
+           overlapping_triangles(box, lane, shift, leaf.boxes[1]) << kBlockWidth;
+  }
+
+  // Those that may meet triangle i.
+  static HWY_INLINE std::uint32_t partners(const LeafCache& leaf, std::uint32_t i,
+                                           const Shift& shift, const LeafCache& other) {
+    return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, shift, other);
+  }
+
+  HWY_INLINE void add_pair(const LeafPair& leaves, const LeafCache& a, std::uint32_t i,
+                           const LeafCache& b, std::uint32_t j) {
+    TriangleBatch& batch = scratch_.batch;
+    const std::size_t lane = batch.count;
+    batch.a[lane] = name(bodies_.a, leaves.a, i);
+    batch.b[lane] = name(bodies_.b, leaves.b, j);
+    copy_corners(bodies_.a.tree->leaf_corners[leaves.a], a, i, batch.corner[0], lane);
+    copy_corners(bodies_.b.tree->leaf_corners[leaves.b], b, j, batch.corner[1], lane);
+    if (++batch.count == kBatchWidth) flush();
+  }
+
+  static std::uint32_t name(const LazyState& state, std::uint32_t leaf, std::uint32_t triangle) {
+    return state.tree->leaf_triangles[state.tree->leaves[leaf].first_triangle + triangle];
+  }
+
+  static HWY_INLINE void copy_corners(const LeafCorners& corners, const LeafCache& leaf,
+                                      std::uint32_t triangle, double (&out)[3][3][kBatchWidth],
+                                      std::size_t lane) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t v = corners[c][triangle];
+      out[c][0][lane] = leaf.x[v];
+      out[c][1][lane] = leaf.y[v];
+      out[c][2][lane] = leaf.z[v];
+    }
+  }
+
+  const BodiesToTest& bodies_;
+  const Shift& to_a_;
+  const Shift& to_b_;
+  LazyScratch& scratch_;
+  std::vector<ElementPair>& out_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace contactcheck
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -56,6 +56,7 @@ std::string line_text(const std::vector<Column>& columns, const Line& line,
     const std::string cell = aligned(line[i], widths[i], columns[i].left);
     out += "  " + (is_bad_count(columns[i], line[i]) ? paint(cell, kRed, color) : cell);
   }
+  out.erase(out.find_last_not_of(' ') + 1);
   return out + "\n";
 }
 

@@ -11,8 +11,10 @@
 namespace contactcheck {
 namespace {
 
-// By measurement (lazy_register.cpp).
-constexpr std::size_t kFewTrianglesPerCell = 100;
+// By measurement. In shallow contact nodes cost half of a refit already at 26 triangles per cell,
+// in deep contact they cost a quarter more at 24 and less; and refitting needs memory for all
+// vertices.
+constexpr std::size_t kFewTrianglesPerCell = 24;
 
 bool small_for_its_lattice(const BodyShape& shape) {
   return shape.mesh.triangles.size() < kFewTrianglesPerCell * shape.lattice->cells.size();
@@ -65,11 +67,11 @@ void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
   }
 }
 
-// What the tests of a body's pairs start from: all its bounds where it is refitted, else its nodes;
+// What the tests of a body's pairs start from: all its bounds where it is refitted, else its cells;
 // bounds are then made on demand.
 void LazyDetector::bound(std::size_t index, LazyScratch& scratch) {
   LazyState& state = states_[index];
-  if (!state.from_vertices) return find_near_nodes(state);
+  if (!state.from_vertices) return find_cells(state);
   if (state.vertices.empty()) {
     mapped_[index].resize(state.shape->mesh.vertices.size());
     map_body(*state.shape, state.nodes, mapped_[index]);
@@ -179,7 +181,8 @@ std::size_t LazyDetector::shared_bytes() const {
 std::size_t LazyDetector::instance_bytes() const {
   std::size_t bytes = 0;
   for (const LazyState& s : states_)
-    bytes += s.near_nodes.size() * sizeof(Float4) + s.blocks.bytes() + s.leaves.bytes();
+    bytes += s.near_nodes.size() * sizeof(Float4) + s.cells.size() * sizeof(CellTerms) +
+             s.blocks.bytes() + s.leaves.bytes();
   for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   return bytes;

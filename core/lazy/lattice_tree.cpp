@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <span>
 
 #include "core/lazy/partition.h"
@@ -13,13 +12,13 @@
 namespace contactcheck {
 namespace {
 
-// Blocks of more home cells than this are bounded by hulls: each home cell costs one evaluation
-// for all eight children, however few of them it touches. But hulls are as loose as whole cells
-// are large, and let through what costs more below: by measurement, a near miss of two fine meshes
-// takes three times as long with 8, and one of small meshes 1.7 times as long with no hulls at all.
-constexpr std::size_t kMostHomes = 32;
-
-using LocalBounds = std::map<std::uint32_t, Aabb>;  // per home cell
+// A piece of a child: what it has in one home cell.
+struct Piece {
+  std::uint32_t child = 0, cell = 0;
+  std::uint32_t vertices = 0;  // of triangles, with repeats
+  Aabb box;                    // of y = 2 x - 1
+  double slab_lo = std::numeric_limits<double>::infinity(), slab_hi = -slab_lo;
+};
 
 class TreeBuilder {
  public:
@@ -34,14 +33,11 @@ class TreeBuilder {
     out_.blocks.emplace_back();
     TreeBlock block;
     block.children = static_cast<std::uint32_t>(part.children.size());
-    if (bounded_) bound_children(part, block);
+    if (bounded_) add_pieces(part, block);
     for (std::uint32_t c = 0; c < block.children; ++c) {
       const Part& child = part.children[c];
-      // A hull is as large as its cells: a leaf gets a block of its own, bounded by pieces, so that
-      // it does not meet whatever comes near its cells.
-      block.child[c].value = !child.children.empty() ? add_block(child)
-                             : block.hull            ? add_block({child.first, child.last, {child}})
-                                                     : (TreeChild::kLeaf | add_leaf(child));
+      block.child[c].value =
+          child.children.empty() ? TreeChild::kLeaf | add_leaf(child) : add_block(child);
     }
     out_.blocks[index] = block;
     return index;
@@ -53,50 +49,64 @@ class TreeBuilder {
   }
   const Triangle& corners(std::uint32_t triangle) const { return shape_.mesh.triangles[triangle]; }
 
-  LocalBounds local_bounds(const Part& part) const {
-    LocalBounds bounds;
-    for (std::uint32_t t : triangles(part))
-      for (std::uint32_t v : corners(t))
-        bounds[shape_.embedding.home_cell[v]].extend(shape_.embedding.local[v]);
-    return bounds;
-  }
-
-  std::set<std::uint32_t> owners(const Part& part) const {
-    std::set<std::uint32_t> cells;
-    for (std::uint32_t t : triangles(part)) cells.insert(partition_.owner[t]);
-    return cells;
-  }
-
-  void bound_children(const Part& part, TreeBlock& block) {
-    std::vector<LocalBounds> bounds;
-    std::set<std::uint32_t> homes;
-    for (const Part& child : part.children) {
-      bounds.push_back(local_bounds(child));
-      for (const auto& [cell, box] : bounds.back()) homes.insert(cell);
+  void add_pieces(const Part& part, TreeBlock& block) {
+    BlockSlabs slabs;
+    std::vector<Piece> first, others;
+    for (std::uint32_t c = 0; c < part.children.size(); ++c) {
+      std::vector<Piece> pieces = pieces_of(part.children[c], c);
+      const auto most =
+          std::max_element(pieces.begin(), pieces.end(),
+                           [](const Piece& a, const Piece& b) { return a.vertices < b.vertices; });
+      std::iter_swap(pieces.begin(), most);
+      set_slabs(part.children[c], pieces, slabs);
+      first.push_back(pieces[0]);
+      others.insert(others.end(), pieces.begin() + 1, pieces.end());
     }
-    block.hull = homes.size() > kMostHomes && part.children.size() > 1 && owners(part).size() > 1;
-    block.begin = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
-    if (block.hull) {
-      for (const Part& child : part.children) add_hull(child);
-    } else {
-      block.slabs = static_cast<std::uint32_t>(out_.slabs.size());
-      const std::uint32_t main = most_common_home(part);
-      out_.slabs.push_back(slabs_of(part, main));
-      add_pieces(main, bounds, part, out_.slabs.back());
-      for (std::uint32_t cell : homes)
-        if (cell != main) add_pieces(cell, bounds, part, out_.slabs.back());
-    }
-    block.end = static_cast<std::uint32_t>(block.hull ? out_.hulls.size() : out_.pieces.size());
+    out_.slabs.push_back(slabs);
+    block.begin = static_cast<std::uint32_t>(out_.pieces.size());
+    put_lanes(first);
+    for (std::size_t i = 0; i < others.size(); i += kBlockWidth)
+      put_lanes(
+          std::span(others).subspan(i, std::min<std::size_t>(kBlockWidth, others.size() - i)));
+    block.end = static_cast<std::uint32_t>(out_.pieces.size());
   }
 
-  std::uint32_t most_common_home(const Part& part) const {
-    std::map<std::uint32_t, std::uint32_t> counts;
-    for (std::uint32_t t : triangles(part))
-      for (std::uint32_t v : corners(t)) ++counts[shape_.embedding.home_cell[v]];
-    const auto most =
-        std::max_element(counts.begin(), counts.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most->first;
+  template <typename Visit>
+  void for_corners(const Part& child, Visit&& visit) const {
+    for (std::uint32_t t : triangles(child))
+      for (std::uint32_t v : corners(t)) visit(shape_.embedding.home_cell[v], centred(v));
+  }
+  // Rounds by 2^-54 at most.
+  Vec3 centred(std::uint32_t vertex) const {
+    return 2.0 * shape_.embedding.local[vertex] - Vec3::Ones();
+  }
+
+  std::vector<Piece> pieces_of(const Part& child, std::uint32_t lane) const {
+    std::map<std::uint32_t, Piece> pieces;
+    for_corners(child, [&](std::uint32_t cell, const Vec3& y) {
+      Piece& piece = pieces[cell];
+      piece.child = lane, piece.cell = cell;
+      piece.box.extend(y);
+      ++piece.vertices;
+    });
+    std::vector<Piece> out;
+    for (const auto& [cell, piece] : pieces) out.push_back(piece);
+    return out;
+  }
+
+  // Across the child's surface at rest, in the cell of its first piece.
+  void set_slabs(const Part& child, std::vector<Piece>& pieces, BlockSlabs& slabs) const {
+    const Eigen::Array3i normal =
+        normal_of(child, shape_.lattice->cell_box(pieces[0].cell).extent());
+    for (int k = 0; k < 3; ++k)
+      slabs.normal[k][pieces[0].child] = static_cast<std::int8_t>(normal[k]);
+    const Vec3 m = normal.cast<double>().matrix();
+    for_corners(child, [&](std::uint32_t cell, const Vec3& y) {
+      Piece& piece = *std::find_if(pieces.begin(), pieces.end(),
+                                   [&](const Piece& p) { return p.cell == cell; });
+      piece.slab_lo = std::min(piece.slab_lo, m.dot(y));
+      piece.slab_hi = std::max(piece.slab_hi, m.dot(y));
+    });
   }
 
   Vec3 rest(std::uint32_t vertex) const { return shape_.mesh.vertices[vertex]; }
@@ -114,87 +124,26 @@ class TreeBuilder {
     return (normal / largest * BlockSlabs::kNormalSteps).array().round().cast<int>();
   }
 
-  BlockSlabs slabs_of(const Part& part, std::uint32_t cell) const {
-    BlockSlabs out;
-    const Vec3 sides = shape_.lattice->cell_box(cell).extent();
-    for (std::uint32_t c = 0; c < part.children.size(); ++c) {
-      const Eigen::Array3i normal = normal_of(part.children[c], sides);
-      for (int k = 0; k < 3; ++k) out.normal[k][c] = static_cast<std::int8_t>(normal[k]);
-    }
-    return out;
+  void put_lanes(std::span<const Piece> pieces) {
+    PieceLanes& out = out_.pieces.emplace_back();
+    for (std::size_t lane = 0; lane < kBlockWidth; ++lane)
+      put_lane(pieces[lane < pieces.size() ? lane : 0], lane, out);
   }
 
-  void add_pieces(std::uint32_t cell, const std::vector<LocalBounds>& bounds, const Part& part,
-                  const BlockSlabs& slabs) {
-    HomePieces pieces;
-    pieces.cell = cell;
-    for (std::uint32_t c = 0; c < bounds.size(); ++c) {
-      const auto found = bounds[c].find(cell);
-      if (found == bounds[c].end()) continue;
-      pieces.children |= 1u << c;
-      for (int k = 0; k < 3; ++k) {
-        pieces.lo[k][c] =
-            static_cast<std::uint16_t>(std::floor(found->second.lo[k] * HomePieces::kSteps));
-        pieces.hi[k][c] =
-            static_cast<std::uint16_t>(std::ceil(found->second.hi[k] * HomePieces::kSteps));
-      }
-      bound_slab(part.children[c], c, slabs, pieces);
-    }
-    out_.pieces.push_back(pieces);
-  }
-
-  // m.x of at most 381 rounds by less than 2^-43, far below a step of a float there; where it
-  // cancels to nearly 0 the fixed margin covers it.
-  void bound_slab(const Part& child, std::uint32_t c, const BlockSlabs& slabs,
-                  HomePieces& pieces) const {
-    constexpr float kMargin = 0x1p-40f;
-    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-    for (std::uint32_t t : triangles(child))
-      for (std::uint32_t v : corners(t)) {
-        if (shape_.embedding.home_cell[v] != pieces.cell) continue;
-        const Vec3& x = shape_.embedding.local[v];
-        const double along =
-            slabs.normal[0][c] * x.x() + slabs.normal[1][c] * x.y() + slabs.normal[2][c] * x.z();
-        lo = std::min(lo, along);
-        hi = std::max(hi, along);
-      }
-    pieces.slab_lo[c] = std::nextafter(static_cast<float>(lo) - kMargin, -1e9f);
-    pieces.slab_hi[c] = std::nextafter(static_cast<float>(hi) + kMargin, 1e9f);
-  }
-
-  void add_hull(const Part& child) {
-    HullChild hull;
-    const std::set<std::uint32_t> own = owners(child);
-    std::set<std::uint32_t> nodes;
-    for (std::uint32_t cell : own) add_nodes(cell, nodes);
-    for (std::uint32_t t : triangles(child))
-      for (std::uint32_t v : corners(t))
-        if (!own.count(shape_.embedding.home_cell[v])) add_way(partition_.owner[t], v, hull, nodes);
-    hull.node_begin = static_cast<std::uint32_t>(out_.hull_nodes.size());
-    out_.hull_nodes.insert(out_.hull_nodes.end(), nodes.begin(), nodes.end());
-    hull.node_end = static_cast<std::uint32_t>(out_.hull_nodes.size());
-    out_.hulls.push_back(hull);
-  }
-
-  void add_nodes(std::uint32_t cell, std::set<std::uint32_t>& nodes) const {
-    const CornerIds& ids = shape_.lattice->cell_nodes[cell];
-    nodes.insert(ids.begin(), ids.end());
-  }
-
-  void add_way(std::uint32_t owner, std::uint32_t vertex, HullChild& hull,
-               std::set<std::uint32_t>& nodes) const {
-    const std::uint32_t home = shape_.embedding.home_cell[vertex];
-    const GridIndex &from = shape_.lattice->cells[home], &to = shape_.lattice->cells[owner];
-    const auto step = [&](int k) { return static_cast<std::int64_t>(from[k]) - to[k]; };
-    for (int k = 0; k < 3; ++k)
-      if (step(k) < -1 || step(k) > 1) return add_nodes(home, nodes);
+  // The margin covers the rounding of y and of m.y, which is at most 381 and rounds by less than
+  // 2^-42.
+  static void put_lane(const Piece& piece, std::size_t lane, PieceLanes& out) {
+    constexpr double kMargin = 0x1p-40;
+    out.cell[lane] = piece.cell;
+    out.child[lane] = static_cast<std::uint8_t>(piece.child);
     for (int k = 0; k < 3; ++k) {
-      if (step(k) == 0) continue;
-      const double x = shape_.embedding.local[vertex][k];
-      // Outward: 1 - x rounds, the conversion to float too.
-      const auto way = std::nextafter(static_cast<float>(step(k) > 0 ? x : 1.0 - x), 2.0f);
-      hull.reach[k] = std::max(hull.reach[k], std::min(1.0f, way));
+      const double lo = (piece.box.lo[k] - kMargin) * PieceLanes::kSteps;
+      const double hi = (piece.box.hi[k] + kMargin) * PieceLanes::kSteps;
+      out.lo[k][lane] = static_cast<std::int16_t>(std::floor(lo));
+      out.hi[k][lane] = static_cast<std::int16_t>(std::ceil(hi));
     }
+    out.slab_lo[lane] = std::nextafter(static_cast<float>(piece.slab_lo - kMargin), -1e9f);
+    out.slab_hi[lane] = std::nextafter(static_cast<float>(piece.slab_hi + kMargin), 1e9f);
   }
 
   std::uint32_t add_leaf(const Part& part) {
@@ -251,18 +200,6 @@ class TreeBuilder {
   LatticeTree& out_;
 };
 
-std::array<std::vector<LatticeEdge>, 3> edges_of(const Lattice& lattice) {
-  std::array<std::vector<LatticeEdge>, 3> out;
-  for (int k = 0; k < 3; ++k) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
-    for (const CornerIds& ids : lattice.cell_nodes)
-      for (int c = 0; c < 8; ++c)
-        if ((c >> k & 1) == 0) known.insert({ids[c], ids[c | 1 << k]});
-    for (const auto& [from, to] : known) out[k].push_back({from, to});
-  }
-  return out;
-}
-
 template <typename T>
 std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
@@ -273,10 +210,9 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t LatticeTree::bytes() const {
   std::size_t local = 0;
   for (const auto& axis : leaf_local) local += bytes_of(axis);
-  for (const auto& axis : edges) local += bytes_of(axis);
-  return bytes_of(blocks) + bytes_of(pieces) + bytes_of(slabs) + bytes_of(hulls) +
-         bytes_of(hull_nodes) + bytes_of(leaves) + bytes_of(leaf_triangles) +
-         bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local + bytes_of(runs);
+  return bytes_of(blocks) + bytes_of(pieces) + bytes_of(slabs) + bytes_of(leaves) +
+         bytes_of(leaf_triangles) + bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local +
+         bytes_of(runs);
 }
 
 LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use) {
@@ -286,7 +222,6 @@ LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use) {
   TreeBuilder(shape, partition, use, tree).add_block(partition.root);
   tree.leaf_vertices.resize(tree.leaf_vertices.size() + kLeafPadding, 0);
   if (!shape.lattice) return tree;
-  tree.edges = edges_of(*shape.lattice);
   for (auto& axis : tree.leaf_local) axis.resize(axis.size() + kLeafPadding, 0.0);
   return tree;
 }

@@ -18,7 +18,7 @@ double half_width(const Aabb& box) {
 void forget_frame(LazyState& state) {
   state.blocks.begin_frame(state.tree->blocks.size());
   state.leaves.begin_frame(state.tree->leaves.size());
-  state.nodes_known = false;
+  state.cells_known = false;
 }
 
 Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
@@ -70,18 +70,25 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   const double world = mapping_error_bound(state.largest) +
                        4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
   const double common = world * scale * 1.01 + 1e-37;
-  state.slack = round_up(128.0 * kFloatUnit * state.reach + common);
+  state.slack = round_up(256.0 * kFloatUnit * state.reach + common);
   state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 
-Float4 longest_edge(const LazyState& state, const std::vector<LatticeEdge>& edges) {
-  Float4 longest;
-  for (const LatticeEdge& edge : edges) {
-    const Float4 &from = state.near_nodes[edge.from], &to = state.near_nodes[edge.to];
-    for (int k = 0; k < 4; ++k)
-      longest.v[k] = std::max(longest.v[k], std::abs(to.v[k] - from.v[k]));
-  }
-  return longest;
+void add_and_subtract(Float4& low, Float4& high) {
+  const Float4 sum = low + high;
+  high -= low;
+  low = sum;
+}
+
+// Sums and differences of neighbours along one axis after the other. An eighth of each node comes
+// in, so that no term is larger than a coordinate.
+void set_terms(const CornerIds& ids, const std::vector<Float4>& nodes, CellTerms& out) {
+  Float4 f[8];
+  for (int c = 0; c < 8; ++c) f[c] = nodes[ids[c]];
+  for (int c = 0; c < 8; c += 2) add_and_subtract(f[c], f[c + 1]);
+  for (int c : {0, 1, 4, 5}) add_and_subtract(f[c], f[c + 2]);
+  for (int c = 0; c < 4; ++c) add_and_subtract(f[c], f[c + 4]);
+  for (int c = 0; c < 8; ++c) out.term[c] = f[c];
 }
 
 class Validation {
@@ -163,16 +170,19 @@ void place(std::span<LazyState> states) {
   for (LazyState& state : states) place_one(common ? scene : state.box, scale, state);
 }
 
-void find_near_nodes(LazyState& state) {
-  if (state.nodes_known || state.from_vertices) return;
+void find_cells(LazyState& state) {
+  if (state.cells_known || state.from_vertices) return;
+  const double eighth = 0.125 * state.scale;
   state.near_nodes.resize(state.nodes.size());
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (int k = 0; k < 3; ++k)
-      state.near_nodes[n].v[k] =
-          static_cast<float>((state.nodes[n][k] - state.origin[k]) * state.scale);
-  for (int axis = 0; axis < 3; ++axis)
-    state.longest_edge[axis] = longest_edge(state, state.tree->edges[axis]);
-  state.nodes_known = true;
+  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
+    const Vec3 near = (state.nodes[n] - state.origin) * eighth;
+    state.near_nodes[n] << near.cast<float>(), 0.0f;
+  }
+  const std::vector<CornerIds>& cells = state.shape->lattice->cell_nodes;
+  state.cells.resize(cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    set_terms(cells[c], state.near_nodes, state.cells[c]);
+  state.cells_known = true;
 }
 
 void count_made(const LazyState& state, LazyCounters& counters) {

@@ -20,8 +20,12 @@
 
 namespace contactcheck {
 
-struct alignas(16) Float4 {
-  float v[4] = {};
+using Float4 = Eigen::Array4f;  ///< the last is 0
+
+/// The deformed cell as a function of y = 2 x - 1 in [-1, 1]^3: the sum over i of term[i] times the
+/// product of y_k over the bits k of i.
+struct CellTerms {
+  std::array<Float4, 8> term;
 };
 
 /// Bounds of eight children, one lane each. Lanes without a child are empty (lo > hi).
@@ -82,9 +86,9 @@ struct LazyState {
   double reach = 0.0;       ///< largest |coordinate| of the body in its frame
   float slack = 0.0f;       ///< by which bounds are moved outward; derivation in bounds-inl.h
   float slab_slack = 0.0f;  ///< the same for slabs
-  std::vector<Float4> near_nodes;      ///< nodes in the body's frame
-  std::array<Float4, 3> longest_edge;  ///< per lattice axis: largest |component| of its edges
-  bool nodes_known = false;
+  std::vector<Float4> near_nodes;  ///< nodes in the body's frame, over 8
+  std::vector<CellTerms> cells;    ///< in the body's frame
+  bool cells_known = false;
 
   FrameTable<BlockBounds> blocks;
   FrameTable<LeafCache> leaves;
@@ -103,8 +107,8 @@ void place(std::span<LazyState> states);
 /// Adds the blocks, leaves and vertices made in this frame.
 void count_made(const LazyState& state, LazyCounters& counters);
 
-/// Takes the nodes into the body's frame and measures their edges, once per frame. @pre place
-void find_near_nodes(LazyState& state);
+/// Takes the lattice into the body's frame, once per frame. @pre place
+void find_cells(LazyState& state);
 
 /// Checks what the bounds promise for the mapped `vertices`: every block's lane holds the vertices
 /// of every triangle below it. Returns a sentence for the first broken promise, or "".

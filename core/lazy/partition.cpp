@@ -25,6 +25,7 @@ class Splitter {
     for (const Triangle& t : shape.mesh.triangles) {
       Aabb& box = boxes_.emplace_back();
       for (std::uint32_t v : t) box.extend(shape.mesh.vertices[v]);
+      owner_.push_back(shape.lattice ? owner_of(shape.embedding, t) : 0);
     }
   }
 
@@ -50,9 +51,8 @@ class Splitter {
   auto end(const Part& part) { return out_.order.begin() + part.last; }
 
   bool in_one_cell(const Part& part) {
-    const std::uint32_t cell = out_.owner[*begin(part)];
-    return std::all_of(begin(part), end(part),
-                       [&](std::uint32_t t) { return out_.owner[t] == cell; });
+    const std::uint32_t cell = owner_[*begin(part)];
+    return std::all_of(begin(part), end(part), [&](std::uint32_t t) { return owner_[t] == cell; });
   }
 
   /// Largest first; 0: a leaf. Few triangles far from one another in one leaf would meet everything
@@ -158,26 +158,22 @@ class Splitter {
   }
 
   std::uint32_t grid_index(std::uint32_t triangle, int axis) const {
-    return shape_.lattice->cells[out_.owner[triangle]][axis];
+    return shape_.lattice->cells[owner_[triangle]][axis];
   }
 
   const BodyShape& shape_;
   Partition& out_;
   std::vector<Aabb> boxes_;
+  std::vector<std::uint32_t> owner_;  // per triangle: the cell
 };
 
 }  // namespace
 
 Partition partition_triangles(const BodyShape& shape) {
   Partition out;
-  const std::vector<Triangle>& triangles = shape.mesh.triangles;
-  out.order.resize(triangles.size());
+  out.order.resize(shape.mesh.triangles.size());
   std::iota(out.order.begin(), out.order.end(), 0u);
-  out.owner.assign(triangles.size(), 0);
-  if (shape.lattice)
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      out.owner[t] = owner_of(shape.embedding, triangles[t]);
-  out.root = {0, static_cast<std::uint32_t>(triangles.size()), {}};
+  out.root = {0, static_cast<std::uint32_t>(out.order.size()), {}};
   Splitter(shape, out).grow(out.root);
   return out;
 }

@@ -16,7 +16,6 @@ struct Part {
 
 struct Partition {
   std::vector<std::uint32_t> order;  ///< triangles
-  std::vector<std::uint32_t> owner;  ///< per triangle: its owner cell; 0 without a lattice
   Part root;                         ///< with at least one child
 };
 

@@ -1,6 +1,5 @@
-// Boxes and slabs of children bounded by pieces: one expansion of the trilinear map per home cell
-// (lattice_tree.h has the derivation, bounds-inl.h that of the slacks). Compiled once per
-// instruction set (kernels.cpp).
+// Boxes and slabs of pieces, by expansions of the trilinear map (lattice_tree.h has the derivation,
+// bounds-inl.h that of the slacks). Compiled once per instruction set (kernels.cpp).
 
 #if defined(CONTACTCHECK_LAZY_PIECES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_PIECES_INL
@@ -30,40 +29,67 @@ struct Range {
   FloatVec lo, hi;
 };
 
-// Local coordinates of the children in one home cell: exact, quantised values are floats.
-HWY_INLINE FloatVec local_of(const std::array<std::uint16_t, kBlockWidth>& steps,
-                             std::size_t first) {
-  const FloatLanes d;
-  const hn::Rebind<std::uint16_t, FloatLanes> d16;
-  const hn::Rebind<std::int32_t, FloatLanes> d32;
-  const auto wide = hn::PromoteTo(d32, hn::LoadU(d16, steps.data() + first));
-  return hn::Mul(hn::ConvertTo(d, wide), hn::Set(d, static_cast<float>(1 / HomePieces::kSteps)));
-}
-
-struct CellCorners {
-  float axis[3][8];
+// Four floats of every lane, lane by lane and transposed.
+struct Rows {
+  FloatVec part[4];
 };
 
-HWY_INLINE CellCorners corners_in_frame(const LazyState& state, std::uint32_t cell) {
-  CellCorners out;
-  const CornerIds& ids = state.shape->lattice->cell_nodes[cell];
-  for (int c = 0; c < 8; ++c)
-    for (int k = 0; k < 3; ++k) out.axis[k][c] = state.near_nodes[ids[c]].v[k];
+#if HWY_TARGET == HWY_SCALAR
+template <class RowOfLane>
+HWY_INLINE Rows load_rows(RowOfLane&& row) {
+  Rows out;
+  for (int k = 0; k < 4; ++k) out.part[k] = hn::Set(FloatLanes(), row(0)[k]);
   return out;
 }
+#else
+// Lanes i and i + 4 stand in one vector: the transposition works on blocks of four.
+template <class RowOfLane>
+HWY_INLINE FloatVec row_of_blocks(RowOfLane&& row, std::size_t i) {
+  const hn::CappedTag<float, 4> four;
+  if constexpr (hn::MaxLanes(FloatLanes()) == 4) {
+    return hn::Load(four, row(i));
+  } else {
+    return hn::Combine(FloatLanes(), hn::Load(four, row(i + 4)), hn::Load(four, row(i)));
+  }
+}
 
-// Middle and half-widths of each lane's piece in one home cell: exact.
-struct PieceLanes {
-  FloatVec middle[3], half[3];
+template <class RowOfLane>
+HWY_INLINE Rows load_rows(RowOfLane&& row) {
+  const FloatLanes d;
+  const hn::RepartitionToWide<FloatLanes> pairs;
+  const auto a = row_of_blocks(row, 0), b = row_of_blocks(row, 1);
+  const auto c = row_of_blocks(row, 2), e = row_of_blocks(row, 3);
+  const auto wide = [&](auto v) HWY_ATTR { return hn::BitCast(pairs, v); };
+  const auto xy0 = wide(hn::InterleaveLower(d, a, b)), xy1 = wide(hn::InterleaveLower(d, c, e));
+  const auto zw0 = wide(hn::InterleaveUpper(d, a, b)), zw1 = wide(hn::InterleaveUpper(d, c, e));
+  return {{hn::BitCast(d, hn::InterleaveLower(pairs, xy0, xy1)),
+           hn::BitCast(d, hn::InterleaveUpper(pairs, xy0, xy1)),
+           hn::BitCast(d, hn::InterleaveLower(pairs, zw0, zw1)),
+           hn::BitCast(d, hn::InterleaveUpper(pairs, zw0, zw1))}};
+}
+#endif
+
+// Bounds of y, of the lanes from `first` on: exact, quantised values are floats.
+HWY_INLINE FloatVec steps_of(const std::array<std::int16_t, kBlockWidth>& steps,
+                             std::size_t first) {
+  const FloatLanes d;
+  const hn::Rebind<std::int16_t, FloatLanes> d16;
+  const hn::Rebind<std::int32_t, FloatLanes> d32;
+  return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, steps.data() + first)));
+}
+
+// Middle and half-widths of each lane's piece: exact.
+struct Middles {
+  FloatVec at[3], half[3];
 };
 
-HWY_INLINE PieceLanes piece_lanes(const HomePieces& home, std::size_t first) {
-  const auto half = hn::Set(FloatLanes(), 0.5f);
-  PieceLanes out;
+HWY_INLINE Middles middles_of(const PieceLanes& pieces, std::size_t first) {
+  const auto half_step = hn::Set(FloatLanes(), static_cast<float>(0.5 / PieceLanes::kSteps));
+  Middles out;
   for (int k = 0; k < 3; ++k) {
-    const auto lo = local_of(home.lo[k], first), hi = local_of(home.hi[k], first);
-    out.middle[k] = hn::Mul(half, hn::Add(lo, hi));
-    out.half[k] = hn::Mul(half, hn::Sub(hi, lo));
+    const auto lo = steps_of(pieces.lo[k], first), hi = steps_of(pieces.hi[k], first);
+    out.at[k] = hn::Mul(half_step, hn::Add(lo, hi));
+    out.half[k] = hn::Mul(half_step, hn::Sub(hi, lo));
   }
   return out;
 }
@@ -73,29 +99,39 @@ struct Expansion {
   FloatVec value, gradient[3], st, su, tu, stu;
 };
 
-// `corner`: the function at the cell's nodes.
-HWY_INLINE Expansion expand(const float (&corner)[8], const FloatVec (&at)[3]) {
-  const FloatLanes d;
-  float edge[4];
-  FloatVec along_s[4];
-  for (int j = 0; j < 4; ++j) {
-    edge[j] = corner[2 * j + 1] - corner[2 * j];
-    along_s[j] = hn::MulAdd(at[0], hn::Set(d, edge[j]), hn::Set(d, corner[2 * j]));
-  }
-  const float near_st = edge[1] - edge[0], far_st = edge[3] - edge[2];
-  const auto near_t = hn::Sub(along_s[1], along_s[0]), far_t = hn::Sub(along_s[3], along_s[2]);
-  const auto near = hn::MulAdd(at[1], near_t, along_s[0]);
-  const auto near_s = hn::MulAdd(at[1], hn::Set(d, near_st), hn::Set(d, edge[0]));
-  const auto far_s = hn::MulAdd(at[1], hn::Set(d, far_st), hn::Set(d, edge[2]));
+// `term`: as in CellTerms.
+HWY_INLINE Expansion expand(const FloatVec (&term)[8], const FloatVec (&at)[3]) {
   Expansion out;
-  out.gradient[2] = hn::Sub(hn::MulAdd(at[1], far_t, along_s[2]), near);
-  out.su = hn::Sub(far_s, near_s);
-  out.tu = hn::Sub(far_t, near_t);
-  out.stu = hn::Set(d, far_st - near_st);
-  out.value = hn::MulAdd(at[2], out.gradient[2], near);
-  out.gradient[0] = hn::MulAdd(at[2], out.su, near_s);
-  out.gradient[1] = hn::MulAdd(at[2], out.tu, near_t);
-  out.st = hn::MulAdd(at[2], out.stu, hn::Set(d, near_st));
+  out.stu = term[7];
+  out.st = hn::MulAdd(at[2], term[7], term[3]);
+  out.su = hn::MulAdd(at[1], term[7], term[5]);
+  out.tu = hn::MulAdd(at[0], term[7], term[6]);
+  const auto at_t0 = hn::MulAdd(at[2], term[5], term[1]);
+  const auto at_s0 = hn::MulAdd(at[2], term[6], term[2]);
+  out.gradient[0] = hn::MulAdd(at[1], out.st, at_t0);
+  out.gradient[1] = hn::MulAdd(at[0], out.st, at_s0);
+  out.gradient[2] = hn::MulAdd(at[1], out.tu, hn::MulAdd(at[0], term[5], term[4]));
+  const auto edge = hn::MulAdd(at[2], term[4], term[0]);
+  out.value = hn::MulAdd(at[0], out.gradient[0], hn::MulAdd(at[1], at_s0, edge));
+  return out;
+}
+
+// The three coordinates of each lane's cell about the middle of its piece.
+struct Expansions {
+  Expansion axis[3];
+};
+
+HWY_INLINE Expansions expand(const LazyState& state, const PieceLanes& pieces, std::size_t first,
+                             const FloatVec (&at)[3]) {
+  FloatVec term[3][8];
+  for (int i = 0; i < 8; ++i) {
+    const Rows rows = load_rows([&](std::size_t lane) HWY_ATTR {
+      return state.cells[pieces.cell[first + lane]].term[i].data();
+    });
+    for (int k = 0; k < 3; ++k) term[k][i] = rows.part[k];
+  }
+  Expansions out;
+  for (int k = 0; k < 3; ++k) out.axis[k] = expand(term[k], at);
   return out;
 }
 
@@ -128,16 +164,16 @@ HWY_INLINE FloatVec signed_steps(const std::array<std::int8_t, kBlockWidth>& ste
   return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, steps.data() + first)));
 }
 
-// n: the image of the surface's normal, by the cofactors of the Jacobian in the block's first home
-// cell. Whatever it is, bounds along it are right; this one makes them tight.
-HWY_INLINE SlabDirection slab_direction(const Expansion (&x)[3], const BlockSlabs& slabs,
+// n: the image of the surface's normal, by the cofactors of the Jacobian. Whatever it is, bounds
+// along it are right; this one makes them tight.
+HWY_INLINE SlabDirection slab_direction(const Expansions& x, const BlockSlabs& slabs,
                                         std::size_t first) {
   const FloatLanes d;
   SlabDirection out;
   for (int k = 0; k < 3; ++k) out.local[k] = signed_steps(slabs.normal[k], first);
   auto square = hn::Zero(d), length2 = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
-    const auto &a = x[(k + 1) % 3].gradient, &b = x[(k + 2) % 3].gradient;
+    const auto &a = x.axis[(k + 1) % 3].gradient, &b = x.axis[(k + 2) % 3].gradient;
     const auto tu = hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(b[1], a[2]));
     const auto us = hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(b[2], a[0]));
     const auto st = hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(b[0], a[1]));
@@ -155,10 +191,10 @@ HWY_INLINE SlabDirection slab_direction(const Expansion (&x)[3], const BlockSlab
 }
 
 // n . X out of the expansions of the three coordinates.
-HWY_INLINE Expansion along(const SlabDirection& n, const Expansion (&x)[3]) {
+HWY_INLINE Expansion along(const SlabDirection& n, const Expansions& x) {
   const auto sum = [&](auto part) HWY_ATTR {
-    return hn::MulAdd(n.world[0], part(x[0]),
-                      hn::MulAdd(n.world[1], part(x[1]), hn::Mul(n.world[2], part(x[2]))));
+    const auto last = hn::Mul(n.world[2], part(x.axis[2]));
+    return hn::MulAdd(n.world[0], part(x.axis[0]), hn::MulAdd(n.world[1], part(x.axis[1]), last));
   };
   Expansion out;
   out.value = sum([](const Expansion& e) HWY_ATTR { return e.value; });
@@ -171,79 +207,24 @@ HWY_INLINE Expansion along(const SlabDirection& n, const Expansion (&x)[3]) {
   return out;
 }
 
-// n . X over the vertices of each lane in one home cell; derivation in lattice_tree.h.
-HWY_INLINE Range slab_range(const Expansion& f, const HomePieces& home, const PieceLanes& piece,
+// n . X over the vertices of each lane's piece; derivation in lattice_tree.h.
+HWY_INLINE Range slab_range(const Expansion& f, const PieceLanes& pieces, const Middles& middle,
                             const SlabDirection& n, std::size_t first) {
   const FloatLanes d;
-  auto slope = hn::Zero(d), middle = hn::Zero(d);
+  auto slope = hn::Zero(d), centre = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
     slope = hn::MulAdd(f.gradient[k], n.local[k], slope);
-    middle = hn::MulAdd(piece.middle[k], n.local[k], middle);
+    centre = hn::MulAdd(middle.at[k], n.local[k], centre);
   }
   slope = hn::Mul(slope, n.inverse_square);
-  auto wide = curvature(f, piece.half);
+  auto wide = curvature(f, middle.half);
   for (int k = 0; k < 3; ++k)
     wide =
-        hn::MulAdd(hn::Abs(hn::NegMulAdd(slope, n.local[k], f.gradient[k])), piece.half[k], wide);
-  const auto one = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_lo.data() + first), middle));
-  const auto other = hn::Mul(slope, hn::Sub(hn::LoadU(d, home.slab_hi.data() + first), middle));
+        hn::MulAdd(hn::Abs(hn::NegMulAdd(slope, n.local[k], f.gradient[k])), middle.half[k], wide);
+  const auto one = hn::Mul(slope, hn::Sub(hn::LoadU(d, pieces.slab_lo.data() + first), centre));
+  const auto other = hn::Mul(slope, hn::Sub(hn::LoadU(d, pieces.slab_hi.data() + first), centre));
   return {hn::Sub(hn::Add(f.value, hn::Min(one, other)), wide),
           hn::Add(hn::Add(f.value, hn::Max(one, other)), wide)};
-}
-
-HWY_INLINE void join(Range& total, const Range& range, hn::Mask<FloatLanes> present) {
-  const auto none = hn::Set(FloatLanes(), kInfinity);
-  total.lo = hn::Min(total.lo, hn::IfThenElse(present, range.lo, none));
-  total.hi = hn::Max(total.hi, hn::IfThenElse(present, range.hi, hn::Neg(none)));
-}
-
-HWY_INLINE void store_slabs(const Range& range, const SlabDirection& n, float slack,
-                            std::size_t first, LaneSlabs& out) {
-  const FloatLanes d;
-  const auto half = hn::Set(d, 0.5f), wide = hn::Set(d, slack);
-  // Not where there is no child, nor where bounds overflowed.
-  const auto sound =
-      hn::And(hn::Le(range.lo, range.hi), hn::Lt(hn::Sub(range.hi, range.lo), hn::Set(d, kNoSlab)));
-  const auto middle = hn::Mul(half, hn::Add(range.lo, range.hi));
-  const auto reach = hn::MulAdd(half, hn::Sub(range.hi, range.lo), wide);
-  for (int k = 0; k < 3; ++k)
-    hn::Store(hn::IfThenElseZero(sound, n.world[k]), d, out.normal[k] + first);
-  hn::Store(hn::IfThenElseZero(sound, middle), d, out.middle + first);
-  hn::Store(hn::IfThenElse(sound, reach, hn::Set(d, kNoSlab)), d, out.half + first);
-}
-
-HWY_INLINE void store_boxes(const Range (&range)[3], float slack, std::size_t first,
-                            LaneBoxes& out) {
-  const FloatLanes d;
-  const auto wide = hn::Set(d, slack);
-  for (int k = 0; k < 3; ++k) {
-    hn::Store(hn::Sub(range[k].lo, wide), d, out.lo[k] + first);
-    hn::Store(hn::Add(range[k].hi, wide), d, out.hi[k] + first);
-  }
-}
-
-// The block's first home cell is that of most of its vertices.
-HWY_NOINLINE void bound_pieces(const LazyState& state, const TreeBlock& block, BlockBounds& out) {
-  const FloatLanes d;
-  const Range nothing{hn::Set(d, kInfinity), hn::Set(d, -kInfinity)};
-  for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(d)) {
-    SlabDirection n;
-    Range total[3] = {nothing, nothing, nothing}, slab = nothing;
-    for (std::uint32_t p = block.begin; p < block.end; ++p) {
-      const HomePieces& home = state.tree->pieces[p];
-      const CellCorners corners = corners_in_frame(state, home.cell);
-      const PieceLanes piece = piece_lanes(home, first);
-      Expansion x[3];
-      for (int k = 0; k < 3; ++k) x[k] = expand(corners.axis[k], piece.middle);
-      if (p == block.begin) n = slab_direction(x, state.tree->slabs[block.slabs], first);
-      const auto bits = static_cast<std::uint8_t>(home.children >> first);
-      const auto present = hn::LoadMaskBits(d, &bits);
-      for (int k = 0; k < 3; ++k) join(total[k], range_over(x[k], piece.half), present);
-      join(slab, slab_range(along(n, x), home, piece, n, first), present);
-    }
-    store_boxes(total, state.slack, first, out.box);
-    store_slabs(slab, n, state.slab_slack, first, out.slab);
-  }
 }
 
 }  // namespace HWY_NAMESPACE

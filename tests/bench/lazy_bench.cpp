@@ -57,7 +57,7 @@ class Instances {
         begin_frame_by_nodes(states_[i], nodes_[i]);
     }
     place(states_);
-    for (LazyState& state : states_) find_near_nodes(state);
+    for (LazyState& state : states_) find_cells(state);
   }
   void bound_all(const LazyKernels& kernels) {
     for (LazyState& state : states_) kernels.bound_all(state, scratch_.arena);

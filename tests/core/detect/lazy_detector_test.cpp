@@ -224,7 +224,7 @@ std::vector<ElementPair> collided(const std::string& isa, const std::vector<Body
   LazyScratch scratch;
   place(states);
   for (LazyState& state : states) {
-    find_near_nodes(state);
+    find_cells(state);
     if (state.from_vertices) lazy_kernels(isa).bound_all(state, scratch.arena);
   }
   std::vector<ElementPair> out;

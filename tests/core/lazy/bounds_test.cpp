@@ -140,16 +140,15 @@ TEST(LazyBounds, AreTestedWithTrianglesBetweenCellsThatAreNoNeighbours) {
     far += !neighbours(cell(0), cell(1)) && !neighbours(cell(1), cell(2));
   }
   EXPECT_GT(far, 20);
-  EXPECT_TRUE(make_lattice_tree(shape).blocks[0].hull);
 }
 
 // Applies `spoil(lo, hi)` to one lane at a time; the lanes that validate() does not miss.
 template <typename Spoil>
-int reported_lanes(OneBody& body, bool hull, Spoil&& spoil) {
+int reported_lanes(OneBody& body, Spoil&& spoil) {
   int reported = 0;
   for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b) {
     const TreeBlock& block = body.tree().blocks[b];
-    for (std::uint32_t c = 0; block.hull == hull && c < block.children; ++c) {
+    for (std::uint32_t c = 0; c < block.children; ++c) {
       LaneBoxes& boxes = body.state().blocks.find(b)->box;
       const LaneBoxes before = boxes;
       for (int k = 0; k < 3; ++k) spoil(boxes.lo[k][c], boxes.hi[k][c]);
@@ -162,10 +161,9 @@ int reported_lanes(OneBody& body, bool hull, Spoil&& spoil) {
   return reported;
 }
 
-int lanes_of(const LatticeTree& tree, bool hull) {
+int lanes_of(const LatticeTree& tree) {
   int lanes = 0;
-  for (const TreeBlock& block : tree.blocks)
-    if (block.hull == hull) lanes += static_cast<int>(block.children);
+  for (const TreeBlock& block : tree.blocks) lanes += static_cast<int>(block.children);
   return lanes;
 }
 
@@ -186,21 +184,17 @@ void move_down(float& lo, float& hi) {
 }
 
 TEST(LazyBounds, ShrunkOrMovedByOnePercentAreReported) {
-  // Boxes on their nodes: a hull of cells is as tight as it can be only where vertices are nodes.
-  for (const auto& [shape, hull] :
-       {std::pair(test::box_on_its_nodes(10), true),
-        std::pair(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2}), false)})
+  for (const ShapePtr& shape :
+       {test::box_on_its_nodes(10), make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2})})
     for (const std::string& isa : lazy_isas()) {
       OneBody body(shape, false);
       body.begin(rest_nodes_at(*shape, Vec3(3, 4, 5)));
       ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
-      const int lanes = lanes_of(body.tree(), hull);
+      const int lanes = lanes_of(body.tree());
       EXPECT_GE(lanes, 8);
-      // Hulls of cells with vertices beyond them are wider than they need be on some side.
-      const int most = hull ? 95 * lanes / 100 : lanes;
-      EXPECT_GE(reported_lanes(body, hull, shrink), most) << isa << " " << hull;
-      EXPECT_GE(reported_lanes(body, hull, move_up), most) << isa << " " << hull;
-      EXPECT_GE(reported_lanes(body, hull, move_down), most) << isa << " " << hull;
+      EXPECT_EQ(reported_lanes(body, shrink), lanes) << isa;
+      EXPECT_EQ(reported_lanes(body, move_up), lanes) << isa;
+      EXPECT_EQ(reported_lanes(body, move_down), lanes) << isa;
     }
 }
 
@@ -236,8 +230,7 @@ TEST(LazyBounds, SlabsAreThinAcrossTheSurfaceUnderDeformation) {
   ASSERT_EQ(body.broken(lazy_kernels()), "");
   int lanes = 0, thin = 0;
   for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
-    for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
-         ++c, ++lanes) {
+    for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c, ++lanes) {
       const BlockBounds& bounds = *body.state().blocks.find(b);
       float longest = 0.0f;
       for (int k = 0; k < 3; ++k)
@@ -254,12 +247,10 @@ TEST(LazyBounds, OfRefittedBodiesShrunkOrMovedByOnePercentAreReportedUnderDeform
     OneBody body(named.shape, true);
     body.begin(deformed_nodes(body.shape(), {0.3}, random));
     ASSERT_EQ(body.broken(lazy_kernels()), "");
-    for (bool hull : {false, true}) {
-      const int lanes = lanes_of(body.tree(), hull);
-      EXPECT_EQ(reported_lanes(body, hull, shrink), lanes) << named.name;
-      EXPECT_EQ(reported_lanes(body, hull, move_up), lanes) << named.name;
-      EXPECT_EQ(reported_lanes(body, hull, move_down), lanes) << named.name;
-    }
+    const int lanes = lanes_of(body.tree());
+    EXPECT_EQ(reported_lanes(body, shrink), lanes) << named.name;
+    EXPECT_EQ(reported_lanes(body, move_up), lanes) << named.name;
+    EXPECT_EQ(reported_lanes(body, move_down), lanes) << named.name;
   }
 }
 
@@ -277,14 +268,12 @@ TEST(LazyBounds, OfPiecesAreTightAtRest) {
       OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2}), false);
       body.begin(rest_nodes_at(body.shape(), offset));
       ASSERT_EQ(body.broken(lazy_kernels(isa)), "");
-      ASSERT_FALSE(body.tree().blocks[0].hull);
       const Vec3 cell = body.state().scale * body.shape().lattice->cell_box(0).extent();
       for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
-        for (std::uint32_t c = 0; !body.tree().blocks[b].hull && c < body.tree().blocks[b].children;
-             ++c)
+        for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c)
           for (int k = 0; k < 3; ++k)
             ASSERT_LE(excess(body, b, c, k),
-                      cell[k] / HomePieces::kSteps + 2.0 * body.state().slack)
+                      0.5005 * cell[k] / PieceLanes::kSteps + 2.0 * body.state().slack)
                 << isa << " block " << b << " lane " << c;
     }
 }

@@ -76,7 +76,7 @@ class OneBody {
     }
     states_[1].box = {Vec3::Constant(-company), Vec3::Constant(company)};
     place({states_.data(), company > 0.0 ? 2u : 1u});
-    find_near_nodes(state());
+    find_cells(state());
   }
   /// Bounds everything; "" or the first broken promise.
   std::string broken(const LazyKernels& kernels) {
@@ -139,8 +139,7 @@ inline TriangleMesh sheet(int n) {
   return mesh;
 }
 
-/// The box [0, n]^3 whose vertices are lattice nodes, in a lattice without padding: at rest, hulls
-/// of many cells are as tight as they can be.
+/// The box [0, n]^3 whose vertices are lattice nodes, in a lattice without padding.
 inline ShapePtr box_on_its_nodes(int n) {
   auto shape = std::make_shared<BodyShape>();
   shape->mesh = box_mesh(Vec3::Zero(), Vec3::Constant(n), n);

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "core/lazy/partition.h"
 #include "tests/core/lazy/one_body.h"
@@ -57,11 +59,6 @@ void for_each_tree(Check&& check) {
   }
 }
 
-// A leaf under a hull, bounded by pieces.
-bool holds_one_leaf(const TreeBlock& block) {
-  return block.children == 1 && block.child[0].leaf() && !block.hull;
-}
-
 TEST(LatticeTree, HoldsEveryTriangleInExactlyOneLeaf) {
   for_each_tree([](const BodyShape& shape, const LatticeTree& tree) {
     std::vector<int> found(shape.mesh.triangles.size(), 0);
@@ -75,7 +72,7 @@ TEST(LatticeTree, ReachesEveryBlockAndLeafFromOneParentOfLowerIndex) {
   for_each_tree([](const BodyShape&, const LatticeTree& tree) {
     std::vector<int> blocks(tree.blocks.size(), 0), leaves(tree.leaves.size(), 0);
     for (std::uint32_t b = 0; b < tree.blocks.size(); ++b) {
-      EXPECT_GE(tree.blocks[b].children, b == 0 || holds_one_leaf(tree.blocks[b]) ? 1u : 2u);
+      EXPECT_GE(tree.blocks[b].children, b == 0 ? 1u : 2u);
       EXPECT_LE(tree.blocks[b].children, kBlockWidth);
       for (std::uint32_t c = 0; c < tree.blocks[b].children; ++c) {
         const TreeChild child = tree.blocks[b].child[c];
@@ -170,40 +167,53 @@ TEST(LatticeTree, CopiesTheLocalCoordinatesAndPadsThem) {
   });
 }
 
-// The pieces of a block's lane hold the local coordinates of `vertex`, in its home cell.
-bool held_by_pieces(const LatticeTree& tree, const TreeBlock& block, std::uint32_t lane,
-                    const Embedding& embedding, std::uint32_t vertex) {
-  for (std::uint32_t p = block.begin; p < block.end; ++p) {
-    const HomePieces& home = tree.pieces[p];
-    if (home.cell != embedding.home_cell[vertex] || !(home.children >> lane & 1)) continue;
-    const Vec3& x = embedding.local[vertex];
-    bool held = true;
-    for (int k = 0; k < 3; ++k)
-      held = held && home.lo[k][lane] / HomePieces::kSteps <= x[k] &&
-             x[k] <= home.hi[k][lane] / HomePieces::kSteps;
-    return held;
-  }
-  return false;
+struct Lane {
+  const PieceLanes& pieces;
+  std::size_t lane;
+  double lo(int k) const { return pieces.lo[k][lane] / PieceLanes::kSteps; }
+  double hi(int k) const { return pieces.hi[k][lane] / PieceLanes::kSteps; }
+};
+
+// Of a child, in one home cell: the lanes that hold it, repeats among them.
+std::vector<Lane> lanes_of(const LatticeTree& tree, const TreeBlock& block, std::uint32_t child,
+                           std::uint32_t cell) {
+  std::vector<Lane> out;
+  for (std::uint32_t p = block.begin; p < block.end; ++p)
+    for (std::size_t lane = 0; lane < kBlockWidth; ++lane)
+      if (tree.pieces[p].child[lane] == child && tree.pieces[p].cell[lane] == cell)
+        out.push_back({tree.pieces[p], lane});
+  return out;
+}
+
+Vec3 centred(const Embedding& embedding, std::uint32_t vertex) {
+  return 2.0 * embedding.local[vertex] - Vec3::Ones();
+}
+
+bool held(const Lane& lane, const Vec3& y) {
+  for (int k = 0; k < 3; ++k)
+    if (!(lane.lo(k) <= y[k] && y[k] <= lane.hi(k))) return false;
+  return true;
 }
 
 TEST(LatticeTree, QuantisesLocalCoordinatesOutward) {
-  int pieces_seen = 0;
+  int vertices = 0;
   for_each_tree([&](const BodyShape& shape, const LatticeTree& tree) {
-    if (!shape.lattice) {
-      EXPECT_TRUE(tree.pieces.empty() && tree.hulls.empty());
-    }
+    EXPECT_EQ(tree.pieces.empty(), !shape.lattice);
     for (const TreeBlock& block : tree.blocks)
-      for (std::uint32_t c = 0; shape.lattice && !block.hull && c < block.children; ++c)
+      for (std::uint32_t c = 0; shape.lattice && c < block.children; ++c)
         for (std::uint32_t t : triangles_under(tree, block.child[c]))
           for (std::uint32_t v : shape.mesh.triangles[t]) {
-            ASSERT_TRUE(held_by_pieces(tree, block, c, shape.embedding, v)) << v;
-            ++pieces_seen;
+            const auto lanes = lanes_of(tree, block, c, shape.embedding.home_cell[v]);
+            ASSERT_FALSE(lanes.empty()) << v;
+            for (const Lane& lane : lanes) ASSERT_TRUE(held(lane, centred(shape.embedding, v)));
+            ++vertices;
           }
   });
-  EXPECT_GT(pieces_seen, 10000);
+  EXPECT_GT(vertices, 10000);
 }
 
-TEST(LatticeTree, QuantisesByLessThanOneStep) {
+TEST(LatticeTree, QuantisesByAboutOneStep) {
+  constexpr double kStep = 1.001 / PieceLanes::kSteps;
   const ShapePtr shape = make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {1, 1, 1});
   const LatticeTree tree = make_lattice_tree(*shape);
   for (const TreeBlock& block : tree.blocks) {
@@ -211,30 +221,38 @@ TEST(LatticeTree, QuantisesByLessThanOneStep) {
     for (std::uint32_t c = 0; c < block.children; ++c) {
       Aabb local;
       for (std::uint32_t t : triangles_under(tree, block.child[c]))
-        for (std::uint32_t v : shape->mesh.triangles[t]) local.extend(shape->embedding.local[v]);
+        for (std::uint32_t v : shape->mesh.triangles[t]) local.extend(centred(shape->embedding, v));
+      const Lane lane{tree.pieces[block.begin], c};
       for (int k = 0; k < 3; ++k) {
-        const HomePieces& home = tree.pieces[block.begin];
-        EXPECT_LT(local.lo[k] * HomePieces::kSteps - home.lo[k][c], 1.0);
-        EXPECT_LT(home.hi[k][c] - local.hi[k] * HomePieces::kSteps, 1.0);
+        EXPECT_LT(local.lo[k] - lane.lo(k), kStep);
+        EXPECT_LT(lane.hi(k) - local.hi[k], kStep);
       }
     }
   }
 }
 
-TEST(LatticeTree, BoundsBlocksOfManyCellsByHullsAndOfFewByPieces) {
-  for_each_tree([](const BodyShape&, const LatticeTree& tree) {
-    std::size_t hulls = 0, pieces = 0;
+// Lanes that do not repeat lane 0 are full but for the last of a block.
+TEST(LatticeTree, GivesTheFirstLanesToTheChildrenAndPacksTheOthers) {
+  int packed = 0;
+  for_each_tree([&](const BodyShape& shape, const LatticeTree& tree) {
+    std::uint32_t next = 0;
     for (const TreeBlock& block : tree.blocks) {
-      if (block.hull) {
-        EXPECT_EQ(block.end - block.begin, block.children);
-      }
-      (block.hull ? hulls : pieces) += block.end - block.begin;
+      if (!shape.lattice) continue;
+      EXPECT_EQ(block.begin, next);
+      next = block.end;
+      std::set<std::pair<std::uint32_t, std::uint32_t>> distinct;
+      for (std::uint32_t c = 0; c < block.children; ++c)
+        EXPECT_EQ(tree.pieces[block.begin].child[c], c);
+      for (std::uint32_t p = block.begin; p < block.end; ++p)
+        for (std::size_t lane = 0; lane < kBlockWidth; ++lane)
+          distinct.insert({tree.pieces[p].child[lane], tree.pieces[p].cell[lane]});
+      const std::size_t others = distinct.size() - block.children;
+      EXPECT_EQ(block.end - block.begin, 1 + (others + kBlockWidth - 1) / kBlockWidth);
+      packed += others > kBlockWidth;
     }
-    EXPECT_EQ(hulls, tree.hulls.size());
-    EXPECT_EQ(pieces, tree.pieces.size());
+    EXPECT_EQ(next, tree.pieces.size());
   });
-  EXPECT_TRUE(make_lattice_tree(*shapes()[2].shape).blocks[0].hull);
-  EXPECT_FALSE(make_lattice_tree(*shapes()[0].shape).blocks[0].hull);
+  EXPECT_GT(packed, 10);
 }
 
 TEST(LatticeTree, FillsItsLeavesUnderACoarseLattice) {
@@ -250,27 +268,20 @@ TEST(LatticeTree, FillsItsLeavesUnderACoarseLattice) {
 
 bool same(const LatticeTree& a, const LatticeTree& b) {
   const auto blocks = [](const TreeBlock& x, const TreeBlock& y) {
-    return std::tie(x.children, x.hull, x.begin, x.end) ==
-               std::tie(y.children, y.hull, y.begin, y.end) &&
+    return std::tie(x.children, x.begin, x.end) == std::tie(y.children, y.begin, y.end) &&
            std::equal(x.child.begin(), x.child.end(), y.child.begin(),
                       [](TreeChild i, TreeChild j) { return i.value == j.value; });
   };
-  const auto pieces = [](const HomePieces& x, const HomePieces& y) {
-    return std::tie(x.cell, x.children, x.lo, x.hi, x.slab_lo, x.slab_hi) ==
-           std::tie(y.cell, y.children, y.lo, y.hi, y.slab_lo, y.slab_hi);
+  const auto pieces = [](const PieceLanes& x, const PieceLanes& y) {
+    return std::tie(x.cell, x.child, x.lo, x.hi, x.slab_lo, x.slab_hi) ==
+           std::tie(y.cell, y.child, y.lo, y.hi, y.slab_lo, y.slab_hi);
   };
   const auto slabs = [](const BlockSlabs& x, const BlockSlabs& y) { return x.normal == y.normal; };
-  const auto hulls = [](const HullChild& x, const HullChild& y) {
-    return std::tie(x.node_begin, x.node_end, x.reach) ==
-           std::tie(y.node_begin, y.node_end, y.reach);
-  };
   return std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), blocks) &&
          std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(), pieces) &&
          std::equal(a.slabs.begin(), a.slabs.end(), b.slabs.begin(), b.slabs.end(), slabs) &&
-         std::equal(a.hulls.begin(), a.hulls.end(), b.hulls.begin(), b.hulls.end(), hulls) &&
-         a.hull_nodes == b.hull_nodes && a.leaf_triangles == b.leaf_triangles &&
-         a.leaf_corners == b.leaf_corners && a.leaf_vertices == b.leaf_vertices &&
-         a.leaf_local == b.leaf_local;
+         a.leaf_triangles == b.leaf_triangles && a.leaf_corners == b.leaf_corners &&
+         a.leaf_vertices == b.leaf_vertices && a.leaf_local == b.leaf_local;
 }
 
 TEST(LatticeTree, IsTheSameEveryTime) {

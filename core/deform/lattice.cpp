@@ -118,8 +118,12 @@ Aabb Lattice::cell_box(std::uint32_t cell) const {
 Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding) {
   CONTACTCHECK_INVARIANT(resolution.x > 0 && resolution.y > 0 && resolution.z > 0,
                          "a lattice has at least one cell per axis");
+  return make_lattice_on_lines(mesh, make_lines(mesh, resolution, padding));
+}
+
+Lattice make_lattice_on_lines(const TriangleMesh& mesh, std::array<std::vector<double>, 3> lines) {
   Lattice lattice;
-  lattice.lines = make_lines(mesh, resolution, padding);
+  lattice.lines = std::move(lines);
   const Grid grid(lattice.lines);
   lattice.cells = kept_cells(grid, mesh);
   number_nodes(grid, lattice);

@@ -46,6 +46,10 @@ struct Resolution {
 /// @throws InputError when the mesh lies too far out for grid lines that differ as doubles
 Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding);
 
+/// A lattice on given grid lines, with the same cells kept. @pre as Lattice::lines; the mesh lies
+/// within them
+Lattice make_lattice_on_lines(const TriangleMesh& mesh, std::array<std::vector<double>, 3> lines);
+
 /// The resolution of near-cubic cells whose lattice keeps a number of cells nearest to `wanted`.
 Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, double padding);
 

@@ -29,7 +29,7 @@ struct RunArguments {
 
 /// What to list; nothing chosen: everything, with one line each.
 struct ListArguments {
-  bool suites = false, scenes = false, detectors = false;
+  bool suites = false, scenes = false, families = false, detectors = false;
 };
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
@@ -37,6 +37,9 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// tables.
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
+/// Prints the exact answers to families of hard cases (all, if none is named); `write` puts them
+/// into fixtures/hard/expected.json.
+int truth_command(const std::vector<std::string>& families, bool write);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

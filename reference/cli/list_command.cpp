@@ -68,7 +68,8 @@ class Sections {
 
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog) {
   const auto fixtures = fixtures_directory();
-  const bool all = !arguments.suites && !arguments.scenes && !arguments.detectors;
+  const bool all =
+      !arguments.suites && !arguments.scenes && !arguments.families && !arguments.detectors;
   Sections sections;
   if (all || arguments.suites) {
     sections.next();
@@ -77,6 +78,10 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   if (all || arguments.scenes) {
     sections.next();
     print_entries("Scenes", list_scenes(fixtures));
+  }
+  if (arguments.families) {
+    sections.next();
+    print_entries("Families of hard cases", list_families(fixtures));
   }
   if (all || arguments.detectors) {
     sections.next();

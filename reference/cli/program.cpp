@@ -27,7 +27,8 @@ struct Choices {
   std::string results_file, job_file;
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
-  bool no_timing = false;
+  std::vector<std::string> families;
+  bool no_timing = false, write_truth = false;
   int progress_fd = -1;
 };
 
@@ -122,6 +123,7 @@ void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
   list->add_flag("--scenes", c.list.scenes, "scenes only");
+  list->add_flag("--families", c.list.families, "families of hard cases only");
   list->add_flag("--detectors", c.list.detectors,
                  "detectors only, with what each claims and its options");
   list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
@@ -130,6 +132,13 @@ void add_others(CLI::App& app, Choices& c) {
   report->add_option("--format", c.formats, "formats: md")->delimiter(',');
   report->add_option("--out", c.report_out, "folder (default out)");
   report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");
+  CLI::App* truth =
+      app.add_subcommand("truth", "what is really there in each case of a family of hard cases");
+  truth->add_option("families", c.families, "their ids; default: all");
+  truth->add_flag(
+      "--write", c.write_truth,
+      "keep the answers in fixtures/hard/expected.json, which tests hold the oracle to");
+  truth->footer("Example:\n  contactcheck truth hard-vertex-face");
   CLI::App* worker = app.add_subcommand("worker", "")->group("");
   worker->add_option("job", c.job_file)->required();
   worker->add_option("--progress-fd", c.progress_fd);
@@ -138,6 +147,7 @@ void add_others(CLI::App& app, Choices& c) {
 int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("worker")) return run_worker(c.job_file, catalog, c.progress_fd);
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
+  if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);

@@ -107,6 +107,7 @@ struct Disagreement {
 struct RunResult {
   std::string scene, detector, message;
   RunStatus status = RunStatus::kOk;
+  std::optional<std::size_t> failed_frame;  ///< of an error, where it is known
   std::size_t frames = 0, contact_frames = 0;
   Semantics semantics;
   std::map<std::string, std::string> options;

@@ -158,6 +158,7 @@ Json to_json(const RunResult& run) {
               {"semantics", to_json(run.semantics)},
               {"options", run.options},
               {"recording", run.recording}};
+  if (run.failed_frame) out["failed_frame"] = *run.failed_frame;
   if (run.status != RunStatus::kOk) return out;
   out["per_frame"] = per_frame_json(run.per_frame);
   out["levels"] = levels_to_json(run.levels, run.semantics);

@@ -8,6 +8,7 @@
 #include "reference/report/claims.h"
 #include "reference/report/format.h"
 #include "reference/report/goals_table.h"
+#include "reference/report/hard_cases.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
@@ -144,10 +145,13 @@ std::string legend() {
 
 std::string markdown_report(const Json& results) {
   std::string out = "# contactcheck report\n\n" + machine_section(results) +
-                    summary_section(results) + goals_section(results);
+                    summary_section(results) + goals_section(results) +
+                    hard_cases_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
-  for (const Json& scene : results.at("scenes")) out += scene_section(results, scene);
+  // Families are told by who goes wrong in them; tables of every detector would bury that.
+  for (const Json& scene : results.at("scenes"))
+    if (!scene.contains("family")) out += scene_section(results, scene);
   return out + semantics_section(results) + legend();
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/goals_table.h"
+#include "reference/report/hard_cases.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
 
@@ -91,6 +92,7 @@ std::string legend() {
 std::string terminal_tables(const Json& results, bool color) {
   std::string out;
   for (const Json& scene : results.at("scenes")) {
+    if (scene.contains("family")) continue;
     std::vector<Line> lines;
     for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
       lines.push_back(result_cells(run));
@@ -100,6 +102,10 @@ std::string terminal_tables(const Json& results, bool color) {
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
            table(summary_columns(), summary_lines(results), color);
+  if (!hard_lines(results).empty())
+    out += paint("hard cases", kBold, color) +
+           "  who goes wrong where: report.md, \"Where they go wrong\"\n" +
+           table(hard_columns(), hard_lines(results), color);
   if (!goal_lines(results).empty())
     out += paint("goals", kBold, color) + "\n" + table(goal_columns(), goal_lines(results), color);
   return out + legend();

@@ -41,6 +41,18 @@ std::uint64_t truth_hash(const JudgedScene& judged) {
   return hash;
 }
 
+// Per value, so that a report can set answers beside it.
+Json family_json(const JudgedScene& judged) {
+  const CaseFamily& family = *judged.scene->family;
+  Json pairs = Json::array();
+  for (const Truth& t : judged.truth) pairs.push_back(t.surface.triangles.size());
+  return {{"parameter", family.parameter},
+          {"values", family.values},
+          {"origin", family.origin},
+          {"stresses", family.stresses},
+          {"true_pairs", std::move(pairs)}};
+}
+
 Json bodies_json(const Scene& scene) {
   Json bodies = Json::array();
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -70,6 +82,7 @@ nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
               {"truth", truth_json(judged)},
               {"truth_hash", hex(truth_hash(judged))},
               {"bodies", bodies_json(scene)}};
+  if (scene.family) out["family"] = family_json(judged);
   if (scene.simulation)
     out["simulation"] = {{"driver", scene.simulation->driver},
                          {"step", scene.simulation->settings.time_step},

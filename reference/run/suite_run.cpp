@@ -227,6 +227,7 @@ class SceneRunner {
     run.scene = task_.id;
     run.detector = task_.detectors[position];
     run.status = RunStatus::kError;
+    run.failed_frame = o.frame;
     run.message = "scene " + task_.id + ", frame " + std::to_string(o.frame) + ", phase " +
                   name_of(o.phase) + ": " + o.reason +
                   (o.detector ? "" : " in the suite's own code, after this detector had run");

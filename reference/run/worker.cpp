@@ -110,6 +110,7 @@ class Worker {
       entry.result.message = e.what();
     } catch (...) {
       entry.result.status = RunStatus::kError;
+      entry.result.failed_frame = progress_.frame();
       entry.result.message = place() + current_exception_text();
     }
     guard.check_and_restore();  // whatever a call that threw has left behind

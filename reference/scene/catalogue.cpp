@@ -27,8 +27,8 @@ CatalogueEntry read_entry(const fs::path& file, const std::string& kind) {
 
 std::vector<CatalogueEntry> list_folder(const fs::path& folder, const std::string& kind) {
   if (!fs::is_directory(folder)) {
-    throw InputError("folder " + in_quotes(folder.string()) + " with the " + kind +
-                     "s does not exist; $CONTACTCHECK_FIXTURES says where fixtures are.");
+    throw InputError("folder " + in_quotes(folder.string()) + " with files of the kind " + kind +
+                     " does not exist; $CONTACTCHECK_FIXTURES says where fixtures are.");
   }
   std::vector<CatalogueEntry> entries;
   for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
@@ -45,6 +45,13 @@ std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id
   const fs::path file = folder / (id + ".json");
   if (!fs::is_regular_file(file)) return std::nullopt;
   return file;
+}
+
+fs::path families_in(const fs::path& fixtures) { return fixtures / "hard" / "families"; }
+
+std::optional<fs::path> scene_or_family(const fs::path& fixtures, const std::string& id) {
+  const auto scene = file_of_id(fixtures / "scenes", id);
+  return scene ? scene : file_of_id(families_in(fixtures), id);
 }
 
 std::string ids_in(const fs::path& folder) {
@@ -78,11 +85,15 @@ std::vector<CatalogueEntry> list_suites(const fs::path& fixtures) {
   return list_folder(fixtures / "suites", "suite");
 }
 
+std::vector<CatalogueEntry> list_families(const fs::path& fixtures) {
+  return list_folder(families_in(fixtures), "family");
+}
+
 Target find_target(const std::string& name, const fs::path& fixtures) {
   if (const auto suite = file_of_id(fixtures / "suites", name)) {
     return {TargetKind::kSuite, *suite};
   }
-  if (const auto scene = file_of_id(fixtures / "scenes", name)) {
+  if (const auto scene = scene_or_family(fixtures, name)) {
     return {TargetKind::kScene, *scene};
   }
   const fs::path file(name);
@@ -92,11 +103,12 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
   }
   throw InputError(in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +
                    ") nor a scene (" + ids_in(fixtures / "scenes") +
-                   ") nor an existing .json or .ccr file.");
+                   ") nor a family of hard cases (contactcheck list --families) nor an existing "
+                   ".json or .ccr file.");
 }
 
 fs::path find_scene(const std::string& id, const fs::path& fixtures) {
-  if (const auto file = file_of_id(fixtures / "scenes", id)) return *file;
+  if (const auto file = scene_or_family(fixtures, id)) return *file;
   throw InputError("there is no scene " + in_quotes(id) + "; the scenes are " +
                    ids_in(fixtures / "scenes") + ".");
 }

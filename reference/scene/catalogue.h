@@ -7,7 +7,7 @@
 
 namespace contactcheck {
 
-/// Where scenes/ and suites/ lie: $CONTACTCHECK_FIXTURES, else the source tree this was built from.
+/// Where scenes/, suites/ and hard/families/ lie: $CONTACTCHECK_FIXTURES, else the source tree this was built from.
 std::filesystem::path fixtures_directory();
 
 struct CatalogueEntry {
@@ -19,6 +19,8 @@ struct CatalogueEntry {
 /// Sorted by id. Reads no mesh. @throws InputError when the folder is missing, or a file is no JSON
 /// object or has another id than its name
 std::vector<CatalogueEntry> list_scenes(const std::filesystem::path& fixtures);
+/// Families of hard cases, which can be named wherever scenes can.
+std::vector<CatalogueEntry> list_families(const std::filesystem::path& fixtures);
 std::vector<CatalogueEntry> list_suites(const std::filesystem::path& fixtures);
 
 enum class TargetKind { kScene, kSuite, kRecording };
@@ -28,12 +30,12 @@ struct Target {
   std::filesystem::path file;
 };
 
-/// What `name` stands for: the id of a suite, the id of a scene, or the path of a file: .ccr is a
+/// What `name` stands for: the id of a suite, the id of a scene or of a family, or the path of a file: .ccr is a
 /// recording, .json a suite when it has the key "scenes" and a scene otherwise.
 /// @throws InputError with the ids there are
 Target find_target(const std::string& name, const std::filesystem::path& fixtures);
 
-/// The scene file of an id, as suites name them. @throws InputError with the ids there are
+/// The file of a scene's or family's id, as suites name them. @throws InputError with the ids there are
 std::filesystem::path find_scene(const std::string& id, const std::filesystem::path& fixtures);
 
 }  // namespace contactcheck

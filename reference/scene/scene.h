@@ -32,6 +32,14 @@ struct SimulationSpec {
   std::size_t every = 1;         ///< steps from one judged frame to the next
 };
 
+/// A family of hard cases: one frame per value of a parameter.
+struct CaseFamily {
+  std::string parameter;            ///< "gap, m"
+  std::vector<std::string> values;  ///< per frame, as the file writes them
+  std::string origin;               ///< where the case is from: an issue, a derivation
+  std::string stresses;             ///< what it is hard for
+};
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -45,6 +53,7 @@ struct Scene {
   /// (simulate) fills it before any frame is asked for.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
   std::optional<SimulationSpec> simulation;  ///< simulated scenes only
+  std::optional<CaseFamily> family;          ///< families of hard cases only; `recorded` has them
 
   /// Positions follow from the time alone.
   bool scripted() const { return recorded.empty() && !simulation; }
@@ -59,7 +68,8 @@ struct Scene {
 };
 
 /// Reads a scene file (JSON). `wanted_frames` above 0 replaces the file's frame count, keeping the
-/// duration; of a simulated scene the steps keep their length, so that the duration follows.
+/// duration; of a simulated scene the steps keep their length, so that the duration follows. A
+/// family of hard cases has its own frames.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
 

@@ -7,10 +7,12 @@
 #include "core/deform/name_check.h"
 #include "core/types/check.h"
 #include "reference/scene/copies_spec.h"
+#include "reference/scene/family_file.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/json_field.h"
 #include "reference/scene/lattice_spec.h"
+#include "reference/scene/level_list.h"
 #include "reference/scene/mesh_spec.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/scene.h"
@@ -59,24 +61,6 @@ class Workshop {
   std::deque<Made> made_;
   std::deque<std::pair<MeshSpec, LoadedMesh>> loaded_;
 };
-
-std::vector<Level> parse_levels(const JsonField& field) {
-  const std::vector<Level> known = {Level::kBody, Level::kContainment, Level::kCell,
-                                    Level::kBox,  Level::kTriangle,    Level::kVertex,
-                                    Level::kNear};
-  std::vector<std::string> names;
-  for (const Level level : known) names.emplace_back(name_of(level));
-  std::vector<Level> levels;
-  for (const JsonField& item : field.items(1)) {
-    const auto name = std::find(names.begin(), names.end(), item.one_of(names));
-    const Level level = known[static_cast<std::size_t>(name - names.begin())];
-    if (std::find(levels.begin(), levels.end(), level) != levels.end()) {
-      item.refuse("named once only");
-    }
-    levels.push_back(level);
-  }
-  return levels;
-}
 
 void parse_times(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
   const std::size_t frames = root.at("frames").whole(1, kMostFrames);
@@ -157,6 +141,12 @@ Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
   const std::string document = "scene file " + in_quotes(file.string());
   const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
   const JsonField root(value, document);
+  if (root.has("parameter")) {
+    if (wanted_frames > 0)
+      throw InputError("--frames: the family of cases " + in_quotes(file.string()) +
+                       " has its own frames and cannot be given others");
+    return parse_family(root, file.parent_path());
+  }
   root.only_keys(
       {"id", "title", "frames", "duration", "time_step", "simulation", "levels", "bodies"});
   Scene scene;

@@ -176,7 +176,8 @@ TEST(Catalogue, UnknownNamesListWhatThereIs) {
   scratch.write("scenes/two.json", "{}");
   scratch.write("suites/all.json", "{}");
   EXPECT_EQ(sentence_of([&] { find_target("three", scratch.folder()); }),
-            "\"three\" is neither a suite (all) nor a scene (one, two) nor an existing .json or "
+            "\"three\" is neither a suite (all) nor a scene (one, two) nor a family of hard cases "
+            "(contactcheck list --families) nor an existing .json or "
             ".ccr file.");
   EXPECT_EQ(sentence_of([&] { find_scene("three", scratch.folder()); }),
             "there is no scene \"three\"; the scenes are one, two.");
@@ -195,7 +196,8 @@ TEST(Catalogue, FolderFollowsTheEnvironment) {
     const Environment own("CONTACTCHECK_FIXTURES", "/elsewhere");
     EXPECT_EQ(fixtures_directory(), "/elsewhere");
     EXPECT_EQ(sentence_of([] { list_suites(fixtures_directory()); }),
-              "folder \"/elsewhere/suites\" with the suites does not exist; $CONTACTCHECK_FIXTURES "
+              "folder \"/elsewhere/suites\" with files of the kind suite does not exist; "
+              "$CONTACTCHECK_FIXTURES "
               "says where fixtures are.");
   }
   const Environment empty("CONTACTCHECK_FIXTURES", "");

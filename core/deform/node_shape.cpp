@@ -1,0 +1,63 @@
+#include "core/deform/node_shape.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+// Lines per axis of the smallest cube of nodes that holds so many.
+std::size_t lines_for(std::size_t vertices) {
+  std::size_t lines = 2;
+  while (lines * lines * lines < vertices) ++lines;
+  return lines;
+}
+
+std::vector<Vec3> rest_vertices(std::size_t count, std::size_t lines) {
+  std::vector<Vec3> out;
+  for (std::size_t v = 0; v < count; ++v)
+    out.emplace_back(static_cast<double>(v % lines), static_cast<double>(v / lines % lines),
+                     static_cast<double>(v / lines / lines));
+  // So that the mesh fills its box along every axis.
+  if (count > 0) out.back() = Vec3::Constant(static_cast<double>(lines - 1));
+  return out;
+}
+
+std::vector<std::uint32_t> vertices_of_nodes(const BodyShape& shape, std::size_t lines) {
+  const std::size_t last = shape.mesh.vertices.size() - 1;
+  std::vector<std::uint32_t> out;
+  for (const GridIndex& n : shape.lattice->nodes) {
+    const std::size_t place = (n[2] * lines + n[1]) * lines + n[0];
+    out.push_back(static_cast<std::uint32_t>(std::min(place, last)));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec3> NodeShape::nodes_for(std::span<const Vec3> vertices) const {
+  CONTACTCHECK_INVARIANT(vertices.size() == shape->mesh.vertices.size(), "one position per vertex");
+  std::vector<Vec3> nodes;
+  for (std::uint32_t v : vertex_of_node) nodes.push_back(vertices[v]);
+  return nodes;
+}
+
+NodeShape make_node_shape(std::size_t vertices, std::vector<Triangle> triangles) {
+  const std::size_t lines = lines_for(vertices);
+  TriangleMesh mesh{rest_vertices(vertices, lines), std::move(triangles)};
+  auto shape = std::make_shared<BodyShape>();
+  shape->topology = analyse_topology(mesh);
+  if (shape->topology.fatal)
+    throw InputError("the mesh cannot be used: " + describe(shape->topology));
+  std::vector<double> line;
+  for (std::size_t i = 0; i < lines; ++i) line.push_back(static_cast<double>(i));
+  shape->lattice = make_lattice_on_lines(mesh, {line, line, line});
+  shape->embedding = embed(mesh, *shape->lattice);
+  shape->mesh = std::move(mesh);
+  NodeShape out{shape, vertices_of_nodes(*shape, lines)};
+  return out;
+}
+
+}  // namespace contactcheck

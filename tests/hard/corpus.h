@@ -1,0 +1,29 @@
+// The families of hard cases, with what is really there in every case.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/run/family_truth.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck::test {
+
+struct HardFamily {
+  Scene scene;
+  std::vector<CaseTruth> truth;                          ///< per value
+  std::vector<std::vector<std::vector<Vec3>>> vertices;  ///< [value][body]
+
+  Frame frame(std::size_t value) const;
+};
+
+/// By id; read and judged when first asked for.
+const HardFamily& hard_family(const std::string& id);
+
+/// Sorted. Empty only where the corpus is missing.
+std::vector<std::string> family_ids();
+
+/// Expected answers as they are kept.
+const ExpectedFamilies& expected_families();
+
+}  // namespace contactcheck::test

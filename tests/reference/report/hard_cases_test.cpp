@@ -1,0 +1,90 @@
+#include "reference/report/hard_cases.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/report/markdown.h"
+#include "reference/report/terminal.h"
+#include "tests/reference/report/sample_results.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+Json family(const std::string& id) {
+  return {{"id", id},
+          {"title", "Two | plates"},
+          {"family",
+           {{"parameter", "gap, m"},
+            {"values", {"0", "1e-9", "1e-3"}},
+            {"origin", "issue 7"},
+            {"stresses", "gaps"},
+            {"true_pairs", {4, 0, 0}}}}};
+}
+
+// A run of the sample, with other answers.
+Json run(const std::string& scene, const std::string& detector, const Json& missed,
+         const Json& spurious) {
+  Json run = test::sample_results().at("runs").at(0);
+  run["scene"] = scene;
+  run["detector"] = detector;
+  run["per_frame"] = {
+      {"level", "triangle"}, {"truth", {4, 0, 0}}, {"missed", missed}, {"spurious", spurious}};
+  run["time_ms"]["cold"]["frame"] = 0.25;
+  return run;
+}
+
+Json hard_results() {
+  Json results = test::sample_results();
+  results["scenes"] = {family("one"), family("two")};
+  results["runs"] = {
+      run("one", "exact", {0, 0, 0}, {0, 0, 0}),
+      run("one", "skin", {0, 0, 0}, {0, 3, 2}),
+      {{"scene", "one"},
+       {"detector", "crash"},
+       {"status", "error"},
+       {"message", "signal 11"},
+       {"failed_frame", 2}},
+      run("two", "exact", {0, 0, 0}, {0, 0, 0}),
+      run("two", "skin", {1, 0, 0}, {0, 0, 0}),
+      {{"scene", "two"}, {"detector", "crash"}, {"status", "refused"}, {"message", "far"}}};
+  results["disagreements"] = Json::array();
+  return results;
+}
+
+TEST(HardCases, AreCountedPerDetector) {
+  const auto lines = hard_lines(hard_results());
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_THAT(lines[0],
+              ElementsAre("exact", "triangle", "2 of 2", "6 of 6", "0", "0", "0", "0", "0.250"));
+  EXPECT_THAT(lines[1],
+              ElementsAre("skin", "triangle", "0 of 2", "3 of 6", "1", "5", "0", "0", "0.250"));
+  EXPECT_THAT(lines[2], ElementsAre("crash", "-", "0 of 2", "0 of 0", "0", "0", "1", "1", "-"));
+}
+
+TEST(HardCases, NameTheFirstValueThatGoesWrong) {
+  const std::string text = hard_cases_markdown(hard_results());
+  EXPECT_THAT(text, HasSubstr("| skin | 1e-9 | 0 missed, 3 spurious of 0 true | 2 of 3 | 0 | 5 |"));
+  EXPECT_THAT(text, HasSubstr("| skin | 0 | 1 missed, 0 spurious of 4 true | 1 of 3 | 1 | 0 |"));
+  EXPECT_THAT(text, HasSubstr("| crash | 1e-3 | signal 11 | - | - | - |"));
+  EXPECT_THAT(text, Not(HasSubstr("| exact | 0 |")));
+  EXPECT_THAT(text, HasSubstr("`one`: Two | plates. Parameter: gap, m, 3 values from 0 on. Hard "
+                              "for: gaps. From: issue 7."));
+}
+
+TEST(HardCases, StandInBothReportsInPlaceOfASectionPerFamily) {
+  EXPECT_THAT(markdown_report(hard_results()), HasSubstr("### Where they go wrong"));
+  EXPECT_THAT(markdown_report(hard_results()), Not(HasSubstr("## one\n")));
+  EXPECT_THAT(terminal_tables(hard_results(), false), HasSubstr("hard cases"));
+  EXPECT_THAT(hard_lines(test::sample_results()), IsEmpty());
+  EXPECT_EQ(hard_cases_markdown(test::sample_results()), "");
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -7,7 +7,8 @@
 
 namespace contactcheck {
 
-/// Where scenes/, suites/ and hard/families/ lie: $CONTACTCHECK_FIXTURES, else the source tree this was built from.
+/// Where scenes/, suites/ and hard/families/ lie: $CONTACTCHECK_FIXTURES, else the source tree this
+/// was built from.
 std::filesystem::path fixtures_directory();
 
 struct CatalogueEntry {
@@ -30,12 +31,13 @@ struct Target {
   std::filesystem::path file;
 };
 
-/// What `name` stands for: the id of a suite, the id of a scene or of a family, or the path of a file: .ccr is a
-/// recording, .json a suite when it has the key "scenes" and a scene otherwise.
+/// What `name` stands for: the id of a suite, the id of a scene or of a family, or the path of a
+/// file: .ccr is a recording, .json a suite when it has the key "scenes" and a scene otherwise.
 /// @throws InputError with the ids there are
 Target find_target(const std::string& name, const std::filesystem::path& fixtures);
 
-/// The file of a scene's or family's id, as suites name them. @throws InputError with the ids there are
+/// The file of a scene's or family's id, as suites name them. @throws InputError with the ids there
+/// are
 std::filesystem::path find_scene(const std::string& id, const std::filesystem::path& fixtures);
 
 }  // namespace contactcheck

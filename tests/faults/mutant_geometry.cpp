@@ -1,5 +1,4 @@
 // Predicates and tests of triangles against rational arithmetic.
-#include <cmath>
 
 #include "core/deform/embedding.h"
 #include "core/lazy/kernels.h"

@@ -1,7 +1,6 @@
 // Parts of core that no contact hangs on, or that a detector uses in its own way only.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/broad/spatial_hash.h"

@@ -1,7 +1,6 @@
 #include "tests/faults/mutant_scenes.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tests/core/detect/bare_scenes.h"
 #include "tests/faults/mutant_checks.h"

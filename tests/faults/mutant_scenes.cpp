@@ -1,6 +1,7 @@
 #include "tests/faults/mutant_scenes.h"
 
 #include <cmath>
+#include <memory>
 
 #include "tests/core/detect/bare_scenes.h"
 #include "tests/faults/mutant_checks.h"
@@ -39,14 +40,29 @@ std::vector<Vec3> box_at_corner(TriangleSource& random, const Vec3& at, double s
   return nodes;
 }
 
+// The box [0, 1]^3 in a lattice of one cell that is no larger: its corners are the nodes, to the
+// last bit. (make_lattice() leaves some room.)
+std::shared_ptr<const BodyShape> box_of_one_cell() {
+  auto shape = std::make_shared<BodyShape>();
+  shape->mesh = unit_box_mesh(2);
+  shape->topology = analyse_topology(shape->mesh);
+  Lattice lattice;
+  lattice.lines = {{{0, 1}, {0, 1}, {0, 1}}};
+  lattice.cells = {{0, 0, 0}};
+  for (std::uint32_t c = 0; c < 8; ++c) lattice.nodes.push_back({c & 1, c >> 1 & 1, c >> 2 & 1});
+  lattice.cell_nodes = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  shape->lattice = lattice;
+  shape->embedding = embed(shape->mesh, *shape->lattice);
+  return shape;
+}
+
 // Two boxes that share one corner to the last bit, or miss each other by one unit in the last place
 // of one coordinate. Nothing is as tight for spheres, boxes and slacks. `size` is that of the
 // second one beside the first, below it and above: far below 1, each has a frame of its own.
 Scene boxes_at_corners(std::uint64_t seed, double size) {
   TriangleSource random(seed);
-  const TriangleMesh box = box_mesh(Vec3::Zero(), Vec3::Ones(), 2);
-  std::vector<Body> bodies = {make_body("first", box, {1, 1, 1}, 0.0),
-                              make_body("second", box, {1, 1, 1}, 0.0)};
+  const std::shared_ptr<const BodyShape> box = box_of_one_cell();
+  std::vector<Body> bodies = {{"first", box}, {"second", box}};
   std::vector<std::vector<std::vector<Vec3>>> frames;
   for (int f = 0; f < 48; ++f) {
     const double offset = f % 3 == 0 ? 0.0 : f % 3 == 1 ? 10.0 : 1e6;

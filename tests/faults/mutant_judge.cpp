@@ -1,0 +1,44 @@
+// Holds core against independent answers, on small scenes built in code, and names the case of
+// every fault: scene, frame, detector, level and what is wrong. Exit code 0: none; 1: some.
+//
+// run_mutant.py links it with one unit of core that was made wrong on purpose. The judge and its
+// oracle are not rebuilt: what they know of core are types, rest shapes and the code under test.
+#include <cstdio>
+#include <string>
+
+#include "tests/faults/mutant_checks.h"
+
+namespace {
+
+// A mutant that is wrong everywhere would fill the screen.
+constexpr std::size_t kShown = 12;
+// It takes about two seconds where nothing else runs.
+constexpr unsigned kSecondsAtMost = 100;
+
+int report(const contactcheck::test::MutantFindings& findings) {
+  const auto& faults = findings.faults();
+  for (std::size_t i = 0; i < faults.size() && i < kShown; ++i)
+    std::printf("FAULT %s\n", faults[i].c_str());
+  std::printf("%zu faults, %zu true elements compared\n", faults.size(), findings.compared());
+  return faults.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+int main() {
+  using namespace contactcheck::test;
+  MutantFindings::name_crashes(kSecondsAtMost);
+  MutantFindings findings;
+  check_small_parts(findings);
+  check_labels(findings);
+  check_triangle_pairs(findings);
+  findings.enter({"all", 0, "make_shape", "scenes"});
+  for (const MutantScene& scene : mutant_scenes()) {
+    check_mapping(scene, findings);
+    check_detectors(scene, findings);
+    check_bounds(scene, findings);
+    check_ground(scene, findings);
+    if (scene.name.starts_with("approach")) check_paper_reading(scene, findings);
+  }
+  return report(findings);
+}

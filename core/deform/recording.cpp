@@ -87,7 +87,7 @@ ShapeTable collect_shapes(const std::vector<Body>& bodies) {
   return table;
 }
 
-void check_frames(const std::filesystem::path& file, const Recording& recording) {
+void check_frames(const std::string& name, const Recording& recording) {
   for (std::size_t f = 0; f < recording.frames.size(); ++f) {
     CONTACTCHECK_INVARIANT(recording.frames[f].size() == recording.bodies.size(),
                            "a recorded frame has the nodes of every body");
@@ -97,7 +97,7 @@ void check_frames(const std::filesystem::path& file, const Recording& recording)
                              "a recorded body has a position for every node");
       for (std::size_t n = 0; n < nodes.size(); ++n) {
         if (nodes[n].allFinite()) continue;
-        throw InputError("cannot record \"" + file.string() + "\": node " + std::to_string(n) +
+        throw InputError("cannot record \"" + name + "\": node " + std::to_string(n) +
                          " of body \"" + recording.bodies[b].name + "\" in frame " +
                          std::to_string(f) + " is not a finite position.");
       }
@@ -105,9 +105,9 @@ void check_frames(const std::filesystem::path& file, const Recording& recording)
   }
 }
 
-void check_recordable(const std::filesystem::path& file, const Recording& recording) {
+void check_recordable(const std::string& name, const Recording& recording) {
   const auto refuse = [&](const std::string& what) {
-    throw InputError("cannot record \"" + file.string() + "\": " + what + ".");
+    throw InputError("cannot record \"" + name + "\": " + what + ".");
   };
   const std::string fault = scene_fault(recording.scene);
   if (!fault.empty()) refuse("the scene's name \"" + recording.scene + "\" " + fault);
@@ -119,7 +119,7 @@ void check_recordable(const std::filesystem::path& file, const Recording& record
     const std::string body_fault = name_fault(body.name);
     if (!body_fault.empty()) refuse("the body name \"" + body.name + "\" " + body_fault);
   }
-  check_frames(file, recording);
+  check_frames(name, recording);
 }
 
 std::string recording_content(const Recording& recording) {
@@ -264,8 +264,8 @@ void read_frames(ByteReader& in, Recording& out) {
 
 }  // namespace
 
-void write_recording(const std::filesystem::path& file, const Recording& recording) {
-  check_recordable(file, recording);
+std::string recording_bytes(const Recording& recording, const std::string& name) {
+  check_recordable(name, recording);
   const std::string content = recording_content(recording);
   ByteWriter out;
   out.raw(kMagic);
@@ -273,14 +273,17 @@ void write_recording(const std::filesystem::path& file, const Recording& recordi
   out.u64(kMagic.size() + 16 + content.size() + kHashSize);
   out.raw(content);
   out.u64(fnv1a(out.bytes()));
-  write_file_atomically(file, out.bytes());
+  return out.bytes();
 }
 
-Recording read_recording(const std::filesystem::path& file) {
-  const std::string bytes = file_bytes(file);
-  ByteReader whole(bytes, file.string());
+void write_recording(const std::filesystem::path& file, const Recording& recording) {
+  write_file_atomically(file, recording_bytes(recording, file.string()));
+}
+
+Recording read_recording_bytes(const std::string& bytes, const std::string& name) {
+  ByteReader whole(bytes, name);
   read_file_frame(whole);
-  ByteReader in(whole.bytes().substr(0, bytes.size() - kHashSize), file.string());
+  ByteReader in(whole.bytes().substr(0, bytes.size() - kHashSize), name);
   in.take(whole.position(), "header");
   Recording out;
   out.time_step = in.f64("time step");
@@ -294,6 +297,10 @@ Recording read_recording(const std::filesystem::path& file) {
   if (in.remaining() != 0)
     in.fail(std::to_string(in.remaining()) + " bytes too many after the last frame");
   return out;
+}
+
+Recording read_recording(const std::filesystem::path& file) {
+  return read_recording_bytes(file_bytes(file), file.string());
 }
 
 }  // namespace contactcheck

@@ -21,7 +21,8 @@ std::string scale_finding(const Json& results) {
     const auto id = scene.at("id").get<std::string>();
     const Json scaled = find_run(results, id, "bullet-vf"),
                plain = find_run(results, id, "bullet-vf:scale=1");
-    if (scaled.is_null() || plain.is_null() || scene.at("contact_frames").get<int>() == 0) continue;
+    if (scaled.is_null() || plain.is_null() || whole_number(scene.at("contact_frames")) == 0)
+      continue;
     rows +=
         table_line({id, format_number(scaled.at("semantics").at("scale")),
                     level_field(scaled, "body", "recall"), level_field(scaled, "near", "recall"),
@@ -48,7 +49,7 @@ std::string inside_finding(const Json& results) {
     const auto id = scene.at("id").get<std::string>();
     const Json run = find_run(results, id, "bullet-vf");
     if (run.is_null() || !run.at("levels").contains("vertex")) continue;
-    if (scene.at("contact_frames").get<int>() == 0) continue;
+    if (whole_number(scene.at("contact_frames")) == 0) continue;
     rows += table_line({id, format_millimetres(run.at("semantics").at("margin")),
                         level_field(run, "vertex", "truth"), level_field(run, "vertex", "hit"),
                         level_field(run, "vertex", "spurious")});

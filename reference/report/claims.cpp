@@ -26,7 +26,7 @@ std::string hover_claim(const Json& results) {
     const Json grid = find_run(results, scene.at("id").get<std::string>(), "ffd-grid");
     const Json aabb = find_run(results, scene.at("id").get<std::string>(), "ffd-aabb");
     if (grid.is_null() || aabb.is_null()) continue;
-    if (scene.at("contact_frames").get<int>() == 0) continue;
+    if (whole_number(scene.at("contact_frames")) == 0) continue;
     const Json &g = grid.at("geometry").at("hover_gap_max"),
                &a = aabb.at("geometry").at("hover_gap_max");
     rows += fmt::format("| {} | {} | {} | {} |\n", scene.at("id").get<std::string>(),

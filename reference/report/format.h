@@ -1,10 +1,14 @@
 // How numbers are shown: short, and never rounded to a better value than they are.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace contactcheck {
+
+/// @throws nlohmann's type_error when the value is no whole number, or beyond 2^53
+std::int64_t whole_number(const nlohmann::ordered_json& value);
 
 /// "1" only for exactly 1, otherwise cut (not rounded) to five decimals: 0.99999 never reads as 1.
 /// "-" for null.

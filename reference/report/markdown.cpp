@@ -27,7 +27,7 @@ std::string machine_section(const Json& results) {
       "- command: `{}`\n- machine: {}, {} cores, {}, {}\n- built with {}, {}\n- libraries: {}\n"
       "- contactcheck {}, schema {}\n\n",
       results.at("command").get<std::string>(), m.at("cpu").get<std::string>(),
-      m.at("cores").get<int>(), m.at("isa").get<std::string>(), m.at("os").get<std::string>(),
+      whole_number(m.at("cores")), m.at("isa").get<std::string>(), m.at("os").get<std::string>(),
       m.at("compiler").get<std::string>(), m.at("build").get<std::string>(), libraries,
       results.at("version").get<std::string>(), results.at("schema").get<std::string>());
 }
@@ -84,7 +84,7 @@ std::string disagreements_list(const Json& results, const std::string& scene) {
     if (d.at("scene") != scene) continue;
     out += fmt::format("- {}: first {} at level {} in frame {}: `{}`\n",
                        d.at("detector").get<std::string>(), d.at("kind").get<std::string>(),
-                       d.at("level").get<std::string>(), d.at("frame").get<std::size_t>(),
+                       d.at("level").get<std::string>(), whole_number(d.at("frame")),
                        d.at("case").get<std::string>());
   }
   return out.empty() ? "" : "Disagreements with the truth (first of each kind):\n\n" + out + "\n";
@@ -110,9 +110,8 @@ std::string scene_section(const Json& results, const Json& scene) {
   const auto id = scene.at("id").get<std::string>();
   const std::vector<Json> runs = runs_of_scene(results, id);
   return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", id,
-                     scene.at("title").get<std::string>(), scene.at("frames").get<std::size_t>(),
-                     scene.at("contact_frames").get<std::size_t>(),
-                     format_number(scene.at("size"))) +
+                     scene.at("title").get<std::string>(), whole_number(scene.at("frames")),
+                     whole_number(scene.at("contact_frames")), format_number(scene.at("size"))) +
          bodies_table(scene) + truth_line(scene) + result_table(runs) + levels_table(runs) +
          graded_table(runs) + stages_table(runs) + times_table(runs) + counters_table(runs) +
          speedups_table(runs) + notes_list(runs) + disagreements_list(results, id);

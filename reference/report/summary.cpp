@@ -40,15 +40,15 @@ void add_levels(const Json& run, Sums& sums) {
   if (levels.contains(sums.level)) {
     sums.has_level = true;
     const Json& c = levels.at(sums.level);
-    sums.truth += c.at("truth").get<long long>();
-    sums.hit += c.at("hit").get<long long>();
-    sums.missed += c.at("missed").get<long long>();
-    sums.spurious += c.at("spurious").get<long long>();
+    sums.truth += whole_number(c.at("truth"));
+    sums.hit += whole_number(c.at("hit"));
+    sums.missed += whole_number(c.at("missed"));
+    sums.spurious += whole_number(c.at("spurious"));
   }
   if (levels.contains("body")) {
     sums.has_body = true;
-    sums.body_missed += levels.at("body").at("missed").get<long long>();
-    sums.body_spurious += levels.at("body").at("spurious").get<long long>();
+    sums.body_missed += whole_number(levels.at("body").at("missed"));
+    sums.body_spurious += whole_number(levels.at("body").at("spurious"));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/report/format.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/run_row.h"
@@ -71,13 +72,12 @@ std::string table(const std::vector<Column>& columns, const std::vector<Line>& l
 }
 
 std::string scene_head(const Json& scene, bool color) {
-  std::size_t triangles = 0;
-  for (const Json& body : scene.at("bodies")) triangles += body.at("triangles").get<std::size_t>();
+  std::int64_t triangles = 0;
+  for (const Json& body : scene.at("bodies")) triangles += whole_number(body.at("triangles"));
   return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n",
                      paint(scene.at("id").get<std::string>(), kBold, color),
                      scene.at("title").get<std::string>(), scene.at("bodies").size(), triangles,
-                     scene.at("frames").get<std::size_t>(),
-                     scene.at("contact_frames").get<std::size_t>());
+                     whole_number(scene.at("frames")), whole_number(scene.at("contact_frames")));
 }
 
 std::string legend() {

@@ -8,6 +8,7 @@
 #include "reference/scene/assimp_reader.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/mesh_check.h"
+#include "reference/scene/soup_guard.h"
 
 namespace contactcheck {
 namespace {
@@ -98,7 +99,8 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
   }
   PolygonSoup soup;
-  if (!read_polygon_soup(format, bytes, soup)) {
+  const std::optional<std::string> guarded = guarded_bytes(format, bytes);
+  if (!guarded || !read_polygon_soup(format, *guarded, soup)) {
     const std::string fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
     throw InputError(name + " cannot be read as " + name_of(format) + ".");

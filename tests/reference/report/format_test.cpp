@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace contactcheck {
@@ -53,6 +55,7 @@ TEST(FormatNumber, ShowsThreeDigits) {
   EXPECT_EQ(format_number(1.5e-7), "1.50e-07");
   EXPECT_EQ(format_number(2.5e9), "2.50e+09");
   EXPECT_EQ(format_number(nullptr), "-");
+  EXPECT_EQ(format_number(std::numeric_limits<double>::quiet_NaN()), "-");
 }
 
 TEST(FormatCount, ShowsWholeNumbersAndSigns) {
@@ -60,6 +63,14 @@ TEST(FormatCount, ShowsWholeNumbersAndSigns) {
   EXPECT_EQ(format_count(-3), "-3");
   EXPECT_EQ(format_count(12345678901LL), "12345678901");
   EXPECT_EQ(format_count(nullptr), "-");
+}
+
+TEST(FormatCount, RefusesWhatIsNoWholeNumber) {
+  using Json = nlohmann::ordered_json;
+  EXPECT_EQ(format_count(13.0), "13");
+  EXPECT_EQ(format_count(-0x1p53), "-9007199254740992");
+  for (const Json& value : {Json(1e300), Json(0.5), Json(~std::uint64_t{0}), Json(true), Json("1")})
+    EXPECT_THROW(format_count(value), Json::type_error) << value;
 }
 
 TEST(FormatMillimetres, TurnsMetresIntoMillimetres) {

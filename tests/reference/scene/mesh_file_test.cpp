@@ -103,6 +103,17 @@ TEST(MeshFile, PolygonsBecomeFansAndAreNoted) {
   EXPECT_EQ(loaded.notes, "1 polygons split into triangles");
 }
 
+TEST(MeshFile, OffIsReadWithoutItsColoursWhereverTheyEnd) {
+  const Scratch scratch;
+  for (const char* const colour : {"", " 7", " 0.5 0.5", " 255 0 0", " 1 0 0 1"}) {
+    const std::string text = std::string("COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0") + colour +
+                             "\n0 1 0\n3 0 1 2" + colour + "\n";
+    const TriangleMesh mesh = read_mesh_file(scratch.write("c.off", text)).mesh;
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})) << colour;
+    EXPECT_EQ(mesh.triangles, std::vector<Triangle>{Triangle({0, 1, 2})}) << colour;
+  }
+}
+
 TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
   const Scratch scratch;
   // Two triangles of a square, six vertices, as exporters split them; a node moves it by (1, 2, 3).
@@ -182,6 +193,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"OffTruncated", "a.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n", " cannot be read as OFF."},
         BadMesh{"OffLyingHeader", "a.off", "OFF\n4000000000 4 0\n0 0 0\n",
                 " claims 4000000000 vertices and 4 faces, more than its 25 bytes can hold."},
+        BadMesh{"OffPolygonLongerThanItsLine", "a.off", with(kOff, "3 0 3 2", "4000000000 0 3 2"),
+                " cannot be read as OFF."},
+        BadMesh{"OffIndexNotWhole", "a.off", with(kOff, "3 0 3 2", "3 0 3 1e300"),
+                " cannot be read as OFF."},
+        BadMesh{"PlyListLongerThanTheFile", "a.ply",
+                with(with(kPly, "list uchar", "list uint"), "3 0 3 2", "4000000000 0 3 2"),
+                " cannot be read as PLY."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),
     [](const auto& test) { return test.param.name; });

@@ -1,0 +1,18 @@
+// What CGAL's readers may be given. Those of CGAL 5.5.1 trust the sizes in a file: a colour that is
+// not there is read beyond the end of a line, and a list or a polygon is allocated before its
+// corners are read, whatever its length.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reference/scene/polygon_soup.h"
+
+namespace contactcheck {
+
+/// The bytes to read: OFF without normals, colours and texture coordinates, other formats as they
+/// are. Nothing when OFF or PLY names a size that the file does not hold, and for OFF that is
+/// binary or not three-dimensional.
+std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes);
+
+}  // namespace contactcheck

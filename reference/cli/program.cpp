@@ -123,13 +123,17 @@ void add_run(CLI::App& app, Choices& c) {
       ->type_name("NAME");
   add_limits(*run, c);
   run->add_flag("--no-timing", c.no_timing, "judge only");
+  run->add_flag("--resume", c.run.resume,
+                "take over the scenes that an interrupted run with the same settings has finished "
+                "in --out");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
   run->footer(
       "Examples:\n"
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
-      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4");
+      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run references --resume");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {

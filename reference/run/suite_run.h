@@ -18,7 +18,7 @@ struct SceneTask {
   std::vector<std::string> detectors;  ///< canonical names
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
-  std::string content;  ///< hash of the scene's file and meshes: the same, the same scene
+  std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
 struct SuiteRequest {

@@ -4,6 +4,7 @@
 // allocated for a count that the file could not fill.
 #include "core/deform/recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -23,8 +24,8 @@ constexpr std::string_view kMagic(
     "CCR\r\n\x1a\n",
     8);
 constexpr std::uint64_t kVersion = 1;
-constexpr std::size_t kHashSize = 8;
-constexpr std::size_t kSmallestFile = 24 + kHashSize;
+constexpr std::size_t kHeaderSize = 24, kHashSize = 8;
+constexpr std::size_t kSmallestFile = kHeaderSize + kHashSize;
 
 std::string scene_fault(std::string_view scene) {
   if (scene == "." || scene == ".." || scene.find_first_of("/\\") != std::string_view::npos) {
@@ -145,26 +146,8 @@ std::string recording_content(const Recording& recording) {
 
 // --- reading ---
 
-std::string file_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError("cannot read the recording \"" + file.string() +
-                     "\": " + (error ? error.message() : std::string("not a regular file")) + ".");
-  }
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  std::string bytes;
-  if (in) {
-    bytes.resize(static_cast<std::size_t>(in.tellg()));
-    in.seekg(0);
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  }
-  if (!in) throw InputError("cannot read the recording \"" + file.string() + "\".");
-  return bytes;
-}
-
-// Magic, version, size and hash of the whole: afterwards the bytes are those that were written.
-void read_file_frame(ByteReader& in) {
-  const std::size_t size = in.bytes().size();
+// Magic, version and size: afterwards the file is as long as it was written.
+void check_header(ByteReader& in, std::uint64_t size) {
   if (size < kMagic.size() || in.take(kMagic.size(), "magic") != kMagic) {
     in.fail("not a recording: the first 8 bytes are not those of a .ccr file", 0);
   }
@@ -182,11 +165,42 @@ void read_file_frame(ByteReader& in) {
                 std::to_string(told),
             16);
   }
+}
+
+// Afterwards the bytes are those that were written.
+void check_hash(const ByteReader& in) {
+  const std::size_t end = in.bytes().size() - kHashSize;
   ByteReader tail(in.bytes(), "");
-  tail.take(size - kHashSize, "content");
-  if (tail.u64("hash") != fnv1a(in.bytes().substr(0, size - kHashSize))) {
-    in.fail("the content does not have the hash it was written with", size - kHashSize);
+  tail.take(end, "content");
+  if (tail.u64("hash") != fnv1a(in.bytes().substr(0, end)))
+    in.fail("the content does not have the hash it was written with", end);
+}
+
+std::string next_bytes(std::ifstream& in, std::uint64_t size) {
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  return bytes;
+}
+
+std::string file_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw InputError("cannot read the recording \"" + file.string() +
+                     "\": " + (error ? error.message() : std::string("not a regular file")) + ".");
   }
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  std::string bytes;
+  if (in) {
+    const auto size = static_cast<std::uint64_t>(in.tellg());
+    in.seekg(0);
+    // Before the rest: a file that is no recording may be larger than memory.
+    bytes = next_bytes(in, std::min<std::uint64_t>(size, kHeaderSize));
+    ByteReader header(bytes, file.string());
+    if (in) check_header(header, size);
+    bytes += next_bytes(in, size - bytes.size());
+  }
+  if (!in) throw InputError("cannot read the recording \"" + file.string() + "\".");
+  return bytes;
 }
 
 void read_lattice(ByteReader& in, BodyShape& shape) {
@@ -281,10 +295,11 @@ void write_recording(const std::filesystem::path& file, const Recording& recordi
 }
 
 Recording read_recording_bytes(const std::string& bytes, const std::string& name) {
-  ByteReader whole(bytes, name);
-  read_file_frame(whole);
-  ByteReader in(whole.bytes().substr(0, bytes.size() - kHashSize), name);
-  in.take(whole.position(), "header");
+  ByteReader header(bytes, name);
+  check_header(header, bytes.size());
+  check_hash(ByteReader(bytes, name));
+  ByteReader in(std::string_view(bytes).substr(0, bytes.size() - kHashSize), name);
+  in.take(kHeaderSize, "header");
   Recording out;
   out.time_step = in.f64("time step");
   if (out.time_step < 0.0) in.fail("the time step is negative", in.position() - 8);

@@ -18,7 +18,7 @@ struct RunArguments {
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
-  bool timing = true, quiet = false;
+  bool timing = true, quiet = false, resume = false;
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too

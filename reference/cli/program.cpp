@@ -1,13 +1,21 @@
 #include "reference/cli/program.h"
 
+#include <signal.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/run/interrupts.h"
+#include "reference/run/printable.h"
 #include "reference/run/worker.h"
 
 namespace contactcheck {
@@ -19,6 +27,31 @@ std::string join_command_line(int argc, char** argv) {
   std::string text = "contactcheck";
   for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
   return text;
+}
+
+// One line, whatever the input that it quotes holds.
+void say(const std::string& sentence) {
+  std::string line = sentence;
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  std::fprintf(stderr, "contactcheck: %s\n", line.c_str());
+}
+
+// Paths and names go into JSON, which takes UTF-8 alone.
+void require_utf8(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) try {
+      nlohmann::json(argv[i]).dump();
+    } catch (const nlohmann::json::exception&) {
+      throw InputError("word " + std::to_string(i) + " of the command line is not UTF-8: \"" +
+                       printable_line(argv[i]) + "\"");
+    }
+}
+
+// A disk that is full: a list that is cut short is no list. (Who closes the stream wants none.)
+void require_output_written() {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!written && errno != EBADF)
+    throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
 }
 
 struct Choices {
@@ -91,13 +124,17 @@ void add_run(CLI::App& app, Choices& c) {
       ->type_name("NAME");
   add_limits(*run, c);
   run->add_flag("--no-timing", c.no_timing, "judge only");
+  run->add_flag("--resume", c.run.resume,
+                "take over the scenes that an interrupted run with the same settings has finished "
+                "in --out");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
   run->footer(
       "Examples:\n"
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
-      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4");
+      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run references --resume");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {
@@ -154,7 +191,19 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   return run_command(c.run, catalog);
 }
 
-int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
+int refuse(const CLI::App& app, const CLI::ParseError& error) {
+  // CLI11 would say that a subcommand is missing, and not which word it does not know.
+  if (app.get_subcommands().empty() && !app.remaining().empty()) {
+    const std::string word = app.remaining().front();
+    say(std::string("unknown ") + (word.rfind('-', 0) == 0 ? "flag" : "command") + " \"" + word +
+        "\"; contactcheck --help names all");
+  } else {
+    say(error.what());
+  }
+  return kBadUsage;
+}
+
+int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   CLI::App app("Judges collision detectors of deformable bodies against an exact oracle.");
   app.name("contactcheck");
   app.require_subcommand(1);
@@ -170,22 +219,28 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);
-    // CLI11 would say that a subcommand is missing, and not which word it does not know.
-    if (app.get_subcommands().empty() && !app.remaining().empty()) {
-      std::fprintf(stderr, "contactcheck: unknown command \"%s\"; contactcheck --help names all\n",
-                   app.remaining().front().c_str());
-      return kBadUsage;
-    }
-    std::fprintf(stderr, "contactcheck: %s\n", e.what());
-    return kBadUsage;
+    return e.get_exit_code() == 0 ? app.exit(e) : refuse(app, e);
   }
+  return dispatch(app, choices, catalog);
+}
+
+// A worker's streams are its supervisor's to look after.
+bool is_worker(int argc, char** argv) { return argc > 1 && std::strcmp(argv[1], "worker") == 0; }
+
+int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
+  // A file that meets a limit is a failed write with a sentence of its own, and no death.
+  signal(SIGXFSZ, SIG_IGN);
   try {
-    return dispatch(app, choices, catalog);
+    require_utf8(argc, argv);
+    const int code = parse_and_dispatch(argc, argv, catalog);
+    if (!is_worker(argc, argv)) require_output_written();
+    return code;
   } catch (const InputError& e) {
-    std::fprintf(stderr, "contactcheck: %s\n", e.what());
-    return kBadUsage;
+    say(e.what());
+  } catch (const std::filesystem::filesystem_error& e) {
+    say(e.path1().string() + ": " + e.code().message());
   }
+  return kBadUsage;
 }
 
 }  // namespace
@@ -193,8 +248,10 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
 int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog) {
   try {
     return main_with_errors(argc, argv, catalog);
+  } catch (const Interrupted& e) {
+    die_of(e);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "contactcheck: internal error: %s\n", e.what());
+    say(std::string("internal error: ") + e.what());
     return kExitInternal;
   }
 }

@@ -4,8 +4,10 @@
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/schema_defect.h"
 #include "reference/report/markdown.h"
-#include "reference/run/job.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/file_text.h"
 
 namespace contactcheck {
 namespace {
@@ -16,7 +18,7 @@ constexpr const char* kSchema = "contactcheck-results/1";
 Json read_results(const std::filesystem::path& file) {
   Json results;
   try {
-    results = Json::parse(read_text_file(file));
+    results = Json::parse(read_file_bytes(file, "results file"));
   } catch (const Json::parse_error& e) {
     throw InputError(file.string() + ": not JSON at byte " + std::to_string(e.byte));
   }
@@ -24,6 +26,19 @@ Json read_results(const std::filesystem::path& file) {
   if (!results.is_object() || schema == results.end() || *schema != kSchema)
     throw InputError(file.string() + ": field schema is not \"" + kSchema + "\"");
   return results;
+}
+
+// The place that the report could not use. It is looked for only then: results of another program
+// may break the schema where no report looks.
+std::string defect_of(const Json& results, const Json::exception& e) {
+  const std::filesystem::path schema_file = fixtures_directory() / "results.schema.json";
+  std::string found;
+  if (std::filesystem::is_regular_file(schema_file))
+    found = schema_defect(Json::parse(read_file_bytes(schema_file, "schema file")), results);
+  if (!found.empty()) return found;
+  const std::string what = e.what();  // "[json.exception.type_error.302] sentence"
+  const std::size_t bracket = what.find("] ");
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
 }
 
 }  // namespace
@@ -37,7 +52,7 @@ int report_command(const std::filesystem::path& file, const std::vector<std::str
   try {
     text = markdown_report(results);
   } catch (const Json::exception& e) {
-    throw InputError(file.string() + ": not complete: " + e.what());
+    throw InputError(file.string() + ": not complete: " + defect_of(results, e));
   }
   std::error_code error;
   std::filesystem::create_directories(out, error);

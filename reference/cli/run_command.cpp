@@ -13,6 +13,7 @@
 #include "reference/cli/run_tasks.h"
 #include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
+#include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
 #include "reference/scene/scene.h"
 
@@ -32,6 +33,7 @@ void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
                        "\" has its own frames and cannot be given others");
     const Scene scene = recorded ? load_recording(task.file) : load_scene(task.file, frames);
     task.id = scene.id;
+    task.content = content_of(task.file, scene);
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
   }
@@ -55,6 +57,8 @@ void print_outcome(const RunArguments& arguments, const Json& results) {
     if (run.at("status") == "absent")
       std::printf("absent: %s: %s\n", run.at("detector").get<std::string>().c_str(),
                   run.at("message").get<std::string>().c_str());
+  for (const Json& scene : results.value("resumed", Json::array()))
+    std::printf("resumed: %s: finished by an earlier run\n", scene.get<std::string>().c_str());
   std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
               (arguments.out / "report.md").c_str());
 }
@@ -74,6 +78,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.settings.threads = arguments.threads;
   request.settings.call_limit = arguments.call_limit;
   request.settings.memory_limit = arguments.memory_limit_mib << 20;
+  request.resume = arguments.resume;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;

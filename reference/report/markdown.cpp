@@ -32,6 +32,18 @@ std::string machine_section(const Json& results) {
       results.at("version").get<std::string>(), results.at("schema").get<std::string>());
 }
 
+// Their times are of another process than the others'.
+std::string resumed_line(const Json& results) {
+  std::string scenes;
+  for (const Json& scene : results.value("resumed", Json::array()))
+    scenes += (scenes.empty() ? "" : ", ") + scene.get<std::string>();
+  if (scenes.empty()) return "";
+  return fmt::format(
+      "Taken over from an earlier run that was interrupted (`--resume`), with the times measured "
+      "then: {}.\n\n",
+      scenes);
+}
+
 std::string bodies_table(const Json& scene) {
   std::string out =
       "| body | mesh | vertices | triangles | cells | solid | notes |\n"
@@ -143,7 +155,7 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out = "# contactcheck report\n\n" + machine_section(results) +
+  std::string out = "# contactcheck report\n\n" + machine_section(results) + resumed_line(results) +
                     summary_section(results) + goals_section(results) +
                     hard_cases_markdown(results);
   const std::string claims = claims_markdown(results);

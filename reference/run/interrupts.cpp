@@ -35,15 +35,20 @@ InterruptGuard::~InterruptGuard() {
 
 bool InterruptGuard::interrupted() const { return interrupt != 0; }
 
-void InterruptGuard::die() {
-  restore();
-  raise(interrupt);
-  std::abort();  // not reached: the default of all four is to end the process
+void InterruptGuard::pass_on() {
+  const Interrupted out{interrupt};
+  interrupt = 0;
+  throw out;
 }
 
 void InterruptGuard::restore() {
   for (std::size_t i = 0; i < kSignals; ++i)
     if (taken_[i]) sigaction(kNumbers[i], &before_[i], nullptr);
+}
+
+void die_of(const Interrupted& interrupted) {
+  raise(interrupted.signal);
+  std::abort();  // not reached: the default of all four is to end the process
 }
 
 }  // namespace contactcheck

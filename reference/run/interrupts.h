@@ -9,6 +9,12 @@
 
 namespace contactcheck {
 
+/// A signal that asks this program to end: thrown where it is noticed, so that what must not stay
+/// is taken away on the way out.
+struct Interrupted {
+  int signal = 0;
+};
+
 /// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are only remembered, unless they are ignored
 /// or handled by the program already. One at a time.
 class InterruptGuard {
@@ -20,8 +26,8 @@ class InterruptGuard {
 
   /// Has one of them come?
   bool interrupted() const;
-  /// Ends this process by the signal that came. @pre interrupted()
-  [[noreturn]] void die();
+  /// Throws the signal that came, as Interrupted. @pre interrupted()
+  [[noreturn]] void pass_on();
 
  private:
   void restore();
@@ -30,5 +36,8 @@ class InterruptGuard {
   std::array<struct sigaction, kSignals> before_ = {};
   std::array<bool, kSignals> taken_ = {};
 };
+
+/// Ends this process by that signal.
+[[noreturn]] void die_of(const Interrupted& interrupted);
 
 }  // namespace contactcheck

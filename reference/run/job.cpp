@@ -13,15 +13,6 @@ namespace contactcheck {
 namespace {
 using Json = nlohmann::json;
 
-Json to_json(const RunSettings& s) {
-  return {{"detectors", s.detectors},     {"frames", s.frames},
-          {"repeats", s.repeats},         {"processes", s.processes},
-          {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
-          {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
-          {"closed_loop", s.closed_loop}, {"threads", s.threads},
-          {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
-}
-
 RunSettings settings_from(const Json& j) {
   RunSettings s;
   j.at("detectors").get_to(s.detectors);
@@ -40,6 +31,15 @@ RunSettings settings_from(const Json& j) {
 }
 
 }  // namespace
+
+nlohmann::json to_json(const RunSettings& s) {
+  return {{"detectors", s.detectors},     {"frames", s.frames},
+          {"repeats", s.repeats},         {"processes", s.processes},
+          {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
+          {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
+          {"closed_loop", s.closed_loop}, {"threads", s.threads},
+          {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
+}
 
 void write_job(const std::filesystem::path& file, const Job& job) {
   const Json j = {{"scene_file", job.scene_file.string()},
@@ -68,8 +68,9 @@ Job read_job(const std::filesystem::path& file) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
+  std::error_code ignored;
   // A folder opens like a file and reads as nothing.
-  if (std::filesystem::is_directory(file))
+  if (std::filesystem::is_directory(file, ignored))
     throw InputError("cannot read " + file.string() + ": is a folder");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct RunSettings {
   double call_limit = 60.0;   ///< seconds without progress until a worker is stopped
   std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
 };
+
+nlohmann::json to_json(const RunSettings& settings);
 
 /// One worker's job: one scene.
 struct Job {

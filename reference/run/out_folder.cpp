@@ -35,6 +35,13 @@ bool is_case_file(const fs::path& file) {
          stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
+// From 1.
+std::string case_name(std::size_t number) {
+  char name[32];
+  std::snprintf(name, sizeof name, "cases/%04zu.json", number);
+  return name;
+}
+
 }  // namespace
 
 ScratchFolder::ScratchFolder(const fs::path& parent)
@@ -64,14 +71,23 @@ void remove_old_cases(const fs::path& out) {
     if (entry.is_regular_file() && is_case_file(entry.path())) fs::remove(entry.path(), ignored);
 }
 
-void move_cases(const fs::path& out, Json& disagreements) {
-  std::size_t number = 0;
+std::vector<fs::path> number_cases(Json& disagreements) {
+  std::vector<fs::path> files;
   for (Json& d : disagreements) {
-    char name[32];
-    std::snprintf(name, sizeof name, "cases/%04zu.json", ++number);
-    fs::rename(d.at("case").get<std::string>(), out / name);
-    d["case"] = name;
+    files.emplace_back(d.at("case").get<std::string>());
+    d["case"] = case_name(files.size());
   }
+  return files;
+}
+
+void move_cases(const fs::path& out, const std::vector<fs::path>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i) rename_file(files[i], out / case_name(i + 1));
+}
+
+void rename_file(const fs::path& file, const fs::path& target) {
+  std::error_code error;
+  fs::rename(file, target, error);
+  if (error) throw InputError("cannot write \"" + target.string() + "\": " + error.message());
 }
 
 }  // namespace contactcheck

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 namespace contactcheck {
 
@@ -27,7 +28,12 @@ void make_out_folders(const std::filesystem::path& out);
 /// Removes the case files of earlier runs and nothing else.
 void remove_old_cases(const std::filesystem::path& out);
 
-/// Moves the case files that workers have written: running numbers over the whole suite.
-void move_cases(const std::filesystem::path& out, nlohmann::ordered_json& disagreements);
+/// Gives the case files that workers have written running numbers over the whole suite: in
+/// `disagreements` they are named as move_cases will name them. Returns where they still stand.
+std::vector<std::filesystem::path> number_cases(nlohmann::ordered_json& disagreements);
+void move_cases(const std::filesystem::path& out, const std::vector<std::filesystem::path>& files);
+
+/// @throws InputError when it cannot be
+void rename_file(const std::filesystem::path& file, const std::filesystem::path& target);
 
 }  // namespace contactcheck

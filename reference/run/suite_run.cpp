@@ -15,7 +15,9 @@
 #include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
+#include "reference/run/partial_results.h"
 #include "reference/run/printable.h"
+#include "reference/run/run_identity.h"
 #include "reference/run/samples_json.h"
 #include "reference/run/supervisor.h"
 #include "reference/run/worker.h"
@@ -52,9 +54,8 @@ class SceneRunner {
     job_.settings.detectors = task.detectors;
   }
 
-  /// The runs of this scene as JSON, in the order of the detectors; appends its disagreements and
-  /// its scene entry.
-  Json run(Json& scenes, Json& disagreements) {
+  /// Runs are in the order of the detectors.
+  FinishedScene run() {
     job_.recording_file = fs::absolute(recording());
     const Json first = run_process(0);
     job_.recording_file.clear();
@@ -63,8 +64,10 @@ class SceneRunner {
     std::vector<Json> answers = {first};
     for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
       answers.push_back(run_process(p));
-    scenes.push_back(first.at("scene"));
-    return assemble(answers, disagreements);
+    FinishedScene finished;
+    finished.scene = first.at("scene");
+    finished.runs = assemble(answers, finished.disagreements);
+    return finished;
   }
 
  private:
@@ -244,6 +247,10 @@ class SceneRunner {
   std::map<std::uint32_t, WorkerOutcome> broken_;
 };
 
+void append(Json from, Json& to) {
+  for (Json& item : from) to.push_back(std::move(item));
+}
+
 }  // namespace
 
 nlohmann::ordered_json run_suite(const SuiteRequest& request,
@@ -251,7 +258,11 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                                  SuiteOutcome* outcome) {
   make_out_folders(request.out);
   const ScratchFolder scratch(fs::absolute(request.out));
-  Json runs = Json::array(), disagreements = Json::array(), scenes = Json::array();
+  const PartialResults partial(request.out, scratch.path());
+  if (!request.resume) partial.clear();
+  const RunIdentity identity(request);
+  Json runs = Json::array(), disagreements = Json::array(), scenes = Json::array(),
+       resumed = Json::array();
   SuiteProgress progress;
   progress.scenes = request.tasks.size();
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
@@ -263,11 +274,19 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
           (static_cast<double>(progress.scene) + share) / static_cast<double>(progress.scenes);
       on_progress(progress);
     };
-    SceneRunner runner(request, task, scratch.path(), report);
-    for (Json& run : runner.run(scenes, disagreements)) runs.push_back(std::move(run));
+    std::optional<FinishedScene> finished = partial.take(task.id, identity.of(task));
+    if (finished) {
+      resumed.push_back(task.id);
+    } else {
+      partial.drop(task.id);  // its recording will be replaced
+      finished = SceneRunner(request, task, scratch.path(), report).run();
+      partial.keep(task.id, identity.of(task), *finished);
+    }
+    scenes.push_back(std::move(finished->scene));
+    append(std::move(finished->runs), runs);
+    append(std::move(finished->disagreements), disagreements);
   }
-  remove_old_cases(request.out);
-  move_cases(request.out, disagreements);
+  const std::vector<fs::path> cases = number_cases(disagreements);
   outcome->any_error = std::any_of(runs.begin(), runs.end(), [](const Json& run) {
     return run.at("status") == name_of(RunStatus::kError);
   });
@@ -280,7 +299,13 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                   {"runs", runs},
                   {"disagreements", disagreements}};
   if (!request.goals.empty()) results["goals"] = measure_goals(request.goals, results);
-  write_file_atomically(request.out / "results.json", results.dump(1) + "\n");
+  if (request.resume) results["resumed"] = resumed;
+  // All is on disk before anything of an earlier run goes: from here on there are only renames.
+  write_file_atomically(scratch.path() / "results.json", results.dump(1) + "\n");
+  remove_old_cases(request.out);
+  move_cases(request.out, cases);
+  rename_file(scratch.path() / "results.json", request.out / "results.json");
+  partial.clear();
   return results;
 }
 

@@ -18,6 +18,7 @@ struct SceneTask {
   std::vector<std::string> detectors;  ///< canonical names
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
+  std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
 struct SuiteRequest {
@@ -27,6 +28,8 @@ struct SuiteRequest {
   std::filesystem::path out;         ///< existing, writable
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
   std::string command;               ///< for the record
+  /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
+  bool resume = false;
 };
 
 /// What is going on, for the progress display.
@@ -40,7 +43,8 @@ struct SuiteOutcome {
   bool any_error = false;  ///< some detector ended in `error`
 };
 
-/// Writes out/results.json, out/recordings/ and out/cases/. Returns the results as written.
+/// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete
+/// out/partial/. Returns the results as written.
 /// @throws InputError for bad scenes or an unwritable folder
 nlohmann::ordered_json run_suite(const SuiteRequest& request,
                                  const std::function<void(const SuiteProgress&)>& on_progress,

@@ -134,7 +134,7 @@ std::string watch_to_the_end(WorkerProcess& worker, const SharedProgress& progre
     if (interrupts.interrupted()) {
       worker.kill();
       worker.reap();
-      interrupts.die();
+      interrupts.pass_on();
     }
     if (limit.empty()) {
       limit = watch.broken_limit(worker);

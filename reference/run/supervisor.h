@@ -31,8 +31,9 @@ using ProgressCallback = std::function<void(double share, std::optional<std::uin
 /// Runs `executable worker JOB_FILE` with the job's limits until it ends; children that it leaves
 /// behind are ended with it. A worker is killed whose step counter stands still for `call_limit`
 /// seconds, whose resident memory passes `memory_limit` (memory of its children is not counted) or
-/// whose output passes 64 MiB. Interrupts from the terminal end worker and caller.
-/// @throws InputError when it cannot be started
+/// whose output passes 64 MiB.
+/// @throws InputError when it cannot be started; Interrupted, after the worker's end, when this
+/// program is asked to end
 WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress);

@@ -97,8 +97,10 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
     return {TargetKind::kScene, *scene};
   }
   const fs::path file(name);
-  if (file.extension() == ".ccr" && fs::exists(file)) return {TargetKind::kRecording, file};
-  if (file.extension() == ".json" && fs::exists(file)) {
+  std::error_code ignored;  // a link to itself, a name that is too long: no such file
+  if (file.extension() == ".ccr" && fs::exists(file, ignored))
+    return {TargetKind::kRecording, file};
+  if (file.extension() == ".json" && fs::exists(file, ignored)) {
     return {is_suite_file(file) ? TargetKind::kSuite : TargetKind::kScene, file};
   }
   throw InputError(in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +

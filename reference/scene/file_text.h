@@ -6,9 +6,15 @@
 
 namespace contactcheck {
 
+/// No document that people write or this suite reads comes near; meshes may.
+inline constexpr std::size_t kLongestDocument = std::size_t{256} << 20,
+                             kLongestMesh = std::size_t{4} << 30;  // bytes
+
 /// The bytes of `file`. `kind` names it in messages: "scene file", "mesh file".
-/// @throws InputError when it does not exist, is a folder, cannot be read, or is empty
-std::string read_file_bytes(const std::filesystem::path& file, const std::string& kind);
+/// @throws InputError when it does not exist, is a folder, cannot be read, is empty, or has more
+/// than `longest` bytes
+std::string read_file_bytes(const std::filesystem::path& file, const std::string& kind,
+                            std::size_t longest = kLongestDocument);
 
 /// `text` in double quotes, control characters replaced, shortened after `longest` bytes: fit for a
 /// one-line message.

@@ -114,7 +114,7 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
 }
 
 LoadedMesh read_mesh_file(const std::filesystem::path& file) {
-  const std::string bytes = read_file_bytes(file, "mesh file");
+  const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
   const std::optional<SoupFormat> format = format_of(file);
   if (!format) return read_with_assimp(file);
   return read_mesh_bytes(*format, bytes, "mesh file " + in_quotes(file.string()));

@@ -148,6 +148,17 @@ nlohmann::ordered_json hovering(nlohmann::ordered_json grid, nlohmann::ordered_j
   return results;
 }
 
+TEST(Markdown, SaysWhichScenesWereTakenOver) {
+  auto results = sample_results();
+  results["resumed"] = nlohmann::ordered_json::array();
+  EXPECT_EQ(markdown_report(results), markdown_report(sample_results())) << "none";
+  results["resumed"] = {"hello", "world"};
+  EXPECT_THAT(
+      markdown_report(results),
+      HasSubstr("\n\nTaken over from an earlier run that was interrupted (`--resume`), with "
+                "the times measured then: hello, world.\n\n## Summary"));
+}
+
 TEST(Markdown, SaysWhereTheClaimAboutHoverHolds) {
   EXPECT_THAT(markdown_report(hovering(0.02, 0.01)), HasSubstr("| hello | 20.0 | 10.0 | holds |"));
   EXPECT_THAT(markdown_report(hovering(0.01, 0.02)),

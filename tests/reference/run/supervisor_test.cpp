@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
+#include "reference/run/interrupts.h"
 #include "tests/reference/run/is_dead.h"
 #include "tests/reference/scene/scratch.h"
 
@@ -166,8 +167,12 @@ TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
 int status_of_struck_supervisor(const std::filesystem::path& job, int signal, Pids* pids) {
   const pid_t supervisor = fork();
   if (supervisor == 0) {
-    run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
-                   [](double, std::optional<std::uint32_t>) {});
+    try {
+      run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
+                     [](double, std::optional<std::uint32_t>) {});
+    } catch (const Interrupted& interrupted) {
+      die_of(interrupted);
+    }
     _exit(0);
   }
   *pids = pids_beside(job);

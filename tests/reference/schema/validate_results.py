@@ -201,6 +201,10 @@ def consistency_errors(results):
         yield from run_errors(place, run)
     for number, goal in enumerate(results.get("goals", [])):
         yield from goal_errors(f"/goals/{number}", goal)
+    scenes = {scene for scene, _ in runs}
+    for number, scene in enumerate(results.get("resumed", [])):
+        if scene not in scenes:
+            yield f"/resumed/{number}", f"{scene} is no scene of the runs"
     for number, disagreement in enumerate(results["disagreements"]):
         place = f"/disagreements/{number}"
         run = runs.get((disagreement["scene"], disagreement["detector"]))

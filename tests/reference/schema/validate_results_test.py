@@ -120,6 +120,10 @@ MUTATIONS = [
     ("disagreements/0/case", REMOVED, "'case' is a required property"),
     ("disagreements/0/scene", "elsewhere", "belongs to no run"),
     ("disagreements/0/frame", 3, "is 3 of 3 frames"),
+    ("resumed", "hello", "is not of type 'array'"),
+    ("resumed", [""], "'' "),
+    ("resumed", ["elsewhere"], "elsewhere is no scene of the runs"),
+    ("resumed", ["hello", "hello"], "has non-unique elements"),
 ]
 
 

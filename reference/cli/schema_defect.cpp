@@ -1,0 +1,177 @@
+#include "reference/cli/schema_defect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/scene/file_text.h"
+#include "reference/scene/json_value.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLongestValue = 60;  // bytes that are shown of a text
+
+std::string value_text(const Json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "an array of " + std::to_string(value.size());
+  if (value.is_string()) return in_quotes(value.get<std::string>(), kLongestValue);
+  return value.dump();
+}
+
+std::string wrong(const std::string& path, const Json& value, const std::string& wanted) {
+  return (path.empty() ? "the document" : path) + " is " + value_text(value) + "; it must be " +
+         wanted;
+}
+
+bool is_whole(const Json& value) {
+  if (!value.is_number_float()) return value.is_number();
+  return value.get<double>() == std::trunc(value.get<double>());
+}
+
+bool is_of_type(const Json& value, const std::string& type) {
+  if (type == "integer") return is_whole(value);
+  if (type == "number") return value.is_number();
+  return value.type_name() == type;
+}
+
+// A keyword's value, alone or in an array, as an array.
+Json listed(const Json& value) { return value.is_array() ? value : Json::array({value}); }
+
+std::string joined_texts(const Json& values) {
+  std::string out;
+  for (const Json& v : values)
+    out += (out.empty() ? "" : ", ") + (v.is_string() ? v.get<std::string>() : v.dump());
+  return out;
+}
+
+/// Each check gives the first defect that it finds, or "".
+class Checker {
+ public:
+  explicit Checker(const Json& root) : root_(root) {}
+
+  std::string defect(const Json& schema, const Json& value, const std::string& path) const {
+    if (schema.contains("$ref")) {
+      const std::string found = defect(referred(schema.at("$ref")), value, path);
+      if (!found.empty()) return found;
+    }
+    for (const auto check : {&Checker::kind, &Checker::range, &Checker::members, &Checker::items,
+                             &Checker::combinations}) {
+      const std::string found = (this->*check)(schema, value, path);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+ private:
+  // "#/$defs/name"
+  const Json& referred(const std::string& reference) const {
+    return root_.at(Json::json_pointer(reference.substr(1)));
+  }
+
+  bool holds(const Json& schema, const Json& value) const {
+    return defect(schema, value, "").empty();
+  }
+
+  std::string kind(const Json& schema, const Json& value, const std::string& path) const {
+    if (schema.contains("type")) {
+      const Json types = listed(schema.at("type"));
+      const bool known = std::any_of(types.begin(), types.end(), [&](const Json& type) {
+        return is_of_type(value, type.get<std::string>());
+      });
+      if (!known) return wrong(path, value, "of type " + joined_texts(types));
+    }
+    if (schema.contains("const") && value != schema.at("const"))
+      return wrong(path, value, value_text(schema.at("const")));
+    if (schema.contains("enum")) {
+      const Json& allowed = schema.at("enum");
+      if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+        return wrong(path, value, "one of " + joined_texts(allowed));
+    }
+    return "";
+  }
+
+  std::string range(const Json& schema, const Json& value, const std::string& path) const {
+    if (value.is_string() &&
+        value.get_ref<const std::string&>().size() < schema.value("minLength", 0u))
+      return wrong(path, value, "a text that is not empty");
+    if (!value.is_number()) return "";
+    if (schema.contains("minimum") && value < schema.at("minimum"))
+      return wrong(path, value, "at least " + schema.at("minimum").dump());
+    if (schema.contains("exclusiveMinimum") && value <= schema.at("exclusiveMinimum"))
+      return wrong(path, value, "above " + schema.at("exclusiveMinimum").dump());
+    if (schema.contains("maximum") && value > schema.at("maximum"))
+      return wrong(path, value, "at most " + schema.at("maximum").dump());
+    return "";
+  }
+
+  std::string members(const Json& schema, const Json& value, const std::string& path) const {
+    if (!value.is_object()) return "";
+    for (const Json& key : schema.value("required", Json::array()))
+      if (!value.contains(key.get<std::string>()))
+        return member_path(path, key.get<std::string>()) + " is missing";
+    const Json properties = schema.value("properties", Json::object());
+    for (const auto& [key, member] : value.items()) {
+      std::string found;
+      if (schema.contains("propertyNames"))
+        found = defect(schema.at("propertyNames"), key, "a key of " + path);
+      if (found.empty() && properties.contains(key)) {
+        found = defect(properties.at(key), member, member_path(path, key));
+      } else if (found.empty() && schema.contains("additionalProperties")) {
+        found = defect(schema.at("additionalProperties"), member, member_path(path, key));
+      }
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  std::string items(const Json& schema, const Json& value, const std::string& path) const {
+    if (!value.is_array() || !schema.contains("items")) return "";
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string found = defect(schema.at("items"), value[i], item_path(path, i));
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  std::string combinations(const Json& schema, const Json& value, const std::string& path) const {
+    for (const Json& part : schema.value("allOf", Json::array())) {
+      const std::string found = defect(part, value, path);
+      if (!found.empty()) return found;
+    }
+    if (schema.contains("if")) {
+      const char* const branch = holds(schema.at("if"), value) ? "then" : "else";
+      const std::string found =
+          schema.contains(branch) ? defect(schema.at(branch), value, path) : "";
+      if (!found.empty()) return found;
+    }
+    for (const char* keyword : {"anyOf", "oneOf"}) {
+      const std::string found = alternatives(schema, keyword, value, path);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  // Where none fits, what the first one says: it is the usual form, the others are exceptions.
+  std::string alternatives(const Json& schema, const char* keyword, const Json& value,
+                           const std::string& path) const {
+    if (!schema.contains(keyword)) return "";
+    const Json& parts = schema.at(keyword);
+    const auto fitting = std::count_if(parts.begin(), parts.end(),
+                                       [&](const Json& part) { return holds(part, value); });
+    if (fitting == 0) return defect(parts.front(), value, path);
+    if (fitting == 1 || std::string(keyword) == "anyOf") return "";
+    return wrong(path, value, "of one kind alone of " + std::to_string(parts.size()));
+  }
+
+  const Json& root_;
+};
+
+}  // namespace
+
+std::string schema_defect(const Json& schema, const Json& document) {
+  return Checker(schema).defect(schema, document, "");
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,49 @@
+#include "reference/run/run_identity.h"
+
+#include "core/types/hash.h"
+#include "reference/adapters/register.h"
+#include "reference/compare/run_result_json.h"
+#include "reference/run/machine.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add_file(const std::filesystem::path& file, Fnv1a& hash) {
+  const std::string bytes = read_text_file(file);
+  hash.bytes(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+std::string content_of(const std::filesystem::path& file, const Scene& scene) {
+  Fnv1a hash;
+  add_file(file, hash);
+  for (const Body& body : scene.bodies) {
+    const std::uint64_t mesh = content_hash(body.shape->mesh);
+    hash.bytes(&mesh, sizeof mesh);
+  }
+  return hex(hash.digest());
+}
+
+RunIdentity::RunIdentity(const SuiteRequest& request) : settings_(request.settings) {
+  Fnv1a program;
+  add_file(request.executable, program);
+  common_ = {{"version", CONTACTCHECK_VERSION},
+             {"program", hex(program.digest())},
+             {"libraries", library_versions()},
+             {"machine", describe_machine()}};
+}
+
+Json RunIdentity::of(const SceneTask& task) const {
+  RunSettings settings = settings_;
+  settings.detectors = task.detectors;
+  Json identity = common_;
+  identity["settings"] = to_json(settings);
+  identity["references"] = task.references;
+  identity["content"] = task.content;
+  return identity;
+}
+
+}  // namespace contactcheck

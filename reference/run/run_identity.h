@@ -1,0 +1,31 @@
+// What the results of a scene depend on, so that a later run can tell whether they are still its
+// own.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reference/run/suite_run.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+
+/// Hash of a scene's file and of the meshes that it names, as hexadecimal text. `scene` is what
+/// `file` was read as. @throws InputError when the file cannot be read again
+std::string content_of(const std::filesystem::path& file, const Scene& scene);
+
+/// The program (by the bytes of its file: a detector that was rebuilt is another one), the
+/// libraries, the machine, the settings, the detectors and the scene's content.
+class RunIdentity {
+ public:
+  /// @throws InputError when the program's file cannot be read
+  explicit RunIdentity(const SuiteRequest& request);
+  nlohmann::ordered_json of(const SceneTask& task) const;
+
+ private:
+  const RunSettings& settings_;
+  nlohmann::ordered_json common_;
+};
+
+}  // namespace contactcheck

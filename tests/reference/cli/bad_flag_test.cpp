@@ -1,0 +1,162 @@
+// Flags and values that no command takes: unknown, out of range, twice, missing, contradictory.
+#include <gmock/gmock.h>
+
+#include "tests/reference/cli/refusal.h"
+#include "tests/reference/cli/tiny_scene.h"
+
+namespace contactcheck {
+namespace {
+
+using test::BadCommand;
+using test::Scratch;
+using test::Words;
+
+class BadFlag : public testing::TestWithParam<BadCommand> {};
+
+TEST_P(BadFlag, IsRefusedWithOneSentence) {
+  const Scratch scratch;
+  scratch.write("tiny.json", test::tiny_scene());
+  test::expect_refused(GetParam(), scratch);
+}
+
+std::string named(const testing::TestParamInfo<BadCommand>& test) { return test.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Program, BadFlag,
+    testing::Values(
+        BadCommand{"UnknownFlag", {"--verbose"}, {"unknown flag \"--verbose\""}},
+        BadCommand{"FlagOfACommandBeforeIt", {"--frames", "3", "run"}, {"--frames"}},
+        BadCommand{"EmptyWord", {""}, {"unknown command \"\""}},
+        BadCommand{"CommandInCapitals", {"RUN"}, {"unknown command \"RUN\""}},
+        BadCommand{"TwoCommands", {"list", "run", "--frames", "0"}, {"--frames", "0"}},
+        BadCommand{"NotUtf8", {"run", "DIR/tiny.json", "--out", "DIR/\xff"}, {"word 4", "DIR/?"}},
+        BadCommand{"ControlCharacters",
+                   {"run", "DIR/tiny.json", "--detector", "fcl\naabb", "--out", "DIR/out"},
+                   {"\"fcl aabb\""}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    List, BadFlag,
+    testing::Values(BadCommand{"UnknownFlag", {"list", "--colour"}, {"--colour"}},
+                    BadCommand{"Word", {"list", "scenes"}, {"scenes"}},
+                    BadCommand{"ValueOfAFlag", {"list", "--scenes=some"}, {"--scenes", "some"}}),
+    named);
+
+// `words` behind "run DIR/tiny.json" and before "--out DIR/out".
+BadCommand run_with(const std::string& name, const Words& words, const Words& named) {
+  BadCommand command = {name, {"run", "DIR/tiny.json"}, named};
+  command.words.insert(command.words.end(), words.begin(), words.end());
+  command.words.insert(command.words.end(), {"--out", "DIR/out"});
+  return command;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Frames, BadFlag,
+    testing::Values(run_with("Fraction", {"--frames", "1.5"}, {"--frames", "1.5"}),
+                    run_with("Exponent", {"--frames", "1e3"}, {"--frames", "1e3"}),
+                    run_with("WithAUnit", {"--frames", "3s"}, {"--frames", "3s"}),
+                    run_with("NotANumber", {"--frames", "nan"}, {"--frames", "nan"}),
+                    run_with("Empty", {"--frames", ""}, {"--frames"}),
+                    run_with("EmptyBehindEquals", {"--frames="}, {"--frames"}),
+                    run_with("AboveTheMost", {"--frames", "100001"}, {"--frames", "100001"}),
+                    run_with("BeyondAllIntegers", {"--frames", "99999999999999999999999"},
+                             {"--frames", "99999999999999999999999"}),
+                    run_with("Twice", {"--frames", "3", "--frames", "4"}, {"--frames"})),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Counts, BadFlag,
+    testing::Values(run_with("NegativeRepeat", {"--repeat", "-1"}, {"--repeat", "-1"}),
+                    run_with("TooManyRepeats", {"--repeat", "1001"}, {"--repeat", "1001"}),
+                    run_with("TooManyProcesses", {"--processes", "101"}, {"--processes", "101"}),
+                    run_with("NoThreads", {"--threads", "0"}, {"--threads", "0"}),
+                    run_with("NegativeThreads", {"--threads", "-2"}, {"--threads", "-2"}),
+                    run_with("TooManyThreads", {"--threads", "257"}, {"--threads", "257"})),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Limits, BadFlag,
+    testing::Values(
+        run_with("NegativeSeconds", {"--call-limit", "-1"}, {"--call-limit", "-1"}),
+        run_with("SecondsWithAUnit", {"--call-limit", "5s"}, {"--call-limit", "5s"}),
+        run_with("EndlessSeconds", {"--call-limit", "inf"}, {"--call-limit", "inf"}),
+        run_with("SecondsTwice", {"--call-limit", "5", "--call-limit", "6"}, {"--call-limit"}),
+        run_with("HalfAMebibyte", {"--memory-limit", "64.5"}, {"--memory-limit", "64.5"}),
+        run_with("MoreMemoryThanAddresses", {"--memory-limit", "99999999999999999999"},
+                 {"--memory-limit", "99999999999999999999"})),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Detectors, BadFlag,
+    testing::Values(
+        run_with("Empty", {"--detector", ""}, {"unknown detector \"\"", "list"}),
+        run_with("Capitals", {"--detector", "FCL-AABB"}, {"\"FCL-AABB\"", "list"}),
+        run_with("TwoInOneWord", {"--detector", "fcl-aabb,embree"}, {"\"fcl-aabb,embree\""}),
+        run_with("TriOfALibrary", {"--detector", "fcl-aabb+tri"}, {"\"fcl-aabb+tri\""}),
+        run_with("ColonWithoutOption", {"--detector", "ffd-aabb:"}, {"\"ffd-aabb:\"", "option="}),
+        run_with("OptionWithoutValue", {"--detector", "ffd-aabb:bounds"},
+                 {"\"bounds\"", "option=value"}),
+        run_with("EmptyValue", {"--detector", "ffd-aabb:bounds="}, {"bounds is \"\"", "paper"}),
+        run_with("NoName", {"--detector", "ffd-aabb:=1"}, {"unknown option \"\""}),
+        run_with("OptionTwice", {"--detector", "ffd-aabb:bounds=safe,bounds=safe"},
+                 {"bounds is given twice"}),
+        run_with("OptionOfAnother", {"--detector", "fcl-aabb:margin=1"},
+                 {"unknown option \"margin\""}),
+        run_with("NanValue", {"--detector", "bullet-vf:margin=nan"}, {"margin is \"nan\""}),
+        run_with("InfiniteValue", {"--detector", "bullet-vf:margin=inf"}, {"margin is \"inf\""}),
+        run_with("OverflowingValue", {"--detector", "bullet-vf:margin=1e999"},
+                 {"margin is \"1e999\""}),
+        run_with("HalfAThread", {"--detector", "ffd-lazy:threads=1.5"},
+                 {"threads is \"1.5\"", "a whole number"})),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Run, BadFlag,
+    testing::Values(
+        run_with("UnknownInstructionSet", {"--detector", "ffd-lazy", "--isa", "MMX"},
+                 {"isa is \"MMX\"", "AVX2"}),
+        run_with("OneBadInstructionSet",
+                 {"--detector", "ffd-lazy", "--isa", "best", "--isa", "avx2"}, {"\"avx2\""}),
+        run_with("InstructionSetNobodyUses", {"--detector", "embree", "--isa", "best"},
+                 {"--isa best", "no detector of this run"}),
+        run_with("SingleDash", {"-frames", "3"}, {"-frames"}),
+        run_with("OutTwice", {"--out", "DIR/other"}, {"--out"}),
+        run_with("QuietWithAValue", {"--quiet=perhaps"}, {"--quiet", "perhaps"}),
+        run_with("ResumeWithAValue", {"--resume", "DIR/other"}, {"\"DIR/other\""}),
+        run_with("SceneTwice", {"DIR/./tiny.json"}, {"\"tiny\""}),
+        BadCommand{"EmptyTarget", {"run", "", "--out", "DIR/out"}, {"\"\" is neither a suite"}},
+        BadCommand{"EmptyOut", {"run", "DIR/tiny.json", "--out", ""}, {"--out"}},
+        BadCommand{"OutWithoutAFolder", {"run", "DIR/tiny.json", "--out"}, {"--out"}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Report, BadFlag,
+    testing::Values(
+        BadCommand{"NoFile", {"report"}, {"results"}},
+        BadCommand{"TwoFiles", {"report", "a.json", "b.json"}, {"b.json"}},
+        BadCommand{"EmptyFormat", {"report", "a.json", "--format", ""}, {"--format"}},
+        BadCommand{"OneBadFormat", {"report", "a.json", "--format", "md,pdf"}, {"\"pdf\""}},
+        BadCommand{"FormatInCapitals", {"report", "a.json", "--format", "MD"}, {"\"MD\"", "md"}},
+        BadCommand{"FlagOfRun", {"report", "a.json", "--frames", "3"}, {"--frames"}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Reproduce, BadFlag,
+    testing::Values(
+        BadCommand{"FlagOfRun", {"reproduce", "--no-timing", "--out", "DIR/out"}, {"--no-timing"}},
+        BadCommand{"TooManyFrames",
+                   {"reproduce", "--frames", "100001", "--out", "DIR/out"},
+                   {"--frames", "100001"}},
+        BadCommand{"NegativeThreads",
+                   {"reproduce", "--threads", "-1", "--out", "DIR/out"},
+                   {"--threads", "-1"}},
+        BadCommand{"SceneFile",
+                   {"reproduce", "DIR/tiny.json", "--out", "DIR/out"},
+                   {"tiny.json\" is no scene of the paper"}},
+        BadCommand{"OneSceneThatIsNone",
+                   {"reproduce", "paper-teapot", "paper-teacup", "--out", "DIR/out"},
+                   {"\"paper-teacup\"", "allowed: paper"}}),
+    named);
+
+}  // namespace
+}  // namespace contactcheck

@@ -28,6 +28,14 @@ std::shared_ptr<const BodyShape> make_shape(TriangleMesh mesh, const Resolution&
   return shape;
 }
 
+std::shared_ptr<const BodyShape> make_shape_on_lines(TriangleMesh mesh,
+                                                     std::array<std::vector<double>, 3> lines) {
+  std::shared_ptr<BodyShape> shape = checked_shape(std::move(mesh));
+  shape->lattice = make_lattice_on_lines(shape->mesh, std::move(lines));
+  shape->embedding = embed(shape->mesh, *shape->lattice);
+  return shape;
+}
+
 std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh) {
   return checked_shape(std::move(mesh));
 }

@@ -1,6 +1,7 @@
 // A body: a shape, shared by all its instances, and a name.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,10 @@ struct Body {
 /// @throws InputError when the mesh has a fatal defect
 std::shared_ptr<const BodyShape> make_shape(TriangleMesh mesh, const Resolution& resolution,
                                             double padding = 0.02);
+/// Builds a shape in a lattice on given grid lines (make_lattice_on_lines).
+/// @throws InputError when the mesh has a fatal defect
+std::shared_ptr<const BodyShape> make_shape_on_lines(TriangleMesh mesh,
+                                                     std::array<std::vector<double>, 3> lines);
 /// Builds a shape without a lattice (static or recorded).
 std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh);
 

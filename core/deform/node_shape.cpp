@@ -46,18 +46,11 @@ std::vector<Vec3> NodeShape::nodes_for(std::span<const Vec3> vertices) const {
 
 NodeShape make_node_shape(std::size_t vertices, std::vector<Triangle> triangles) {
   const std::size_t lines = lines_for(vertices);
-  TriangleMesh mesh{rest_vertices(vertices, lines), std::move(triangles)};
-  auto shape = std::make_shared<BodyShape>();
-  shape->topology = analyse_topology(mesh);
-  if (shape->topology.fatal)
-    throw InputError("the mesh cannot be used: " + describe(shape->topology));
   std::vector<double> line;
   for (std::size_t i = 0; i < lines; ++i) line.push_back(static_cast<double>(i));
-  shape->lattice = make_lattice_on_lines(mesh, {line, line, line});
-  shape->embedding = embed(mesh, *shape->lattice);
-  shape->mesh = std::move(mesh);
-  NodeShape out{shape, vertices_of_nodes(*shape, lines)};
-  return out;
+  const auto shape = make_shape_on_lines({rest_vertices(vertices, lines), std::move(triangles)},
+                                         {line, line, line});
+  return {shape, vertices_of_nodes(*shape, lines)};
 }
 
 }  // namespace contactcheck

@@ -43,17 +43,7 @@ std::vector<Vec3> box_at_corner(TriangleSource& random, const Vec3& at, double s
 // The box [0, 1]^3 in a lattice of one cell that is no larger: its corners are the nodes, to the
 // last bit. (make_lattice() leaves some room.)
 std::shared_ptr<const BodyShape> box_of_one_cell() {
-  auto shape = std::make_shared<BodyShape>();
-  shape->mesh = unit_box_mesh(2);
-  shape->topology = analyse_topology(shape->mesh);
-  Lattice lattice;
-  lattice.lines = {{{0, 1}, {0, 1}, {0, 1}}};
-  lattice.cells = {{0, 0, 0}};
-  for (std::uint32_t c = 0; c < 8; ++c) lattice.nodes.push_back({c & 1, c >> 1 & 1, c >> 2 & 1});
-  lattice.cell_nodes = {{0, 1, 2, 3, 4, 5, 6, 7}};
-  shape->lattice = lattice;
-  shape->embedding = embed(shape->mesh, *shape->lattice);
-  return shape;
+  return make_shape_on_lines(unit_box_mesh(2), {{{0, 1}, {0, 1}, {0, 1}}});
 }
 
 // Two boxes that share one corner to the last bit, or miss each other by one unit in the last place

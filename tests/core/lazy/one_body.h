@@ -141,17 +141,9 @@ inline TriangleMesh sheet(int n) {
 
 /// The box [0, n]^3 whose vertices are lattice nodes, in a lattice without padding.
 inline ShapePtr box_on_its_nodes(int n) {
-  auto shape = std::make_shared<BodyShape>();
-  shape->mesh = box_mesh(Vec3::Zero(), Vec3::Constant(n), n);
-  shape->topology = analyse_topology(shape->mesh);
-  const ShapePtr padded =
-      make_shape(shape->mesh, {static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(n),
-                               static_cast<std::uint32_t>(n)});
-  shape->lattice = padded->lattice;
-  for (auto& lines : shape->lattice->lines)
-    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = static_cast<double>(i);
-  shape->embedding = embed(shape->mesh, *shape->lattice);
-  return shape;
+  std::vector<double> line;
+  for (int i = 0; i <= n; ++i) line.push_back(i);
+  return make_shape_on_lines(box_mesh(Vec3::Zero(), Vec3::Constant(n), n), {line, line, line});
 }
 
 }  // namespace contactcheck::test

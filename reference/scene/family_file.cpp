@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
-#include "core/deform/name_check.h"
 #include "core/deform/node_shape.h"
 #include "core/types/check.h"
 #include "reference/scene/amount.h"
+#include "reference/scene/common_fields.h"
 #include "reference/scene/family_step.h"
+#include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/lattice_spec.h"
-#include "reference/scene/level_list.h"
 #include "reference/scene/mesh_spec.h"
 
 namespace contactcheck {
@@ -83,7 +83,7 @@ class FamilyBody {
     try {
       build(first_value);
     } catch (const InputError& error) {
-      field.at("mesh").fail("cannot be used: " + std::string(error.what()));
+      field.at("mesh").fail("cannot be used: " + without_full_stop(error.what()));
     }
     check_steps();
   }
@@ -171,11 +171,7 @@ void require_finite(const std::vector<Vec3>& nodes, const JsonField& body,
 void add_body(const JsonField& field, const std::filesystem::path& folder,
               const std::vector<double>& values, Scene& scene) {
   field.only_keys({"name", "mesh", "lattice", "steps"});
-  const std::string name = field.at("name").text();
-  const std::string fault = name_fault(name);
-  if (!fault.empty()) field.at("name").fail(fault + " and cannot be a name");
-  for (const Body& other : scene.bodies)
-    if (other.name == name) field.at("name").refuse("different from those of the other bodies");
+  const std::string name = parse_body_name(field.at("name"), scene.bodies);
   const FamilyBody body(field, folder, values[0]);
   scene.bodies.push_back({name, body.shape()});
   scene.origins.push_back({name, body.base().source, body.base().notes});

@@ -4,15 +4,14 @@
 #include <set>
 #include <utility>
 
-#include "core/deform/name_check.h"
 #include "core/types/check.h"
+#include "reference/scene/common_fields.h"
 #include "reference/scene/copies_spec.h"
 #include "reference/scene/family_file.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/json_field.h"
 #include "reference/scene/lattice_spec.h"
-#include "reference/scene/level_list.h"
 #include "reference/scene/mesh_spec.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/scene.h"
@@ -84,17 +83,6 @@ void parse_simulated_times(const JsonField& root, std::size_t wanted_frames, Sce
   scene.frames = wanted_frames > 0 ? wanted_frames : frames;
   scene.time_step =
       scene.simulation->settings.time_step * static_cast<double>(scene.simulation->every);
-}
-
-std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
-  std::string name = field.text();
-  const std::string fault = name_fault(name);
-  if (!fault.empty()) field.fail(fault + " and cannot be a name");
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b].name != name) continue;
-    field.refuse("different from bodies[" + std::to_string(b) + "].name");
-  }
-  return name;
 }
 
 void add_body(const JsonField& field, const std::string& name, const Workshop::Made& made,

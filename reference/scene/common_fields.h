@@ -1,8 +1,10 @@
-// The levels that a scene file asks for.
+// What scene files and families of cases have in common.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "core/deform/body.h"
 #include "core/types/semantics.h"
 #include "reference/scene/json_field.h"
 
@@ -10,5 +12,8 @@ namespace contactcheck {
 
 /// An array of names of levels, at least one, all different. @throws InputError
 std::vector<Level> parse_levels(const JsonField& field);
+
+/// A name that no body has yet. @throws InputError
+std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies);
 
 }  // namespace contactcheck

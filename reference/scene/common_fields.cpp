@@ -1,7 +1,8 @@
-#include "reference/scene/level_list.h"
+#include "reference/scene/common_fields.h"
 
 #include <algorithm>
-#include <string>
+
+#include "core/deform/name_check.h"
 
 namespace contactcheck {
 
@@ -21,6 +22,17 @@ std::vector<Level> parse_levels(const JsonField& field) {
     levels.push_back(level);
   }
   return levels;
+}
+
+std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
+  std::string name = field.text();
+  const std::string fault = name_fault(name);
+  if (!fault.empty()) field.fail(fault + " and cannot be a name");
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].name != name) continue;
+    field.refuse("different from bodies[" + std::to_string(b) + "].name");
+  }
+  return name;
 }
 
 }  // namespace contactcheck

@@ -29,14 +29,18 @@ struct FamilyResult {
   std::string value(std::size_t frame) const {
     return scene.at("family").at("values").at(frame).get<std::string>();
   }
-  std::uint64_t at(const char* kind, std::size_t frame) const {
-    return run.at("per_frame").at(kind).at(frame).get<std::uint64_t>();
+  std::int64_t at(const char* kind, std::size_t frame) const {
+    return whole_number(run.at("per_frame").at(kind).at(frame));
+  }
+  std::string failed_at() const {
+    if (!run.contains("failed_frame")) return "-";
+    return value(static_cast<std::size_t>(whole_number(run.at("failed_frame"))));
   }
   bool wrong_at(std::size_t frame) const {
     return at("missed", frame) > 0 || at("spurious", frame) > 0;
   }
-  std::uint64_t sum(const char* kind) const {
-    std::uint64_t sum = 0;
+  std::int64_t sum(const char* kind) const {
+    std::int64_t sum = 0;
     for (std::size_t f = 0; judged() && f < cases(); ++f) sum += at(kind, f);
     return sum;
   }
@@ -60,7 +64,7 @@ std::vector<FamilyResult> family_results(const Json& results) {
 struct DetectorSum {
   std::string level;
   std::size_t families = 0, right_families = 0, cases = 0, right = 0, failed = 0, refused = 0;
-  std::uint64_t missed = 0, spurious = 0;
+  std::int64_t missed = 0, spurious = 0;
   double milliseconds = 0.0;  // cold, of the cases timed
   std::size_t timed = 0;
 
@@ -98,15 +102,9 @@ struct DetectorSum {
 // What is wrong at the first value, and how often in all.
 std::vector<std::string> wrong_line(const FamilyResult& result) {
   const auto detector = result.run.at("detector").get<std::string>();
-  if (result.failed()) {
-    const bool known = result.run.contains("failed_frame");
-    return {detector,
-            known ? result.value(result.run.at("failed_frame").get<std::size_t>()) : "-",
-            result.run.at("message").get<std::string>(),
-            "-",
-            "-",
+  if (result.failed())
+    return {detector, result.failed_at(), result.run.at("message").get<std::string>(), "-", "-",
             "-"};
-  }
   std::size_t first = 0;
   while (!result.wrong_at(first)) ++first;
   return {detector,

@@ -78,6 +78,19 @@ TEST(HardCases, NameTheFirstValueThatGoesWrong) {
                               "for: gaps. From: issue 7."));
 }
 
+TEST(HardCases, WithCountsThatAreNoneAreRefused) {
+  for (const char* kind : {"truth", "missed", "spurious"}) {
+    Json results = hard_results();
+    results["runs"][1]["per_frame"][kind][1] = 1e300;
+    EXPECT_THROW(hard_cases_markdown(results), Json::exception) << kind;
+  }
+  for (const Json& frame : {Json(1e300), Json(-1), Json(3)}) {
+    Json results = hard_results();
+    results["runs"][2]["failed_frame"] = frame;
+    EXPECT_THROW(hard_cases_markdown(results), Json::exception) << frame;
+  }
+}
+
 TEST(HardCases, StandInBothReportsInPlaceOfASectionPerFamily) {
   EXPECT_THAT(markdown_report(hard_results()), HasSubstr("### Where they go wrong"));
   EXPECT_THAT(markdown_report(hard_results()), Not(HasSubstr("## one\n")));

@@ -69,13 +69,13 @@ HWY_INLINE Rows load_rows(RowOfLane&& row) {
 }
 #endif
 
-// Bounds of y, of the lanes from `first` on: exact, quantised values are floats.
-HWY_INLINE FloatVec steps_of(const std::array<std::int16_t, kBlockWidth>& steps,
-                             std::size_t first) {
+// Quantised values of the lanes from `first` on: floats represent them.
+template <class Step>
+HWY_INLINE FloatVec steps_of(const std::array<Step, kBlockWidth>& steps, std::size_t first) {
   const FloatLanes d;
-  const hn::Rebind<std::int16_t, FloatLanes> d16;
+  const hn::Rebind<Step, FloatLanes> narrow;
   const hn::Rebind<std::int32_t, FloatLanes> d32;
-  return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, steps.data() + first)));
+  return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(narrow, steps.data() + first)));
 }
 
 // Middle and half-widths of each lane's piece: exact.
@@ -156,21 +156,13 @@ struct SlabDirection {
   FloatVec inverse_square;  // 1 / m.m
 };
 
-HWY_INLINE FloatVec signed_steps(const std::array<std::int8_t, kBlockWidth>& steps,
-                                 std::size_t first) {
-  const FloatLanes d;
-  const hn::Rebind<std::int8_t, FloatLanes> d8;
-  const hn::Rebind<std::int32_t, FloatLanes> d32;
-  return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d8, steps.data() + first)));
-}
-
 // n: the image of the surface's normal, by the cofactors of the Jacobian. Whatever it is, bounds
 // along it are right; this one makes them tight.
 HWY_INLINE SlabDirection slab_direction(const Expansions& x, const BlockSlabs& slabs,
                                         std::size_t first) {
   const FloatLanes d;
   SlabDirection out;
-  for (int k = 0; k < 3; ++k) out.local[k] = signed_steps(slabs.normal[k], first);
+  for (int k = 0; k < 3; ++k) out.local[k] = steps_of(slabs.normal[k], first);
   auto square = hn::Zero(d), length2 = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
     const auto &a = x.axis[(k + 1) % 3].gradient, &b = x.axis[(k + 2) % 3].gradient;

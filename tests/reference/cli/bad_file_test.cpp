@@ -3,10 +3,9 @@
 // tests/core/recording/recording_damage_test.cpp.)
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 
@@ -16,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::BadCommand;
 using test::Scratch;
+using test::text_of;
 using test::Words;
 
 using Prepare = std::function<void(const Scratch&)>;
@@ -189,11 +189,6 @@ INSTANTIATE_TEST_SUITE_P(
                                                  std::string(64, '\0')),
                               {"version 2 is not known"})),
     named);
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 TEST(CutRecording, IsRefusedWhereverItIsCut) {
   const Scratch scratch;

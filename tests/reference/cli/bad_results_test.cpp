@@ -2,12 +2,11 @@
 // kind.
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "reference/report/markdown.h"
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 
@@ -17,12 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using test::Scratch;
+using test::text_of;
 using test::Words;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Of a run with times, disagreements and a row of every kind that this machine can give.
 const Json& good_results() {

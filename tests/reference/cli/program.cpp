@@ -6,19 +6,14 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <fstream>
-#include <iterator>
 #include <utility>
+
+#include "tests/reference/cli/files.h"
 
 extern char** environ;
 
 namespace contactcheck::test {
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 int wait_for(pid_t child) {
   int status = 0;

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <fstream>
-#include <iterator>
-
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
@@ -13,11 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::contactcheck_program;
 using test::Outcome;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
+using test::text_of;
 
 TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   const test::Scratch scratch;

@@ -2,10 +2,9 @@
 // the paper.
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/scene/installed.h"
 #include "tests/reference/scene/scratch.h"
@@ -16,8 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using test::contactcheck_program;
+using test::names_in;
 using test::Outcome;
 using test::Scratch;
+using test::text_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -34,11 +35,6 @@ const char* const kFallingBoxes = R"({
      "motion": {"position": [0.1, 1.7, 0.1]},
      "material": {"model": "mass-spring", "mass": 10, "stiffness": 2000, "damping": 3}}]
 })";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 class ClosedLoopCommand : public testing::Test {
  protected:
@@ -97,12 +93,6 @@ TEST_F(ClosedLoopCommand, WithoutTheFlagThereIsNone) {
 }
 
 class ReproduceCommand : public ClosedLoopCommand {};
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 void expect_driven(const json& run) {
   EXPECT_EQ(run.at("status"), "ok") << run.at("detector") << run.at("message");

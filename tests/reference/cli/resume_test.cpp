@@ -4,10 +4,9 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
@@ -19,8 +18,10 @@ namespace fs = std::filesystem;
 // Ordered: what is kept is compared with its order.
 using json = nlohmann::ordered_json;
 using test::contactcheck_program;
+using test::names_in;
 using test::Outcome;
 using test::RunningProgram;
+using test::text_of;
 using test::tiny_scene;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -29,17 +30,6 @@ using Words = std::vector<std::string>;
 
 // Long enough that a run is still in it when the test has seen the first scene finished.
 constexpr const char* kManyFrames = "3000";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out.insert(entry.path().filename());
-  return out;
-}
 
 std::map<std::string, std::string> texts_in(const fs::path& folder) {
   std::map<std::string, std::string> out;

@@ -1,11 +1,11 @@
 // Whole runs of the built program on a scene of two boxes.
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/lazy/kernels.h"
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
@@ -16,22 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using test::contactcheck_program;
+using test::names_in;
 using test::Outcome;
 using test::Scratch;
+using test::text_of;
 using test::tiny_scene;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) out.insert(entry.path().filename());
-  return out;
-}
 
 std::map<std::string, std::string> hashes_of(const json& results) {
   std::map<std::string, std::string> out;

@@ -5,11 +5,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 
@@ -20,14 +19,10 @@ namespace fs = std::filesystem;
 using test::BadCommand;
 using test::Outcome;
 using test::Scratch;
+using test::text_of;
 using test::Words;
 using testing::AnyOf;
 using testing::HasSubstr;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 class Unwritable : public testing::TestWithParam<BadCommand> {};
 

@@ -82,6 +82,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
+  request.known_defects = read_known_defects(known_defects_file());
   return request;
 }
 
@@ -101,7 +102,7 @@ Json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalo
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteOutcome outcome;
   print_outcome(arguments, run_and_report(arguments, catalog, &outcome));
-  return outcome.any_error ? 3 : 0;
+  return outcome.unlisted_error ? 3 : 0;
 }
 
 }  // namespace contactcheck

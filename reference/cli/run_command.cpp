@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
+#include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/cli/run_tasks.h"
-#include "reference/report/markdown.h"
+#include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
 #include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
@@ -95,7 +95,7 @@ Json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalo
   Json results = run_suite(
       request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
   display.finish();
-  write_file_atomically(arguments.out / "report.md", markdown_report(results));
+  write_report(arguments.out, report_files(results));
   return results;
 }
 

@@ -67,8 +67,9 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   state.scale = scale;
   state.origin = frame.center();
   state.reach = half_width(frame) * scale;
-  const double world = mapping_error_bound(state.largest) +
-                       4.0 * kDoubleUnit * (state.largest + state.origin.cwiseAbs().maxCoeff());
+  // Products first: the sum of two coordinates may overflow, and nothing would be excluded.
+  const double world = mapping_error_bound(state.largest) + 4.0 * kDoubleUnit * state.largest +
+                       4.0 * kDoubleUnit * state.origin.cwiseAbs().maxCoeff();
   const double common = world * scale * 1.01 + 1e-37;
   state.slack = round_up(256.0 * kFloatUnit * state.reach + common);
   state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
@@ -143,10 +144,12 @@ void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes) {
   state.nodes = nodes;
   state.vertices = {};
   set_box(nodes, state);
-  // Mapped vertices leave the hull of their nodes by rounding, no more.
+  // Mapped vertices leave the hull of their nodes by rounding, no more. They are finite, so the box
+  // stays so: an infinite one has no middle, and no scale could be made of its width.
+  constexpr double kLargest = std::numeric_limits<double>::max();
   const double error = 2.0 * mapping_error_bound(state.largest);
-  state.box.lo.array() -= error;
-  state.box.hi.array() += error;
+  state.box.lo = (state.box.lo.array() - error).max(-kLargest);
+  state.box.hi = (state.box.hi.array() + error).min(kLargest);
 }
 
 void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices) {

@@ -10,32 +10,13 @@
 #include "core/detect/registry.h"
 #include "reference/adapters/register.h"
 #include "tests/hard/corpus.h"
+#include "tests/hard/exact_detectors.h"
 
 namespace contactcheck {
 namespace {
 
 using test::hard_family;
 using test::HardFamily;
-
-// Embree finds candidates; the exact test is ours.
-const std::vector<std::string>& exact_detectors() {
-  static const std::vector<std::string> names = {"embree",
-                                                 "spatial-hash",
-                                                 "spatial-hash:table=1",
-                                                 "aabb-tree",
-                                                 "sphere-tree",
-                                                 "bd-tree",
-                                                 "full-refit",
-                                                 "ffd-lazy",
-                                                 "ffd-lazy:bounds=nodes",
-                                                 "ffd-lazy:bounds=nodes,threads=2",
-                                                 "ffd-grid+tri",
-                                                 "ffd-aabb+tri",
-                                                 "ffd-aabb-sphere+tri",
-                                                 "ffd-aabb-sphere2+tri",
-                                                 "ffd-aabb-sphereN+tri"};
-  return names;
-}
 
 const DetectorCatalog& catalogue() {
   static const DetectorCatalog catalog = [] {
@@ -118,7 +99,7 @@ void register_cases(const std::string& detector) {
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
-  for (const std::string& detector : contactcheck::exact_detectors())
+  for (const std::string& detector : contactcheck::test::exact_detectors())
     contactcheck::register_cases(detector);
   const int result = RUN_ALL_TESTS();
   const auto& unit = *::testing::UnitTest::GetInstance();

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "core/deform/node_shape.h"
 #include "tests/core/detect/bare_scenes.h"
 
 namespace contactcheck {
@@ -96,6 +98,21 @@ Scene sizes() {
   return scene;
 }
 
+// Two boxes that share a face at the largest double, bit for bit by lattice nodes.
+Scene at_the_largest_double() {
+  Scene scene;
+  std::vector<std::vector<Vec3>> nodes;
+  for (const Vec3& lo : {Vec3(-1, -1, -1), Vec3(0.5, -0.5, 0)}) {
+    TriangleMesh mesh = test::box_mesh(lo, Vec3::Ones(), 3);
+    for (Vec3& v : mesh.vertices) v *= std::numeric_limits<double>::max();
+    const NodeShape shape = make_node_shape(mesh.vertices.size(), mesh.triangles);
+    scene.bodies.push_back({"box", shape.shape});
+    nodes.push_back(shape.nodes_for(mesh.vertices));
+  }
+  scene.frames.push_back(make_frame(scene.bodies, std::move(nodes)));
+  return scene;
+}
+
 // Made once: brute force is the expensive part.
 const std::vector<JudgedScene>& scenes() {
   static const std::vector<JudgedScene> all = {
@@ -106,7 +123,8 @@ const std::vector<JudgedScene>& scenes() {
       judged("inverted cells", test::approach({704, 3.0}, 3)),
       judged("far away", test::approach({705, 0.3, 1e-3, Vec3(1e9, -1e9, 5e8)}, 4)),
       judged("huge", test::approach({706, 0.3, 1e200}, 4)),
-      judged("exact boxes", test::exact_boxes(Vec3(3, 0, 0)))};
+      judged("exact boxes", test::exact_boxes(Vec3(3, 0, 0))),
+      judged("at the largest double", at_the_largest_double())};
   return all;
 }
 

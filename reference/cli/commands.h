@@ -32,6 +32,16 @@ struct ListArguments {
   bool suites = false, scenes = false, families = false, detectors = false;
 };
 
+struct ReduceArguments {
+  std::string target;    ///< a case file, or what `run` takes as a scene, with "@FRAME" behind it
+  std::string detector;  ///< empty: the case's
+  std::string level, kind;    ///< empty: the case's, or what is found first
+  std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
+  std::size_t budget = 20000;
+  double call_limit = 10.0;  ///< seconds
+  std::uint64_t memory_limit_mib = 4096;
+};
+
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
@@ -45,6 +55,8 @@ std::filesystem::path known_defects_file();
 /// Prints known defects beside those that a run shows; 1 when they differ. `write` makes the file
 /// say what the run shows.
 int defects_command(const std::filesystem::path& results, bool write);
+/// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
+int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -14,6 +14,7 @@
 
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/reduce/probe_worker.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
 #include "reference/run/worker.h"
@@ -61,8 +62,10 @@ struct Choices {
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
   std::vector<std::string> families;
+  ReduceArguments reduce;
+  std::string probe_detector;
   bool no_timing = false, write_truth = false, write_defects = false;
-  int progress_fd = -1;
+  int progress_fd = -1, channel_fd = -1;
 };
 
 // CLI11's own range (2.1) lets NaN pass.
@@ -76,15 +79,18 @@ std::string seconds_in_range(const std::string& text) {
 }
 
 // What ends a detector that goes astray.
-void add_limits(CLI::App& run, Choices& c) {
-  run.add_option("--call-limit", c.run.call_limit,
-                 "seconds that one call of a detector may take (default 60); beyond, its row is an "
-                 "error")
+void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
+                const std::string& default_seconds) {
+  command
+      .add_option("--call-limit", seconds,
+                  "seconds that one call of a detector may take (default " + default_seconds +
+                      "); beyond, it has ended in an error")
       ->check(seconds_in_range)
       ->type_name("SECONDS");
-  run.add_option("--memory-limit", c.run.memory_limit_mib,
-                 "resident memory of a scene's worker process (default 4096); the detector that "
-                 "passes it is an error")
+  command
+      .add_option("--memory-limit", mib,
+                  "resident memory of a worker process (default 4096); the detector that passes it "
+                  "has ended in an error")
       ->check(CLI::Range(64, 1 << 30))
       ->type_name("MIB");
 }
@@ -122,7 +128,7 @@ void add_run(CLI::App& app, Choices& c) {
                   "every such detector runs with each")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  add_limits(*run, c);
+  add_limits(*run, c.run.call_limit, c.run.memory_limit_mib, "60");
   run->add_flag("--no-timing", c.no_timing, "judge only");
   run->add_flag("--resume", c.run.resume,
                 "take over the scenes that an interrupted run with the same settings has finished "
@@ -156,6 +162,38 @@ void add_reproduce(CLI::App& app, Choices& c) {
       "  contactcheck reproduce paper-rabbit --frames 60");
 }
 
+void add_reduce(CLI::App& app, Choices& c) {
+  CLI::App* reduce = app.add_subcommand(
+      "reduce", "shrink a disagreement to the fewest triangles and the simplest numbers");
+  reduce
+      ->add_option("case", c.reduce.target,
+                   "a case file of run; or a scene, family or recording (with @FRAME or @VALUE "
+                   "behind it, else its first frame with a disagreement) and --detector")
+      ->required();
+  reduce->add_option("--detector", c.reduce.detector, "the detector; default: the case's");
+  reduce->add_option("--level", c.reduce.level,
+                     "a disagreement at this level; default: the case's, or the finest");
+  reduce->add_option("--kind", c.reduce.kind, "missed, spurious or error; default: the case's")
+      ->check(CLI::IsMember({"missed", "spurious", "error"}));
+  reduce
+      ->add_option("--out", c.reduce.out,
+                   "file of the minimal case, a family of one value that run takes (default: "
+                   "NNNN.min.json beside the case; of a scene in out/cases)")
+      ->type_name("FILE");
+  reduce->add_option("--budget", c.reduce.budget, "candidates that may be tried (default 20000)")
+      ->check(CLI::Range(1, 100000000))
+      ->type_name("N");
+  add_limits(*reduce, c.reduce.call_limit, c.reduce.memory_limit_mib, "10");
+  reduce->footer(
+      "Triangles keep their dimension, a missed crossing stays a crossing, and a pair in general\n"
+      "position stays in it. The detector runs in a process of its own: crashes and hangs are\n"
+      "reduced as well.\n"
+      "Examples:\n"
+      "  contactcheck reduce out/cases/0001.json\n"
+      "  contactcheck reduce hard-balls-scale@1 --detector fcl-obbrss --out minimal.json\n"
+      "  contactcheck run minimal.json --detector fcl-obbrss --no-timing");
+}
+
 void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
@@ -187,10 +225,15 @@ void add_others(CLI::App& app, Choices& c) {
   CLI::App* worker = app.add_subcommand("worker", "")->group("");
   worker->add_option("job", c.job_file)->required();
   worker->add_option("--progress-fd", c.progress_fd);
+  CLI::App* probe = app.add_subcommand("probe", "")->group("");
+  probe->add_option("detector", c.probe_detector)->required();
+  probe->add_option("--channel-fd", c.channel_fd)->required();
 }
 
 int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("worker")) return run_worker(c.job_file, catalog, c.progress_fd);
+  if (app.got_subcommand("probe")) return run_probe_worker(c.probe_detector, catalog, c.channel_fd);
+  if (app.got_subcommand("reduce")) return reduce_command(c.reduce, catalog);
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
@@ -225,6 +268,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   choices.run.command_line = join_command_line(argc, argv);
   add_run(app, choices);
   add_reproduce(app, choices);
+  add_reduce(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);
@@ -235,7 +279,9 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
 }
 
 // A worker's streams are its supervisor's to look after.
-bool is_worker(int argc, char** argv) { return argc > 1 && std::strcmp(argv[1], "worker") == 0; }
+bool is_worker(int argc, char** argv) {
+  return argc > 1 && (std::strcmp(argv[1], "worker") == 0 || std::strcmp(argv[1], "probe") == 0);
+}
 
 int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
   // A file that meets a limit is a failed write with a sentence of its own, and no death.

@@ -41,10 +41,21 @@ bool names_cells(const Disagreement& d) {
          (d.level == name_of(Level::kCell) && d.kind == "spurious");
 }
 
+// A vertex, of level `vertex` or `near`, is what stands first in its pair.
+bool names_vertex(const Disagreement& d) {
+  return d.level == name_of(Level::kVertex) || d.level == name_of(Level::kNear);
+}
+
+Json first_of_vertex_pair(const JudgedScene& judged, const Disagreement& d) {
+  return {{"body", judged.scene->bodies[d.pair.body_a].name},
+          {"vertex", d.pair.a},
+          {"position", point(judged.vertices[d.frame][d.pair.body_a][d.pair.a])}};
+}
+
 Json element(const JudgedScene& judged, const Disagreement& d, std::uint32_t body,
              std::uint32_t id) {
   Json out = {{"body", judged.scene->bodies[body].name}};
-  if (names_triangles(d)) {
+  if (names_triangles(d) || d.level == name_of(Level::kNear)) {
     out["triangle"] = id;
     out["vertices"] = triangle_points(judged, d.frame, body, id);
   } else if (names_cells(d)) {
@@ -62,15 +73,15 @@ std::string hex_float(double value) {
   return text;
 }
 
-void write_case(const std::filesystem::path& file, const JudgedScene& judged,
-                const Disagreement& d) {
-  const Json out = {{"scene", d.scene},
-                    {"frame", d.frame},
-                    {"detector", d.detector},
-                    {"level", d.level},
-                    {"kind", d.kind},
-                    {"first", element(judged, d, d.pair.body_a, d.pair.a)},
-                    {"second", element(judged, d, d.pair.body_b, d.pair.b)}};
+void write_case(const std::filesystem::path& file, const JudgedScene& judged, const Disagreement& d,
+                const std::string& recording) {
+  const Json first = names_vertex(d) ? first_of_vertex_pair(judged, d)
+                                     : element(judged, d, d.pair.body_a, d.pair.a);
+  const Json out = {
+      {"scene", d.scene},       {"frame", d.frame},
+      {"detector", d.detector}, {"level", d.level},
+      {"kind", d.kind},         {"recording", recording},
+      {"first", first},         {"second", element(judged, d, d.pair.body_b, d.pair.b)}};
   write_file_atomically(file, out.dump(1) + "\n");
 }
 

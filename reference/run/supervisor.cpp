@@ -59,14 +59,6 @@ class SharedPage {
   SharedProgress* progress_ = nullptr;
 };
 
-std::string describe_status(int status) {
-  if (WIFSIGNALED(status)) {
-    const int number = WTERMSIG(status);
-    return "signal " + std::to_string(number) + " (" + strsignal(number) + ")";
-  }
-  return "exit code " + std::to_string(WEXITSTATUS(status));
-}
-
 std::string short_text(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", number);
@@ -168,7 +160,10 @@ WorkerOutcome run_supervised(const std::filesystem::path& executable,
                              const std::filesystem::path& job_file, const RunSettings& settings,
                              const ProgressCallback& on_progress) {
   const SharedPage page;
-  WorkerProcess worker(executable, job_file, page.fd());
+  WorkerProcess worker(
+      executable,
+      {"worker", job_file.string(), "--progress-fd", std::to_string(WorkerProcess::kInheritedFd)},
+      page.fd());
   const std::string limit = watch_to_the_end(worker, page.progress(), settings, on_progress);
   const int status = worker.reap();
   WorkerOutcome outcome = outcome_of(page.progress(), settings, status, limit);

@@ -15,9 +15,13 @@ void volunteer_for_the_oom_killer() { std::ofstream("/proc/self/oom_score_adj") 
 
 }  // namespace
 
-SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback) {
+void end_with_supervisor() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   volunteer_for_the_oom_killer();
+}
+
+SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback) {
+  end_with_supervisor();
   void* page =
       mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE, MAP_SHARED, progress_fd, 0);
   if (page == MAP_FAILED) return fallback;

@@ -11,6 +11,9 @@
 
 namespace contactcheck {
 
+/// Makes this process end with its supervisor, and before it where memory ends.
+void end_with_supervisor();
+
 /// Maps the supervisor's page, for this process and no copy of it, and makes this process end with
 /// its supervisor. `fallback` where there is no such page.
 SharedProgress* join_supervisor(int progress_fd, SharedProgress* fallback);

@@ -287,7 +287,7 @@ class Worker {
       for (const Disagreement& d : entry.result.disagreements) {
         const std::filesystem::path file =
             job_.answer_file.string() + ".case" + std::to_string(cases_++);
-        write_case(file, judged_, d);
+        write_case(file, judged_, d, "../recordings/" + job_.recording_file.filename().string());
         Json c = to_json(d);
         c["case"] = file.string();
         cases.push_back(c);

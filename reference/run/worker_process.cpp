@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "core/types/check.h"
 
@@ -19,8 +20,6 @@ extern char** environ;
 namespace contactcheck {
 namespace {
 
-// In the worker; also the end of the numbers that its standard streams take.
-constexpr int kProgressFd = 3;
 constexpr std::size_t kLongestErrorText = std::size_t{64} << 10;
 
 int memory_file(const char* label) {
@@ -28,7 +27,7 @@ int memory_file(const char* label) {
   if (low < 0) throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
   // Not among the numbers that the worker's descriptors are moved to: where this program was
   // started with a stream closed, the file would have taken that number.
-  const int high = fcntl(low, F_DUPFD_CLOEXEC, kProgressFd + 1);
+  const int high = fcntl(low, F_DUPFD_CLOEXEC, WorkerProcess::kInheritedFd + 1);
   close(low);
   if (high < 0) throw InputError(std::string("cannot make shared memory: ") + std::strerror(errno));
   return high;
@@ -82,26 +81,26 @@ std::string MemoryFile::text(std::size_t longest) const {
 }
 
 WorkerProcess::WorkerProcess(const std::filesystem::path& executable,
-                             const std::filesystem::path& job_file, int progress_fd)
+                             std::vector<std::string> arguments, int inherited_fd)
     : output_("contactcheck-output"), errors_("contactcheck-errors") {
   // Shared with the worker, which empties the files between detectors: whatever comes next goes to
   // their beginning.
   for (const int fd : {output_.fd(), errors_.fd()}) fcntl(fd, F_SETFL, O_APPEND);
-  start(executable, job_file, progress_fd);
+  start(executable, std::move(arguments), inherited_fd);
 }
 
 void WorkerProcess::start(const std::filesystem::path& executable,
-                          const std::filesystem::path& job_file, int progress_fd) {
-  std::string program = executable.string(), command = "worker", job = job_file.string(),
-              flag = "--progress-fd", number = std::to_string(kProgressFd);
-  char* arguments[] = {program.data(), command.data(), job.data(),
-                       flag.data(),    number.data(),  nullptr};
+                          std::vector<std::string> arguments, int inherited_fd) {
+  std::string program = executable.string();
+  std::vector<char*> words = {program.data()};
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
   SpawnPlan plan;
   plan.empty_input();
   plan.move(output_.fd(), STDOUT_FILENO);
   plan.move(errors_.fd(), STDERR_FILENO);
-  plan.move(progress_fd, kProgressFd);
-  const int error = plan.spawn(arguments, &pid_);
+  plan.move(inherited_fd, kInheritedFd);
+  const int error = plan.spawn(words.data(), &pid_);
   if (error != 0)
     throw InputError("cannot start the worker " + program + ": " + std::strerror(error));
 }
@@ -141,6 +140,14 @@ std::uint64_t WorkerProcess::resident_bytes() const {
   std::uint64_t total = 0, resident = 0;
   statm >> total >> resident;
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string describe_status(int status) {
+  if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    return "signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+  }
+  return "exit code " + std::to_string(WEXITSTATUS(status));
 }
 
 std::string WorkerProcess::error_text() const { return errors_.text(kLongestErrorText); }

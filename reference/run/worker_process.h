@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace contactcheck {
 
@@ -33,10 +34,14 @@ class MemoryFile {
 /// library end with it.
 class WorkerProcess {
  public:
-  /// Runs `executable worker JOB_FILE --progress-fd N`. @throws InputError when it cannot be
-  /// started
-  WorkerProcess(const std::filesystem::path& executable, const std::filesystem::path& job_file,
-                int progress_fd);
+  /// Under which number the worker finds the descriptor that it is given; also the end of the
+  /// numbers that its standard streams take.
+  static constexpr int kInheritedFd = 3;
+
+  /// Runs `executable ARGUMENTS...` with the descriptor `inherited_fd` as kInheritedFd.
+  /// @throws InputError when it cannot be started
+  WorkerProcess(const std::filesystem::path& executable, std::vector<std::string> arguments,
+                int inherited_fd);
   /// Ends the group.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
@@ -54,12 +59,15 @@ class WorkerProcess {
   std::string error_text() const;
 
  private:
-  void start(const std::filesystem::path& executable, const std::filesystem::path& job_file,
-             int progress_fd);
+  void start(const std::filesystem::path& executable, std::vector<std::string> arguments,
+             int inherited_fd);
 
   MemoryFile output_, errors_;
   pid_t pid_ = 0;
   bool reaped_ = false;
 };
+
+/// What waitpid's status says: "signal 11 (Segmentation fault)", "exit code 3".
+std::string describe_status(int status);
 
 }  // namespace contactcheck

@@ -74,7 +74,8 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command : {"", "run", "reproduce", "list", "report", "truth", "defects"}) {
+  for (const std::string command :
+       {"", "run", "reproduce", "reduce", "list", "report", "truth", "defects"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);

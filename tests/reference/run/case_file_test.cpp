@@ -46,7 +46,7 @@ class CaseFile : public testing::Test {
     d.kind = kind;
     d.frame = 2;
     d.pair = pair;
-    write_case(scratch_.folder() / "case", judged_, d);
+    write_case(scratch_.folder() / "case", judged_, d, "../recordings/approach.ccr");
     return json::parse(read_text_file(scratch_.folder() / "case"));
   }
 
@@ -84,6 +84,7 @@ TEST_F(CaseFile, TrianglePairHoldsItsSixDeformedVertices) {
   EXPECT_EQ(c.at("detector"), "fcl-aabb");
   EXPECT_EQ(c.at("level"), "triangle");
   EXPECT_EQ(c.at("kind"), "missed");
+  EXPECT_EQ(c.at("recording"), "../recordings/approach.ccr");
   EXPECT_EQ(c.at("first").at("body"), "resting");
   EXPECT_EQ(c.at("second").at("body"), "moving");
   expect_triangle(c.at("first"), 0, 5);
@@ -104,6 +105,22 @@ TEST_F(CaseFile, BodyPairNamesItsBodiesAlone) {
   const json c = write("body", "missed", {0, 1, 0, 0});
   EXPECT_EQ(c.at("first").size(), 1u);
   EXPECT_EQ(c.at("second").at("body"), "moving");
+}
+
+TEST_F(CaseFile, NearPairHoldsItsVertexAndItsTriangle) {
+  const json c = write("near", "missed", {1, 0, 9, 4});
+  EXPECT_EQ(c.at("first").at("body"), "moving");
+  EXPECT_EQ(c.at("first").at("vertex"), 9);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(read_back(c.at("first").at("position")[k]), judged_.vertices[2][1][9][k]);
+  EXPECT_EQ(c.at("second").at("body"), "resting");
+  expect_triangle(c.at("second"), 0, 4);
+}
+
+TEST_F(CaseFile, VertexInABodyIsTheVertexAndTheBody) {
+  const json c = write("vertex", "spurious", {0, 1, 3, 0});
+  EXPECT_EQ(c.at("first").at("vertex"), 3);
+  EXPECT_EQ(c.at("second").size(), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,316 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/adapters/register.h"
+#include "reference/cli/commands.h"
+#include "reference/reduce/minimal_case.h"
+#include "reference/reduce/printed_test.h"
+#include "reference/reduce/probe.h"
+#include "reference/reduce/reduction.h"
+#include "reference/reduce/simple_number.h"
+#include "reference/reduce/task.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/id_check.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kProgressEvery = 20;  // candidates
+
+/// What is reduced: a frame of two bodies in which the detector was seen to err.
+struct Defect {
+  ReductionTask task;
+  Finding finding;
+};
+
+// A disagreement is judged at its own level (an error has none); bodies are judged beside it, as in
+// any scene.
+std::vector<Level> levels_for(const std::string& level_name) {
+  std::vector<Level> levels = {Level::kBody};
+  const Level level = level_from_name(level_name).value_or(Level::kTriangle);
+  if (level != Level::kBody) levels.push_back(level);
+  return levels;
+}
+
+// Where it is not known yet what is wrong.
+std::vector<Level> levels_for(const ReductionTask& task) {
+  if (!task.level.empty()) return levels_for(task.level);
+  return {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle, Level::kNear};
+}
+
+// Parts of a solid are no solids, and only these have an inside.
+void require_reducible(const std::string& level) {
+  for (const Level solid : {Level::kVertex, Level::kContainment})
+    if (level == name_of(solid))
+      throw InputError("a disagreement at level " + level +
+                       " cannot be reduced: inside is defined for closed surfaces, and a part of "
+                       "one is open");
+}
+
+Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
+  return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
+}
+
+class ReduceCommand {
+ public:
+  ReduceCommand(const ReduceArguments& arguments, const DetectorCatalog& catalog)
+      : arguments_(arguments), catalog_(catalog) {}
+
+  int run() {
+    check_words();
+    const std::vector<ReductionTask> tasks = read_tasks();
+    make_probe(tasks.front());
+    const Defect defect = find_defect(tasks);
+    const Candidate whole = candidate_of(defect.task.snapshot);
+    const std::optional<Reduction> reduction = reduce_defect(defect, whole);
+    if (!reduction) refuse_own_lattice(defect);
+    write(defect, whole, *reduction);
+    return 0;
+  }
+
+ private:
+  void check_words() const {
+    if (!arguments_.level.empty() && !level_from_name(arguments_.level))
+      throw InputError("--level \"" + arguments_.level + "\" is no level");
+    require_reducible(arguments_.level);
+  }
+
+  std::vector<ReductionTask> read_tasks() {
+    is_case_ = is_case_file(arguments_.target);
+    std::vector<ReductionTask> tasks =
+        is_case_ ? std::vector<ReductionTask>{read_case(arguments_.target)}
+                 : tasks_of_scene(arguments_.target, fixtures_directory());
+    for (ReductionTask& task : tasks) {
+      if (!arguments_.detector.empty()) task.detector = arguments_.detector;
+      if (!arguments_.level.empty()) task.level = arguments_.level;
+      if (!arguments_.kind.empty()) task.kind = arguments_.kind;
+      require_reducible(task.level);
+    }
+    if (tasks.front().detector.empty())
+      throw InputError("\"" + arguments_.target +
+                       "\" is no case file and names no detector: --detector says which one");
+    return tasks;
+  }
+
+  void make_probe(const ReductionTask& task) {
+    const DetectorSpec spec = catalog_.parse(task.detector);
+    const DetectorInfo* info = catalog_.find(spec.id);
+    if (!info->absent_because.empty())
+      throw InputError("detector \"" + spec.name + "\" is absent: " + info->absent_because);
+    ProbeSettings settings;
+    settings.executable = fs::read_symlink("/proc/self/exe");
+    settings.detector = detector_ = spec.name;
+    settings.call_limit = arguments_.call_limit;
+    settings.memory_limit = arguments_.memory_limit_mib << 20;
+    probe_.emplace(settings);
+  }
+
+  // The first frame in which the detector errs as it is looked for.
+  Defect find_defect(const std::vector<ReductionTask>& tasks) {
+    for (const ReductionTask& task : tasks) {
+      if (task.snapshot.bodies.size() < 2) continue;
+      const Verdict verdict = probe_->ask(task.snapshot, levels_for(task));
+      const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind);
+      if (finding) return defect_of(task, verdict, *finding);
+      last_ = verdict;
+    }
+    refuse_without_finding(tasks);
+  }
+
+  Defect defect_of(const ReductionTask& task, const Verdict& verdict, const Finding& finding) {
+    require_reducible(finding.level);
+    Defect defect{task, finding};
+    if (is_case_) return with_position(std::move(defect));
+    if (finding.kind == "error") {
+      defect.task.snapshot = bodies_of_error(task, finding);
+      return defect;
+    }
+    const ElementPair& pair = disagreement_of(verdict, finding).pair;
+    const auto [a, b] = std::minmax(pair.body_a, pair.body_b);
+    defect.task.snapshot = two_of(task.snapshot, a, b);
+    defect.task.pair = triangles_of(disagreement_of(verdict, finding), task.snapshot);
+    defect.task.cells = cells_of(disagreement_of(verdict, finding));
+    return with_two_bodies(with_position(std::move(defect)));
+  }
+
+  static Defect with_position(Defect defect) {
+    if (names_triangles(defect.finding) && defect.task.pair)
+      defect.finding.general =
+          in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
+    return defect;
+  }
+
+  Snapshot bodies_of_error(const ReductionTask& task, const Finding& finding) {
+    const std::size_t count = task.snapshot.bodies.size();
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = a + 1; b < count; ++b) {
+        const Snapshot two = two_of(task.snapshot, a, b);
+        if (shows(probe_->ask(two, levels_for(finding.level)), finding)) return two;
+      }
+    throw InputError(where(task) + ", " + detector_ + ": " + described(finding) +
+                     " needs more than two of its bodies, and a minimal case has two");
+  }
+
+  // Of more than two bodies the others may have had a part in it.
+  Defect with_two_bodies(const Defect& defect) {
+    if (!shows(probe_->ask(defect.task.snapshot, levels_for(defect.finding.level)), defect.finding))
+      throw InputError(where(defect.task) + ", " + detector_ + ": " + described(defect.finding) +
+                       " needs more than two of its bodies, and a minimal case has two");
+    return defect;
+  }
+
+  static std::string where(const ReductionTask& task) { return task.scene + ", " + task.place; }
+
+  [[noreturn]] void refuse_without_finding(const std::vector<ReductionTask>& tasks) const {
+    const ReductionTask& task = tasks.front();
+    const std::string place = tasks.size() == 1 ? where(task) : task.scene + ", every frame";
+    const std::string wanted = (task.kind.empty() ? "wrong" : task.kind) +
+                               (task.level.empty() ? "" : " at level " + task.level);
+    if (last_.status != RunStatus::kOk)
+      throw InputError(place + ": nothing is " + wanted + ": the answer of " + detector_ +
+                       " is \"" + name_of(last_.status) + "\": " + last_.message);
+    throw InputError(place + ": nothing is " + wanted + (is_case_ ? " any more" : "") +
+                     " in the answer of " + detector_ + why_not_judged(task.level));
+  }
+
+  std::string why_not_judged(const std::string& level) const {
+    for (const auto& [judged, why] : last_.not_judged)
+      if (level == name_of(judged)) return ": " + why;
+    return "";
+  }
+
+  std::optional<Reduction> reduce_defect(const Defect& defect, const Candidate& whole) {
+    const std::vector<Level> levels = levels_for(defect.finding.level);
+    return reduce(
+        whole, defect.task.pair,
+        [&](const Candidate& candidate) {
+          show_progress(candidate);
+          const Verdict verdict = probe_->ask(snapshot_of(candidate), levels);
+          return shows(verdict, defect.finding) && keeps_position(candidate, verdict, defect);
+        },
+        arguments_.budget,
+        defect.task.cells ? cell_candidates(defect.task.snapshot, *defect.task.cells)
+                          : std::vector<Candidate>());
+  }
+
+  // On a terminal alone; the line is cleared by whatever is printed next.
+  void show_progress(const Candidate& candidate) const {
+    if (isatty(STDERR_FILENO) == 0 || probe_->asked() % kProgressEvery != 0) return;
+    std::fprintf(stderr, "\r%zu candidates tried, now %zu triangles   \r", probe_->asked(),
+                 candidate.triangles());
+  }
+
+  static bool keeps_position(const Candidate& candidate, const Verdict& verdict,
+                             const Defect& defect) {
+    if (!defect.finding.general) return true;
+    const ElementPair& pair = disagreement_of(verdict, defect.finding).pair;
+    return in_general_position(candidate, {pair.a, pair.b});
+  }
+
+  [[noreturn]] void refuse_own_lattice(const Defect& defect) const {
+    throw InputError(where(defect.task) + ", " + detector_ + ": " + described(defect.finding) +
+                     " is there with the scene's own lattices and rest shapes alone, and a minimal "
+                     "case has its vertices for both");
+  }
+
+  fs::path out_file(const ReductionTask& task) const {
+    if (!arguments_.out.empty()) return arguments_.out;
+    if (is_case_) return fs::path(arguments_.target).replace_extension(".min.json");
+    const std::string name = task.scene + "-" + std::to_string(task.frame) + "-" + detector_;
+    return fs::path("out") / "cases" / (id_from(name) + ".min.json");
+  }
+
+  std::string library() const {
+    for (const auto& [name, version] : library_versions())
+      if (detector_.rfind(name, 0) == 0) return name + " " + version;
+    return "";
+  }
+
+  MinimalCase minimal_of(const Defect& defect, const Reduction& reduction,
+                         const fs::path& file) const {
+    MinimalCase minimal;
+    const std::string stem = file.stem().string();
+    minimal.id = !arguments_.out.empty() && is_id(stem)
+                     ? stem
+                     : id_from("min-" + detector_ + "-" + defect.task.scene);
+    minimal.scene = defect.task.scene;
+    minimal.place = defect.task.place;
+    minimal.detector = detector_;
+    minimal.library = library();
+    minimal.finding = defect.finding;
+    minimal.candidate = reduction.result;
+    minimal.levels = levels_for(defect.finding.level);
+    return minimal;
+  }
+
+  // In a fresh process, as whoever is given the case will see it.
+  Verdict verified(const MinimalCase& minimal) {
+    probe_->restart();
+    Verdict verdict = probe_->ask(snapshot_of(minimal.candidate), minimal.levels);
+    if (!shows(verdict, minimal.finding))
+      throw InputError(minimal.scene + ", " + minimal.place + ": the answer of " + detector_ +
+                       " depends on what ran before it in its process, and cannot be reduced");
+    return verdict;
+  }
+
+  void write(const Defect& defect, const Candidate& whole, const Reduction& reduction) {
+    const fs::path file = out_file(defect.task);
+    const MinimalCase minimal = minimal_of(defect, reduction, file);
+    const CaseAnswers answers = answers_of(minimal, verified(minimal));
+    std::error_code ignored;
+    if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
+    write_file_atomically(file, family_text(minimal));
+    print_summary(minimal, whole, reduction);
+    std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", answers.exact.c_str(),
+                answers.detector.c_str(), printed_test(minimal, answers).c_str(), file.c_str());
+  }
+
+  void print_summary(const MinimalCase& minimal, const Candidate& before,
+                     const Reduction& reduction) const {
+    const Candidate& after = minimal.candidate;
+    std::printf("%s, %s: %s %s\n\n", minimal.scene.c_str(), minimal.place.c_str(),
+                minimal.detector.c_str(), described(minimal.finding).c_str());
+    std::printf("  %-28s %10s %10s\n", "", "before", "after");
+    const auto line = [](const char* what, std::size_t was, std::size_t is) {
+      std::printf("  %-28s %10zu %10zu\n", what, was, is);
+    };
+    line("triangles", before.triangles(), after.triangles());
+    line("vertices", before.vertices(), after.vertices());
+    line("bits or digits, most", most_figures(before), most_figures(after));
+    std::printf("  %zu candidates tried%s; %s\n\n", reduction.evaluations,
+                reduction.complete ? "" : ", the whole budget: --budget N allows more",
+                after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
+  }
+
+  // A number is as simple as its binary or its decimal text, whichever is shorter.
+  static std::size_t most_figures(const Candidate& candidate) {
+    int out = 0;
+    for (const double x : coordinates_of(candidate))
+      out = std::max(out, std::min(significant_bits(x), decimal_digits(x)));
+    return static_cast<std::size_t>(out);
+  }
+
+  const ReduceArguments& arguments_;
+  const DetectorCatalog& catalog_;
+  bool is_case_ = false;
+  std::string detector_;
+  std::optional<Probe> probe_;
+  Verdict last_;
+};
+
+}  // namespace
+
+int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
+  return ReduceCommand(arguments, catalog).run();
+}
+
+}  // namespace contactcheck

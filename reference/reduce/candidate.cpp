@@ -1,0 +1,155 @@
+#include "reference/reduce/candidate.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/deform/lattice.h"
+#include "core/deform/node_shape.h"
+#include "core/types/check.h"
+#include "reference/oracle/exact_predicates.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::uint32_t kUnused = ~0u;
+
+/// The vertices that `triangles` name, in their order, and the triangles renumbered.
+TriangleMesh without_unused_vertices(const TriangleMesh& mesh, std::vector<Triangle> triangles) {
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) number[v] = 0;
+  TriangleMesh out;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kUnused) continue;
+    number[v] = static_cast<std::uint32_t>(out.vertices.size());
+    out.vertices.push_back(mesh.vertices[v]);
+  }
+  for (Triangle& t : triangles)
+    for (std::uint32_t& v : t) v = number[v];
+  out.triangles = std::move(triangles);
+  return out;
+}
+
+// Of a cell whose corner c is at the high end of x, y, z where bit 0, 1, 2 of c is set, which is
+// also the order of nodes in make_node_shape.
+constexpr Triangle kFaceTriangles[] = {{0, 1, 2}, {3, 2, 1}, {4, 5, 6}, {7, 6, 5},
+                                       {0, 1, 4}, {5, 4, 1}, {2, 3, 6}, {7, 6, 3},
+                                       {0, 2, 4}, {6, 4, 2}, {1, 3, 5}, {7, 5, 3}};
+
+oracle::TriangleCorners triangle_corners(const TriangleMesh& mesh, const Triangle& t) {
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+int dimension_of(const oracle::TriangleCorners& c) {
+  if (!oracle::collinear(c[0], c[1], c[2])) return 2;
+  return c[0] == c[1] && c[1] == c[2] ? 0 : 1;
+}
+
+/// No corner of `of` lies in the plane of `plane`. Three collinear corners span none: then every
+/// sign is 0.
+bool off_plane(const oracle::TriangleCorners& of, const oracle::TriangleCorners& plane) {
+  return std::all_of(of.begin(), of.end(), [&](const Vec3& corner) {
+    return oracle::orientation(plane[0], plane[1], plane[2], corner) != 0;
+  });
+}
+
+}  // namespace
+
+Snapshot snapshot_of(const Candidate& candidate) {
+  Snapshot out;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const TriangleMesh& mesh = candidate.meshes[m];
+    if (candidate.on_nodes) {
+      const NodeShape on_nodes = make_node_shape(mesh.vertices.size(), mesh.triangles);
+      out.bodies.push_back({candidate.names[m], on_nodes.shape});
+      out.nodes.push_back(on_nodes.nodes_for(mesh.vertices));
+    } else {
+      out.bodies.push_back({candidate.names[m], make_bare_shape(mesh)});
+      out.nodes.push_back(mesh.vertices);
+    }
+  }
+  return out;
+}
+
+Candidate candidate_of(const Snapshot& snapshot) {
+  CONTACTCHECK_INVARIANT(snapshot.bodies.size() == 2, "two bodies");
+  Candidate out;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const Body& body = snapshot.bodies[m];
+    out.names[m] = body.name;
+    std::vector<Vec3> vertices(body.shape->mesh.vertices.size());
+    map_body(*body.shape, snapshot.nodes[m], vertices);
+    out.meshes[m] = {std::move(vertices), body.shape->mesh.triangles};
+  }
+  return out;
+}
+
+std::vector<Candidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells) {
+  Candidate base;
+  base.on_nodes = true;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const BodyShape& shape = *snapshot.bodies[m].shape;
+    const Corners corners = corners_of(*shape.lattice, cells[m], snapshot.nodes[m]);
+    base.names[m] = snapshot.bodies[m].name;
+    base.meshes[m].vertices.assign(corners.begin(), corners.end());
+  }
+  std::vector<Candidate> out;
+  for (const Triangle& first : kFaceTriangles)
+    for (const Triangle& second : kFaceTriangles) {
+      base.meshes[0].triangles = {first};
+      base.meshes[1].triangles = {second};
+      out.push_back(base);
+    }
+  return out;
+}
+
+Candidate with_pieces(const Candidate& candidate, const std::vector<Piece>& pieces) {
+  Candidate out;
+  out.names = candidate.names;
+  out.on_nodes = candidate.on_nodes;
+  std::array<std::vector<Triangle>, 2> triangles;
+  for (const Piece& p : pieces)
+    triangles[p.mesh].push_back(candidate.meshes[p.mesh].triangles[p.triangle]);
+  for (std::size_t m = 0; m < 2; ++m)
+    out.meshes[m] = without_unused_vertices(candidate.meshes[m], std::move(triangles[m]));
+  return out;
+}
+
+std::vector<Piece> pieces_of(const Candidate& candidate) {
+  std::vector<Piece> out;
+  for (std::uint32_t m = 0; m < 2; ++m)
+    for (std::uint32_t t = 0; t < candidate.meshes[m].triangles.size(); ++t) out.push_back({m, t});
+  return out;
+}
+
+std::vector<double> coordinates_of(const Candidate& candidate) {
+  std::vector<double> out;
+  for (const TriangleMesh& mesh : candidate.meshes)
+    for (const Vec3& v : mesh.vertices) out.insert(out.end(), {v.x(), v.y(), v.z()});
+  return out;
+}
+
+Candidate with_coordinates(Candidate candidate, const std::vector<double>& coordinates) {
+  CONTACTCHECK_INVARIANT(coordinates.size() == 3 * candidate.vertices(), "three per vertex");
+  std::size_t at = 0;
+  for (TriangleMesh& mesh : candidate.meshes)
+    for (Vec3& v : mesh.vertices)
+      for (int k = 0; k < 3; ++k) v[k] = coordinates[at++];
+  return candidate;
+}
+
+std::vector<int> dimensions_of(const Candidate& candidate) {
+  std::vector<int> out;
+  for (const TriangleMesh& mesh : candidate.meshes)
+    for (const Triangle& t : mesh.triangles) out.push_back(dimension_of(triangle_corners(mesh, t)));
+  return out;
+}
+
+bool in_general_position(const Candidate& candidate, const TrianglePair& pair) {
+  std::array<oracle::TriangleCorners, 2> both;
+  for (std::size_t m = 0; m < 2; ++m)
+    both[m] = triangle_corners(candidate.meshes[m], candidate.meshes[m].triangles[pair[m]]);
+  return off_plane(both[0], both[1]) && off_plane(both[1], both[0]);
+}
+
+}  // namespace contactcheck

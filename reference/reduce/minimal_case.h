@@ -1,0 +1,34 @@
+// A reduced case as text: a family of hard cases with one value, which `contactcheck run` takes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/reduce/candidate.h"
+#include "reference/reduce/verdict.h"
+
+namespace contactcheck {
+
+struct MinimalCase {
+  std::string id;        ///< of the family
+  std::string scene;     ///< where it is from
+  std::string place;     ///< the frame or value there
+  std::string detector;  ///< canonical name
+  std::string library;   ///< with its version, where the detector is one's; or empty
+  Finding finding;
+  Candidate candidate;
+  std::vector<Level> levels;  ///< at which it is judged
+};
+
+/// The shorter of two texts that read back as the same double: decimal ("0.1"), or hexadecimal
+/// ("0x1.8p-30") for what takes more than 9 characters as a decimal.
+std::string number_text(double value);
+
+/// The file, in the format of fixtures/hard/families. Reading it gives the candidate's bodies and
+/// positions bit for bit.
+std::string family_text(const MinimalCase& minimal);
+
+/// An id made of `words`, as is_id wants it.
+std::string id_from(const std::string& words);
+
+}  // namespace contactcheck

@@ -1,0 +1,139 @@
+#include "reference/reduce/probe_worker.h"
+
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "core/deform/recording.h"
+#include "core/types/check.h"
+#include "reference/reduce/channel.h"
+#include "reference/reduce/verdict.h"
+#include "reference/run/accuracy.h"
+#include "reference/run/float_environment.h"
+#include "reference/run/printable.h"
+#include "reference/run/surroundings.h"
+#include "reference/run/worker.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr const char* kName = "a frame";  // of the recording in a request
+
+// One line of levels, then a recording of one frame.
+constexpr char kEndOfLevels = '\n';
+
+std::vector<Level> levels_from(const std::string& line) {
+  std::vector<Level> out;
+  std::size_t from = 0;
+  while (from < line.size()) {
+    const std::size_t to = std::min(line.find(' ', from), line.size());
+    if (const auto level = level_from_name(line.substr(from, to - from))) out.push_back(*level);
+    from = to + 1;
+  }
+  return out;
+}
+
+Scene scene_of(const std::string& request) {
+  const std::size_t end = request.find(kEndOfLevels);
+  if (end == std::string::npos) throw InputError("a request without levels");
+  Recording recording = read_recording_bytes(request.substr(end + 1), kName);
+  Scene scene;
+  scene.id = recording.scene;
+  scene.bodies = std::move(recording.bodies);
+  scene.frames = 1;
+  scene.time_step = recording.time_step;
+  scene.levels = levels_from(request.substr(0, end));
+  scene.recorded = std::move(recording.frames);
+  return scene;
+}
+
+Verdict verdict_of(const RunResult& result) {
+  Verdict out;
+  out.status = result.status;
+  out.message = result.message;
+  if (result.status == RunStatus::kError) out.how = "threw";
+  if (result.status != RunStatus::kOk) return out;
+  out.levels = result.levels;
+  out.not_judged = result.not_judged;
+  out.missed_length = result.graded.missed_length.value_or(0.0);
+  out.disagreements = result.disagreements;
+  return out;
+}
+
+class ProbeWorker {
+ public:
+  ProbeWorker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd)
+      : spec_(catalog.parse(detector)),
+        catalog_(catalog),
+        channel_(channel_fd),
+        surroundings_(true) {}
+
+  void run() {
+    while (const std::optional<std::string> request = channel_.receive()) {
+      const Scene scene = scene_of(*request);
+      const JudgedScene judged = judge_scene(scene, true, progress_);
+      JudgingTools tools(judged);
+      if (!channel_.send("")) return;
+      if (!channel_.send(to_text(verdict_of(judge(tools))))) return;
+    }
+  }
+
+ private:
+  // As a worker of a run books it (run/worker.cpp).
+  RunResult judge(JudgingTools& tools) {
+    RunResult result;
+    const FloatEnvironmentGuard guard;
+    try {
+      const std::unique_ptr<Detector> detector = catalog_.make(spec_);
+      run_accuracy(tools, 0, *detector, progress_, result);
+    } catch (const Unavailable& e) {
+      result.status = RunStatus::kAbsent;
+      result.message = e.what();
+    } catch (const RefusedInput& e) {
+      result.status = RunStatus::kRefused;
+      result.message = e.what();
+    } catch (...) {
+      result.status = RunStatus::kError;
+      result.message = current_exception_text();
+    }
+    guard.check_and_restore();
+    surroundings_.restore();
+    return result;
+  }
+
+  DetectorSpec spec_;
+  const DetectorCatalog& catalog_;
+  Channel channel_;
+  Surroundings surroundings_;
+  SharedProgress page_;
+  ProgressWriter progress_{&page_};
+};
+
+}  // namespace
+
+std::string probe_request(const Snapshot& snapshot, const std::vector<Level>& levels) {
+  std::string line;
+  for (const Level level : levels) line += std::string(line.empty() ? "" : " ") + name_of(level);
+  Recording recording;
+  recording.scene = "case";
+  recording.bodies = snapshot.bodies;
+  recording.time_step = 1.0;
+  recording.frames = {snapshot.nodes};
+  return line + kEndOfLevels + recording_bytes(recording, kName);
+}
+
+int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd) {
+  end_with_supervisor();
+  try {
+    ProbeWorker(detector, catalog, channel_fd).run();
+    return 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "contactcheck: %s\n", e.what());
+    return kExitInternal;
+  }
+}
+
+}  // namespace contactcheck

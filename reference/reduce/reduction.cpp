@@ -1,0 +1,171 @@
+#include "reference/reduce/reduction.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "reference/reduce/minimal_subset.h"
+#include "reference/reduce/number_moves.h"
+
+namespace contactcheck {
+namespace {
+
+// Triangles per mesh: how many times more each next surroundings of a pair has.
+constexpr std::size_t kGrowth = 4;
+
+/// Asks each candidate once, and no more than the budget allows.
+class Questions {
+ public:
+  Questions(const ShowsCandidate& shows, std::size_t budget) : shows_(shows), budget_(budget) {}
+
+  bool operator()(const Candidate& candidate) {
+    for (const TriangleMesh& mesh : candidate.meshes)
+      if (mesh.triangles.empty()) return false;
+    const auto [known, is_new] = answers_.try_emplace(key_of(candidate), false);
+    if (!is_new) return known->second;
+    if (!left()) return false;
+    ++asked_;
+    known->second = shows_(candidate);
+    return known->second;
+  }
+  bool left() const { return asked_ < budget_; }
+  std::size_t asked() const { return asked_; }
+
+ private:
+  template <typename T>
+  static void append(const T& value, std::string& key) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  static std::string key_of(const Candidate& candidate) {
+    std::string key(1, candidate.on_nodes ? 'n' : 'b');
+    for (const TriangleMesh& mesh : candidate.meshes) {
+      append(mesh.triangles.size(), key);
+      for (const Triangle& t : mesh.triangles) append(t, key);
+    }
+    for (const double x : coordinates_of(candidate)) append(x, key);
+    return key;
+  }
+
+  const ShowsCandidate& shows_;
+  std::size_t budget_, asked_ = 0;
+  std::unordered_map<std::string, bool> answers_;
+};
+
+Vec3 centre(const TriangleMesh& mesh, std::uint32_t triangle) {
+  Vec3 out = Vec3::Zero();
+  for (const std::uint32_t v : mesh.triangles[triangle]) out += mesh.vertices[v] / 3.0;
+  return out;
+}
+
+/// The `count` triangles whose centres lie nearest to that of `centre_of`, which comes first among
+/// equals; in the order of the mesh.
+std::vector<std::uint32_t> nearest_triangles(const TriangleMesh& mesh, std::uint32_t centre_of,
+                                             std::size_t count) {
+  const Vec3 place = centre(mesh, centre_of);
+  std::vector<std::pair<double, std::uint32_t>> by_distance;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    by_distance.emplace_back(t == centre_of ? -1.0 : (centre(mesh, t) - place).squaredNorm(), t);
+  std::sort(by_distance.begin(), by_distance.end());
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < by_distance.size() && i < count; ++i)
+    out.push_back(by_distance[i].second);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Candidate surroundings_of(const Candidate& whole, const TrianglePair& pair, std::size_t count) {
+  std::vector<Piece> pieces;
+  for (std::uint32_t m = 0; m < 2; ++m)
+    for (const std::uint32_t t : nearest_triangles(whole.meshes[m], pair[m], count))
+      pieces.push_back({m, t});
+  return with_pieces(whole, pieces);
+}
+
+// A triangle that has become a segment or a point is another kind of hard case.
+bool none_flatter(const std::vector<int>& dimensions, const std::vector<int>& before) {
+  return std::equal(dimensions.begin(), dimensions.end(), before.begin(), std::greater_equal<>());
+}
+
+class Reducer {
+ public:
+  Reducer(const ShowsCandidate& shows, std::size_t budget) : shows_(shows, budget) {}
+
+  std::optional<Reduction> run(const Candidate& whole, const std::optional<TrianglePair>& pair,
+                               const std::vector<Candidate>& cells) {
+    std::optional<Candidate> start;
+    for (const Candidate& candidate : cells)
+      if (!start && shows_(candidate)) start = candidate;
+    if (!start) start = find_start(whole, pair);
+    if (!start) return std::nullopt;
+    Candidate now = *start;
+    while (true) {
+      const std::size_t triangles = now.triangles();
+      now = with_fewer_triangles(now);
+      const std::vector<double> before = coordinates_of(now);
+      now = with_simpler_numbers(now);
+      const bool changed = now.triangles() < triangles || coordinates_of(now) != before;
+      if (!changed || !shows_.left()) break;
+    }
+    return Reduction{now, shows_.asked(), shows_.left()};
+  }
+
+ private:
+  std::optional<Candidate> find_start(const Candidate& whole,
+                                      const std::optional<TrianglePair>& pair) {
+    const std::size_t largest =
+        std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
+    for (std::size_t n = 1; pair && n < largest; n *= kGrowth)
+      if (const auto start = embedded(surroundings_of(whole, *pair, n))) return start;
+    return embedded(whole);
+  }
+
+  // Without a lattice there is less to understand.
+  std::optional<Candidate> embedded(Candidate candidate) {
+    for (const bool on_nodes : {false, true}) {
+      candidate.on_nodes = on_nodes;
+      if (shows_(candidate)) return candidate;
+    }
+    return std::nullopt;
+  }
+
+  Candidate with_fewer_triangles(const Candidate& now) {
+    const std::vector<Piece> pieces = pieces_of(now);
+    const auto subset = [&](const std::vector<std::size_t>& items) {
+      std::vector<Piece> kept;
+      for (const std::size_t i : items) kept.push_back(pieces[i]);
+      return with_pieces(now, kept);
+    };
+    std::vector<std::size_t> all(pieces.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<std::size_t> kept = minimal_subset(
+        all, [&](const auto& items) { return shows_(subset(items)); },
+        [this] { return shows_.left(); });
+    // A cell has more nodes than its triangle has corners.
+    return kept.size() == all.size() ? now : subset(kept);
+  }
+
+  Candidate with_simpler_numbers(const Candidate& now) {
+    const std::vector<int> dimensions = dimensions_of(now);
+    const auto shows = [&](const Coordinates& coordinates) {
+      const Candidate moved = with_coordinates(now, coordinates);
+      return none_flatter(dimensions_of(moved), dimensions) && shows_(moved);
+    };
+    return with_coordinates(now, simplify(coordinates_of(now), 3 * now.meshes[0].vertices.size(),
+                                          shows, [this] { return shows_.left(); }));
+  }
+
+  Questions shows_;
+};
+
+}  // namespace
+
+std::optional<Reduction> reduce(const Candidate& whole, const std::optional<TrianglePair>& pair,
+                                const ShowsCandidate& shows, std::size_t budget,
+                                const std::vector<Candidate>& cells) {
+  return Reducer(shows, budget).run(whole, pair, cells);
+}
+
+}  // namespace contactcheck

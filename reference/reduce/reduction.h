@@ -1,0 +1,38 @@
+// From the frame of two bodies in which a detector errs to the fewest triangles and the simplest
+// numbers with which it errs in the same way.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "reference/reduce/candidate.h"
+
+namespace contactcheck {
+
+/// Does a candidate still show the defect? Must answer the same to the same candidate.
+using ShowsCandidate = std::function<bool(const Candidate&)>;
+
+struct Reduction {
+  Candidate result;  ///< shows
+  std::size_t evaluations = 0;
+  /// Nothing smaller or simpler was found; else the budget was used up.
+  bool complete = false;
+};
+
+/// Tries `cells` (the cells of a disagreement alone), then the pair alone, then ever larger
+/// surroundings of it, then the whole meshes, each without a lattice and with its vertices as
+/// lattice nodes; leaves out triangles until none can go (delta debugging), then makes numbers
+/// simpler, and both again until nothing changes. Triangles keep their dimension. The same input
+/// and answers give the same result.
+///
+/// `shows` is asked `budget` times at most. Nothing when no start shows: then it takes the lattice
+/// or the rest shape of the scene. @pre without `pair` the defect has no triangles of its own
+std::optional<Reduction> reduce(const Candidate& whole, const std::optional<TrianglePair>& pair,
+                                const ShowsCandidate& shows, std::size_t budget,
+                                const std::vector<Candidate>& cells = {});
+
+}  // namespace contactcheck

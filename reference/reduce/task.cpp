@@ -1,0 +1,234 @@
+#include "reference/reduce/task.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/deform/lattice.h"
+#include "core/deform/recording.h"
+#include "core/types/check.h"
+#include "reference/scene/amount.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/file_text.h"
+#include "reference/scene/json_field.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> level_names() {
+  return {name_of(Level::kBody), name_of(Level::kContainment), name_of(Level::kCell),
+          name_of(Level::kBox),  name_of(Level::kTriangle),    name_of(Level::kVertex),
+          name_of(Level::kNear)};
+}
+
+/// The first triangle with that corner.
+std::optional<std::uint32_t> triangle_with(const TriangleMesh& mesh, std::size_t vertex) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (v == vertex) return t;
+  return std::nullopt;
+}
+
+/// One of the two bodies that a case names, in the recorded frame.
+class CaseElement {
+ public:
+  CaseElement(const JsonField& field, const Recording& recording, std::size_t frame)
+      : field_(field), body_(find_body(recording)) {
+    field.only_keys({"body", "triangle", "vertices", "cell", "nodes", "vertex", "position"});
+    shape_ = recording.bodies[body_].shape;
+    nodes_ = recording.frames[frame][body_];
+    vertices_.resize(shape_->mesh.vertices.size());
+    map_body(*shape_, nodes_, vertices_);
+  }
+
+  std::size_t body() const { return body_; }
+
+  /// The triangle that it names, or one of the vertex that it names.
+  std::optional<std::uint32_t> triangle() const {
+    if (field_.has("triangle")) return checked_triangle();
+    if (field_.has("vertex"))
+      return triangle_with(shape_->mesh, field_.at("vertex").whole(0, vertices_.size() - 1));
+    return std::nullopt;
+  }
+
+  std::optional<std::uint32_t> cell() const {
+    if (!field_.has("cell")) return std::nullopt;
+    if (!shape_->lattice) field_.at("cell").refuse("left out: the body has no lattice");
+    const auto id =
+        static_cast<std::uint32_t>(field_.at("cell").whole(0, shape_->lattice->cells.size() - 1));
+    const Corners corners = corners_of(*shape_->lattice, id, nodes_);
+    check_places("nodes", corners.data(), corners.size());
+    return id;
+  }
+
+ private:
+  std::size_t find_body(const Recording& recording) const {
+    const std::string name = field_.at("body").text();
+    std::vector<std::string> names;
+    for (const Body& body : recording.bodies) names.push_back(body.name);
+    return static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), field_.at("body").one_of(names)) - names.begin());
+  }
+
+  // Recordings are written anew by every run: that of another run would be reduced without a word.
+  std::uint32_t checked_triangle() const {
+    const std::vector<Triangle>& triangles = shape_->mesh.triangles;
+    const std::size_t id = field_.at("triangle").whole(0, triangles.size() - 1);
+    std::vector<Vec3> corners;
+    for (const std::uint32_t v : triangles[id]) corners.push_back(vertices_[v]);
+    check_places("vertices", corners.data(), corners.size());
+    return static_cast<std::uint32_t>(id);
+  }
+
+  void check_places(const char* key, const Vec3* recorded, std::size_t count) const {
+    if (!field_.has(key)) return;
+    const JsonField list = field_.at(key);
+    const std::vector<JsonField> places = list.items();
+    if (places.size() != count) list.refuse("an array of " + std::to_string(count) + " places");
+    for (std::size_t i = 0; i < count; ++i)
+      if (at(parse_amount_vector(places[i]), 0.0) != recorded[i])
+        places[i].fail("is not where the recording has it: it is the recording of another run");
+  }
+
+  JsonField field_;
+  std::size_t body_;
+  std::shared_ptr<const BodyShape> shape_;
+  std::vector<Vec3> nodes_, vertices_;
+};
+
+Snapshot snapshot_of_bodies(const std::vector<Body>& bodies,
+                            const std::vector<std::vector<Vec3>>& nodes,
+                            const std::vector<std::size_t>& which) {
+  Snapshot out;
+  for (const std::size_t b : which) {
+    out.bodies.push_back(bodies[b]);
+    out.nodes.push_back(nodes[b]);
+  }
+  return out;
+}
+
+// The body of less number first: so a detector is given them again in the order of the scene.
+void take_bodies(const JsonField& root, const Recording& recording, ReductionTask& task) {
+  CaseElement first(root.at("first"), recording, task.frame),
+      second(root.at("second"), recording, task.frame);
+  if (first.body() == second.body()) root.at("second").at("body").refuse("another body than first");
+  if (first.body() > second.body()) std::swap(first, second);
+  task.snapshot = snapshot_of_bodies(recording.bodies, recording.frames[task.frame],
+                                     {first.body(), second.body()});
+  const std::optional<std::uint32_t> a = first.triangle(), b = second.triangle();
+  if (a && b) task.pair = TrianglePair{*a, *b};
+  const std::optional<std::uint32_t> c = first.cell(), d = second.cell();
+  if (c && d) task.cells = CellPair{*c, *d};
+}
+
+std::string frame_text(std::size_t frame) { return "frame " + std::to_string(frame); }
+
+ReductionTask task_of_frame(const Scene& scene, std::size_t frame) {
+  ReductionTask task;
+  task.scene = scene.id;
+  task.frame = frame;
+  task.place = scene.family
+                   ? "value " + scene.family->values[frame] + " (" + frame_text(frame) + ")"
+                   : frame_text(frame);
+  task.snapshot = {scene.bodies, scene.nodes_of_frame(frame)};
+  return task;
+}
+
+/// "TARGET@WHICH"; a file whose own name has an @ stays whole.
+struct SplitTarget {
+  std::string target;
+  std::optional<std::string> which;
+};
+
+SplitTarget split(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  std::error_code ignored;
+  if (at == std::string::npos || fs::exists(text, ignored)) return {text, std::nullopt};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::size_t frame_named(const Scene& scene, const std::string& which) {
+  if (scene.family) {
+    const std::vector<std::string>& values = scene.family->values;
+    const auto found = std::find(values.begin(), values.end(), which);
+    if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
+    throw InputError("\"" + scene.id + "\" has no value \"" + which + "\"; it has " +
+                     joined(values));
+  }
+  const bool number = !which.empty() && which.size() < 9 &&
+                      which.find_first_not_of("0123456789") == std::string::npos;
+  if (number && std::stoul(which) < scene.frames) return std::stoul(which);
+  throw InputError("\"" + scene.id + "\" has no frame \"" + which + "\"; it has frames 0 to " +
+                   std::to_string(scene.frames - 1));
+}
+
+}  // namespace
+
+std::optional<TrianglePair> triangles_of(const Disagreement& d, const Snapshot& snapshot) {
+  if (names_triangles({d.level, d.kind})) return TrianglePair{d.pair.a, d.pair.b};
+  if (d.level != name_of(Level::kNear)) return std::nullopt;
+  const auto of_vertex = triangle_with(snapshot.bodies[d.pair.body_a].shape->mesh, d.pair.a);
+  if (!of_vertex) return std::nullopt;
+  return d.pair.body_a < d.pair.body_b ? TrianglePair{*of_vertex, d.pair.b}
+                                       : TrianglePair{d.pair.b, *of_vertex};
+}
+
+std::optional<CellPair> cells_of(const Disagreement& d) {
+  const bool of_cells =
+      d.level == name_of(Level::kBox) || (d.level == name_of(Level::kCell) && d.kind == "spurious");
+  return of_cells ? std::optional<CellPair>({d.pair.a, d.pair.b}) : std::nullopt;
+}
+
+bool is_case_file(const fs::path& file) {
+  std::error_code ignored;
+  if (file.extension() != ".json" || !fs::exists(file, ignored)) return false;
+  const std::string document = "case file " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, "case file"), document);
+  return value.kind == JsonValue::Kind::kObject &&
+         (value.find("detector") != nullptr || value.find("kind") != nullptr ||
+          value.find("recording") != nullptr);
+}
+
+ReductionTask read_case(const fs::path& file) {
+  const std::string document = "case file " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, "case file"), document);
+  const JsonField root(value, document);
+  root.only_keys({"scene", "frame", "detector", "level", "kind", "recording", "first", "second"});
+  ReductionTask task;
+  task.scene = root.at("scene").text();
+  task.detector = root.at("detector").text();
+  task.level = root.at("level").one_of(level_names());
+  task.kind = root.at("kind").one_of({"missed", "spurious"});
+  const fs::path recording_file = file.parent_path() / root.at("recording").text();
+  std::error_code ignored;
+  if (!fs::exists(recording_file, ignored))
+    root.at("recording")
+        .fail("names " + in_quotes(recording_file.string()) + ", which does not exist");
+  const Recording recording = read_recording(recording_file);
+  if (recording.frames.empty()) root.at("recording").fail("names a recording without a frame");
+  task.frame = root.at("frame").whole(0, recording.frames.size() - 1);
+  task.place = frame_text(task.frame);
+  take_bodies(root, recording, task);
+  return task;
+}
+
+std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::path& fixtures) {
+  const SplitTarget named = split(text);
+  const Target target = find_target(named.target, fixtures);
+  if (target.kind == TargetKind::kSuite)
+    throw InputError("\"" + named.target +
+                     "\" is a suite; reduce takes a case, a scene, a family "
+                     "of hard cases or a recording");
+  const Scene scene =
+      target.kind == TargetKind::kRecording ? load_recording(target.file) : load_scene(target.file);
+  if (scene.simulation)
+    throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
+  std::vector<ReductionTask> tasks;
+  if (named.which) return {task_of_frame(scene, frame_named(scene, *named.which))};
+  for (std::size_t f = 0; f < scene.frames; ++f) tasks.push_back(task_of_frame(scene, f));
+  return tasks;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,48 @@
+// What `contactcheck reduce` is given: a case file of a run, or a scene with a detector.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/reduce/candidate.h"
+#include "reference/reduce/verdict.h"
+
+namespace contactcheck {
+
+/// One frame in which a detector may err, and what of it is to be reduced where that is known.
+struct ReductionTask {
+  std::string scene;  ///< id
+  std::size_t frame = 0;
+  std::string place;                 ///< "frame 3", "value 1e-9 (frame 3)": as a message names it
+  std::string detector;              ///< as it was named; empty: none was
+  std::string level, kind;           ///< empty: whatever is found
+  Snapshot snapshot;                 ///< of all bodies, or of the two that a case names
+  std::optional<TrianglePair> pair;  ///< the triangles of a case
+  std::optional<CellPair> cells;     ///< the cells of a case
+};
+
+/// The triangles of a disagreement, that of the first of its two bodies first: a pair of triangles,
+/// or a triangle with the first one that has the vertex beside it. None at other levels.
+std::optional<TrianglePair> triangles_of(const Disagreement& disagreement,
+                                         const Snapshot& snapshot);
+
+/// The cells of a disagreement between such; none at other levels.
+std::optional<CellPair> cells_of(const Disagreement& disagreement);
+
+/// True when `file` is a case file: JSON of one object with a detector and a kind.
+bool is_case_file(const std::filesystem::path& file);
+
+/// Reads a case file of `contactcheck run` and the frame out of the recording that it names.
+/// @throws InputError, one sentence: file, place, value
+ReductionTask read_case(const std::filesystem::path& file);
+
+/// The frames of a scene, family or recording (`target` as `run` takes it, or with "@FRAME", or
+/// "@VALUE" of a family, behind it: that frame alone).
+/// @throws InputError; also for a suite, and for simulated scenes, which have no frames before they
+/// run: their recordings do
+std::vector<ReductionTask> tasks_of_scene(const std::string& target,
+                                          const std::filesystem::path& fixtures);
+
+}  // namespace contactcheck

@@ -1,0 +1,129 @@
+#include "reference/reduce/verdict.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kError = "error";
+// The finest first, as the design orders them.
+constexpr Level kFinestFirst[] = {Level::kTriangle, Level::kNear, Level::kVertex,     Level::kCell,
+                                  Level::kBox,      Level::kBody, Level::kContainment};
+
+Json counts_json(const LevelCounts& c) {
+  return {c.truth, c.reported, c.hit, c.missed, c.spurious};
+}
+
+LevelCounts counts_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)}; }
+
+Json disagreement_json(const Disagreement& d) {
+  return {d.level, d.kind, d.pair.body_a, d.pair.body_b, d.pair.a, d.pair.b};
+}
+
+Disagreement disagreement_from(const Json& j) {
+  Disagreement d;
+  d.level = j.at(0);
+  d.kind = j.at(1);
+  d.pair = {j.at(2), j.at(3), j.at(4), j.at(5)};
+  return d;
+}
+
+Level level_from(const std::string& name) {
+  const std::optional<Level> level = level_from_name(name);
+  if (!level) throw std::runtime_error("a verdict names the level \"" + name + "\"");
+  return *level;
+}
+
+bool matches(const std::string& wanted, const std::string& is) {
+  return wanted.empty() || wanted == is;
+}
+
+const Disagreement* find(const Verdict& verdict, const std::string& level,
+                         const std::string& kind) {
+  for (const Disagreement& d : verdict.disagreements)
+    if (d.level == level && matches(kind, d.kind)) return &d;
+  return nullptr;
+}
+
+bool crosses(const Verdict& verdict, const std::string& level, const std::string& kind) {
+  return level == name_of(Level::kTriangle) && kind == "missed" && verdict.missed_length > 0.0;
+}
+
+}  // namespace
+
+std::string to_text(const Verdict& v) {
+  Json levels = Json::object(), not_judged = Json::object(), disagreements = Json::array();
+  for (const auto& [level, counts] : v.levels) levels[name_of(level)] = counts_json(counts);
+  for (const auto& [level, why] : v.not_judged) not_judged[name_of(level)] = why;
+  for (const Disagreement& d : v.disagreements) disagreements.push_back(disagreement_json(d));
+  const Json out = {{"status", static_cast<int>(v.status)},
+                    {"message", v.message},
+                    {"how", v.how},
+                    {"levels", levels},
+                    {"not_judged", not_judged},
+                    {"missed_length", v.missed_length},
+                    {"disagreements", disagreements}};
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Verdict verdict_from_text(const std::string& text) try {
+  const Json j = Json::parse(text);
+  Verdict v;
+  v.status = static_cast<RunStatus>(j.at("status").get<int>());
+  v.message = j.at("message");
+  v.how = j.at("how");
+  v.missed_length = j.at("missed_length");
+  for (const auto& [name, counts] : j.at("levels").items())
+    v.levels[level_from(name)] = counts_from(counts);
+  for (const auto& [name, why] : j.at("not_judged").items()) v.not_judged[level_from(name)] = why;
+  for (const Json& d : j.at("disagreements")) v.disagreements.push_back(disagreement_from(d));
+  return v;
+} catch (const Json::exception& e) {
+  throw std::runtime_error(std::string("a worker's verdict cannot be read: ") + e.what());
+}
+
+std::string described(const Finding& finding) {
+  return finding.kind == kError ? "error: " + finding.how
+                                : finding.kind + " at level " + finding.level;
+}
+
+bool names_triangles(const Finding& finding) {
+  return finding.level == name_of(Level::kTriangle) ||
+         (finding.level == name_of(Level::kCell) && finding.kind == "missed");
+}
+
+std::optional<Finding> finding_of(const Verdict& verdict, const std::string& level,
+                                  const std::string& kind) {
+  if (verdict.status == RunStatus::kError && level.empty() && matches(kind, kError))
+    return Finding{"", kError, verdict.how};
+  if (verdict.status != RunStatus::kOk) return std::nullopt;
+  for (const Level l : kFinestFirst) {
+    if (!matches(level, name_of(l))) continue;
+    const Disagreement* d = find(verdict, name_of(l), kind);
+    if (d != nullptr)
+      return Finding{d->level, d->kind, "", crosses(verdict, d->level, d->kind), false};
+  }
+  return std::nullopt;
+}
+
+bool shows(const Verdict& verdict, const Finding& finding) {
+  if (finding.kind == kError)
+    return verdict.status == RunStatus::kError && verdict.how == finding.how;
+  return verdict.status == RunStatus::kOk &&
+         find(verdict, finding.level, finding.kind) != nullptr &&
+         (!finding.crossing || crosses(verdict, finding.level, finding.kind));
+}
+
+const Disagreement& disagreement_of(const Verdict& verdict, const Finding& finding) {
+  const Disagreement* d = find(verdict, finding.level, finding.kind);
+  CONTACTCHECK_INVARIANT(d != nullptr, "the verdict shows the finding");
+  return *d;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,60 @@
+// What was found when a detector answered one frame of two bodies, and which part of it a smaller
+// case must still show.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/compare/run_result.h"
+
+namespace contactcheck {
+
+struct Verdict {
+  RunStatus status = RunStatus::kOk;
+  std::string message;  ///< of a status other than ok
+  /// Of an error, in words that are the same for the same way: "threw", "signal 11 (...)".
+  std::string how;
+  std::map<Level, LevelCounts> levels;
+  std::map<Level, std::string> not_judged;
+  double missed_length = 0.0;  ///< metres of contour, as far as it is judged
+  /// The first missed and the first spurious contact of each level claimed.
+  std::vector<Disagreement> disagreements;
+};
+
+std::string to_text(const Verdict& verdict);
+/// @throws std::runtime_error for a text that to_text did not make
+Verdict verdict_from_text(const std::string& text);
+
+/// One thing that is wrong with an answer.
+struct Finding {
+  std::string level;     ///< empty for an error
+  std::string kind;      ///< missed, spurious or error
+  std::string how = {};  ///< of an error, as in Verdict
+  /// Missed triangles that share more than a point: a touching pair in their place would be
+  /// another defect.
+  bool crossing = false;
+  /// Its triangles are in general position (in_general_position): so must those be that show it
+  /// in a smaller case. Not seen from a verdict alone: whoever has the frame looks after it.
+  bool general = false;
+};
+
+/// "missed at level triangle", "error: signal 11 (Segmentation fault)"
+std::string described(const Finding& finding);
+
+/// True when the pair of its disagreement is one of triangles.
+bool names_triangles(const Finding& finding);
+
+/// What is wrong in `verdict` at that level and of that kind (where these are not empty), the
+/// finest level first; none where the detector agrees with the truth.
+std::optional<Finding> finding_of(const Verdict& verdict, const std::string& level,
+                                  const std::string& kind);
+
+/// True when `verdict` has the same defect.
+bool shows(const Verdict& verdict, const Finding& finding);
+
+/// The disagreement that shows it. @pre shows(verdict, finding), no error
+const Disagreement& disagreement_of(const Verdict& verdict, const Finding& finding);
+
+}  // namespace contactcheck

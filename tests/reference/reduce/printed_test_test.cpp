@@ -1,0 +1,92 @@
+#include "reference/reduce/printed_test.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/reference/reduce/candidates.h"
+
+namespace contactcheck {
+namespace {
+
+MinimalCase minimal_case(const Finding& finding) {
+  MinimalCase out;
+  out.scene = "hard-balls";
+  out.place = "value 1e-3 (frame 4)";
+  out.detector = "fcl-obbrss";
+  out.library = "fcl 0.7.0";
+  out.finding = finding;
+  out.candidate = test::two_triangles({0, 1, 2, -3, 0.5, 1.0 / 3.0, 0, 0, 0,  //
+                                       1e-5, 6, 7, 8, 9, 1, 2, 3, 1e300});
+  return out;
+}
+
+Verdict verdict(const Finding& finding) {
+  Verdict v;
+  Disagreement d;
+  d.level = finding.level;
+  d.kind = finding.kind;
+  d.pair = {0, 1, 0, 0};
+  v.disagreements = {d};
+  v.levels[*level_from_name(finding.level)] = {3, 1, 1, 2, 0};
+  return v;
+}
+
+// A report's text, literally.
+TEST(PrintedTest, IsATestWithExactNumbers) {
+  const Finding finding{"triangle", "missed"};
+  const MinimalCase minimal = minimal_case(finding);
+  EXPECT_EQ(
+      printed_test(minimal, answers_of(minimal, verdict(finding))),
+      R"(// fcl-obbrss (fcl 0.7.0): missed at level triangle. From hard-balls, value 1e-3 (frame 4).
+TEST(FclObbrss, MissedTriangleHardBalls) {
+  const std::array<std::array<double, 3>, 3> first_vertices = {{
+      {{0.0, 1.0, 2.0}},
+      {{-3.0, 0.5, 0x1.5555555555555p-2}},
+      {{0.0, 0.0, 0.0}},
+  }};
+  const std::array<std::array<int, 3>, 1> first_triangles = {{
+      {{0, 1, 2}},
+  }};
+  const std::array<std::array<double, 3>, 3> second_vertices = {{
+      {{1e-05, 6.0, 7.0}},
+      {{8.0, 9.0, 1.0}},
+      {{2.0, 3.0, 1e+300}},
+  }};
+  const std::array<std::array<int, 3>, 1> second_triangles = {{
+      {{0, 1, 2}},
+  }};
+  // Exact: triangle 0 of first and triangle 0 of second share a point.
+  // fcl-obbrss answered: 1 pair at level triangle of 3 true: 2 missed, 0 spurious.
+  // EXPECT_TRUE(your_detector(first_vertices, first_triangles, second_vertices, second_triangles));
+}
+)");
+}
+
+TEST(AnswersOf, SayWhatIsTrueAtEveryLevel) {
+  const auto exact = [](const std::string& level, const std::string& kind) {
+    const Finding finding{level, kind};
+    return answers_of(minimal_case(finding), verdict(finding)).exact;
+  };
+  EXPECT_EQ(exact("body", "missed"), "first and second share a point");
+  EXPECT_EQ(exact("body", "spurious"), "first and second share no point");
+  EXPECT_EQ(exact("triangle", "spurious"),
+            "triangle 0 of first and triangle 0 of second share no point");
+  EXPECT_EQ(exact("cell", "missed"), "triangle 0 of first and triangle 0 of second share a point");
+  EXPECT_EQ(exact("cell", "spurious"),
+            "cell 0 of first and cell 0 of second hold no pair of triangles that touch");
+  EXPECT_EQ(exact("box", "missed"),
+            "cell 0 of first and cell 0 of second have mapped boxes that overlap");
+  EXPECT_EQ(exact("near", "spurious"),
+            "vertex 0 of first and triangle 0 of second are not nearer than the margin");
+}
+
+TEST(AnswersOf, AnErrorSayHowItEnded) {
+  Verdict v;
+  v.status = RunStatus::kError;
+  v.how = "threw";
+  v.message = "stack overflow in tree";
+  EXPECT_EQ(answers_of(minimal_case({"", "error", "threw"}), v).detector,
+            "error: threw: stack overflow in tree");
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,165 @@
+#include "reference/reduce/task.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "core/deform/recording.h"
+#include "reference/run/case_file.h"
+#include "reference/run/job.h"
+#include "tests/reference/scene/scratch.h"
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+using nlohmann::json;
+using test::Scratch;
+using test::sentence_of;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A recording of two bodies, and a case of its frame 2.
+class Case : public testing::Test {
+ protected:
+  Case()
+      : scene_(test::approach_scene(
+            test::make_body("", test::unit_box_mesh(1), {2, 2, 2}).shape,
+            test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 1), {3, 3, 3}).shape,
+            {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kTriangle})),
+        judged_(judge_scene(scene_, true, progress_)) {
+    std::filesystem::create_directories(scratch_.folder() / "recordings");
+    std::filesystem::create_directories(scratch_.folder() / "cases");
+    write_recording(scratch_.folder() / "recordings/approach.ccr",
+                    {"approach", scene_.bodies, 0.1, judged_.nodes});
+  }
+
+  std::filesystem::path write(const std::string& level, ElementPair pair) {
+    Disagreement d;
+    d.scene = "approach";
+    d.detector = "fcl-aabb";
+    d.level = level;
+    d.kind = "missed";
+    d.frame = 2;
+    d.pair = pair;
+    write_case(file_, judged_, d, "../recordings/approach.ccr");
+    return file_;
+  }
+
+  /// The sentence that the case is refused with after `change`.
+  std::string refusal(const std::function<void(json&)>& change) {
+    json c = json::parse(read_text_file(write("triangle", {0, 1, 5, 17})));
+    change(c);
+    scratch_.write("cases/0001.json", c.dump());
+    return sentence_of([&] { read_case(file_); });
+  }
+
+  SharedProgress page_;
+  ProgressWriter progress_{&page_};
+  Scene scene_;
+  JudgedScene judged_;
+  Scratch scratch_;
+  std::filesystem::path file_ = scratch_.folder() / "cases/0001.json";
+};
+
+TEST_F(Case, BringsTheWholeFrameOfItsTwoBodies) {
+  const ReductionTask task = read_case(write("triangle", {0, 1, 5, 17}));
+  EXPECT_EQ(task.scene, "approach");
+  EXPECT_EQ(task.frame, 2u);
+  EXPECT_EQ(task.detector, "fcl-aabb");
+  EXPECT_EQ(task.level, "triangle");
+  EXPECT_EQ(task.kind, "missed");
+  EXPECT_EQ(task.pair, (TrianglePair{5, 17}));
+  ASSERT_EQ(task.snapshot.bodies.size(), 2u);
+  EXPECT_EQ(task.snapshot.bodies[1].name, "moving");
+  EXPECT_EQ(task.snapshot.nodes, judged_.nodes[2]);
+}
+
+TEST_F(Case, OfAVertexBringsATriangleWithItInTheOrderOfTheBodies) {
+  const ReductionTask task = read_case(write("near", {1, 0, 9, 4}));
+  EXPECT_EQ(task.snapshot.bodies[0].name, "resting");
+  ASSERT_TRUE(task.pair);
+  EXPECT_EQ((*task.pair)[0], 4u);
+  const Triangle& t = scene_.bodies[1].shape->mesh.triangles[(*task.pair)[1]];
+  EXPECT_TRUE(t[0] == 9 || t[1] == 9 || t[2] == 9);
+}
+
+TEST_F(Case, OfCellsBringsThem) {
+  const ReductionTask task = read_case(write("box", {0, 1, 3, 8}));
+  EXPECT_FALSE(task.pair);
+  EXPECT_EQ(task.cells, (CellPair{3, 8}));
+}
+
+TEST_F(Case, OfBodiesHasNoTriangles) { EXPECT_FALSE(read_case(write("body", {0, 1, 0, 0})).pair); }
+
+TEST_F(Case, IsToldFromAScene) {
+  EXPECT_TRUE(is_case_file(write("triangle", {0, 1, 5, 17})));
+  EXPECT_FALSE(is_case_file(scratch_.write("scene.json", R"({"id": "x", "bodies": []})")));
+  EXPECT_FALSE(is_case_file(scratch_.folder() / "missing.json"));
+}
+
+TEST_F(Case, IsRefusedWithFilePlaceAndValue) {
+  const auto without = [](const char* key) { return [key](json& c) { c.erase(key); }; };
+  const auto with = [](const char* key, const json& value) {
+    return [key, value](json& c) { c[key] = value; };
+  };
+  for (const char* key :
+       {"scene", "frame", "detector", "level", "kind", "recording", "first", "second"})
+    EXPECT_THAT(refusal(without(key)), AllOf(HasSubstr("0001.json"), HasSubstr(key)));
+  EXPECT_THAT(refusal(with("level", "corner")), HasSubstr("level is \"corner\""));
+  EXPECT_THAT(refusal(with("kind", "late")), HasSubstr("kind is \"late\""));
+  EXPECT_THAT(refusal(with("frame", 3)), AllOf(HasSubstr("frame is 3"), HasSubstr("2")));
+  EXPECT_THAT(refusal(with("frame", -1)), HasSubstr("frame is -1"));
+  EXPECT_THAT(refusal(with("color", "red")), HasSubstr("color"));
+  EXPECT_THAT(refusal(with("recording", "gone.ccr")),
+              AllOf(HasSubstr("gone.ccr"), HasSubstr("does not exist")));
+  EXPECT_THAT(refusal([](json& c) { c["first"]["body"] = "nobody"; }),
+              AllOf(HasSubstr("first.body is \"nobody\""), HasSubstr("resting")));
+  EXPECT_THAT(refusal([](json& c) { c["second"]["body"] = "resting"; }),
+              HasSubstr("second.body is \"resting\""));
+  EXPECT_THAT(refusal([](json& c) { c["first"]["triangle"] = 12; }),
+              HasSubstr("first.triangle is 12"));
+  EXPECT_THAT(refusal([](json& c) { c["first"]["vertices"].erase(0); }),
+              HasSubstr("first.vertices"));
+  EXPECT_THAT(refusal([](json& c) { c["first"]["vertices"][1][2] = "0x"; }),
+              HasSubstr("first.vertices[1][2]"));
+}
+
+TEST_F(Case, OfAnotherRunThanItsRecordingIsRefused) {
+  EXPECT_THAT(refusal([](json& c) { c["second"]["vertices"][1][2] = "0x1p-3"; }),
+              AllOf(HasSubstr("second.vertices[1]"), HasSubstr("of another run")));
+}
+
+TEST_F(Case, WithABrokenRecordingIsRefused) {
+  scratch_.write("recordings/approach.ccr", "no recording");
+  EXPECT_THAT(sentence_of([&] {
+                read_case(write("triangle", {0, 1, 5, 17}));
+              }),
+              HasSubstr("not a recording"));
+}
+
+TEST(TasksOfScene, GivesEveryFrameOrTheOneThatIsNamed) {
+  const std::filesystem::path fixtures = CONTACTCHECK_FIXTURES;
+  EXPECT_EQ(tasks_of_scene("hard-shared-edge", fixtures).size(), 12u);
+  const std::vector<ReductionTask> one = tasks_of_scene("hard-shared-edge@1e-9", fixtures);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].frame, 5u);
+  EXPECT_EQ(one[0].place, "value 1e-9 (frame 5)");
+  EXPECT_EQ(one[0].snapshot.nodes[1].size(), 8u);
+}
+
+TEST(TasksOfScene, RefusesWhatHasNoSuchFrame) {
+  const std::filesystem::path fixtures = CONTACTCHECK_FIXTURES;
+  const auto refusal = [&](const std::string& target) {
+    return sentence_of([&] { tasks_of_scene(target, fixtures); });
+  };
+  EXPECT_THAT(refusal("hard-shared-edge@7"), AllOf(HasSubstr("\"7\""), HasSubstr("0x1p-1074")));
+  EXPECT_THAT(refusal("hard"), HasSubstr("is a suite"));
+  EXPECT_THAT(refusal("paper-rabbit"), HasSubstr("is simulated"));
+  EXPECT_THAT(refusal("atlantis@3"), HasSubstr("atlantis"));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -61,6 +61,7 @@ struct Choices {
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
   std::vector<std::string> families;
+  std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   bool no_timing = false, write_truth = false;
   int progress_fd = -1;
 };
@@ -97,6 +98,21 @@ void add_threads(CLI::App& command, Choices& c) {
       ->check(CLI::Range(1, 256));
 }
 
+void add_pairs(CLI::App& run, Choices& c) {
+  CLI::Option* pairs =
+      run.add_option(
+             "--pairs", c.pairs,
+             "so many random hard pairs of triangles as a scene of their own, random-pairs, "
+             "beside the targets or alone; the oracle is held against rational arithmetic "
+             "on each; detectors: those of the suite hard")
+          ->check(CLI::Range(std::uint64_t{1}, kMostPairs))
+          ->type_name("N");
+  run.add_option("--seed", c.pair_seed, "of the random pairs (default 1)")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestPairSeed))
+      ->type_name("S")
+      ->needs(pairs);
+}
+
 void add_run(CLI::App& app, Choices& c) {
   CLI::App* run = app.add_subcommand("run", "run detectors on scenes and judge every answer");
   run->add_option(
@@ -122,6 +138,7 @@ void add_run(CLI::App& app, Choices& c) {
                   "every such detector runs with each")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  add_pairs(*run, c);
   add_limits(*run, c);
   run->add_flag("--no-timing", c.no_timing, "judge only");
   run->add_flag("--resume", c.run.resume,
@@ -134,6 +151,7 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run references --resume");
 }
 
@@ -187,6 +205,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
+  if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
   return run_command(c.run, catalog);
 }

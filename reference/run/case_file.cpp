@@ -17,15 +17,15 @@ Json triangle_points(const JudgedScene& judged, std::size_t frame, std::uint32_t
                      std::uint32_t triangle) {
   Json out = Json::array();
   for (std::uint32_t v : judged.scene->bodies[body].shape->mesh.triangles[triangle])
-    out.push_back(point(judged.vertices[frame][body][v]));
+    out.push_back(point(judged.positions[frame].vertices[body][v]));
   return out;
 }
 
 Json cell_nodes(const JudgedScene& judged, std::size_t frame, std::uint32_t body,
                 std::uint32_t cell) {
   Json out = Json::array();
-  const Corners corners =
-      corners_of(*judged.scene->bodies[body].shape->lattice, cell, judged.nodes[frame][body]);
+  const Corners corners = corners_of(*judged.scene->bodies[body].shape->lattice, cell,
+                                     judged.positions[frame].nodes[body]);
   for (const Vec3& p : corners) out.push_back(point(p));
   return out;
 }

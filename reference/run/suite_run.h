@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SceneTask {
   std::vector<std::string> detectors;  ///< canonical names
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
+  std::optional<PairSpec> pairs = {};  ///< random pairs in place of a file
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
@@ -40,7 +42,8 @@ struct SuiteProgress {
 };
 
 struct SuiteOutcome {
-  bool any_error = false;  ///< some detector ended in `error`
+  bool any_error = false;          ///< some detector ended in `error`
+  std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 
 /// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete

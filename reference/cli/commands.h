@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
 
@@ -18,6 +20,7 @@ struct RunArguments {
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
+  std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
   bool timing = true, quiet = false, resume = false;
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best

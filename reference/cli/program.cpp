@@ -62,6 +62,7 @@ struct Choices {
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
   std::vector<std::string> families;
+  std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   ReduceArguments reduce;
   std::string probe_detector;
   bool no_timing = false, write_truth = false, write_defects = false;
@@ -103,6 +104,21 @@ void add_threads(CLI::App& command, Choices& c) {
       ->check(CLI::Range(1, 256));
 }
 
+void add_pairs(CLI::App& run, Choices& c) {
+  CLI::Option* pairs =
+      run.add_option(
+             "--pairs", c.pairs,
+             "so many random hard pairs of triangles as a scene of their own, random-pairs, "
+             "beside the targets or alone; the oracle is held against rational arithmetic "
+             "on each; detectors: those of the suite hard")
+          ->check(CLI::Range(std::uint64_t{1}, kMostPairs))
+          ->type_name("N");
+  run.add_option("--seed", c.pair_seed, "of the random pairs (default 1)")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestPairSeed))
+      ->type_name("S")
+      ->needs(pairs);
+}
+
 void add_run(CLI::App& app, Choices& c) {
   CLI::App* run = app.add_subcommand("run", "run detectors on scenes and judge every answer");
   run->add_option(
@@ -128,6 +144,7 @@ void add_run(CLI::App& app, Choices& c) {
                   "every such detector runs with each")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  add_pairs(*run, c);
   add_limits(*run, c.run.call_limit, c.run.memory_limit_mib, "60");
   run->add_flag("--no-timing", c.no_timing, "judge only");
   run->add_flag("--resume", c.run.resume,
@@ -140,6 +157,7 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run references --resume");
 }
 
@@ -239,6 +257,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
+  if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
   return run_command(c.run, catalog);
 }

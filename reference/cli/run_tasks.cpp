@@ -79,22 +79,23 @@ class TaskMaker {
 
   RunTasks make() {
     Names targets = arguments_.targets;
-    if (targets.empty()) targets.push_back("default");
+    if (targets.empty() && !arguments_.pairs) targets.push_back("default");
     for (const std::string& name : targets) {
       const Target target = find_target(name, fixtures_);
       if (target.kind == TargetKind::kSuite) {
         add_suite(load_suite(target.file));
       } else {
-        add_scene(target.file, default_detectors());
+        add_scene(target.file, detectors_of("default"));
       }
     }
+    if (arguments_.pairs) add_pairs(*arguments_.pairs);
     names_.require_use_of_isas();
     return std::move(tasks_);
   }
 
  private:
-  Names default_detectors() const {
-    return load_suite(find_target("default", fixtures_).file).detectors;
+  Names detectors_of(const char* suite) const {
+    return load_suite(find_target(suite, fixtures_).file).detectors;
   }
 
   void add_suite(const Suite& suite) {
@@ -117,6 +118,14 @@ class TaskMaker {
     for (const SceneTask& task : tasks_.scenes)
       if (task.file == file) return;
     tasks_.scenes.push_back({"", file, resolved, {}});
+  }
+
+  void add_pairs(const PairSpec& pairs) {
+    const Names& given = arguments_.detectors;
+    SceneTask task;
+    task.detectors = names_.resolved(given.empty() ? detectors_of("hard") : given);
+    task.pairs = pairs;
+    tasks_.scenes.push_back(std::move(task));
   }
 
   const RunArguments& arguments_;

@@ -1,6 +1,7 @@
 #include "reference/reduce/task.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/deform/lattice.h"
@@ -123,6 +124,24 @@ void take_bodies(const JsonField& root, const Recording& recording, ReductionTas
   if (c && d) task.cells = CellPair{*c, *d};
 }
 
+// A case without a recording: its two triangles are all there is.
+void take_triangles(const JsonField& root, ReductionTask& task) {
+  Candidate pair;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const JsonField element = root.at(side == 0 ? "first" : "second");
+    pair.names[side] = element.at("body").text();
+    const std::vector<JsonField> corners = element.at("vertices").items(3);
+    if (corners.size() != 3) element.at("vertices").refuse("an array of 3 places");
+    for (const JsonField& corner : corners)
+      pair.meshes[side].vertices.push_back(at(parse_amount_vector(corner), 0.0));
+    pair.meshes[side].triangles = {{0, 1, 2}};
+  }
+  if (pair.names[0] == pair.names[1])
+    root.at("second").at("body").refuse("another body than first");
+  task.snapshot = snapshot_of(pair);
+  task.pair = TrianglePair{0, 0};
+}
+
 std::string frame_text(std::size_t frame) { return "frame " + std::to_string(frame); }
 
 ReductionTask task_of_frame(const Scene& scene, std::size_t frame) {
@@ -164,6 +183,17 @@ std::size_t frame_named(const Scene& scene, const std::string& which) {
                    std::to_string(scene.frames - 1));
 }
 
+Recording recording_of(const JsonField& root, const fs::path& file) {
+  const fs::path recording_file = file.parent_path() / root.at("recording").text();
+  std::error_code ignored;
+  if (!fs::exists(recording_file, ignored))
+    root.at("recording")
+        .fail("names " + in_quotes(recording_file.string()) + ", which does not exist");
+  Recording recording = read_recording(recording_file);
+  if (recording.frames.empty()) root.at("recording").fail("names a recording without a frame");
+  return recording;
+}
+
 }  // namespace
 
 std::optional<TrianglePair> triangles_of(const Disagreement& d, const Snapshot& snapshot) {
@@ -201,16 +231,15 @@ ReductionTask read_case(const fs::path& file) {
   task.detector = root.at("detector").text();
   task.level = root.at("level").one_of(level_names());
   task.kind = root.at("kind").one_of({"missed", "spurious"});
-  const fs::path recording_file = file.parent_path() / root.at("recording").text();
-  std::error_code ignored;
-  if (!fs::exists(recording_file, ignored))
-    root.at("recording")
-        .fail("names " + in_quotes(recording_file.string()) + ", which does not exist");
-  const Recording recording = read_recording(recording_file);
-  if (recording.frames.empty()) root.at("recording").fail("names a recording without a frame");
-  task.frame = root.at("frame").whole(0, recording.frames.size() - 1);
+  if (root.has("recording")) {
+    const Recording recording = recording_of(root, file);
+    task.frame = root.at("frame").whole(0, recording.frames.size() - 1);
+    take_bodies(root, recording, task);
+  } else {
+    task.frame = root.at("frame").whole(0, std::numeric_limits<std::uint32_t>::max());
+    take_triangles(root, task);
+  }
   task.place = frame_text(task.frame);
-  take_bodies(root, recording, task);
   return task;
 }
 

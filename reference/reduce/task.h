@@ -34,7 +34,8 @@ std::optional<CellPair> cells_of(const Disagreement& disagreement);
 /// True when `file` is a case file: JSON of one object with a detector and a kind.
 bool is_case_file(const std::filesystem::path& file);
 
-/// Reads a case file of `contactcheck run` and the frame out of the recording that it names.
+/// Reads a case file of `contactcheck run` and the frame out of the recording that it names; where
+/// it names none, its two triangles alone.
 /// @throws InputError, one sentence: file, place, value
 ReductionTask read_case(const std::filesystem::path& file);
 

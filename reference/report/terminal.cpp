@@ -9,6 +9,7 @@
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
 
@@ -75,10 +76,12 @@ std::string table(const std::vector<Column>& columns, const std::vector<Line>& l
 std::string scene_head(const Json& scene, bool color) {
   std::int64_t triangles = 0;
   for (const Json& body : scene.at("bodies")) triangles += whole_number(body.at("triangles"));
-  return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n",
+  const std::string pairs = pairs_line(scene);
+  return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n{}",
                      paint(scene.at("id").get<std::string>(), kBold, color),
                      scene.at("title").get<std::string>(), scene.at("bodies").size(), triangles,
-                     whole_number(scene.at("frames")), whole_number(scene.at("contact_frames")));
+                     whole_number(scene.at("frames")), whole_number(scene.at("contact_frames")),
+                     pairs.empty() ? "" : "  " + pairs + "\n");
 }
 
 std::string legend() {

@@ -142,10 +142,15 @@ class AccuracyPass {
     std::vector<NearPair> near;
     if (judges_near(levels_)) near = tools_.oracle.near(frame, result_.semantics.margin);
     judge_->add_frame(f, truth, contacts_, near);
-    tools_.geometry.set_frame(frame);
-    graded_->add_frame(truth, tools_.judged.contour[f], contacts_, tools_.geometry);
-    covered_.push_back(graded_->last_covered_fraction());
+    grade_frame(frame, truth);
     if (rounded_judge_) judge_rounded(f);
+  }
+
+  void grade_frame(const Frame& frame, const Truth& truth) {
+    if (!scene_.grades_lengths()) return covered_.push_back(std::nullopt);
+    tools_.geometry.set_frame(frame);
+    graded_->add_frame(truth, tools_.judged.contour[frame.index], contacts_, tools_.geometry);
+    covered_.push_back(graded_->last_covered_fraction());
   }
 
   void judge_rounded(std::size_t f) {
@@ -166,7 +171,7 @@ class AccuracyPass {
     if (rounded_judge_) result_.levels_rounded = rounded_judge_->levels();
     result_.per_frame = judge_->per_frame();
     result_.per_frame.covered_length_fraction = covered_;
-    result_.graded = graded_->errors();
+    if (scene_.grades_lengths()) result_.graded = graded_->errors();
     result_.disagreements = judge_->disagreements();
     result_.stages = losses_->stages();
     result_.episodes = find_episodes(truth_pairs_, reported_pairs_);

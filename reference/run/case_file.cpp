@@ -17,15 +17,15 @@ Json triangle_points(const JudgedScene& judged, std::size_t frame, std::uint32_t
                      std::uint32_t triangle) {
   Json out = Json::array();
   for (std::uint32_t v : judged.scene->bodies[body].shape->mesh.triangles[triangle])
-    out.push_back(point(judged.vertices[frame][body][v]));
+    out.push_back(point(judged.positions[frame].vertices[body][v]));
   return out;
 }
 
 Json cell_nodes(const JudgedScene& judged, std::size_t frame, std::uint32_t body,
                 std::uint32_t cell) {
   Json out = Json::array();
-  const Corners corners =
-      corners_of(*judged.scene->bodies[body].shape->lattice, cell, judged.nodes[frame][body]);
+  const Corners corners = corners_of(*judged.scene->bodies[body].shape->lattice, cell,
+                                     judged.positions[frame].nodes[body]);
   for (const Vec3& p : corners) out.push_back(point(p));
   return out;
 }
@@ -77,11 +77,14 @@ void write_case(const std::filesystem::path& file, const JudgedScene& judged, co
                 const std::string& recording) {
   const Json first = names_vertex(d) ? first_of_vertex_pair(judged, d)
                                      : element(judged, d, d.pair.body_a, d.pair.a);
-  const Json out = {
-      {"scene", d.scene},       {"frame", d.frame},
-      {"detector", d.detector}, {"level", d.level},
-      {"kind", d.kind},         {"recording", recording},
-      {"first", first},         {"second", element(judged, d, d.pair.body_b, d.pair.b)}};
+  Json out = {{"scene", d.scene},
+              {"frame", d.frame},
+              {"detector", d.detector},
+              {"level", d.level},
+              {"kind", d.kind}};
+  if (!recording.empty()) out["recording"] = recording;
+  out["first"] = first;
+  out["second"] = element(judged, d, d.pair.body_b, d.pair.b);
   write_file_atomically(file, out.dump(1) + "\n");
 }
 

@@ -12,7 +12,8 @@ namespace contactcheck {
 /// Writes what is needed to look at a disagreement without the scene: level, kind, frame, and for
 /// pairs of triangles, the six deformed vertices bit for bit; for pairs of cells, the mapped nodes;
 /// for a vertex, its place. `recording`: the path of the scene's recording from the folder where
-/// the case will lie, which `contactcheck reduce` finds the whole frame with.
+/// the case will lie, which `contactcheck reduce` finds the whole frame with; empty where there is
+/// none.
 void write_case(const std::filesystem::path& file, const JudgedScene& judged,
                 const Disagreement& disagreement, const std::string& recording);
 

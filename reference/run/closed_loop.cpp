@@ -23,10 +23,10 @@ class TunnellingWatch {
   explicit TunnellingWatch(const JudgedScene& judged) : judged_(judged) {}
 
   std::size_t count() {
-    for (std::size_t f = 0; f < judged_.nodes.size(); ++f) {
+    for (std::size_t f = 0; f < judged_.scene->frames; ++f) {
       const std::vector<BodyPair>& touching = judged_.truth[f].surface.bodies;
-      for (std::uint32_t a = 0; a < judged_.nodes[f].size(); ++a)
-        for (std::uint32_t b = a + 1; b < judged_.nodes[f].size(); ++b)
+      for (std::uint32_t a = 0; a < judged_.positions[f].nodes.size(); ++a)
+        for (std::uint32_t b = a + 1; b < judged_.positions[f].nodes.size(); ++b)
           look_at({a, b}, f, std::binary_search(touching.begin(), touching.end(), BodyPair{a, b}));
     }
     return events_;
@@ -34,8 +34,8 @@ class TunnellingWatch {
 
  private:
   void look_at(BodyPair pair, std::size_t f, bool touching) {
-    const Vec3 direction =
-        center_of(judged_.nodes[f][pair.b]) - center_of(judged_.nodes[f][pair.a]);
+    const Vec3 direction = center_of(judged_.positions[f].nodes[pair.b]) -
+                           center_of(judged_.positions[f].nodes[pair.a]);
     const auto before = before_.try_emplace(pair, direction).first;
     if (touching) {
       in_contact_[pair] = true;

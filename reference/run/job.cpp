@@ -42,14 +42,15 @@ nlohmann::json to_json(const RunSettings& s) {
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {
-  const Json j = {{"scene_file", job.scene_file.string()},
-                  {"settings", to_json(job.settings)},
-                  {"skip", job.skip},
-                  {"process", job.process},
-                  {"order", job.order},
-                  {"prefixes", job.prefixes},
-                  {"answer_file", job.answer_file.string()},
-                  {"recording_file", job.recording_file.string()}};
+  Json j = {{"scene_file", job.scene_file.string()},
+            {"settings", to_json(job.settings)},
+            {"skip", job.skip},
+            {"process", job.process},
+            {"order", job.order},
+            {"prefixes", job.prefixes},
+            {"answer_file", job.answer_file.string()},
+            {"recording_file", job.recording_file.string()}};
+  if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
   write_file_atomically(file, j.dump());
 }
 
@@ -57,6 +58,9 @@ Job read_job(const std::filesystem::path& file) {
   const Json j = Json::parse(read_text_file(file));
   Job job;
   job.scene_file = j.at("scene_file").get<std::string>();
+  if (j.contains("pairs"))
+    job.pairs = PairSpec{j.at("pairs").at("count").get<std::uint64_t>(),
+                         j.at("pairs").at("seed").get<std::uint64_t>()};
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
   j.at("process").get_to(job.process);

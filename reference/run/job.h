@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
 
@@ -34,6 +37,7 @@ nlohmann::json to_json(const RunSettings& settings);
 /// One worker's job: one scene.
 struct Job {
   std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
+  std::optional<PairSpec> pairs;     ///< random pairs in place of a file
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   std::size_t process = 0;          ///< 0 judges and times, others only time

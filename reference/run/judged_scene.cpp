@@ -32,16 +32,6 @@ Frame make_frame(std::size_t index, double time, const std::vector<std::vector<V
   return frame;
 }
 
-std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
-                                          const std::vector<std::vector<Vec3>>& nodes) {
-  std::vector<std::vector<Vec3>> vertices(nodes.size());
-  for (std::size_t b = 0; b < nodes.size(); ++b) {
-    vertices[b].resize(scene.bodies[b].shape->mesh.vertices.size());
-    map_body(*scene.bodies[b].shape, nodes[b], vertices[b]);
-  }
-  return vertices;
-}
-
 WantedTruth wanted_truth(const Scene& scene) {
   WantedTruth wanted;
   wanted.containment = scene.judges(Level::kContainment);
@@ -51,26 +41,34 @@ WantedTruth wanted_truth(const Scene& scene) {
 }
 
 Frame JudgedScene::frame(std::size_t index) const {
-  return make_frame(index, scene->time_of(index), nodes[index], vertices[index]);
+  const FramePosition& position = positions[index];
+  return make_frame(index, scene->time_of(index), position.nodes, position.vertices);
 }
 
 JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& progress) {
   JudgedScene judged;
   judged.scene = &scene;
+  judged.positions = FramePositions(scene);
   Oracle oracle(scene.bodies);
   SurfaceGeometry geometry(scene.bodies);
+  std::optional<PairCheck> check;
+  if (scene.pairs) check.emplace(*scene.pairs);
   for (std::size_t f = 0; f < scene.frames; ++f) {
     progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-    judged.nodes.push_back(scene.nodes_of_frame(f));
-    judged.refused = first_non_finite(scene, f, judged.nodes.back());
+    judged.refused = first_non_finite(scene, f, judged.positions[f].nodes);
     if (!judged.refused.empty()) return judged;
-    judged.vertices.push_back(map_bodies(scene, judged.nodes.back()));
     if (!truth_wanted) continue;
     judged.truth.push_back(oracle.judge(judged.frame(f), wanted_truth(scene)));
     judged.contact_frames.push_back(!judged.truth.back().surface.bodies.empty());
+    if (check) {
+      check->add_frame(f, judged.positions[f].vertices, judged.truth.back());
+      progress.part(kShareOfTruth * static_cast<double>(f) / static_cast<double>(scene.frames));
+    }
+    if (!scene.grades_lengths()) continue;
     geometry.set_frame(judged.frame(f));
     judged.contour.push_back(contour_of(judged.truth.back(), geometry));
   }
+  if (check && truth_wanted) judged.pairs = check->tally();
   return judged;
 }
 

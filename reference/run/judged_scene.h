@@ -1,11 +1,14 @@
 // A scene with all its frames evaluated and judged by the oracle.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/oracle/oracle.h"
 #include "reference/oracle/surface_geometry.h"
+#include "reference/run/frame_positions.h"
+#include "reference/run/pair_check.h"
 #include "reference/run/shared_progress.h"
 #include "reference/scene/scene.h"
 
@@ -13,15 +16,20 @@ namespace contactcheck {
 
 struct JudgedScene {
   const Scene* scene = nullptr;
-  std::vector<std::vector<std::vector<Vec3>>> nodes;     ///< [frame][body]
-  std::vector<std::vector<std::vector<Vec3>>> vertices;  ///< [frame][body], canonical mapping
-  std::vector<Truth> truth;                              ///< per frame
-  std::vector<std::vector<double>> contour;  ///< per frame: length of each true triangle pair
-  std::vector<bool> contact_frames;          ///< some surfaces touch
+  FramePositions positions;
+  std::vector<Truth> truth;  ///< per frame
+  /// Per frame: length of each true triangle pair; empty where the scene does not grade lengths.
+  std::vector<std::vector<double>> contour;
+  std::vector<bool> contact_frames;  ///< some surfaces touch
+  std::optional<PairTally> pairs;    ///< of random pairs: what rational arithmetic says
   std::string refused;  ///< not empty: which body and frame hold a NaN or infinite node
 
+  /// Of random pairs valid until another frame is asked for.
   Frame frame(std::size_t index) const;
 };
+
+/// Of a worker's work, for the progress bar; random pairs are long enough for it to move.
+constexpr double kShareOfTruth = 0.1;
 
 /// Maps and judges all frames. `truth_wanted` false leaves the truth empty (timing processes).
 /// Non-finite nodes end it: `refused` says where.
@@ -33,9 +41,5 @@ WantedTruth wanted_truth(const Scene& scene);
 /// A frame of given nodes and vertices, which must outlive it.
 Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
                  const std::vector<std::vector<Vec3>>& vertices);
-
-/// The canonical mapping of every body.
-std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
-                                          const std::vector<std::vector<Vec3>>& nodes);
 
 }  // namespace contactcheck

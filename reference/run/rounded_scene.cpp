@@ -19,15 +19,17 @@ bool fits(const std::vector<std::vector<Vec3>>& bodies, double scale) {
 
 RoundedScene::RoundedScene(const JudgedScene& judged, double scale)
     : judged_(judged), scale_(scale), truths_(judged.truth.size()) {
-  for (const auto& bodies : judged.vertices) representable_ = representable_ && fits(bodies, scale);
+  for (std::size_t f = 0; f < judged.scene->frames && representable_; ++f)
+    representable_ = fits(judged.positions[f].vertices, scale);
 }
 
 const Frame& RoundedScene::frame(std::size_t index) {
-  vertices_ = judged_.vertices[index];
+  vertices_ = judged_.positions[index].vertices;
   for (std::vector<Vec3>& body : vertices_)
     for (Vec3& v : body)
       for (int k = 0; k < 3; ++k) v[k] = static_cast<double>(fed_value(v[k], scale_));
-  frame_ = make_frame(index, judged_.scene->time_of(index), judged_.nodes[index], vertices_);
+  frame_ =
+      make_frame(index, judged_.scene->time_of(index), judged_.positions[index].nodes, vertices_);
   return frame_;
 }
 

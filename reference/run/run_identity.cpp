@@ -27,6 +27,10 @@ std::string content_of(const std::filesystem::path& file, const Scene& scene) {
   return hex(hash.digest());
 }
 
+std::string content_of(const PairSpec& pairs) {
+  return std::to_string(pairs.count) + " random pairs, seed " + std::to_string(pairs.seed);
+}
+
 RunIdentity::RunIdentity(const SuiteRequest& request) : settings_(request.settings) {
   Fnv1a program;
   add_file(request.executable, program);

@@ -15,6 +15,9 @@ namespace contactcheck {
 /// `file` was read as. @throws InputError when the file cannot be read again
 std::string content_of(const std::filesystem::path& file, const Scene& scene);
 
+/// The same of random pairs: their number and their seed; the program makes the rest.
+std::string content_of(const PairSpec& pairs);
+
 /// The program (by the bytes of its file: a detector that was rebuilt is another one), the
 /// libraries, the machine, the settings, the detectors and the scene's content.
 class RunIdentity {

@@ -53,6 +53,18 @@ Json family_json(const JudgedScene& judged) {
           {"true_pairs", std::move(pairs)}};
 }
 
+Json pairs_json(const PairSpec& spec, const PairTally& tally) {
+  Json kinds = Json::object();
+  for (std::size_t k = 0; k < kPairKinds; ++k)
+    kinds[name_of(static_cast<PairKind>(k))] = {{"pairs", tally.kinds[k].pairs},
+                                                {"touching", tally.kinds[k].touching}};
+  return {{"count", spec.count},
+          {"seed", spec.seed},
+          {"touching", tally.touching()},
+          {"per_kind", std::move(kinds)},
+          {"rational", {{"checked", tally.checked()}, {"oracle_wrong", tally.oracle_wrong}}}};
+}
+
 Json bodies_json(const Scene& scene) {
   Json bodies = Json::array();
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -83,6 +95,7 @@ nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
               {"truth_hash", hex(truth_hash(judged))},
               {"bodies", bodies_json(scene)}};
   if (scene.family) out["family"] = family_json(judged);
+  if (judged.pairs) out["pairs"] = pairs_json(scene.pairs->spec(), *judged.pairs);
   if (scene.simulation)
     out["simulation"] = {{"driver", scene.simulation->driver},
                          {"step", scene.simulation->settings.time_step},

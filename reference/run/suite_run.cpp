@@ -50,7 +50,8 @@ class SceneRunner {
               ProgressCallback on_progress)
       : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
     // The worker's working directory is for libraries to change.
-    job_.scene_file = fs::absolute(task.file);
+    if (!task.pairs) job_.scene_file = fs::absolute(task.file);
+    job_.pairs = task.pairs;
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }
@@ -67,6 +68,7 @@ class SceneRunner {
       answers.push_back(run_process(p));
     FinishedScene finished;
     finished.scene = first.at("scene");
+    for (const Json& d : first.at("oracle_disagreements")) finished.disagreements.push_back(d);
     finished.runs = assemble(answers, finished.disagreements);
     return finished;
   }
@@ -263,6 +265,14 @@ void append(Json from, Json& to) {
   for (Json& item : from) to.push_back(std::move(item));
 }
 
+std::uint64_t oracle_errors(const Json& scenes) {
+  std::uint64_t sum = 0;
+  for (const Json& scene : scenes)
+    if (scene.contains("pairs"))
+      sum += scene.at("pairs").at("rational").at("oracle_wrong").get<std::uint64_t>();
+  return sum;
+}
+
 }  // namespace
 
 nlohmann::ordered_json run_suite(const SuiteRequest& request,
@@ -299,6 +309,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
     append(std::move(finished->disagreements), disagreements);
   }
   const std::vector<fs::path> cases = number_cases(disagreements);
+  outcome->oracle_wrong = oracle_errors(scenes);
   Json results = {{"schema", "contactcheck-results/1"},
                   {"version", CONTACTCHECK_VERSION},
                   {"command", request.command},

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct SceneTask {
   std::vector<std::string> detectors;  ///< canonical names
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
+  std::optional<PairSpec> pairs = {};  ///< random pairs in place of a file
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
@@ -43,6 +45,7 @@ struct SuiteProgress {
 
 struct SuiteOutcome {
   bool unlisted_error = false;  ///< some detector ended in an `error` that is no known defect
+  std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 
 /// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete

@@ -29,7 +29,7 @@ PhaseSample run_once(const JudgedScene& judged, std::size_t index, TimedEntry& e
   const auto start = Clock::now();
   if (needs_vertices) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      map_body(*scene.bodies[b].shape, judged.nodes[index][b], mapped.vertices[b]);
+      map_body(*scene.bodies[b].shape, judged.positions[index].nodes[b], mapped.vertices[b]);
   }
   const auto after_map = Clock::now();
   entry.detector->update(mapped.frame);
@@ -58,7 +58,7 @@ void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& m
   mapped.frame.time = judged.scene->time_of(index);
   mapped.frame.bodies.clear();
   for (std::size_t b = 0; b < judged.scene->bodies.size(); ++b)
-    mapped.frame.bodies.push_back({judged.nodes[index][b], mapped.vertices[b]});
+    mapped.frame.bodies.push_back({judged.positions[index].nodes[b], mapped.vertices[b]});
 }
 
 }  // namespace

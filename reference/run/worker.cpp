@@ -50,9 +50,7 @@ class Worker {
       : job_(std::move(job)), catalog_(catalog), progress_(shared), surroundings_(supervised) {}
 
   void run() {
-    scene_ = job_.scene_file.extension() == ".ccr"
-                 ? load_recording(job_.scene_file)
-                 : load_scene(job_.scene_file, job_.settings.frames);
+    scene_ = load();
     if (scene_.simulation) scene_.simulation->settings.threads = job_.settings.threads;
     record_simulation(
         catalog_,
@@ -80,6 +78,12 @@ class Worker {
   }
 
  private:
+  Scene load() const {
+    if (job_.pairs) return make_pairs_scene(*job_.pairs);
+    if (job_.scene_file.extension() == ".ccr") return load_recording(job_.scene_file);
+    return load_scene(job_.scene_file, job_.settings.frames);
+  }
+
   void add_entry(std::uint32_t position) {
     Entry entry;
     entry.position = position;
@@ -143,7 +147,8 @@ class Worker {
     JudgingTools tools(judged_);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       Entry& entry = entries_[i];
-      progress_.part(0.1 + 0.4 * static_cast<double>(i) / static_cast<double>(entries_.size()));
+      progress_.part(kShareOfTruth +
+                     0.4 * static_cast<double>(i) / static_cast<double>(entries_.size()));
       if (entry.result.status != RunStatus::kOk) continue;
       guarded(entry, [&] {
         progress_.enter(entry.position, 0, Phase::kPrepare);
@@ -269,12 +274,43 @@ class Worker {
   }
 
   void record() {
+    if (scene_.pairs) return;  // their number and seed say all, and take less room
     Recording recording;
     recording.scene = scene_.id;
     recording.bodies = scene_.bodies;
     recording.time_step = scene_.time_step;
-    recording.frames = judged_.nodes;
+    for (std::size_t f = 0; f < scene_.frames; ++f)
+      recording.frames.push_back(judged_.positions[f].nodes);
     write_recording(job_.recording_file, recording);
+  }
+
+  Json written_cases(const std::vector<Disagreement>& disagreements) {
+    Json cases = Json::array();
+    for (const Disagreement& d : disagreements) {
+      const std::filesystem::path file =
+          job_.answer_file.string() + ".case" + std::to_string(cases_++);
+      write_case(file, judged_, d, recording_of_cases());
+      Json c = to_json(d);
+      c["case"] = file.string();
+      cases.push_back(c);
+    }
+    return cases;
+  }
+
+  std::string recording_of_cases() const {
+    if (scene_.pairs) return "";  // see record()
+    return "../recordings/" + job_.recording_file.filename().string();
+  }
+
+  // Where the oracle itself is wrong.
+  Json oracle_cases() {
+    if (!judged_.pairs) return Json::array();
+    std::vector<Disagreement> wrong = judged_.pairs->disagreements;
+    for (Disagreement& d : wrong) {
+      d.scene = scene_.id;
+      d.detector = "oracle";
+    }
+    return written_cases(wrong);
   }
 
   void write_answer() {
@@ -283,15 +319,7 @@ class Worker {
     for (Entry& entry : entries_) {
       Json samples = Json::array();
       for (const QuestionSamples& s : entry.samples) samples.push_back(samples_to_json(s));
-      Json cases = Json::array();
-      for (const Disagreement& d : entry.result.disagreements) {
-        const std::filesystem::path file =
-            job_.answer_file.string() + ".case" + std::to_string(cases_++);
-        write_case(file, judged_, d, "../recordings/" + job_.recording_file.filename().string());
-        Json c = to_json(d);
-        c["case"] = file.string();
-        cases.push_back(c);
-      }
+      Json cases = written_cases(entry.result.disagreements);
       Json run = to_json(entry.result);
       if (entry.usable() && entry.closed_loop) run["closed_loop"] = to_json(*entry.closed_loop);
       if (entry.usable() && entry.step_times) run["step_ms"] = to_json(*entry.step_times);
@@ -304,7 +332,8 @@ class Worker {
                          {"contact_frames", judged_.contact_frames},
                          {"order", job_.order},
                          {"prefixes", job_.prefixes},
-                         {"runs", runs}};
+                         {"runs", runs},
+                         {"oracle_disagreements", oracle_cases()}};
     // Texts of libraries may hold anything; JSON takes UTF-8 alone.
     write_file_atomically(job_.answer_file,
                           answer.dump(-1, ' ', false, Json::error_handler_t::replace));

@@ -6,6 +6,7 @@
 #include "core/types/check.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/motion_spec.h"
+#include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
 namespace {
@@ -36,6 +37,7 @@ std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
 std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
   CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
   if (scripted()) return nodes_at(time_of(frame));
+  if (pairs) return pairs->nodes(frame);
   CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run");
   return recorded[frame];
 }
@@ -46,6 +48,21 @@ double Scene::size() const {
     largest = std::max(largest, bounding_box(body.shape->mesh.vertices).extent().maxCoeff());
   }
   return largest;
+}
+
+Scene make_pairs_scene(const PairSpec& spec) {
+  Scene scene;
+  scene.id = "random-pairs";
+  scene.title = "Random hard pairs of triangles: touching, or apart by rounding";
+  scene.pairs = std::make_shared<RandomPairs>(spec);
+  scene.frames = scene.pairs->frames();
+  scene.time_step = 1.0;
+  scene.levels = {Level::kBody, Level::kCell, Level::kTriangle};
+  for (const char* name : {"a", "b"}) {
+    scene.bodies.push_back({name, scene.pairs->shape()});
+    scene.origins.push_back({name, "made from the seed", describe(scene.pairs->shape()->topology)});
+  }
+  return scene;
 }
 
 Scene load_recording(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ struct CaseFamily {
   std::string stresses;             ///< what it is hard for
 };
 
+class RandomPairs;
+struct PairSpec;
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -54,14 +58,18 @@ struct Scene {
   std::vector<std::vector<std::vector<Vec3>>> recorded;
   std::optional<SimulationSpec> simulation;  ///< simulated scenes only
   std::optional<CaseFamily> family;          ///< families of hard cases only; `recorded` has them
+  std::shared_ptr<const RandomPairs> pairs;  ///< random pairs only: makes the frames
 
   /// Positions follow from the time alone.
-  bool scripted() const { return recorded.empty() && !simulation; }
+  bool scripted() const { return recorded.empty() && !simulation && !pairs; }
+  /// Random pairs differ in scale from frame to frame: their lengths and distances do not add up.
+  bool grades_lengths() const { return !pairs; }
   bool judges(Level level) const;
   double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
   /// Lattice nodes of every body. @pre scripted(), or simulated and time 0: the start
   std::vector<std::vector<Vec3>> nodes_at(double time) const;
-  /// Lattice nodes of every body at a frame, scripted or recorded. @pre a simulation has been run
+  /// Lattice nodes of every body at a frame, scripted, recorded or made. @pre a simulation has been
+  /// run
   std::vector<std::vector<Vec3>> nodes_of_frame(std::size_t frame) const;
   /// The largest side of any body's rest box, metres: tolerances are relative to it.
   double size() const;
@@ -72,6 +80,9 @@ struct Scene {
 /// family of hard cases has its own frames.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
+
+/// The scene `random-pairs` (random_pairs.h), judged at the levels body, cell and triangle.
+Scene make_pairs_scene(const PairSpec& spec);
 
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/rational_geometry.h"
+#include "reference/rational/geometry.h"
 
 namespace contactcheck {
 namespace {
@@ -38,8 +38,8 @@ TEST(HardCorpus, OracleGivesTheAnswersThatAreKept) {
   EXPECT_EQ(expected_families().size(), family_ids().size());
 }
 
-test::TriangleCorners corners(const HardFamily& family, std::size_t value, std::size_t body,
-                              std::size_t triangle) {
+rational::TriangleCorners corners(const HardFamily& family, std::size_t value, std::size_t body,
+                                  std::size_t triangle) {
   const Triangle& t = family.scene.bodies[body].shape->mesh.triangles[triangle];
   const std::vector<Vec3>& v = family.vertices[value][body];
   return {v[t[0]], v[t[1]], v[t[2]]};
@@ -55,7 +55,7 @@ TEST(HardCorpus, RationalArithmeticGivesTheTruthOfPairs) {
     if (triangles > 2) continue;
     for (std::size_t v = 0; v < family.truth.size(); ++v, ++cases) {
       const bool meet =
-          test::rational_triangles_intersect(corners(family, v, 0, 0), corners(family, v, 1, 0));
+          rational::triangles_intersect(corners(family, v, 0, 0), corners(family, v, 1, 0));
       EXPECT_EQ(family.truth[v].triangles.size(), meet ? 1u : 0u)
           << id << " at " << family.truth[v].value;
       meeting += meet;

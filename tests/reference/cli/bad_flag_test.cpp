@@ -130,6 +130,22 @@ INSTANTIATE_TEST_SUITE_P(
     named);
 
 INSTANTIATE_TEST_SUITE_P(
+    RandomPairs, BadFlag,
+    testing::Values(run_with("NoPairs", {"--pairs", "0"}, {"--pairs", "0"}),
+                    run_with("NegativePairs", {"--pairs", "-5"}, {"--pairs", "-5"}),
+                    run_with("TooManyPairs", {"--pairs", "100000001"}, {"--pairs", "100000001"}),
+                    run_with("Exponent", {"--pairs", "1e6"}, {"--pairs", "1e6"}),
+                    run_with("WithCommas", {"--pairs", "1,000"}, {"--pairs", "1,000"}),
+                    run_with("Twice", {"--pairs", "5", "--pairs", "6"}, {"--pairs"}),
+                    run_with("SeedAlone", {"--seed", "5"}, {"--seed", "--pairs"}),
+                    run_with("NegativeSeed", {"--pairs", "5", "--seed", "-1"}, {"--seed", "-1"}),
+                    run_with("SeedThatIsNotWholeInEveryJson",
+                             {"--pairs", "5", "--seed", "9007199254740992"},
+                             {"--seed", "9007199254740992"}),
+                    run_with("SeedThatIsAWord", {"--pairs", "5", "--seed", "x"}, {"--seed", "x"})),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
     Report, BadFlag,
     testing::Values(
         BadCommand{"NoFile", {"report"}, {"results"}},

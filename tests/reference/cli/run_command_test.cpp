@@ -68,6 +68,38 @@ TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
   for (const std::string& file : files) EXPECT_TRUE(json::accept(text_of(out / file))) << file;
 }
 
+TEST_F(RunCommand, RandomPairsAloneAreOneSceneThatNamesCountAndSeed) {
+  const json results =
+      run("out", {"--pairs", "700", "--seed", "5", "--no-timing", "--detector", "ffd-lazy",
+                  "--detector", "ffd-aabb-sphere2+tri", "--detector", "fcl-aabb"});
+  ASSERT_EQ(results.at("scenes").size(), 1u);
+  const json& scene = results.at("scenes").at(0);
+  EXPECT_EQ(scene.at("id"), "random-pairs");
+  EXPECT_EQ(scene.at("pairs").at("count"), 700);
+  EXPECT_EQ(scene.at("pairs").at("seed"), 5);
+  EXPECT_EQ(scene.at("pairs").at("rational").at("checked"), 700);
+  EXPECT_EQ(scene.at("pairs").at("rational").at("oracle_wrong"), 0);
+  for (std::size_t exact : {0, 1}) {
+    const json& level = results.at("runs").at(exact).at("levels").at("triangle");
+    EXPECT_EQ(level.at("truth"), scene.at("pairs").at("touching"));
+    EXPECT_EQ(level.at("missed"), 0);
+    EXPECT_EQ(level.at("spurious"), 0);
+  }
+  EXPECT_THAT(names_in(scratch_.folder() / "out" / "recordings"), ElementsAre());
+  EXPECT_THAT(last_.out, HasSubstr("700 pairs, seed 5, "));
+  EXPECT_THAT(text_of(scratch_.folder() / "out" / "report.md"), HasSubstr("| mixed-scale |"));
+}
+
+TEST_F(RunCommand, RandomPairsComeBesideTheTargetsAndAreTimedOnAFewFrames) {
+  const json results = run("out", {scene_, "--pairs", "20000", "--detector", "ffd-lazy"});
+  ASSERT_EQ(results.at("scenes").size(), 2u);
+  const json& run = results.at("runs").at(1);
+  EXPECT_EQ(run.at("scene"), "random-pairs");
+  EXPECT_EQ(run.at("frames"), 35);
+  EXPECT_GT(run.at("time_ms").at("timed_frames"), 0);
+  EXPECT_EQ(results.at("scenes").at(1).at("pairs").at("seed"), 1);
+}
+
 TEST_F(RunCommand, ExactDetectorsAreExactAndTheResultsSayWhatWasThere) {
   const json results = run("out", {scene_, "--no-timing"});
   const json& scene = results.at("scenes").at(0);

@@ -8,8 +8,8 @@
 
 #include "core/lazy/kernels.h"
 #include "core/narrow/predicates.h"
+#include "reference/rational/geometry.h"
 #include "tests/support/range_ends.h"
-#include "tests/support/rational_geometry.h"
 
 namespace contactcheck::test {
 namespace {
@@ -35,11 +35,11 @@ std::string describe(const TrianglePair& pair) {
 int check_predicates(const TrianglePair& pair) {
   const auto& [a, b, c] = pair.first;
   const Vec3& d = pair.second[0];
-  const int expected = rational_orient3d(a, b, c, d);
+  const int expected = rational::orient3d(a, b, c, d);
   EXPECT_EQ(orient3d(a, b, c, d), expected) << describe(pair);
   EXPECT_EQ(orient3d_exact(a, b, c, d), expected) << describe(pair);
   for (int axis = 0; axis < 3; ++axis) {
-    const int area = rational_orient2d(a, b, d, axis);
+    const int area = rational::orient2d(a, b, d, axis);
     EXPECT_EQ(orient2d(a, b, d, axis), area) << axis << ' ' << describe(pair);
     EXPECT_EQ(orient2d_exact(a, b, d, axis), area) << axis << ' ' << describe(pair);
   }
@@ -52,7 +52,7 @@ class PairJudge {
  public:
   void check(const TrianglePair& pair) {
     const auto& [p, q] = pair;
-    const bool expected = rational_triangles_intersect(p, q);
+    const bool expected = rational::triangles_intersect(p, q);
     EXPECT_EQ(triangles_intersect(p, q), expected) << describe(pair);
     EXPECT_EQ(triangles_intersect(q, p), expected) << describe(pair);
     hits_ += expected;

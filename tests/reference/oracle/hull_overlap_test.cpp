@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "reference/rational/geometry.h"
+#include "reference/rational/simplex.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
-#include "tests/support/rational_geometry.h"
-#include "tests/support/rational_simplex.h"
 
 namespace contactcheck::test {
 namespace {
@@ -27,7 +27,7 @@ bool overlap(const Corners& a, const Corners& b) {
 
 // Eight weights each, all >= 0, summing to 1, with equal weighted points.
 bool rational_overlap(const Corners& a, const Corners& b) {
-  std::vector<RationalEquation> equations;
+  std::vector<rational::Equation> equations;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<mpq_class> row(16);
     for (std::size_t i = 0; i < 8; ++i) {
@@ -41,7 +41,7 @@ bool rational_overlap(const Corners& a, const Corners& b) {
     for (std::size_t i = 0; i < 8; ++i) row[8 * side + i] = 1;
     equations.push_back({std::move(row), 1});
   }
-  return has_nonnegative_solution(std::move(equations));
+  return rational::has_nonnegative_solution(std::move(equations));
 }
 
 bool check_pair(const Corners& a, const Corners& b) {

@@ -8,8 +8,8 @@
 
 #include "reference/oracle/oracle.h"
 #include "reference/oracle/vertex_distance.h"
+#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
-#include "tests/support/rational_geometry.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::test {
@@ -32,9 +32,9 @@ double next_up(double x) { return std::nextafter(x, std::numeric_limits<double>:
 class RationalDistance {
  public:
   RationalDistance(const Vec3& vertex, const Corners3& t) {
-    const RationalPoint v = to_rational(vertex);
+    const rational::Point v = rational::to_rational(vertex);
     for (std::size_t k = 0; k < 3; ++k) {
-      corner_[k] = to_rational(t[k]);
+      corner_[k] = rational::to_rational(t[k]);
       for (std::size_t axis = 0; axis < 3; ++axis) corner_[k][axis] -= v[axis];
     }
     for (std::size_t i = 0; i < 3; ++i)
@@ -54,7 +54,7 @@ class RationalDistance {
   }
 
  private:
-  static mpq_class dot(const RationalPoint& a, const RationalPoint& b) {
+  static mpq_class dot(const rational::Point& a, const rational::Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
   static void lower(mpq_class& best, const mpq_class& x) {
@@ -72,7 +72,7 @@ class RationalDistance {
     return gram_[i][i] - along * along / length2;
   }
 
-  std::array<RationalPoint, 3> corner_;
+  std::array<rational::Point, 3> corner_;
   std::array<std::array<mpq_class, 3>, 3> gram_;
 };
 
@@ -130,7 +130,7 @@ TEST(RationalDistanceOfTheTest, AgreesWithTheSimplexMethod) {
   for (int i = 0; i < 150; ++i) {
     const Corners3 t = source.grid_triangle(2);
     const Vec3 v = source.grid_point(3);
-    EXPECT_EQ(RationalDistance(v, t).squared(), rational_squared_distance(t, {v, v, v}))
+    EXPECT_EQ(RationalDistance(v, t).squared(), rational::squared_distance(t, {v, v, v}))
         << hex_points(t) << hex_points({&v, 1});
   }
 }

@@ -11,8 +11,8 @@
 #include "core/deform/ffd_aabb.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/hull_overlap.h"
+#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
-#include "tests/support/rational_geometry.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::test {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
-#include "tests/support/rational_geometry.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::test {
@@ -27,8 +27,8 @@ struct Surfaces {
     mpq_class best = -1;
     for (const Triangle& s : a.triangles)
       for (const Triangle& t : b.triangles) {
-        const mpq_class d = rational_squared_distance({va[s[0]], va[s[1]], va[s[2]]},
-                                                      {vb[t[0]], vb[t[1]], vb[t[2]]});
+        const mpq_class d = rational::squared_distance({va[s[0]], va[s[1]], va[s[2]]},
+                                                       {vb[t[0]], vb[t[1]], vb[t[2]]});
         if (best < 0 || d < best) best = d;
       }
     return best;

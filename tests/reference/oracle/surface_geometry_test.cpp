@@ -8,8 +8,8 @@
 #include "core/deform/ffd_aabb.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/oracle.h"
+#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
-#include "tests/support/rational_geometry.h"
 #include "tests/support/shapes.h"
 #include "tests/support/wide.h"
 
@@ -230,7 +230,7 @@ TEST(TrianglePairs, DistanceIsTheUpperEndOfANarrowInterval) {
     const Corners3 p = source.triangle(Vec3::Zero(), 1);
     Corners3 q = source.triangle(Vec3(1, 0, 0), 1);
     if (i % 2) q = source.near_degenerate_partner(p, 1);
-    const mpq_class squared = rational_squared_distance(p, q);
+    const mpq_class squared = rational::squared_distance(p, q);
     const double distance = TwoTriangles(p, q).distance();
     EXPECT_EQ(distance == 0, squared == 0);
     EXPECT_GE(mpq_class(distance) * mpq_class(distance), squared);

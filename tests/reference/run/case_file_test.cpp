@@ -57,7 +57,7 @@ class CaseFile : public testing::Test {
     for (int c = 0; c < 3; ++c)
       for (int k = 0; k < 3; ++k)
         EXPECT_EQ(read_back(element.at("vertices")[c][k]),
-                  judged_.vertices[2][body][corners[c]][k]);
+                  judged_.positions[2].vertices[body][corners[c]][k]);
   }
 
   void expect_cell(const json& element, std::uint32_t body, std::uint32_t cell) {
@@ -67,7 +67,7 @@ class CaseFile : public testing::Test {
     for (int c = 0; c < 8; ++c)
       for (int k = 0; k < 3; ++k)
         EXPECT_EQ(read_back(element.at("nodes")[c][k]),
-                  judged_.nodes[2][body][lattice.cell_nodes[cell][c]][k]);
+                  judged_.positions[2].nodes[body][lattice.cell_nodes[cell][c]][k]);
   }
 
   SharedProgress page_;

@@ -89,7 +89,8 @@ void write_answer(const Job& job) {
       {"contact_frames", empty},
       {"order", empty},
       {"prefixes", empty},
-      {"runs", {entry}}};
+      {"runs", {entry}},
+      {"oracle_disagreements", empty}};
 }
 
 int act(const std::string& what, ProgressWriter& progress) {

@@ -66,6 +66,19 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.recording_file, "/tmp/x.ccr");
 }
 
+TEST(Job, RandomPairsReadBackInPlaceOfAFile) {
+  const Scratch scratch;
+  Job out = full_job();
+  EXPECT_FALSE(
+      (write_job(scratch.folder() / "job", out), read_job(scratch.folder() / "job").pairs));
+  out.pairs = PairSpec{10'000'000, kLargestPairSeed};
+  write_job(scratch.folder() / "job", out);
+  const Job in = read_job(scratch.folder() / "job");
+  ASSERT_TRUE(in.pairs);
+  EXPECT_EQ(in.pairs->count, 10'000'000u);
+  EXPECT_EQ(in.pairs->seed, kLargestPairSeed);
+}
+
 TEST(Job, TextOfAMissingFileIsRefusedWithItsPath) {
   EXPECT_THAT(sentence_of([] { read_text_file("/nonexistent/job"); }),
               HasSubstr("/nonexistent/job"));

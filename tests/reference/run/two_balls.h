@@ -51,7 +51,7 @@ inline Scene two_balls(const BallStart& first, const BallStart& second, std::siz
 
 /// The first lies just above the ground, the second falls on it, a little aside.
 inline Scene falling_balls(std::size_t frames) {
-  Scene scene = two_balls({{0.0, 0.27, 0.0}, {}}, {{0.05, 0.9, 0.03}, {}}, frames);
+  Scene scene = two_balls({{0.0, 0.27, 0.0}}, {{0.05, 0.9, 0.03}}, frames);
   scene.simulation->settings.gravity = Vec3(0.0, -9.81, 0.0);
   scene.simulation->settings.ground = Ground{};
   return scene;

@@ -189,6 +189,28 @@ def goal_errors(place, goal):
         yield f"{place}/met", f"is {goal['met']} for {measured}"
 
 
+def pairs_errors(place, pairs):
+    checked = pairs["rational"]["checked"]
+    if checked != pairs["count"]:
+        yield f"{place}/rational/checked", f"is {checked} of {pairs['count']} pairs"
+    kinds = pairs["per_kind"].values()
+    for name, whole in (("pairs", "count"), ("touching", "touching")):
+        total = sum(kind[name] for kind in kinds)
+        if total != pairs[whole]:
+            yield f"{place}/per_kind", f"{name} adds up to {total}, not {pairs[whole]}"
+    for name, kind in pairs["per_kind"].items():
+        if kind["touching"] > kind["pairs"]:
+            yield f"{place}/per_kind/{name}/touching", f"exceeds the {kind['pairs']} pairs"
+
+
+def contradicts_the_oracle(results, disagreement):
+    """Is it of rational arithmetic with the oracle, in a scene of random pairs?"""
+    return disagreement["detector"] == "oracle" and any(
+        scene["pairs"]["rational"]["oracle_wrong"] > 0
+        for scene in results.get("scenes", [])
+        if scene.get("id") == disagreement["scene"] and "pairs" in scene)
+
+
 def consistency_errors(results):
     """What a schema cannot state. Expects results that satisfy the schema."""
     runs = {}
@@ -201,12 +223,17 @@ def consistency_errors(results):
         yield from run_errors(place, run)
     for number, goal in enumerate(results.get("goals", [])):
         yield from goal_errors(f"/goals/{number}", goal)
+    for number, scene in enumerate(results.get("scenes", [])):
+        if "pairs" in scene:
+            yield from pairs_errors(f"/scenes/{number}/pairs", scene["pairs"])
     scenes = {scene for scene, _ in runs}
     for number, scene in enumerate(results.get("resumed", [])):
         if scene not in scenes:
             yield f"/resumed/{number}", f"{scene} is no scene of the runs"
     for number, disagreement in enumerate(results["disagreements"]):
         place = f"/disagreements/{number}"
+        if contradicts_the_oracle(results, disagreement):
+            continue
         run = runs.get((disagreement["scene"], disagreement["detector"]))
         if run is None:
             yield place, "belongs to no run"

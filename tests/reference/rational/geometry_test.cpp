@@ -1,57 +1,59 @@
 // The judge judged: hand-made cases with known answers, and its two ways to say "disjoint".
 
-#include "tests/support/rational_geometry.h"
+#include "reference/rational/geometry.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "reference/rational/simplex.h"
 #include "tests/support/random_triangles.h"
-#include "tests/support/rational_simplex.h"
 
 namespace contactcheck::test {
 namespace {
 
+using rational::TriangleCorners;
+
 const TriangleCorners kBase = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
-mpq_class distance_to(const TriangleCorners& t) { return rational_squared_distance(kBase, t); }
+mpq_class distance_to(const TriangleCorners& t) { return rational::squared_distance(kBase, t); }
 
 TriangleCorners point(const Vec3& p) { return {p, p, p}; }
 
 TEST(RationalSimplex, FeasibleInfeasibleAndRedundant) {
-  EXPECT_TRUE(has_nonnegative_solution({{{1, 1}, 1}}));
-  EXPECT_FALSE(has_nonnegative_solution({{{1, 1}, -1}}));
-  EXPECT_TRUE(has_nonnegative_solution({{{-1, 1}, -1}}));
-  EXPECT_TRUE(has_nonnegative_solution({{{1, 1}, 1}, {{2, 2}, 2}, {{1, -1}, 0}}));
-  EXPECT_FALSE(has_nonnegative_solution({{{1, 1}, 1}, {{2, 2}, 3}}));
-  EXPECT_FALSE(has_nonnegative_solution({{{1, 1}, 1}, {{1, -1}, 2}}));
+  EXPECT_TRUE(rational::has_nonnegative_solution({{{1, 1}, 1}}));
+  EXPECT_FALSE(rational::has_nonnegative_solution({{{1, 1}, -1}}));
+  EXPECT_TRUE(rational::has_nonnegative_solution({{{-1, 1}, -1}}));
+  EXPECT_TRUE(rational::has_nonnegative_solution({{{1, 1}, 1}, {{2, 2}, 2}, {{1, -1}, 0}}));
+  EXPECT_FALSE(rational::has_nonnegative_solution({{{1, 1}, 1}, {{2, 2}, 3}}));
+  EXPECT_FALSE(rational::has_nonnegative_solution({{{1, 1}, 1}, {{1, -1}, 2}}));
 }
 
 TEST(RationalOrient, SignsOfTheUnitCorner) {
   const Vec3 o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
-  EXPECT_EQ(rational_orient3d(o, x, y, z), 1);
-  EXPECT_EQ(rational_orient3d(o, y, x, z), -1);
-  EXPECT_EQ(rational_orient3d(o, x, y, x), 0);
-  EXPECT_EQ(rational_orient2d(o, x, y, 2), 1);
-  EXPECT_EQ(rational_orient2d(o, z, y, 0), -1);
+  EXPECT_EQ(rational::orient3d(o, x, y, z), 1);
+  EXPECT_EQ(rational::orient3d(o, y, x, z), -1);
+  EXPECT_EQ(rational::orient3d(o, x, y, x), 0);
+  EXPECT_EQ(rational::orient2d(o, x, y, 2), 1);
+  EXPECT_EQ(rational::orient2d(o, z, y, 0), -1);
 }
 
 TEST(RationalTrianglesIntersect, KnownAnswers) {
-  EXPECT_TRUE(rational_triangles_intersect(kBase, kBase));
-  EXPECT_TRUE(rational_triangles_intersect(kBase, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 1)}));
-  EXPECT_TRUE(rational_triangles_intersect(kBase, point(Vec3(2, 2, 0))));
-  EXPECT_FALSE(rational_triangles_intersect(kBase, point(Vec3(2, 2, 5e-324))));
-  EXPECT_FALSE(rational_triangles_intersect(kBase, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(3, 5, 0)}));
+  EXPECT_TRUE(rational::triangles_intersect(kBase, kBase));
+  EXPECT_TRUE(rational::triangles_intersect(kBase, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 1)}));
+  EXPECT_TRUE(rational::triangles_intersect(kBase, point(Vec3(2, 2, 0))));
+  EXPECT_FALSE(rational::triangles_intersect(kBase, point(Vec3(2, 2, 5e-324))));
+  EXPECT_FALSE(rational::triangles_intersect(kBase, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(3, 5, 0)}));
 }
 
 TEST(RationalTriangleMeetsBox, KnownAnswers) {
   Aabb box;
-  EXPECT_FALSE(rational_triangle_meets_box(kBase, box));
+  EXPECT_FALSE(rational::triangle_meets_box(kBase, box));
   box.extend(Vec3(2, 2, -1));
   box.extend(Vec3(3, 3, 1));
-  EXPECT_TRUE(rational_triangle_meets_box(kBase, box));
+  EXPECT_TRUE(rational::triangle_meets_box(kBase, box));
   box.lo.x() = std::nextafter(2.0, 3.0);
-  EXPECT_FALSE(rational_triangle_meets_box(kBase, box));
+  EXPECT_FALSE(rational::triangle_meets_box(kBase, box));
 }
 
 TEST(RationalSquaredDistance, ToFaceEdgeCornerAndSkewEdge) {
@@ -74,9 +76,9 @@ TEST(RationalSquaredDistance, IsSymmetricAndZeroExactlyAtIntersections) {
   int hits = 0;
   for (int i = 0; i < 1000; ++i) {
     const TriangleCorners p = source.grid_triangle(2), q = source.grid_triangle(2);
-    const mpq_class d = rational_squared_distance(p, q);
-    EXPECT_EQ(d, rational_squared_distance(q, p));
-    EXPECT_EQ(d == 0, rational_triangles_intersect(p, q));
+    const mpq_class d = rational::squared_distance(p, q);
+    EXPECT_EQ(d, rational::squared_distance(q, p));
+    EXPECT_EQ(d == 0, rational::triangles_intersect(p, q));
     hits += d == 0;
   }
   EXPECT_GT(hits, 150);
@@ -92,7 +94,7 @@ TEST(RationalSquaredDistance, NoSampledPointPairIsCloser) {
   };
   for (int n = 0; n < 60; ++n) {
     const TriangleCorners p = source.grid_triangle(3), q = source.grid_triangle(3);
-    const mpq_class d = rational_squared_distance(p, q);
+    const mpq_class d = rational::squared_distance(p, q);
     mpq_class closest = 1000;
     for (int i = 0; i <= kSteps; ++i)
       for (int j = 0; i + j <= kSteps; ++j)

@@ -1,11 +1,11 @@
 // R. G. Bland, "New finite pivoting rules for the simplex method", 1977.
 
-#include "tests/support/rational_simplex.h"
+#include "reference/rational/simplex.h"
 
 #include <cstddef>
 #include <utility>
 
-namespace contactcheck::test {
+namespace contactcheck::rational {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -15,10 +15,10 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// never comes back.
 class PhaseOne {
  public:
-  explicit PhaseOne(std::vector<RationalEquation> rows) : rows_(std::move(rows)) {
+  explicit PhaseOne(std::vector<Equation> rows) : rows_(std::move(rows)) {
     unknowns_ = rows_.front().coefficients.size();
     goal_.coefficients.resize(unknowns_);
-    for (RationalEquation& row : rows_) {
+    for (Equation& row : rows_) {
       if (row.right < 0) negate(row);
       subtract(goal_, row, mpq_class(-1));
     }
@@ -35,14 +35,13 @@ class PhaseOne {
   }
 
  private:
-  static void negate(RationalEquation& row) {
+  static void negate(Equation& row) {
     for (mpq_class& value : row.coefficients) value = -value;
     row.right = -row.right;
   }
 
   /// row -= factor * other
-  static void subtract(RationalEquation& row, const RationalEquation& other,
-                       const mpq_class& factor) {
+  static void subtract(Equation& row, const Equation& other, const mpq_class& factor) {
     for (std::size_t i = 0; i < row.coefficients.size(); ++i)
       if (other.coefficients[i] != 0) row.coefficients[i] -= factor * other.coefficients[i];
     row.right -= factor * other.right;
@@ -73,7 +72,7 @@ class PhaseOne {
   }
 
   void pivot(std::size_t pivot_row, std::size_t column) {
-    RationalEquation& row = rows_[pivot_row];
+    Equation& row = rows_[pivot_row];
     const mpq_class scale = row.coefficients[column];
     for (mpq_class& value : row.coefficients) value /= scale;
     row.right /= scale;
@@ -86,16 +85,16 @@ class PhaseOne {
     basis_[pivot_row] = column;
   }
 
-  std::vector<RationalEquation> rows_;
-  RationalEquation goal_;  ///< the sum of the artificial unknowns, in the non-basic unknowns
+  std::vector<Equation> rows_;
+  Equation goal_;  ///< the sum of the artificial unknowns, in the non-basic unknowns
   std::vector<std::size_t> basis_;
   std::size_t unknowns_ = 0;
 };
 
 }  // namespace
 
-bool has_nonnegative_solution(std::vector<RationalEquation> equations) {
+bool has_nonnegative_solution(std::vector<Equation> equations) {
   return PhaseOne(std::move(equations)).solve();
 }
 
-}  // namespace contactcheck::test
+}  // namespace contactcheck::rational

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-namespace contactcheck::test {
+namespace contactcheck::rational {
 
 /// One equation: the coefficients of all unknowns, and the right-hand side.
-struct RationalEquation {
+struct Equation {
   std::vector<mpq_class> coefficients;
   mpq_class right;
 };
@@ -15,6 +15,6 @@ struct RationalEquation {
 /// True when the equations have a solution in which no unknown is negative. Exact; phase one of the
 /// simplex method, which cannot cycle under Bland's rule.
 /// @pre every equation has the same number of coefficients
-bool has_nonnegative_solution(std::vector<RationalEquation> equations);
+bool has_nonnegative_solution(std::vector<Equation> equations);
 
-}  // namespace contactcheck::test
+}  // namespace contactcheck::rational

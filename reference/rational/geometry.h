@@ -11,25 +11,25 @@
 
 #include "core/types/vec3.h"
 
-namespace contactcheck::test {
+namespace contactcheck::rational {
 
-using RationalPoint = std::array<mpq_class, 3>;
+using Point = std::array<mpq_class, 3>;
 using TriangleCorners = std::array<Vec3, 3>;  ///< the same type as core's TrianglePoints
 
 /// Every finite double is a rational.
-RationalPoint to_rational(const Vec3& point);
+Point to_rational(const Vec3& point);
 
 /// The sign that the predicates of core/narrow/predicates.h promise.
-int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-int rational_orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
 
 /// True when the closed triangles share a point; degenerate ones are segments or points.
-bool rational_triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
+bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
 
 /// True when the closed triangle and the closed box share a point; an empty box shares none.
-bool rational_triangle_meets_box(const TriangleCorners& triangle, const Aabb& box);
+bool triangle_meets_box(const TriangleCorners& triangle, const Aabb& box);
 
 /// Exact squared distance in square metres; 0 exactly when the closed triangles share a point.
-mpq_class rational_squared_distance(const TriangleCorners& p, const TriangleCorners& q);
+mpq_class squared_distance(const TriangleCorners& p, const TriangleCorners& q);
 
-}  // namespace contactcheck::test
+}  // namespace contactcheck::rational

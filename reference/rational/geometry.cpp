@@ -1,48 +1,42 @@
-#include "tests/support/rational_geometry.h"
+#include "reference/rational/geometry.h"
 
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "tests/support/rational_simplex.h"
+#include "reference/rational/simplex.h"
 
-namespace contactcheck::test {
+namespace contactcheck::rational {
 namespace {
 
-using RationalTriangle = std::array<RationalPoint, 3>;
+using Triangle = std::array<Point, 3>;
 
-RationalTriangle rational_corners(const TriangleCorners& t) {
+Triangle corners_of(const TriangleCorners& t) {
   return {to_rational(t[0]), to_rational(t[1]), to_rational(t[2])};
 }
 
-RationalPoint operator-(const RationalPoint& a, const RationalPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// point + factor * direction
-RationalPoint along(const RationalPoint& point, const mpq_class& factor,
-                    const RationalPoint& direction) {
+Point along(const Point& point, const mpq_class& factor, const Point& direction) {
   return {point[0] + factor * direction[0], point[1] + factor * direction[1],
           point[2] + factor * direction[2]};
 }
 
-mpq_class dot(const RationalPoint& a, const RationalPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+mpq_class dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
+Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-mpq_class squared_distance(const RationalPoint& a, const RationalPoint& b) {
-  const RationalPoint difference = a - b;
+mpq_class squared_distance(const Point& a, const Point& b) {
+  const Point difference = a - b;
   return dot(difference, difference);
 }
 
 /// The foot of the perpendicular from p on the line, where it falls on the segment ab.
-std::optional<RationalPoint> foot_on_segment(const RationalPoint& p, const RationalPoint& a,
-                                             const RationalPoint& b) {
-  const RationalPoint edge = b - a;
+std::optional<Point> foot_on_segment(const Point& p, const Point& a, const Point& b) {
+  const Point edge = b - a;
   const mpq_class length = dot(edge, edge);
   if (length == 0) return std::nullopt;
   const mpq_class s = dot(p - a, edge) / length;
@@ -51,8 +45,8 @@ std::optional<RationalPoint> foot_on_segment(const RationalPoint& p, const Ratio
 }
 
 /// The foot of the perpendicular from p on the plane, where it falls on the triangle.
-std::optional<RationalPoint> foot_on_triangle(const RationalPoint& p, const RationalTriangle& t) {
-  const RationalPoint u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
+std::optional<Point> foot_on_triangle(const Point& p, const Triangle& t) {
+  const Point u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const mpq_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const mpq_class gram = uu * vv - uv * uv;
   if (gram == 0) return std::nullopt;
@@ -62,9 +56,9 @@ std::optional<RationalPoint> foot_on_triangle(const RationalPoint& p, const Rati
 }
 
 /// Squared distance of the two lines, where the closest points fall on the segments.
-std::optional<mpq_class> between_segments(const RationalPoint& a, const RationalPoint& b,
-                                          const RationalPoint& c, const RationalPoint& d) {
-  const RationalPoint u = b - a, v = d - c, w = c - a;
+std::optional<mpq_class> between_segments(const Point& a, const Point& b, const Point& c,
+                                          const Point& d) {
+  const Point u = b - a, v = d - c, w = c - a;
   const mpq_class uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const mpq_class gram = uu * vv - uv * uv;
   if (gram == 0) return std::nullopt;
@@ -78,8 +72,8 @@ void lower(mpq_class& best, const mpq_class& candidate) {
 }
 
 /// Corners of p against corners, edges and face of q.
-void lower_by_corners(mpq_class& best, const RationalTriangle& p, const RationalTriangle& q) {
-  for (const RationalPoint& corner : p) {
+void lower_by_corners(mpq_class& best, const Triangle& p, const Triangle& q) {
+  for (const Point& corner : p) {
     for (std::size_t i = 0; i < 3; ++i) {
       lower(best, squared_distance(corner, q[i]));
       if (const auto foot = foot_on_segment(corner, q[i], q[(i + 1) % 3]))
@@ -89,7 +83,7 @@ void lower_by_corners(mpq_class& best, const RationalTriangle& p, const Rational
   }
 }
 
-void lower_by_edges(mpq_class& best, const RationalTriangle& p, const RationalTriangle& q) {
+void lower_by_edges(mpq_class& best, const Triangle& p, const Triangle& q) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       if (const auto d = between_segments(p[i], p[(i + 1) % 3], q[j], q[(j + 1) % 3]))
@@ -98,26 +92,26 @@ void lower_by_edges(mpq_class& best, const RationalTriangle& p, const RationalTr
 
 }  // namespace
 
-RationalPoint to_rational(const Vec3& point) {
+Point to_rational(const Vec3& point) {
   return {mpq_class(point.x()), mpq_class(point.y()), mpq_class(point.z())};
 }
 
-int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const RationalPoint origin = to_rational(a);
-  const RationalPoint u = to_rational(b) - origin, v = to_rational(c) - origin;
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Point origin = to_rational(a);
+  const Point u = to_rational(b) - origin, v = to_rational(c) - origin;
   return sgn(dot(cross(u, v), to_rational(d) - origin));
 }
 
-int rational_orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
-  const RationalPoint origin = to_rational(a);
-  const RationalPoint normal = cross(to_rational(b) - origin, to_rational(c) - origin);
+int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
+  const Point origin = to_rational(a);
+  const Point normal = cross(to_rational(b) - origin, to_rational(c) - origin);
   return sgn(normal[static_cast<std::size_t>(axis)]);
 }
 
-bool rational_triangles_intersect(const TriangleCorners& p, const TriangleCorners& q) {
+bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q) {
   // Six barycentric coordinates >= 0: sum p_i x_i = sum q_j y_j, sum x_i = 1, sum y_j = 1.
-  const RationalTriangle rp = rational_corners(p), rq = rational_corners(q);
-  std::vector<RationalEquation> equations;
+  const Triangle rp = corners_of(p), rq = corners_of(q);
+  std::vector<Equation> equations;
   for (std::size_t axis = 0; axis < 3; ++axis)
     equations.push_back({{rp[0][axis], rp[1][axis], rp[2][axis], mpq_class(-rq[0][axis]),
                           mpq_class(-rq[1][axis]), mpq_class(-rq[2][axis])},
@@ -127,12 +121,12 @@ bool rational_triangles_intersect(const TriangleCorners& p, const TriangleCorner
   return has_nonnegative_solution(std::move(equations));
 }
 
-bool rational_triangle_meets_box(const TriangleCorners& triangle, const Aabb& box) {
+bool triangle_meets_box(const TriangleCorners& triangle, const Aabb& box) {
   if (box.empty()) return false;
   // Three barycentric coordinates, and per axis the distances from both faces, all >= 0:
   // sum p_i x_i - below = lo, sum p_i x_i + above = hi, sum x_i = 1.
-  const RationalTriangle t = rational_corners(triangle);
-  std::vector<RationalEquation> equations;
+  const Triangle t = corners_of(triangle);
+  std::vector<Equation> equations;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
       std::vector<mpq_class> row(9);
@@ -146,11 +140,11 @@ bool rational_triangle_meets_box(const TriangleCorners& triangle, const Aabb& bo
   return has_nonnegative_solution(std::move(equations));
 }
 
-mpq_class rational_squared_distance(const TriangleCorners& p, const TriangleCorners& q) {
-  if (rational_triangles_intersect(p, q)) return 0;
+mpq_class squared_distance(const TriangleCorners& p, const TriangleCorners& q) {
+  if (triangles_intersect(p, q)) return 0;
   // The closest points of two disjoint triangles lie on a corner and a face, edge or corner, or on
   // two edges: the smallest over all those pairs is the distance, degenerate triangles included.
-  const RationalTriangle rp = rational_corners(p), rq = rational_corners(q);
+  const Triangle rp = corners_of(p), rq = corners_of(q);
   mpq_class best = squared_distance(rp[0], rq[0]);
   lower_by_corners(best, rp, rq);
   lower_by_corners(best, rq, rp);
@@ -158,4 +152,4 @@ mpq_class rational_squared_distance(const TriangleCorners& p, const TriangleCorn
   return best;
 }
 
-}  // namespace contactcheck::test
+}  // namespace contactcheck::rational

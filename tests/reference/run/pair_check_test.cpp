@@ -1,0 +1,139 @@
+// Random pairs from the generator to the verdict on the oracle and on detectors.
+#include "reference/run/pair_check.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/rational/clipping.h"
+#include "reference/run/accuracy.h"
+#include "reference/run/scene_summary.h"
+#include "tests/faults/broken_detectors.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::size_t kFrames = 10;
+
+class RandomPairsJudged : public testing::Test {
+ protected:
+  RandomPairsJudged()
+      : scene_(make_pairs_scene({kFrames * RandomPairs::kSlots, 3})),
+        progress_(&page_),
+        judged_(judge_scene(scene_, true, progress_)) {}
+
+  /// The verdict on a truth that may have been spoiled.
+  PairTally tally_with(const std::vector<Truth>& truth, unsigned threads = 0) const {
+    PairCheck check(*scene_.pairs, threads);
+    for (std::size_t f = 0; f < scene_.frames; ++f)
+      check.add_frame(f, judged_.positions[f].vertices, truth[f]);
+    return check.tally();
+  }
+
+  Scene scene_;
+  SharedProgress page_;
+  ProgressWriter progress_;
+  JudgedScene judged_;
+};
+
+TEST_F(RandomPairsJudged, OracleAndRationalArithmeticAgree) {
+  ASSERT_TRUE(judged_.pairs);
+  EXPECT_EQ(judged_.pairs->checked(), kFrames * RandomPairs::kSlots);
+  EXPECT_EQ(judged_.pairs->oracle_wrong, 0u);
+  EXPECT_TRUE(judged_.pairs->disagreements.empty());
+}
+
+// A kind whose answer is known beforehand would try nothing.
+TEST_F(RandomPairsJudged, QuarterToThreeQuartersOfEveryKindTouch) {
+  for (std::size_t k = 0; k < kPairKinds; ++k) {
+    const PairTally::Kind& kind = judged_.pairs->kinds[k];
+    EXPECT_GT(4 * kind.touching, kind.pairs) << name_of(static_cast<PairKind>(k));
+    EXPECT_LT(4 * kind.touching, 3 * kind.pairs) << name_of(static_cast<PairKind>(k));
+  }
+}
+
+TEST_F(RandomPairsJudged, QuickRationalTestAgreesWithTheLinearProgram) {
+  for (std::size_t f = 0; f < kFrames; ++f)
+    for (std::size_t slot = 0; slot < RandomPairs::kSlots; ++slot) {
+      const HardPair p = scene_.pairs->pair(f, slot);
+      ASSERT_EQ(rational::triangles_intersect_by_clipping(p.a, p.b),
+                rational::triangles_intersect(p.a, p.b))
+          << "frame " << f << ", slot " << slot;
+    }
+}
+
+TEST_F(RandomPairsJudged, TallyDoesNotDependOnTheNumberOfThreads) {
+  const PairTally one = tally_with(judged_.truth, 1), three = tally_with(judged_.truth, 3);
+  for (std::size_t k = 0; k < kPairKinds; ++k) {
+    EXPECT_EQ(one.kinds[k].pairs, three.kinds[k].pairs);
+    EXPECT_EQ(one.kinds[k].touching, three.kinds[k].touching);
+  }
+  EXPECT_EQ(three.oracle_wrong, 0u);
+}
+
+TEST_F(RandomPairsJudged, OracleThatMissesIsFoundOut) {
+  std::vector<Truth> truth = judged_.truth;
+  std::vector<ElementPair>& pairs = truth[6].surface.triangles;
+  const ElementPair lost = pairs[17];
+  pairs.erase(pairs.begin() + 17);
+  truth[8].surface.triangles.pop_back();
+  const PairTally tally = tally_with(truth);
+  EXPECT_EQ(tally.oracle_wrong, 2u);
+  ASSERT_EQ(tally.disagreements.size(), 1u) << "the first of its kind";
+  EXPECT_EQ(tally.disagreements[0].kind, "missed");
+  EXPECT_EQ(tally.disagreements[0].level, "triangle");
+  EXPECT_EQ(tally.disagreements[0].frame, 6u);
+  EXPECT_EQ(tally.disagreements[0].pair, lost);
+}
+
+TEST_F(RandomPairsJudged, OracleThatMakesPairsUpIsFoundOut) {
+  std::vector<Truth> truth = judged_.truth;
+  std::vector<ElementPair>& pairs = truth[2].surface.triangles;
+  std::uint32_t apart = 0;
+  while (std::binary_search(pairs.begin(), pairs.end(), ElementPair{0, 1, apart, apart})) ++apart;
+  pairs.push_back({0, 1, apart, apart});
+  pairs.push_back({0, 1, 4, 5});
+  canonicalize(pairs);
+  const PairTally tally = tally_with(truth);
+  EXPECT_EQ(tally.oracle_wrong, 2u);
+  ASSERT_EQ(tally.disagreements.size(), 1u);
+  EXPECT_EQ(tally.disagreements[0].kind, "spurious");
+  EXPECT_EQ(tally.disagreements[0].frame, 2u);
+}
+
+TEST_F(RandomPairsJudged, SummaryHasCountSeedKindsAndVerdict) {
+  judged_.pairs->oracle_wrong = 2;
+  const nlohmann::ordered_json pairs = scene_summary(judged_).at("pairs");
+  EXPECT_EQ(pairs.at("count"), kFrames * RandomPairs::kSlots);
+  EXPECT_EQ(pairs.at("seed"), 3);
+  EXPECT_EQ(pairs.at("touching"), scene_summary(judged_).at("truth").at("triangle"));
+  EXPECT_EQ(pairs.at("per_kind").size(), kPairKinds);
+  EXPECT_EQ(pairs.at("per_kind").at("mixed-scale").at("touching"),
+            judged_.pairs->kinds.back().touching);
+  EXPECT_EQ(pairs.at("rational").at("checked"), kFrames * RandomPairs::kSlots);
+  EXPECT_EQ(pairs.at("rational").at("oracle_wrong"), 2);
+}
+
+TEST_F(RandomPairsJudged, DetectorThatDropsPairsIsCounted) {
+  std::uint64_t dropped = 0;
+  for (const Truth& t : judged_.truth) dropped += (t.surface.triangles.size() + 9) / 10;
+  test::DropsEveryTenth detector;
+  RunResult result;
+  JudgingTools tools(judged_);
+  run_accuracy(tools, 0, detector, progress_, result);
+  EXPECT_EQ(result.levels.at(Level::kTriangle).missed, dropped);
+  EXPECT_EQ(result.levels.at(Level::kTriangle).spurious, 0u);
+  EXPECT_FALSE(result.graded.missed_length) << "lengths of many scales do not add up";
+  ASSERT_FALSE(result.disagreements.empty());
+  EXPECT_EQ(result.disagreements[0].kind, "missed");
+}
+
+TEST_F(RandomPairsJudged, FramesComeBackBitForBitAfterOthers) {
+  const std::vector<std::vector<Vec3>> vertices = judged_.positions[1].vertices;
+  (void)judged_.positions[7];
+  EXPECT_EQ(judged_.positions[1].vertices, vertices);
+  EXPECT_NE(judged_.positions[7].vertices, vertices);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -7,6 +7,7 @@
 #include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
+#include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/run_and_report.h"
@@ -27,25 +28,12 @@ using Json = nlohmann::ordered_json;
 void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
   std::set<std::string> ids;
   for (SceneTask& task : tasks) {
-    const bool recorded = task.file.extension() == ".ccr";
-    if (recorded && frames > 0)
-      throw InputError("--frames: recording \"" + task.file.string() +
-                       "\" has its own frames and cannot be given others");
-    const Scene scene = recorded ? load_recording(task.file) : load_scene(task.file, frames);
+    const Scene scene = load_any_scene(task.file, frames);
     task.id = scene.id;
     task.content = content_of(task.file, scene);
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
   }
-}
-
-void check_out(const fs::path& out) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) throw InputError("--out " + out.string() + ": " + error.message());
-  if (!fs::is_directory(out)) throw InputError("--out " + out.string() + ": is not a folder");
-  if (access(out.c_str(), W_OK) != 0)
-    throw InputError("--out " + out.string() + ": cannot be written");
 }
 
 void print_outcome(const RunArguments& arguments, const Json& results) {

@@ -186,8 +186,8 @@ def check_export(folder):
         chained = chain_hash(chained, truth["frame"], truth["body_pairs"], truth["contacts"])
     require(index["contact_hash"] == f"0x{chained:016x}", "scene.json: another contact_hash")
     contacts, gaps = (sum(f[key] for f in frames) for key in ("contacts", "gaps"))
-    return (f"{index['scene']}: {len(frames)} frames proven: {contacts} pairs of triangles touch; "
-            f"{gaps} with boxes that meet, and all others, do not")
+    return (f"{index['scene']}: {len(frames)} frames proven: {contacts} pairs of triangles share a "
+            f"point; {gaps} are parted by a plane, all others by boxes")
 
 
 if __name__ == "__main__":

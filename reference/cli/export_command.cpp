@@ -10,7 +10,6 @@
 #include "reference/run/out_folder.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
 #include "reference/scene/suite_file.h"
 #include "reference/simulate/simulate_scene.h"
 
@@ -47,10 +46,6 @@ void check_scenes(const ExportArguments& arguments, const std::vector<fs::path>&
   std::set<std::string> ids;
   for (const fs::path& file : files) {
     const Scene scene = load_any_scene(file, arguments.frames);
-    // Ids of scenes are names of folders; a recording may be called anything.
-    if (!is_id(scene.id))
-      throw InputError("recording " + in_quotes(file.string()) + " is of scene " +
-                       in_quotes(scene.id) + ", which cannot be the name of a folder");
     if (!ids.insert(scene.id).second)
       throw InputError("two scenes of this export have the id " + in_quotes(scene.id));
     require_free(arguments.out / scene.id);

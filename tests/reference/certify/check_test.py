@@ -7,22 +7,24 @@ the checksum is what the test is about: the proofs must hold by themselves.
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
+from fractions import Fraction
 
 SCENE = {
-    "id": "tiny", "title": "Two boxes and a ball", "frames": 3, "duration": 1,
+    "id": "tiny", "title": "Two boxes that come to touch, and a cube with a lid, which touch in one plane", "frames": 3, "duration": 1,
     "levels": ["body", "triangle"],
     "bodies": [
         {"name": "left/box", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]}},
         {"name": "right", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]},
          "motion": {"position": [[0, [1.4, 0.1, 0.2]], [0.3, [0.9, 0.1, 0.2]], [1, [0.95, 0.1, 0.2]]],
                     "deformers": [{"twist": {"axis": "x", "degrees": [[0, 0], [1, 20]]}}]}},
-        {"name": "ball", "mesh": {"shape": "sphere"}, "lattice": {"cells": [3, 3, 3]},
-         "motion": {"position": [[0, [0, 9, 0]]]}}]}
+        {"name": "cube", "mesh": {"shape": "box", "divisions": 1, "center": [0, 9, 0]}},
+        {"name": "lid", "mesh": {"shape": "box", "divisions": 1, "center": [0, 10, 0]}}]}
 CONTACT_FRAME = "truth/frame_0001.json"
 
 
@@ -75,8 +77,8 @@ class CheckExport(unittest.TestCase):
         done = self.check()
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("tiny: 3 frames proven: ", done.stdout)
-        counts = [(f["contacts"] > 0, f["gaps"] > 0) for f in self.index()["frames"]]
-        self.assertEqual(counts, [(False, False), (True, True), (True, True)])
+        self.assertEqual([f["body_pairs"] for f in self.index()["frames"]], [1, 2, 2])
+        self.assertTrue(all(f["gaps"] > 0 for f in self.index()["frames"][1:]))
 
     def test_hash_is_that_of_results(self):
         self.contactcheck("run", self.scratch / "tiny.json", "--no-timing", "--quiet", "--detector",
@@ -140,6 +142,95 @@ class CheckExport(unittest.TestCase):
         a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_text())["gaps"][0][:4]
         self.refused(f"frame 1: triangle {s} of body {a} and triangle {t} of body {b}",
                      "the plane does not separate them")
+
+    def move_plane(self, offset_of):
+        """Gives a plane another offset: what `offset_of` makes of the heights of the corners of the
+        second triangle over its normal, as an exact text."""
+        truth = json.loads((self.folder / CONTACT_FRAME).read_text())
+        _, b, _, t, plane = truth["gaps"][0]
+        ply = (self.folder / self.index()["bodies"][b]["folder"] / "frame_0001.ply").read_bytes()
+        data = ply[ply.index(b"end_header\n") + 11:]
+        face = 24 * self.index()["bodies"][b]["vertices"] + 13 * t
+        corners = [struct.unpack_from("<3d", data, 24 * v)
+                   for v in struct.unpack_from("<3i", data, face + 1)]
+        offset = offset_of([sum(Fraction(n) * Fraction(x) for n, x in zip(plane, corner))
+                            for corner in corners])
+        plane[3] = f"{offset.numerator:x}/{offset.denominator:x}"
+        self.write(CONTACT_FRAME, json.dumps(truth).encode())
+
+    def test_refuses_a_plane_that_touches_the_second(self):
+        self.move_plane(lambda heights: min(heights) - Fraction(1, 2**60))
+        self.assertEqual(self.check().returncode, 0)
+        self.move_plane(min)
+        self.refused("the plane does not separate them")
+
+    def test_refuses_a_plane_below_the_first(self):
+        self.move_plane(lambda heights: min(heights) - 100)
+        self.refused("the plane does not separate them")
+
+    def test_refuses_boxes_that_touch_as_apart(self):
+        # In frame 0 the other five pairs of bodies are apart.
+        def change(truth):
+            self.assertEqual({c[0] for c in truth["contacts"]}, {2})
+            truth.update(decisions=truth["decisions"][:5] + "y", contacts=[], gaps=[], body_pairs=[])
+        self.change_truth(change, "truth/frame_0000.json")
+        self.change_index(lambda index: index["frames"][0].update(contacts=0, gaps=0, body_pairs=0))
+        self.refused("frame 0: decision 6 (\"y\": ", "the boxes are not apart")
+
+    def test_refuses_a_plane_for_more_than_one_pair(self):
+        # The first two bodies are apart along x in frame 0, and so are all their triangles.
+        orders = [json.loads((self.folder / b["folder"] / "order.json").read_text())
+                  for b in self.index()["bodies"][:2]]
+
+        def change(truth):
+            truth["decisions"] = "s" + truth["decisions"][1:]
+            truth["gaps"].insert(0, [0, 1, orders[0][0], orders[1][0], [1, 0, 0, 0.7]])
+        self.change_truth(change, "truth/frame_0000.json")
+
+        def recount(index):
+            index["frames"][0]["gaps"] += 1
+        self.change_index(recount)
+        self.refused("frame 0: decision 1 (\"s\": ", "cannot be decided so")
+
+    def test_refuses_a_gap_that_nothing_decided(self):
+        self.change_truth(lambda truth: truth["gaps"].insert(0, [0, 1, 0, 0, [1, 0, 0, 0.7]]),
+                          "truth/frame_0000.json")
+
+        def recount(index):
+            index["frames"][0]["gaps"] += 1
+        self.change_index(recount)
+        self.refused("frame 0: gaps list (0, 1, 0, 0), which nothing decided to be one")
+
+    def test_refuses_contacts_out_of_order(self):
+        self.change_truth(lambda truth: truth["contacts"].reverse())
+        self.refused("frame 1: contacts are not in order, each once")
+
+    def test_refuses_a_forgotten_pair_of_bodies(self):
+        self.change_truth(lambda truth: truth["body_pairs"].pop())
+        self.change_index(lambda index: index["frames"][1].update(body_pairs=1))
+        self.refused("frame 1: body_pairs are not those of the contacts")
+
+    def test_refuses_a_surface_that_is_none(self):
+        name = "bodies/2-cube/frame_0000.ply"
+        data = (self.folder / name).read_bytes()
+        start = data.index(b"end_header\n") + 11
+        nan = struct.pack("<d", float("nan"))
+        self.write(name, data[:start] + nan + data[start + 8:])
+        self.refused(f"frame 0: {name}: not finite")
+        self.write(name, data[:-13] + b"\4" + data[-12:])
+        self.refused(f"frame 0: {name}: faces that are no triangles")
+        self.write(name, data.replace(b"property double x", b"property double w"))
+        self.refused(f"frame 0: {name}: another header")
+
+    def test_refuses_another_schema(self):
+        self.change_index(lambda index: index.update(schema="contactcheck-certificates/2"))
+        self.refused("scene.json: another schema")
+
+    def test_refuses_what_is_no_number(self):
+        def change(truth):
+            truth["gaps"][0][4][3] = "1/0"
+        self.change_truth(change)
+        self.refused("not as exports are written: ZeroDivisionError")
 
     def test_refuses_a_skipped_subtree(self):
         # The first split after which the lower halves are claimed to be apart, with all below.
@@ -209,7 +300,7 @@ class CheckExport(unittest.TestCase):
         self.refused(f"{name} is no permutation of the triangles")
 
     def test_refuses_other_triangles_in_a_later_frame(self):
-        name = "bodies/2-ball/frame_0001.ply"
+        name = "bodies/2-cube/frame_0001.ply"
         data = (self.folder / name).read_bytes()
         self.write(name, data[:-13] + data[-26:-13])
         self.refused(f"frame 1: {name}: other triangles than in earlier frames")

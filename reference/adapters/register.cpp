@@ -41,4 +41,10 @@ std::map<std::string, std::string> library_versions() {
           {"libccd", libccd_version()}};
 }
 
+std::string library_of(const std::string& detector) {
+  const std::string word = detector.substr(0, detector.find_first_of("-+:"));
+  const bool foreign = word == "bullet" || word == "embree" || word == "fcl" || word == "libccd";
+  return foreign ? word : "contactcheck";
+}
+
 }  // namespace contactcheck

@@ -17,4 +17,7 @@ DetectorCatalog standard_catalog();
 /// Versions of the libraries that detectors are made of, by library: "fcl" -> "0.7.0".
 std::map<std::string, std::string> library_versions();
 
+/// The one of these that a detector is made of, by its name; "contactcheck" for our own.
+std::string library_of(const std::string& detector);
+
 }  // namespace contactcheck

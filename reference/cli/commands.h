@@ -1,6 +1,6 @@
-// The subcommands. Each returns the exit code of the design: 0 the work was done, 2 bad usage or
-// bad input, 3 a detector ended in an error. InputError passes through to contactcheck_main, which
-// makes it 2.
+// The subcommands. Each returns the exit code of the design: 0 the work was done, 1 a check says
+// no, 2 bad usage or bad input, 3 a detector ended in an error that no list knows. InputError
+// passes through to contactcheck_main, which makes it 2.
 #pragma once
 
 #include <cstddef>
@@ -48,6 +48,11 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
 int truth_command(const std::vector<std::string>& families, bool write);
 /// Writes a folder per scene into `out`: frames, certificates of their truth, and their checker.
 int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog);
+/// fixtures/hard/known-defects.json
+std::filesystem::path known_defects_file();
+/// Prints known defects beside those that a run shows; 1 when they differ. `write` makes the file
+/// say what the run shows.
+int defects_command(const std::filesystem::path& results, bool write);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -62,7 +62,7 @@ struct Choices {
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
   std::vector<std::string> families;
-  bool no_timing = false, write_truth = false;
+  bool no_timing = false, write_truth = false, write_defects = false;
   int progress_fd = -1;
 };
 
@@ -199,6 +199,14 @@ void add_others(CLI::App& app, Choices& c) {
       "--write", c.write_truth,
       "keep the answers in fixtures/hard/expected.json, which tests hold the oracle to");
   truth->footer("Example:\n  contactcheck truth hard-vertex-face");
+  CLI::App* defects =
+      app.add_subcommand("defects", "known defects of libraries beside those that a run shows");
+  defects->add_option("results", c.results_file, "a results.json, of the suite hard")->required();
+  defects->add_flag("--write", c.write_defects,
+                    "make fixtures/hard/known-defects.json say what the run shows");
+  defects->footer(
+      "Exit code 1 when a listed defect did not show or an unlisted one did.\n"
+      "Example:\n  contactcheck run hard --no-timing\n  contactcheck defects out/results.json");
   CLI::App* worker = app.add_subcommand("worker", "")->group("");
   worker->add_option("job", c.job_file)->required();
   worker->add_option("--progress-fd", c.progress_fd);
@@ -209,6 +217,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
+  if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
@@ -233,7 +242,8 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   app.require_subcommand(1);
   app.set_version_flag("--version", CONTACTCHECK_VERSION);
   app.footer(
-      "Exit codes: 0 done, 2 bad usage or input, 3 a detector ended in an error.\n"
+      "Exit codes: 0 done, 1 a check says no, 2 bad usage or input, 3 a detector ended in an error "
+      "that is no known defect.\n"
       "Example:\n  contactcheck run bunny-touch");
   Choices choices;
   choices.run.command_line = join_command_line(argc, argv);

@@ -65,7 +65,7 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   write_file_atomically(arguments.out / "reproduction.md",
                         reproduction_markdown(reproduction) + paper_markdown(tables, findings));
   print(arguments.out, reproduction, arguments.quiet);
-  return outcome.any_error ? 3 : 0;
+  return outcome.unlisted_error ? 3 : 0;
 }
 
 }  // namespace contactcheck

@@ -4,15 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
+#include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/cli/run_tasks.h"
-#include "reference/report/markdown.h"
+#include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
 #include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
@@ -70,6 +70,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
+  request.known_defects = read_known_defects(known_defects_file());
   return request;
 }
 
@@ -82,14 +83,14 @@ Json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalo
   Json results = run_suite(
       request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
   display.finish();
-  write_file_atomically(arguments.out / "report.md", markdown_report(results));
+  write_report(arguments.out, report_files(results));
   return results;
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteOutcome outcome;
   print_outcome(arguments, run_and_report(arguments, catalog, &outcome));
-  return outcome.any_error ? 3 : 0;
+  return outcome.unlisted_error ? 3 : 0;
 }
 
 }  // namespace contactcheck

@@ -7,66 +7,23 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "reference/report/family_result.h"
 #include "reference/report/format.h"
 #include "reference/report/markdown_table.h"
+#include "reference/report/stability_plot.h"
 
 namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// A detector's answers to one family.
-struct FamilyResult {
-  const Json& scene;
-  const Json& run;
-
-  bool judged() const { return run.at("status") == "ok" && !level().empty(); }
-  bool failed() const { return run.at("status") == "error"; }
-  bool refused() const { return run.at("status") == "refused"; }
-  std::string level() const {
-    return run.contains("per_frame") ? run.at("per_frame").value("level", "") : "";
-  }
-  std::size_t cases() const { return scene.at("family").at("values").size(); }
-  std::string value(std::size_t frame) const {
-    return scene.at("family").at("values").at(frame).get<std::string>();
-  }
-  std::int64_t at(const char* kind, std::size_t frame) const {
-    return whole_number(run.at("per_frame").at(kind).at(frame));
-  }
-  std::string failed_at() const {
-    if (!run.contains("failed_frame")) return "-";
-    return value(static_cast<std::size_t>(whole_number(run.at("failed_frame"))));
-  }
-  bool wrong_at(std::size_t frame) const {
-    return at("missed", frame) > 0 || at("spurious", frame) > 0;
-  }
-  std::int64_t sum(const char* kind) const {
-    std::int64_t sum = 0;
-    for (std::size_t f = 0; judged() && f < cases(); ++f) sum += at(kind, f);
-    return sum;
-  }
-  std::size_t wrong() const {
-    std::size_t wrong = 0;
-    for (std::size_t f = 0; judged() && f < cases(); ++f) wrong += wrong_at(f);
-    return wrong;
-  }
-};
-
-std::vector<FamilyResult> family_results(const Json& results) {
-  std::vector<FamilyResult> out;
-  for (const Json& scene : results.at("scenes")) {
-    if (!scene.contains("family")) continue;
-    for (const Json& run : results.at("runs"))
-      if (run.at("scene") == scene.at("id")) out.push_back({scene, run});
-  }
-  return out;
-}
-
 struct DetectorSum {
   std::string level;
   std::size_t families = 0, right_families = 0, cases = 0, right = 0, failed = 0, refused = 0;
   std::int64_t missed = 0, spurious = 0;
-  double milliseconds = 0.0;  // cold, of the cases timed
+  double milliseconds = 0.0;  // of the families timed
   std::size_t timed = 0;
+  double slowest = -1.0;
+  std::string slowest_family;
 
   void add(const FamilyResult& result) {
     if (result.run.at("status") == "absent") return;
@@ -80,10 +37,15 @@ struct DetectorSum {
     right_families += result.wrong() == 0;
     missed += result.sum("missed");
     spurious += result.sum("spurious");
-    const Json& time = result.run.at("time_ms");
-    if (!time.contains("cold")) return;
-    milliseconds += time.at("cold").at("frame").get<double>();
+    if (const std::optional<double> time = result.milliseconds()) add_time(*time, result);
+  }
+
+  void add_time(double time, const FamilyResult& result) {
+    milliseconds += time;
     ++timed;
+    if (time <= slowest) return;
+    slowest = time;
+    slowest_family = result.scene.at("id").get<std::string>();
   }
 
   std::vector<std::string> line(const std::string& detector) const {
@@ -95,19 +57,25 @@ struct DetectorSum {
             fmt::format("{}", spurious),
             fmt::format("{}", failed),
             fmt::format("{}", refused),
-            timed > 0 ? format_number(milliseconds / static_cast<double>(timed)) : "-"};
+            timed > 0 ? format_number(milliseconds / static_cast<double>(timed)) : "-",
+            timed > 0 ? format_number(slowest) + " " + slowest_family : "-"};
   }
 };
 
 // What is wrong at the first value, and how often in all.
 std::vector<std::string> wrong_line(const FamilyResult& result) {
-  const auto detector = result.run.at("detector").get<std::string>();
-  if (result.failed())
-    return {detector, result.failed_at(), result.run.at("message").get<std::string>(), "-", "-",
+  if (result.failed()) {
+    const std::optional<std::size_t> frame = result.failed_frame();
+    return {result.detector(),
+            frame ? result.value(*frame) : "-",
+            result.run.at("message").get<std::string>(),
+            "-",
+            "-",
             "-"};
+  }
   std::size_t first = 0;
   while (!result.wrong_at(first)) ++first;
-  return {detector,
+  return {result.detector(),
           result.value(first),
           fmt::format("{} missed, {} spurious of {} true", result.at("missed", first),
                       result.at("spurious", first), result.at("truth", first)),
@@ -137,6 +105,7 @@ std::string family_table(const Json& scene, const std::vector<FamilyResult>& all
                      text("parameter"), family.at("values").size(),
                      family.at("values").at(0).get<std::string>(), text("stresses"),
                      text("origin")) +
+         fmt::format("![Missed and spurious, case by case]({})\n\n", stability_plot_file(scene)) +
          table_head(wrong_columns()) + rows + "\n";
 }
 
@@ -151,7 +120,8 @@ const std::vector<Column>& hard_columns() {
                                               {"spurious", false, ""},
                                               {"families with error", false, ""},
                                               {"refused", false, ""},
-                                              {"ms a case", false, ""}};
+                                              {"ms a case", false, ""},
+                                              {"slowest family", true, ""}};
   return columns;
 }
 
@@ -159,7 +129,7 @@ std::vector<std::vector<std::string>> hard_lines(const Json& results) {
   std::vector<std::string> order;
   std::map<std::string, DetectorSum> sums;
   for (const FamilyResult& result : family_results(results)) {
-    const auto detector = result.run.at("detector").get<std::string>();
+    const std::string detector = result.detector();
     if (sums.count(detector) == 0) order.push_back(detector);
     sums[detector].add(result);
   }
@@ -174,7 +144,8 @@ std::string hard_cases_markdown(const Json& results) {
   if (rows.empty()) return "";
   std::string out =
       "## Hard cases\n\nEvery case is judged exactly, at the finest level that a detector claims. "
-      "Milliseconds are means over families, mapping and update included, cold.\n\n" +
+      "Milliseconds are means over families, mapping and update included, cold; beside them the "
+      "family that costs most.\n\n" +
       table_head(hard_columns()) + rows + "\n### Where they go wrong\n\n";
   std::string tables;
   const std::vector<FamilyResult> all = family_results(results);

@@ -9,6 +9,7 @@
 #include "reference/report/format.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
+#include "reference/report/known_defects.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
@@ -157,7 +158,7 @@ std::string legend() {
 std::string markdown_report(const Json& results) {
   std::string out = "# contactcheck report\n\n" + machine_section(results) + resumed_line(results) +
                     summary_section(results) + goals_section(results) +
-                    hard_cases_markdown(results);
+                    hard_cases_markdown(results) + known_defects_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   // Families are told by who goes wrong in them; tables of every detector would bury that.

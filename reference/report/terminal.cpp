@@ -8,6 +8,7 @@
 #include "reference/report/format.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
+#include "reference/report/known_defects.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
 
@@ -106,6 +107,9 @@ std::string terminal_tables(const Json& results, bool color) {
     out += paint("hard cases", kBold, color) +
            "  who goes wrong where: report.md, \"Where they go wrong\"\n" +
            table(hard_columns(), hard_lines(results), color);
+  if (results.contains("known_defects"))
+    out += paint("known defects", kBold, color) + "\n" +
+           defects_summary(results.at("known_defects")) + "\n";
   if (!goal_lines(results).empty())
     out += paint("goals", kBold, color) + "\n" + table(goal_columns(), goal_lines(results), color);
   return out + legend();

@@ -12,6 +12,7 @@
 #include "reference/adapters/register.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
+#include "reference/defects/comparison.h"
 #include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
@@ -247,6 +248,17 @@ class SceneRunner {
   std::map<std::uint32_t, WorkerOutcome> broken_;
 };
 
+// Where nothing could have shown a defect, there is nothing to say about them.
+void add_known_defects(const KnownDefects& known, Json& results, SuiteOutcome* outcome) {
+  const DefectComparison comparison =
+      compare_defects(known, sightings_of(results), versions_in(results));
+  outcome->unlisted_error = any_unlisted_error(comparison);
+  const Json& scenes = results.at("scenes");
+  const bool families = std::any_of(scenes.begin(), scenes.end(),
+                                    [](const Json& scene) { return scene.contains("family"); });
+  if (families || outcome->unlisted_error) results["known_defects"] = to_json(known, comparison);
+}
+
 void append(Json from, Json& to) {
   for (Json& item : from) to.push_back(std::move(item));
 }
@@ -287,9 +299,6 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
     append(std::move(finished->disagreements), disagreements);
   }
   const std::vector<fs::path> cases = number_cases(disagreements);
-  outcome->any_error = std::any_of(runs.begin(), runs.end(), [](const Json& run) {
-    return run.at("status") == name_of(RunStatus::kError);
-  });
   Json results = {{"schema", "contactcheck-results/1"},
                   {"version", CONTACTCHECK_VERSION},
                   {"command", request.command},
@@ -298,6 +307,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                   {"scenes", scenes},
                   {"runs", runs},
                   {"disagreements", disagreements}};
+  add_known_defects(request.known_defects, results, outcome);
   if (!request.goals.empty()) results["goals"] = measure_goals(request.goals, results);
   if (request.resume) results["resumed"] = resumed;
   // All is on disk before anything of an earlier run goes: from here on there are only renames.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/defects/known_defects.h"
 #include "reference/run/job.h"
 #include "reference/scene/suite_file.h"
 
@@ -28,6 +29,7 @@ struct SuiteRequest {
   std::filesystem::path out;         ///< existing, writable
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
   std::string command;               ///< for the record
+  KnownDefects known_defects;        ///< what wrong answers are set beside
   /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
   bool resume = false;
 };
@@ -40,7 +42,7 @@ struct SuiteProgress {
 };
 
 struct SuiteOutcome {
-  bool any_error = false;  ///< some detector ended in `error`
+  bool unlisted_error = false;  ///< some detector ended in an `error` that is no known defect
 };
 
 /// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete

@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "reference/scene/catalogue.h"
 #include "tests/faults/whole_run.h"
 #include "tests/reference/run/is_dead.h"
 
 namespace contactcheck {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using test::Outcome;
 using test::WholeRun;
@@ -72,6 +74,18 @@ WholeRun expect_harmless(const std::string& fault) {
       << "it answers with the truth";
   EXPECT_EQ(result.outcome.err, "scene 1 of 1: tiny\n");
   return result;
+}
+
+TEST(Isolation, AnErrorThatIsAKnownDefectIsNoFailureOfTheRun) {
+  const test::Scratch scratch;
+  fs::create_directories(scratch.folder() / "hard");
+  fs::create_directory_symlink(fixtures_directory() / "suites", scratch.folder() / "suites");
+  scratch.write("hard/known-defects.json", R"({"defects": [
+    {"library": "contactcheck", "version": "any", "issue": "0", "kind": "error", "sentence": "ends",
+     "seen": {"fault-abort": {"tiny": ["-"]}}}]})");
+  const test::Environment own("CONTACTCHECK_FIXTURES", scratch.folder());
+  EXPECT_EQ(test::run_whole({"fault-abort"}).outcome.exit_code, 0);
+  EXPECT_EQ(test::run_whole({"fault-crash"}).outcome.exit_code, kDetectorFailed);
 }
 
 TEST(Isolation, HonestDetectorsAreUndisturbedByAnHonestOne) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/types/check.h"
-#include "reference/report/markdown.h"
+#include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   const test::Json results = test::Json::parse(data, data + size, nullptr, false);
   if (!results.is_object()) return 0;
-  test::require_text_or_refusal([&] { return markdown_report(results); });
+  test::require_text_or_refusal([&] { return report_files(results).at("report.md"); });
   test::require_text_or_refusal([&] { return terminal_tables(results, true); });
   return 0;
 }

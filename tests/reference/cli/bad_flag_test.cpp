@@ -165,6 +165,16 @@ INSTANTIATE_TEST_SUITE_P(
     named);
 
 INSTANTIATE_TEST_SUITE_P(
+    Defects, BadFlag,
+    testing::Values(BadCommand{"NoFile", {"defects"}, {"results"}},
+                    BadCommand{"FileThatIsNone", {"defects", "DIR/none.json"}, {"none.json"}},
+                    BadCommand{"NoResults", {"defects", "DIR/tiny.json"}, {"field schema"}},
+                    BadCommand{"WriteWithAValue",
+                               {"defects", "DIR/tiny.json", "--write", "DIR/other"},
+                               {"DIR/other"}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
     Reproduce, BadFlag,
     testing::Values(
         BadCommand{"FlagOfRun", {"reproduce", "--no-timing", "--out", "DIR/out"}, {"--no-timing"}},

@@ -74,7 +74,8 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command : {"", "run", "reproduce", "export", "list", "report"}) {
+  for (const std::string command :
+       {"", "run", "reproduce", "export", "list", "report", "truth", "defects"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);

@@ -6,66 +6,28 @@
 
 #include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
+#include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using test::hard_results;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-Json family(const std::string& id) {
-  return {{"id", id},
-          {"title", "Two | plates"},
-          {"family",
-           {{"parameter", "gap, m"},
-            {"values", {"0", "1e-9", "1e-3"}},
-            {"origin", "issue 7"},
-            {"stresses", "gaps"},
-            {"true_pairs", {4, 0, 0}}}}};
-}
-
-// A run of the sample, with other answers.
-Json run(const std::string& scene, const std::string& detector, const Json& missed,
-         const Json& spurious) {
-  Json run = test::sample_results().at("runs").at(0);
-  run["scene"] = scene;
-  run["detector"] = detector;
-  run["per_frame"] = {
-      {"level", "triangle"}, {"truth", {4, 0, 0}}, {"missed", missed}, {"spurious", spurious}};
-  run["time_ms"]["cold"]["frame"] = 0.25;
-  return run;
-}
-
-Json hard_results() {
-  Json results = test::sample_results();
-  results["scenes"] = {family("one"), family("two")};
-  results["runs"] = {
-      run("one", "exact", {0, 0, 0}, {0, 0, 0}),
-      run("one", "skin", {0, 0, 0}, {0, 3, 2}),
-      {{"scene", "one"},
-       {"detector", "crash"},
-       {"status", "error"},
-       {"message", "signal 11"},
-       {"failed_frame", 2}},
-      run("two", "exact", {0, 0, 0}, {0, 0, 0}),
-      run("two", "skin", {1, 0, 0}, {0, 0, 0}),
-      {{"scene", "two"}, {"detector", "crash"}, {"status", "refused"}, {"message", "far"}}};
-  results["disagreements"] = Json::array();
-  return results;
-}
-
 TEST(HardCases, AreCountedPerDetector) {
   const auto lines = hard_lines(hard_results());
   ASSERT_EQ(lines.size(), 3u);
-  EXPECT_THAT(lines[0],
-              ElementsAre("exact", "triangle", "2 of 2", "6 of 6", "0", "0", "0", "0", "0.250"));
-  EXPECT_THAT(lines[1],
-              ElementsAre("skin", "triangle", "0 of 2", "3 of 6", "1", "5", "0", "0", "0.250"));
-  EXPECT_THAT(lines[2], ElementsAre("crash", "-", "0 of 2", "0 of 0", "0", "0", "1", "1", "-"));
+  EXPECT_THAT(lines[0], ElementsAre("exact", "triangle", "2 of 2", "6 of 6", "0", "0", "0", "0",
+                                    "0.250", "0.250 one"));
+  EXPECT_THAT(lines[1], ElementsAre("skin", "triangle", "0 of 2", "3 of 6", "1", "5", "0", "0",
+                                    "0.250", "0.250 one"));
+  EXPECT_THAT(lines[2],
+              ElementsAre("crash", "-", "0 of 2", "0 of 0", "0", "0", "1", "1", "-", "-"));
 }
 
 TEST(HardCases, NameTheFirstValueThatGoesWrong) {

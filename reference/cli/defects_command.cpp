@@ -1,0 +1,36 @@
+#include <cstdio>
+
+#include "reference/adapters/register.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/results_file.h"
+#include "reference/defects/comparison.h"
+#include "reference/report/known_defects.h"
+#include "reference/scene/catalogue.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr int kSurprised = 1;
+
+}  // namespace
+
+std::filesystem::path known_defects_file() {
+  return fixtures_directory() / "hard" / "known-defects.json";
+}
+
+int defects_command(const std::filesystem::path& file, bool write) {
+  const ResultsFile results(file);
+  const auto run = results.read([](const auto& json) { return sightings_of(json); });
+  const auto versions = results.read([](const auto& json) { return versions_in(json); });
+  KnownDefects known = read_known_defects(known_defects_file());
+  if (write) {
+    known = updated(known, run, versions, library_of);
+    write_known_defects(known_defects_file(), known);
+  }
+  const DefectComparison comparison = compare_defects(known, run, versions);
+  std::fputs(defects_text(to_json(known, comparison)).c_str(), stdout);
+  if (write) std::printf("%s\n", known_defects_file().c_str());
+  return comparison.not_shown.empty() && comparison.unlisted.empty() ? 0 : kSurprised;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,49 @@
+#include "reference/cli/results_file.h"
+
+#include "core/types/check.h"
+#include "reference/cli/schema_defect.h"
+#include "reference/scene/catalogue.h"
+#include "reference/scene/file_text.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "contactcheck-results/1";
+
+Json read_results(const std::filesystem::path& file) {
+  Json results;
+  try {
+    results = Json::parse(read_file_bytes(file, "results file"));
+  } catch (const Json::parse_error& e) {
+    throw InputError(file.string() + ": not JSON at byte " + std::to_string(e.byte));
+  }
+  const auto schema = results.is_object() ? results.find("schema") : results.end();
+  if (!results.is_object() || schema == results.end() || *schema != kSchema)
+    throw InputError(file.string() + ": field schema is not \"" + kSchema + "\"");
+  return results;
+}
+
+// The place that the report could not use. It is looked for only then: results of another program
+// may break the schema where no report looks.
+std::string defect_of(const Json& results, const Json::exception& e) {
+  const std::filesystem::path schema_file = fixtures_directory() / "results.schema.json";
+  std::string found;
+  if (std::filesystem::is_regular_file(schema_file))
+    found = schema_defect(Json::parse(read_file_bytes(schema_file, "schema file")), results);
+  if (!found.empty()) return found;
+  const std::string what = e.what();  // "[json.exception.type_error.302] sentence"
+  const std::size_t bracket = what.find("] ");
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+}  // namespace
+
+ResultsFile::ResultsFile(const std::filesystem::path& file)
+    : file_(file), results_(read_results(file)) {}
+
+void ResultsFile::refuse(const Json::exception& e) const {
+  throw InputError(file_.string() + ": not complete: " + defect_of(results_, e));
+}
+
+}  // namespace contactcheck

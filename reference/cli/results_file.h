@@ -1,0 +1,33 @@
+// A results.json of an earlier run, or of another program.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace contactcheck {
+
+class ResultsFile {
+ public:
+  /// @throws InputError when it cannot be read, is no JSON or of another schema
+  explicit ResultsFile(const std::filesystem::path& file);
+
+  /// What `use(results)` returns. @throws InputError that names the place when a field that it
+  /// needs is missing or is not what the schema says
+  template <typename Use>
+  auto read(Use&& use) const {
+    try {
+      return use(results_);
+    } catch (const nlohmann::ordered_json::exception& e) {
+      refuse(e);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const nlohmann::ordered_json::exception& e) const;
+
+  std::filesystem::path file_;
+  nlohmann::ordered_json results_;
+};
+
+}  // namespace contactcheck

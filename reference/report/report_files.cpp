@@ -1,0 +1,20 @@
+#include "reference/report/report_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include "reference/report/markdown.h"
+#include "reference/report/stability_plot.h"
+
+namespace contactcheck {
+
+std::map<std::string, std::string> report_files(const nlohmann::ordered_json& results) {
+  std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
+  for (const auto& scene : results.at("scenes")) {
+    if (!scene.contains("family")) continue;
+    const std::string plot = stability_plot(scene, results);
+    if (!plot.empty()) files[stability_plot_file(scene)] = plot;
+  }
+  return files;
+}
+
+}  // namespace contactcheck

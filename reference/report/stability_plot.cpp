@@ -1,0 +1,154 @@
+#include "reference/report/stability_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "reference/report/family_result.h"
+#include "reference/report/svg.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+using Anchor = Svg::Anchor;
+
+constexpr double kSquare = 22, kGap = 2, kLetter = 7.2, kMargin = 16;
+constexpr double kHead = 50;       // title and legend
+constexpr double kFaintest = 0.3;  // one wrong contact of many must still be seen
+
+// Blue and orange are told apart by every kind of eye.
+constexpr const char* kColours =
+    "text{font:12px system-ui,sans-serif}.ink{fill:#1f2328}.title{fill:#1f2328;font-weight:600}\n"
+    ".missed{fill:#0b62c4}.spurious{fill:#d9730d}.right{fill:#e6eaee}.error{fill:#1f2328}\n"
+    ".unknown{fill:none;stroke:#8c959f;stroke-dasharray:2 2}.cross{stroke:#fff;stroke-width:2}\n"
+    "@media(prefers-color-scheme:dark){.ink,.title{fill:#e6edf3}.right{fill:#2d333b}\n"
+    ".missed{fill:#58a6ff}.spurious{fill:#f0883e}.error{fill:#e6edf3}.cross{stroke:#0d1117}}\n";
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole <= 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+double opacity_of(double share) { return kFaintest + (1.0 - kFaintest) * std::min(share, 1.0); }
+
+class StabilityPlot {
+ public:
+  StabilityPlot(const Json& scene, std::vector<FamilyResult> rows)
+      : scene_(scene),
+        rows_(std::move(rows)),
+        left_(kMargin + label_width()),
+        svg_(width(), kHead + height_of_rows() + foot()) {}
+
+  std::string draw() {
+    draw_head();
+    for (std::size_t row = 0; row < rows_.size(); ++row) draw_row(row);
+    for (std::size_t c = 0; c < cases(); ++c)
+      svg_.text(x_of(c) + kSquare / 2 + 4, y_of(rows_.size()) + 10, rows_[0].value(c), Anchor::kEnd,
+                "ink", -60);
+    svg_.text(left_, svg_bottom() - 8, parameter(), Anchor::kStart);
+    return svg_.document(title(), kColours);
+  }
+
+ private:
+  std::size_t cases() const { return rows_[0].cases(); }
+  std::string parameter() const { return scene_.at("family").at("parameter").get<std::string>(); }
+  std::string title() const { return scene_.at("title").get<std::string>(); }
+
+  double label_width() const {
+    std::size_t longest = 0;
+    for (const FamilyResult& row : rows_) longest = std::max(longest, row.detector().size());
+    return kLetter * static_cast<double>(longest) + 8;
+  }
+  double width() const {
+    const double squares = static_cast<double>(cases()) * (kSquare + kGap);
+    const double words = kLetter * static_cast<double>(title().size());
+    return std::max({left_ + squares, words + kMargin, 420.0}) + kMargin;
+  }
+  double height_of_rows() const { return static_cast<double>(rows_.size()) * (kSquare + kGap); }
+  // Values stand on their heads below the squares, the parameter below them.
+  double foot() const {
+    std::size_t longest = 0;
+    for (std::size_t c = 0; c < cases(); ++c) longest = std::max(longest, rows_[0].value(c).size());
+    return 40 + 0.9 * kLetter * static_cast<double>(longest);
+  }
+  double svg_bottom() const { return kHead + height_of_rows() + foot(); }
+  double x_of(std::size_t c) const { return left_ + static_cast<double>(c) * (kSquare + kGap); }
+  double y_of(std::size_t row) const { return kHead + static_cast<double>(row) * (kSquare + kGap); }
+
+  void draw_head() {
+    svg_.text(kMargin, 18, title(), Anchor::kStart, "title");
+    double x = kMargin;
+    const auto entry = [&](const char* css_class, const std::string& words) {
+      svg_.rectangle(x, 27, 11, 11, css_class);
+      svg_.text(x + 16, 37, words);
+      x += 16 + kLetter * static_cast<double>(words.size()) + 10;
+    };
+    entry("missed", "share missed");
+    entry("spurious", "share spurious");
+    entry("right", "right");
+    entry("error", "error");
+  }
+
+  void draw_row(std::size_t row) {
+    const FamilyResult& result = rows_[row];
+    svg_.text(left_ - 8, y_of(row) + kSquare / 2 + 4, result.detector(), Anchor::kEnd);
+    for (std::size_t c = 0; c < cases(); ++c)
+      result.failed() ? draw_failed(row, c) : draw_judged(row, c);
+  }
+
+  void draw_judged(std::size_t row, std::size_t c) {
+    const FamilyResult& result = rows_[row];
+    const std::int64_t truth = result.at("truth", c), missed = result.at("missed", c),
+                       spurious = result.at("spurious", c);
+    svg_.begin_group(fmt::format("{} at {}: {} missed of {}, {} spurious", result.detector(),
+                                 result.value(c), missed, truth, spurious));
+    half(x_of(c), y_of(row), "missed", share(missed, truth));
+    half(x_of(c), y_of(row) + kSquare / 2, "spurious", share(spurious, truth - missed + spurious));
+    svg_.end_group();
+  }
+
+  void half(double x, double y, const char* css_class, double share) {
+    svg_.rectangle(x, y, kSquare, kSquare / 2, "right");
+    if (share > 0.0) svg_.rectangle(x, y, kSquare, kSquare / 2, css_class, opacity_of(share));
+  }
+
+  // Without answers nobody knows about the other cases.
+  void draw_failed(std::size_t row, std::size_t c) {
+    const FamilyResult& result = rows_[row];
+    const double x = x_of(c), y = y_of(row);
+    if (result.failed_frame() != c) return svg_.rectangle(x, y, kSquare, kSquare, "unknown");
+    svg_.begin_group(fmt::format("{} at {}: {}", result.detector(), result.value(c),
+                                 result.run.at("message").get<std::string>()));
+    svg_.rectangle(x, y, kSquare, kSquare, "error");
+    svg_.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
+    svg_.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
+    svg_.end_group();
+  }
+
+  const Json& scene_;
+  std::vector<FamilyResult> rows_;
+  double left_;
+  Svg svg_;
+};
+
+}  // namespace
+
+// Results may come from anywhere: an id must not lead out of the folder.
+std::string stability_plot_file(const Json& scene) {
+  std::string name = scene.at("id").get<std::string>();
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
+  return "plots/" + name + ".svg";
+}
+
+std::string stability_plot(const Json& scene, const Json& results) {
+  std::vector<FamilyResult> rows;
+  for (const FamilyResult& result : family_results(results))
+    if (result.scene.at("id") == scene.at("id") && (result.failed() || result.wrong() > 0))
+      rows.push_back(result);
+  return rows.empty() ? "" : StabilityPlot(scene, std::move(rows)).draw();
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,18 @@
+// Error against the parameter of a family of hard cases, as a picture.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace contactcheck {
+
+/// An SVG document: a row per detector that goes wrong in the family, a column per value of its
+/// parameter; of each square the upper half says which share of the true contacts was missed, the
+/// lower half which share of those reported is none. Empty when nobody goes wrong.
+std::string stability_plot(const nlohmann::ordered_json& scene,
+                           const nlohmann::ordered_json& results);
+
+/// Where the report expects it, beside report.md: "plots/ID.svg".
+std::string stability_plot_file(const nlohmann::ordered_json& scene);
+
+}  // namespace contactcheck

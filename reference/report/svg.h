@@ -1,0 +1,38 @@
+// A picture as text: Scalable Vector Graphics, without a browser or a library.
+#pragma once
+
+#include <string>
+
+namespace contactcheck {
+
+/// Coordinates in pixels, y downwards. Colours come from classes, so that one picture reads well on
+/// a light page and on a dark one.
+class Svg {
+ public:
+  Svg(double width, double height) : width_(width), height_(height) {}
+
+  /// `opacity` in [0, 1].
+  void rectangle(double x, double y, double width, double height, const std::string& css_class,
+                 double opacity = 1.0);
+  enum class Anchor { kStart, kMiddle, kEnd };
+  /// Letters stand on y. `turned`: degrees clockwise about (x, y).
+  void text(double x, double y, const std::string& words, Anchor anchor = Anchor::kStart,
+            const std::string& css_class = "ink", double turned = 0.0);
+  void line(double x1, double y1, double x2, double y2, const std::string& css_class);
+  /// What is drawn between these two is one thing with words of its own, which a browser shows
+  /// under the pointer and reads aloud.
+  void begin_group(const std::string& words);
+  void end_group();
+
+  /// The whole document. `css`: rules for the classes used. `title`: what the picture shows.
+  std::string document(const std::string& title, const std::string& css) const;
+
+ private:
+  double width_, height_;
+  std::string body_;
+};
+
+/// With &, <, >, " and control characters made harmless.
+std::string xml_text(const std::string& text);
+
+}  // namespace contactcheck

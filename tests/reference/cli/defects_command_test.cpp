@@ -1,0 +1,107 @@
+// contactcheck defects, on a family of hard cases and a list of the test's own.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/defects/known_defects.h"
+#include "reference/scene/catalogue.h"
+#include "tests/reference/cli/files.h"
+#include "tests/reference/cli/program.h"
+#include "tests/reference/scene/scratch.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::contactcheck_program;
+using test::Environment;
+using test::Outcome;
+using test::Scratch;
+using testing::HasSubstr;
+
+// Two segments in one plane, apart: FCL takes them for a contact at every value.
+constexpr const char* kFamily = "hard-two-segments-plane";
+
+class DefectsCommand : public testing::Test {
+ protected:
+  DefectsCommand()
+      : fixtures_(own_fixtures(scratch_)), environment_("CONTACTCHECK_FIXTURES", fixtures_) {}
+
+  // Fixtures as they are, but for the list of known defects.
+  static fs::path own_fixtures(const Scratch& scratch) {
+    const fs::path original = fixtures_directory(), copy = scratch.folder() / "fixtures";
+    fs::create_directories(copy / "hard");
+    for (const char* folder : {"scenes", "suites", "hard/families"})
+      fs::create_directory_symlink(original / folder, copy / folder);
+    return copy;
+  }
+
+  json run() const {
+    const Outcome outcome = contactcheck_program(
+        {"run", kFamily, "--detector", "fcl-aabb", "--no-timing", "--out", out().string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return json::parse(test::text_of(results()));
+  }
+  Outcome defects(std::vector<std::string> flags = {}) const {
+    flags.insert(flags.begin(), {"defects", results().string()});
+    return contactcheck_program(flags);
+  }
+  fs::path out() const { return scratch_.folder() / "out"; }
+  fs::path results() const { return out() / "results.json"; }
+  fs::path list() const { return fixtures_ / "hard" / "known-defects.json"; }
+
+  Scratch scratch_;
+  fs::path fixtures_;
+  Environment environment_;
+};
+
+TEST_F(DefectsCommand, SaysWhatIsNotListed) {
+  const json unlisted = run().at("known_defects").at("unlisted");
+  ASSERT_EQ(unlisted.size(), 1u);
+  EXPECT_EQ(unlisted[0].at("detector"), "fcl-aabb");
+  EXPECT_EQ(unlisted[0].at("kind"), "spurious");
+  const Outcome outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("shown, not listed:\n  fcl-aabb  " + std::string(kFamily) +
+                                     "  spurious  0, 0.1,"));
+  EXPECT_FALSE(fs::exists(list())) << "it is written when asked for alone";
+}
+
+TEST_F(DefectsCommand, WritesWhatShowsAndIsThenContent) {
+  run();
+  EXPECT_EQ(defects({"--write"}).exit_code, 0);
+  const KnownDefects known = read_known_defects(list());
+  ASSERT_EQ(known.defects.size(), 1u);
+  EXPECT_EQ(known.defects[0].library, "fcl");
+  EXPECT_EQ(known.defects[0].issue, kUnexplained);
+  const Outcome outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("and 0 do not; 0 show that are not listed.\n"));
+  EXPECT_EQ(run().at("known_defects").at("unlisted"), json::array());
+}
+
+TEST_F(DefectsCommand, SaysWhatDoesNotShow) {
+  run();
+  defects({"--write"});
+  KnownDefects known = read_known_defects(list());
+  Sighting mended = known.defects[0].seen[0];
+  mended.kind = known.defects[0].kind = SightingKind::kMissed;
+  known.defects[0].seen = {mended};
+  write_known_defects(list(), known);
+  const Outcome outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("listed, not shown:\n  fcl-aabb  " + std::string(kFamily) +
+                                     "  missed  " + mended.value + "\n"));
+}
+
+TEST_F(DefectsCommand, ABadListEndsARunBeforeItStarts) {
+  scratch_.write("fixtures/hard/known-defects.json", "{}");
+  const Outcome outcome = contactcheck_program({"run", kFamily, "--out", out().string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("known-defects.json\": defects"));
+  EXPECT_FALSE(fs::exists(results()));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,74 @@
+#include "reference/defects/sightings.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+Json run(const char* scene, const char* detector, const char* status) {
+  return {{"scene", scene}, {"detector", detector}, {"status", status}};
+}
+
+Json answers(const char* scene, const char* detector, const Json& missed, const Json& spurious) {
+  Json out = run(scene, detector, "ok");
+  out["per_frame"] = {{"level", "triangle"}, {"missed", missed}, {"spurious", spurious}};
+  return out;
+}
+
+Json results_with(const Json& runs) {
+  const Json gap = {{"id", "gap"}, {"family", {{"values", Json::array({"0", "1e-9", "1e-3"})}}}};
+  const Json scene = {{"id", "bunny"}};
+  return {{"scenes", {gap, scene}}, {"runs", runs}};
+}
+
+TEST(Sightings, AreWrongAnswersToCases) {
+  const auto found =
+      sightings_of(results_with(Json::array({answers("gap", "d", {1, 0, 0}, {0, 0, 7})})));
+  EXPECT_THAT(found.seen, ElementsAre(Sighting{"d", "gap", SightingKind::kMissed, "0"},
+                                      Sighting{"d", "gap", SightingKind::kSpurious, "1e-3"}));
+  EXPECT_EQ(found.possible.count({"d", "gap", SightingKind::kMissed, "1e-9"}), 1u);
+  EXPECT_EQ(found.possible.count({"d", "gap", SightingKind::kError, "1e-3"}), 1u);
+  EXPECT_THAT(found.possible, SizeIs(2 * 3 + 1 + 3));
+}
+
+TEST(Sightings, OfScenesAreErrorsAlone) {
+  const auto found = sightings_of(results_with(
+      Json::array({answers("bunny", "d", {5, 0}, {0, 0}), run("bunny", "e", "error")})));
+  EXPECT_THAT(found.seen, ElementsAre(Sighting{"e", "bunny", SightingKind::kError, kNoCase}));
+}
+
+TEST(Sightings, AnErrorTellsNothingOfLaterCases) {
+  Json failed = run("gap", "d", "error");
+  failed["failed_frame"] = 1u;
+  const auto found = sightings_of(results_with(Json::array({failed})));
+  EXPECT_THAT(found.seen, ElementsAre(Sighting{"d", "gap", SightingKind::kError, "1e-9"}));
+  EXPECT_EQ(found.possible.count({"d", "gap", SightingKind::kError, "0"}), 1u);
+  EXPECT_EQ(found.possible.count({"d", "gap", SightingKind::kError, "1e-3"}), 0u);
+  EXPECT_EQ(found.possible.count({"d", "gap", SightingKind::kMissed, "0"}), 0u);
+}
+
+TEST(Sightings, WhoGaveNoAnswerTellsNothing) {
+  const auto found = sightings_of(
+      results_with(Json::array({run("gap", "d", "refused"), run("gap", "e", "absent")})));
+  EXPECT_THAT(found.seen, IsEmpty());
+  EXPECT_THAT(found.possible, IsEmpty());
+}
+
+TEST(Sightings, NeedTheFieldsOfTheSchema) {
+  Json unsigned_frame = run("gap", "d", "error");
+  unsigned_frame["failed_frame"] = 1e300;
+  const Json wrong[] = {run("nowhere", "d", "ok"), run("gap", "d", "ok"), unsigned_frame,
+                        answers("gap", "d", {0, 0, 0, 1}, {0, 0, 0, 0})};
+  for (const Json& bad : wrong)
+    EXPECT_THROW(sightings_of(results_with(Json::array({bad}))), Json::exception) << bad;
+}
+
+}  // namespace
+}  // namespace contactcheck

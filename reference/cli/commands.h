@@ -30,6 +30,12 @@ struct RunArguments {
   std::string command_line;  ///< for the record
 };
 
+struct ExportArguments {
+  std::vector<std::string> targets;  ///< suites, scenes, files; at least one
+  std::size_t frames = 0, every = 1;
+  std::filesystem::path out = "out/export";
+};
+
 /// What to list; nothing chosen: everything, with one line each.
 struct ListArguments {
   bool suites = false, scenes = false, families = false, detectors = false;
@@ -53,6 +59,8 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
 /// Prints the exact answers to families of hard cases (all, if none is named); `write` puts them
 /// into fixtures/hard/expected.json.
 int truth_command(const std::vector<std::string>& families, bool write);
+/// Writes a folder per scene into `out`: frames, certificates of their truth, and their checker.
+int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog);
 /// fixtures/hard/known-defects.json
 std::filesystem::path known_defects_file();
 /// Prints known defects beside those that a run shows; 1 when they differ. `write` makes the file

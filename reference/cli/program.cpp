@@ -58,6 +58,7 @@ void require_output_written() {
 struct Choices {
   RunArguments run;
   ListArguments list;
+  ExportArguments exported;
   std::string results_file, job_file;
   std::vector<std::string> formats = {"md"};
   std::string report_out = "out";
@@ -212,6 +213,28 @@ void add_reduce(CLI::App& app, Choices& c) {
       "  contactcheck run minimal.json --detector fcl-obbrss --no-timing");
 }
 
+void add_export(CLI::App& app, Choices& c) {
+  CLI::App* exported = app.add_subcommand(
+      "export", "the exact truth of scenes, with certificates that a short script checks");
+  exported
+      ->add_option("targets", c.exported.targets,
+                   "suites, scenes, families or files (.json scene or suite, .ccr recording)")
+      ->required();
+  exported->add_option("--frames", c.exported.frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  exported
+      ->add_option("--every", c.exported.every,
+                   "of the frames, write only the first of every so many (default 1)")
+      ->check(CLI::Range(1, 100000));
+  exported->add_option("--out", c.exported.out,
+                       "folder for a folder per scene: surfaces (PLY), certificates, check.py "
+                       "(default out/export)");
+  exported->footer(
+      "Examples:\n"
+      "  contactcheck export bunny-touch && python3 out/export/bunny-touch/check.py\n"
+      "  contactcheck export default --every 10 --out /tmp/truth");
+}
+
 void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
@@ -254,6 +277,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("reduce")) return reduce_command(c.reduce, catalog);
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
+  if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
@@ -288,6 +312,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   add_run(app, choices);
   add_reproduce(app, choices);
   add_reduce(app, choices);
+  add_export(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 
 #include "core/detect/registry.h"
 #include "core/types/check.h"
+#include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
@@ -30,11 +31,7 @@ void read_scene(std::size_t frames, SceneTask& task) {
     task.content = content_of(*task.pairs);
     return;
   }
-  const bool recorded = task.file.extension() == ".ccr";
-  if (recorded && frames > 0)
-    throw InputError("--frames: recording \"" + task.file.string() +
-                     "\" has its own frames and cannot be given others");
-  const Scene scene = recorded ? load_recording(task.file) : load_scene(task.file, frames);
+  const Scene scene = load_any_scene(task.file, frames);
   task.id = scene.id;
   task.content = content_of(task.file, scene);
 }
@@ -47,15 +44,6 @@ void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
   }
-}
-
-void check_out(const fs::path& out) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) throw InputError("--out " + out.string() + ": " + error.message());
-  if (!fs::is_directory(out)) throw InputError("--out " + out.string() + ": is not a folder");
-  if (access(out.c_str(), W_OK) != 0)
-    throw InputError("--out " + out.string() + ": cannot be written");
 }
 
 void print_outcome(const RunArguments& arguments, const Json& results) {

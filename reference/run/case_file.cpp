@@ -49,7 +49,7 @@ bool names_vertex(const Disagreement& d) {
 Json first_of_vertex_pair(const JudgedScene& judged, const Disagreement& d) {
   return {{"body", judged.scene->bodies[d.pair.body_a].name},
           {"vertex", d.pair.a},
-          {"position", point(judged.vertices[d.frame][d.pair.body_a][d.pair.a])}};
+          {"position", point(judged.positions[d.frame].vertices[d.pair.body_a][d.pair.a])}};
 }
 
 Json element(const JudgedScene& judged, const Disagreement& d, std::uint32_t body,

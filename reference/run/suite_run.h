@@ -44,7 +44,7 @@ struct SuiteProgress {
 };
 
 struct SuiteOutcome {
-  bool unlisted_error = false;  ///< some detector ended in an `error` that is no known defect
+  bool unlisted_error = false;     ///< some detector ended in an `error` that is no known defect
   std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 

@@ -157,6 +157,30 @@ INSTANTIATE_TEST_SUITE_P(
     named);
 
 INSTANTIATE_TEST_SUITE_P(
+    Export, BadFlag,
+    testing::Values(BadCommand{"NoTarget", {"export", "--out", "DIR/out"}, {"targets"}},
+                    BadCommand{"UnknownScene",
+                               {"export", "bunny", "--out", "DIR/out"},
+                               {"\"bunny\" is neither a suite", "bunny-touch"}},
+                    BadCommand{"NoStep",
+                               {"export", "DIR/tiny.json", "--every", "0", "--out", "DIR/out"},
+                               {"--every", "0"}},
+                    BadCommand{"HalfAStep",
+                               {"export", "DIR/tiny.json", "--every", "1.5", "--out", "DIR/out"},
+                               {"--every", "1.5"}},
+                    BadCommand{
+                        "TooManyFrames",
+                        {"export", "DIR/tiny.json", "--frames", "100001", "--out", "DIR/out"},
+                        {"--frames", "100001"}},
+                    BadCommand{"FlagOfRun",
+                               {"export", "DIR/tiny.json", "--repeat", "3", "--out", "DIR/out"},
+                               {"--repeat"}},
+                    BadCommand{"SceneTwice",
+                               {"export", "DIR/tiny.json", "DIR/./tiny.json", "--out", "DIR/out"},
+                               {"two scenes", "\"tiny\""}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
     Defects, BadFlag,
     testing::Values(BadCommand{"NoFile", {"defects"}, {"results"}},
                     BadCommand{"FileThatIsNone", {"defects", "DIR/none.json"}, {"none.json"}},

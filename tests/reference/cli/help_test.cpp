@@ -75,7 +75,7 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
   for (const std::string command :
-       {"", "run", "reproduce", "reduce", "list", "report", "truth", "defects"}) {
+       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);
@@ -100,6 +100,12 @@ TEST(Help, OfReproduceNamesItsFlagsAndItsFiles) {
                            "reproduction.json", "suite paper"})
     EXPECT_THAT(on_one_line(help.out), HasSubstr(word));
   EXPECT_THAT(help.out, Not(HasSubstr("--closed-loop"))) << "it always is";
+}
+
+TEST(Help, OfExportNamesItsFlagsAndTheChecker) {
+  const Outcome help = contactcheck_program({"export", "--help"});
+  for (const char* word : {"--frames", "--every", "--out", "out/export", "check.py"})
+    EXPECT_THAT(on_one_line(help.out), HasSubstr(word));
 }
 
 TEST(Help, DoesNotShowTheWorkersCommand) {

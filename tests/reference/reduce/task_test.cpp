@@ -33,7 +33,7 @@ class Case : public testing::Test {
     std::filesystem::create_directories(scratch_.folder() / "recordings");
     std::filesystem::create_directories(scratch_.folder() / "cases");
     write_recording(scratch_.folder() / "recordings/approach.ccr",
-                    {"approach", scene_.bodies, 0.1, judged_.nodes});
+                    {"approach", scene_.bodies, 0.1, nodes_of_frames()});
   }
 
   std::filesystem::path write(const std::string& level, ElementPair pair) {
@@ -46,6 +46,12 @@ class Case : public testing::Test {
     d.pair = pair;
     write_case(file_, judged_, d, "../recordings/approach.ccr");
     return file_;
+  }
+
+  std::vector<std::vector<std::vector<Vec3>>> nodes_of_frames() const {
+    std::vector<std::vector<std::vector<Vec3>>> nodes;
+    for (std::size_t f = 0; f < scene_.frames; ++f) nodes.push_back(judged_.positions[f].nodes);
+    return nodes;
   }
 
   /// The sentence that the case is refused with after `change`.
@@ -74,7 +80,7 @@ TEST_F(Case, BringsTheWholeFrameOfItsTwoBodies) {
   EXPECT_EQ(task.pair, (TrianglePair{5, 17}));
   ASSERT_EQ(task.snapshot.bodies.size(), 2u);
   EXPECT_EQ(task.snapshot.bodies[1].name, "moving");
-  EXPECT_EQ(task.snapshot.nodes, judged_.nodes[2]);
+  EXPECT_EQ(task.snapshot.nodes, judged_.positions[2].nodes);
 }
 
 TEST_F(Case, OfAVertexBringsATriangleWithItInTheOrderOfTheBodies) {
@@ -94,6 +100,22 @@ TEST_F(Case, OfCellsBringsThem) {
 
 TEST_F(Case, OfBodiesHasNoTriangles) { EXPECT_FALSE(read_case(write("body", {0, 1, 0, 0})).pair); }
 
+TEST_F(Case, WithoutARecordingIsItsTwoTriangles) {
+  json c = json::parse(read_text_file(write("triangle", {0, 1, 5, 17})));
+  c.erase("recording");
+  scratch_.write("cases/0001.json", c.dump());
+  const ReductionTask task = read_case(file_);
+  EXPECT_EQ(task.pair, (TrianglePair{0, 0}));
+  const Candidate pair = candidate_of(task.snapshot);
+  EXPECT_EQ(pair.names[1], "moving");
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Triangle& t = scene_.bodies[side].shape->mesh.triangles[side == 0 ? 5 : 17];
+    ASSERT_EQ(pair.meshes[side].vertices.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(pair.meshes[side].vertices[i], judged_.positions[2].vertices[side][t[i]]);
+  }
+}
+
 TEST_F(Case, IsToldFromAScene) {
   EXPECT_TRUE(is_case_file(write("triangle", {0, 1, 5, 17})));
   EXPECT_FALSE(is_case_file(scratch_.write("scene.json", R"({"id": "x", "bodies": []})")));
@@ -105,8 +127,7 @@ TEST_F(Case, IsRefusedWithFilePlaceAndValue) {
   const auto with = [](const char* key, const json& value) {
     return [key, value](json& c) { c[key] = value; };
   };
-  for (const char* key :
-       {"scene", "frame", "detector", "level", "kind", "recording", "first", "second"})
+  for (const char* key : {"scene", "frame", "detector", "level", "kind", "first", "second"})
     EXPECT_THAT(refusal(without(key)), AllOf(HasSubstr("0001.json"), HasSubstr(key)));
   EXPECT_THAT(refusal(with("level", "corner")), HasSubstr("level is \"corner\""));
   EXPECT_THAT(refusal(with("kind", "late")), HasSubstr("kind is \"late\""));

@@ -112,7 +112,7 @@ TEST_F(CaseFile, NearPairHoldsItsVertexAndItsTriangle) {
   EXPECT_EQ(c.at("first").at("body"), "moving");
   EXPECT_EQ(c.at("first").at("vertex"), 9);
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(read_back(c.at("first").at("position")[k]), judged_.vertices[2][1][9][k]);
+    EXPECT_EQ(read_back(c.at("first").at("position")[k]), judged_.positions[2].vertices[1][9][k]);
   EXPECT_EQ(c.at("second").at("body"), "resting");
   expect_triangle(c.at("second"), 0, 4);
 }

@@ -1,0 +1,318 @@
+"""An export of a small scene is accepted; every way to break it is refused with its own sentence.
+
+CONTACTCHECK_PROGRAM names the program. A faulty file gets the checksum that belongs to it, unless
+the checksum is what the test is about: the proofs must hold by themselves.
+"""
+
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from fractions import Fraction
+
+SCENE = {
+    "id": "tiny", "title": "Two boxes that come to touch, and a cube with a lid, which touch in one plane", "frames": 3, "duration": 1,
+    "levels": ["body", "triangle"],
+    "bodies": [
+        {"name": "left/box", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]}},
+        {"name": "right", "mesh": {"shape": "box", "divisions": 3}, "lattice": {"cells": [3, 3, 3]},
+         "motion": {"position": [[0, [1.4, 0.1, 0.2]], [0.3, [0.9, 0.1, 0.2]], [1, [0.95, 0.1, 0.2]]],
+                    "deformers": [{"twist": {"axis": "x", "degrees": [[0, 0], [1, 20]]}}]}},
+        {"name": "cube", "mesh": {"shape": "box", "divisions": 1, "center": [0, 9, 0]}},
+        {"name": "lid", "mesh": {"shape": "box", "divisions": 1, "center": [0, 10, 0]}}]}
+CONTACT_FRAME = "truth/frame_0001.json"
+
+
+class CheckExport(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.scratch = pathlib.Path(scratch.name)
+        (self.scratch / "tiny.json").write_text(json.dumps(SCENE))
+        self.contactcheck("export", self.scratch / "tiny.json", "--out", self.scratch)
+        self.folder = self.scratch / "tiny"
+
+    def contactcheck(self, *words):
+        subprocess.run([os.environ["CONTACTCHECK_PROGRAM"], *words], check=True,
+                       stdout=subprocess.DEVNULL)
+
+    def check(self):
+        command = [sys.executable, "-B", self.folder / "check.py"]
+        return subprocess.run(command, capture_output=True, text=True)
+
+    def refused(self, *pieces):
+        done = self.check()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for piece in pieces:
+            self.assertIn(piece, done.stderr)
+
+    def index(self):
+        return json.loads((self.folder / "scene.json").read_text())
+
+    def write(self, name, data):
+        """Replaces a file, and its checksum in the index."""
+        (self.folder / name).write_bytes(data)
+        if name != "scene.json":
+            index = self.index()
+            index["crc32"][name] = f"{zlib.crc32(data):08x}"
+            self.write("scene.json", json.dumps(index).encode())
+
+    def change_index(self, change):
+        index = self.index()
+        change(index)
+        self.write("scene.json", json.dumps(index).encode())
+
+    def change_truth(self, change, name=CONTACT_FRAME):
+        truth = json.loads((self.folder / name).read_text())
+        change(truth)
+        self.write(name, json.dumps(truth).encode())
+
+    def test_accepts_an_export(self):
+        done = self.check()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("tiny: 3 frames proven: ", done.stdout)
+        self.assertEqual([f["body_pairs"] for f in self.index()["frames"]], [1, 2, 2])
+        self.assertTrue(all(f["gaps"] > 0 for f in self.index()["frames"][1:]))
+
+    def test_hash_is_that_of_results(self):
+        self.contactcheck("run", self.scratch / "tiny.json", "--no-timing", "--quiet", "--detector",
+                          "fcl-aabb", "--detector", "ffd-lazy", "--out", self.scratch / "out")
+        results = json.loads((self.scratch / "out/results.json").read_text())
+        hashes = {run["contact_hash"] for run in results["runs"]}
+        self.assertEqual(hashes, {self.index()["contact_hash"]})
+
+    def moved_vertex(self):
+        name = "bodies/1-right/frame_0001.ply"
+        data = bytearray((self.folder / name).read_bytes())
+        start = data.index(b"end_header\n") + 11
+        triangle = json.loads((self.folder / CONTACT_FRAME).read_text())["contacts"][0][3]
+        face = start + 24 * self.index()["bodies"][1]["vertices"] + 13 * triangle + 1
+        vertex = start + 24 * int.from_bytes(data[face:face + 4], "little")
+        data[vertex] ^= 1  # the last bit of x
+        return name, bytes(data)
+
+    def test_refuses_a_moved_vertex(self):
+        name, data = self.moved_vertex()
+        (self.folder / name).write_bytes(data)
+        self.refused("frame 1", name, "another CRC-32")
+
+    def test_refuses_a_vertex_moved_with_its_checksum(self):
+        self.write(*self.moved_vertex())
+        self.refused("frame 1: triangle ", "of body 1: the witness is no point of both")
+
+    def test_refuses_a_dropped_contact(self):
+        def drop(truth):
+            del truth["contacts"][4]
+        self.change_truth(drop)
+        self.refused("frame 1: scene.json has another number of contacts")
+        self.change_index(lambda index: index["frames"][1].update(
+            contacts=index["frames"][1]["contacts"] - 1))
+        self.refused("\"t\" was decided, but contacts do not list them")
+
+    def test_refuses_a_changed_witness(self):
+        def change(truth):
+            weights = truth["contacts"][2][4]
+            k = next(k for k in range(3) if weights[k] != "0")
+            weights[k] = f"{int(weights[k], 16) + 1:x}"
+            weights[k - 1] = f"{int(weights[k - 1], 16) + 1:x}"
+        self.change_truth(change)
+        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_text())["contacts"][2][:4]
+        self.refused(f"frame 1: triangle {s} of body {a} and triangle {t} of body {b}",
+                     "the witness is no point of both")
+
+    def test_refuses_a_negative_weight(self):
+        # All weights of either side negative: the point would be the same.
+        def negate(truth):
+            for weights in truth["contacts"][0][4:]:
+                weights[:] = ["-" + w for w in weights]
+        self.change_truth(negate)
+        self.refused("the witness is no point of both")
+
+    def test_refuses_a_changed_plane(self):
+        def turn(truth):
+            plane = truth["gaps"][0][4]
+            plane[:] = [-x for x in plane]
+        self.change_truth(turn)
+        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_text())["gaps"][0][:4]
+        self.refused(f"frame 1: triangle {s} of body {a} and triangle {t} of body {b}",
+                     "the plane does not separate them")
+
+    def move_plane(self, offset_of):
+        """Gives a plane another offset: what `offset_of` makes of the heights of the corners of the
+        second triangle over its normal, as an exact text."""
+        truth = json.loads((self.folder / CONTACT_FRAME).read_text())
+        _, b, _, t, plane = truth["gaps"][0]
+        ply = (self.folder / self.index()["bodies"][b]["folder"] / "frame_0001.ply").read_bytes()
+        data = ply[ply.index(b"end_header\n") + 11:]
+        face = 24 * self.index()["bodies"][b]["vertices"] + 13 * t
+        corners = [struct.unpack_from("<3d", data, 24 * v)
+                   for v in struct.unpack_from("<3i", data, face + 1)]
+        offset = offset_of([sum(Fraction(n) * Fraction(x) for n, x in zip(plane, corner))
+                            for corner in corners])
+        plane[3] = f"{offset.numerator:x}/{offset.denominator:x}"
+        self.write(CONTACT_FRAME, json.dumps(truth).encode())
+
+    def test_refuses_a_plane_that_touches_the_second(self):
+        self.move_plane(lambda heights: min(heights) - Fraction(1, 2**60))
+        self.assertEqual(self.check().returncode, 0)
+        self.move_plane(min)
+        self.refused("the plane does not separate them")
+
+    def test_refuses_a_plane_below_the_first(self):
+        self.move_plane(lambda heights: min(heights) - 100)
+        self.refused("the plane does not separate them")
+
+    def test_refuses_boxes_that_touch_as_apart(self):
+        # In frame 0 the other five pairs of bodies are apart.
+        def change(truth):
+            self.assertEqual({c[0] for c in truth["contacts"]}, {2})
+            truth.update(decisions=truth["decisions"][:5] + "y", contacts=[], gaps=[], body_pairs=[])
+        self.change_truth(change, "truth/frame_0000.json")
+        self.change_index(lambda index: index["frames"][0].update(contacts=0, gaps=0, body_pairs=0))
+        self.refused("frame 0: decision 6 (\"y\": ", "the boxes are not apart")
+
+    def test_refuses_a_plane_for_more_than_one_pair(self):
+        # The first two bodies are apart along x in frame 0, and so are all their triangles.
+        orders = [json.loads((self.folder / b["folder"] / "order.json").read_text())
+                  for b in self.index()["bodies"][:2]]
+
+        def change(truth):
+            truth["decisions"] = "s" + truth["decisions"][1:]
+            truth["gaps"].insert(0, [0, 1, orders[0][0], orders[1][0], [1, 0, 0, 0.7]])
+        self.change_truth(change, "truth/frame_0000.json")
+
+        def recount(index):
+            index["frames"][0]["gaps"] += 1
+        self.change_index(recount)
+        self.refused("frame 0: decision 1 (\"s\": ", "cannot be decided so")
+
+    def test_refuses_a_gap_that_nothing_decided(self):
+        self.change_truth(lambda truth: truth["gaps"].insert(0, [0, 1, 0, 0, [1, 0, 0, 0.7]]),
+                          "truth/frame_0000.json")
+
+        def recount(index):
+            index["frames"][0]["gaps"] += 1
+        self.change_index(recount)
+        self.refused("frame 0: gaps list (0, 1, 0, 0), which nothing decided to be one")
+
+    def test_refuses_contacts_out_of_order(self):
+        self.change_truth(lambda truth: truth["contacts"].reverse())
+        self.refused("frame 1: contacts are not in order, each once")
+
+    def test_refuses_a_forgotten_pair_of_bodies(self):
+        self.change_truth(lambda truth: truth["body_pairs"].pop())
+        self.change_index(lambda index: index["frames"][1].update(body_pairs=1))
+        self.refused("frame 1: body_pairs are not those of the contacts")
+
+    def test_refuses_a_surface_that_is_none(self):
+        name = "bodies/2-cube/frame_0000.ply"
+        data = (self.folder / name).read_bytes()
+        start = data.index(b"end_header\n") + 11
+        nan = struct.pack("<d", float("nan"))
+        self.write(name, data[:start] + nan + data[start + 8:])
+        self.refused(f"frame 0: {name}: not finite")
+        self.write(name, data[:-13] + b"\4" + data[-12:])
+        self.refused(f"frame 0: {name}: faces that are no triangles")
+        self.write(name, data.replace(b"property double x", b"property double w"))
+        self.refused(f"frame 0: {name}: another header")
+
+    def test_refuses_another_schema(self):
+        self.change_index(lambda index: index.update(schema="contactcheck-certificates/2"))
+        self.refused("scene.json: another schema")
+
+    def test_refuses_what_is_no_number(self):
+        def change(truth):
+            truth["gaps"][0][4][3] = "1/0"
+        self.change_truth(change)
+        self.refused("not as exports are written: ZeroDivisionError")
+
+    def test_refuses_a_skipped_subtree(self):
+        # The first split after which the lower halves are claimed to be apart, with all below.
+        def skip(truth):
+            decisions = truth["decisions"]
+            end, open_ranges = 1, 1
+            while open_ranges > 0:
+                open_ranges += {"a": 1, "b": 1}.get(decisions[end], -1)
+                end += 1
+            truth["decisions"] = decisions[0] + "x" + decisions[end:]
+        self.change_truth(skip)
+        self.refused("frame 1: decision 2 (\"x\": ", "the boxes are not apart")
+
+    def test_refuses_decisions_that_end_early(self):
+        self.change_truth(lambda truth: truth.update(decisions=truth["decisions"][:-1]))
+        self.refused("frame 1", "the decisions end before all pairs are covered")
+
+    def test_refuses_decisions_that_go_on(self):
+        self.change_truth(lambda truth: truth.update(decisions=truth["decisions"] + "x"))
+        self.refused("frame 1: the decisions go on when all pairs are covered")
+
+    def test_refuses_a_wrong_axis(self):
+        # In frame 0 all bodies are apart; the first two along x alone.
+        def change(truth):
+            self.assertEqual(truth["decisions"][0], "x")
+            truth["decisions"] = "z" + truth["decisions"][1:]
+        self.change_truth(change, "truth/frame_0000.json")
+        self.refused("frame 0: decision 1 (\"z\": ", "the boxes are not apart")
+
+    def test_refuses_a_contact_called_a_gap(self):
+        # With all else made right: every 't' becomes an 's', and has some plane.
+        def change(truth):
+            planes = [contact[:4] + [[1, 2, 3, 0.5]] for contact in truth["contacts"]]
+            truth["gaps"] = sorted(truth["gaps"] + planes, key=lambda gap: gap[:4])
+            truth["decisions"] = truth["decisions"].replace("t", "s")
+            truth["contacts"], truth["body_pairs"] = [], []
+        self.change_truth(change)
+
+        def recount(index):
+            frame = index["frames"][1]
+            frame["gaps"] += frame["contacts"]
+            frame["contacts"] = frame["body_pairs"] = 0
+        self.change_index(recount)
+        self.refused("frame 1: triangle ", "the plane does not separate them")
+
+    def test_refuses_a_missing_frame(self):
+        self.change_index(lambda index: index["frames"].pop(1))
+        self.refused("scene.json: not every frame out of 1 is there")
+
+    def test_refuses_a_missing_file(self):
+        (self.folder / "bodies/0-left_box/frame_0002.ply").unlink()
+        self.refused("frame 2: bodies/0-left_box/frame_0002.ply is missing")
+
+    def test_refuses_a_truncated_file(self):
+        name = "bodies/0-left_box/frame_0002.ply"
+        data = (self.folder / name).read_bytes()[:-5]
+        (self.folder / name).write_bytes(data)
+        self.refused(f"frame 2: {name} ({len(data)} bytes) is not the file that was exported")
+        self.write(name, data)
+        self.refused(f"frame 2: {name}: another length")
+
+    def test_refuses_an_order_that_forgets_a_triangle(self):
+        name = "bodies/1-right/order.json"
+        order = json.loads((self.folder / name).read_text())
+        order[0] = order[1]
+        self.write(name, json.dumps(order).encode())
+        self.refused(f"{name} is no permutation of the triangles")
+
+    def test_refuses_other_triangles_in_a_later_frame(self):
+        name = "bodies/2-cube/frame_0001.ply"
+        data = (self.folder / name).read_bytes()
+        self.write(name, data[:-13] + data[-26:-13])
+        self.refused(f"frame 1: {name}: other triangles than in earlier frames")
+
+    def test_refuses_a_wrong_hash(self):
+        self.change_index(lambda index: index.update(contact_hash="0x0123456789abcdef"))
+        self.refused("scene.json: another contact_hash")
+
+    def test_refuses_an_unfinished_export(self):
+        (self.folder / "scene.json").unlink()
+        self.refused("scene.json is missing")
+
+
+if __name__ == "__main__":
+    unittest.main()

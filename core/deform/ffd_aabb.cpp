@@ -1,5 +1,6 @@
 #include "core/deform/ffd_aabb.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/deform/mapping.h"
@@ -44,7 +45,13 @@ Aabb clamp_to_unit(const Aabb& box) {
   return out;
 }
 
-Aabb clipped_bounds(const std::array<Vec3, 3>& local) {
+bool lexicographically_less(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+Aabb clipped_bounds(std::array<Vec3, 3> local) {
+  // In one order whatever the triangle's winding and first corner: a cut rounds.
+  std::sort(local.begin(), local.end(), lexicographically_less);
   Polygon polygon;
   Aabb whole;
   for (const Vec3& p : local) {

@@ -230,9 +230,10 @@ class ReduceCommand {
   }
 
   std::string library() const {
-    for (const auto& [name, version] : library_versions())
-      if (detector_.rfind(name, 0) == 0) return name + " " + version;
-    return "";
+    const std::string name = library_of(detector_);
+    const auto versions = library_versions();
+    const auto found = versions.find(name);
+    return found == versions.end() ? "" : name + " " + found->second;
   }
 
   MinimalCase minimal_of(const Defect& defect, const Reduction& reduction,

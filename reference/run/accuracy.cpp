@@ -174,7 +174,7 @@ class AccuracyPass {
     if (scene_.grades_lengths()) result_.graded = graded_->errors();
     result_.disagreements = judge_->disagreements();
     result_.stages = losses_->stages();
-    result_.episodes = find_episodes(truth_pairs_, reported_pairs_);
+    if (scene_.follows_time()) result_.episodes = find_episodes(truth_pairs_, reported_pairs_);
     for (const std::string& note : notes_.summary()) result_.notes.push_back(note);
   }
 

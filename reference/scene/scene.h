@@ -64,6 +64,8 @@ struct Scene {
   bool scripted() const { return recorded.empty() && !simulation && !pairs; }
   /// Random pairs differ in scale from frame to frame: their lengths and distances do not add up.
   bool grades_lengths() const { return !pairs; }
+  /// Frames of families and random pairs are cases, not moments: there is no first contact.
+  bool follows_time() const { return !family && !pairs; }
   bool judges(Level level) const;
   double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
   /// Lattice nodes of every body. @pre scripted(), or simulated and time 0: the start

@@ -63,13 +63,7 @@ std::vector<KnownDeviation> of_libccd() {
        kDiffers,
        in({"FlippedWinding", "TurnedCorners"}),
        seen("ccdGJKIntersect, ccdMPRIntersect"),
-       "the way to the answer depends on the order of a piece's corners, and it is rounded"},
-      {{"libccd-mpr:pieces=boxes"},
-       kDiffers,
-       in({"FlippedWinding"}),
-       seen("core/deform/ffd_aabb.h"),
-       "the FFD-AABBs that it is given are clipped from triangles at rest in the order of their "
-       "corners, and may be an ulp larger"}};
+       "the way to the answer depends on the order of a piece's corners, and it is rounded"}};
 }
 
 }  // namespace

@@ -1,9 +1,16 @@
 // The nearest points of two closed triangles, exactly. For the .cpp files of this layer alone.
 #pragma once
 
-#include "reference/certify/rational.h"
+#include "reference/rational/vectors.h"
 
 namespace contactcheck::certify {
+
+using RationalPoint = rational::Point;
+using RationalTriangle = rational::PointTriple;
+using rational::cross;
+using rational::dot;
+using rational::operator-;
+using rational::to_rational;
 
 /// A point of a triangle: the sum of its corners times the weights, which are not negative and add
 /// up to 1.

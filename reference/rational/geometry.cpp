@@ -9,24 +9,12 @@
 namespace contactcheck::rational {
 namespace {
 
-using Triangle = std::array<Point, 3>;
-
-Triangle corners_of(const TriangleCorners& t) {
-  return {to_rational(t[0]), to_rational(t[1]), to_rational(t[2])};
-}
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+using Triangle = PointTriple;
 
 /// point + factor * direction
 Point along(const Point& point, const mpq_class& factor, const Point& direction) {
   return {point[0] + factor * direction[0], point[1] + factor * direction[1],
           point[2] + factor * direction[2]};
-}
-
-mpq_class dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 mpq_class squared_distance(const Point& a, const Point& b) {
@@ -92,10 +80,6 @@ void lower_by_edges(mpq_class& best, const Triangle& p, const Triangle& q) {
 
 }  // namespace
 
-Point to_rational(const Vec3& point) {
-  return {mpq_class(point.x()), mpq_class(point.y()), mpq_class(point.z())};
-}
-
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Point origin = to_rational(a);
   const Point u = to_rational(b) - origin, v = to_rational(c) - origin;
@@ -110,7 +94,7 @@ int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
 
 bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q) {
   // Six barycentric coordinates >= 0: sum p_i x_i = sum q_j y_j, sum x_i = 1, sum y_j = 1.
-  const Triangle rp = corners_of(p), rq = corners_of(q);
+  const Triangle rp = to_rational(p), rq = to_rational(q);
   std::vector<Equation> equations;
   for (std::size_t axis = 0; axis < 3; ++axis)
     equations.push_back({{rp[0][axis], rp[1][axis], rp[2][axis], mpq_class(-rq[0][axis]),
@@ -125,7 +109,7 @@ bool triangle_meets_box(const TriangleCorners& triangle, const Aabb& box) {
   if (box.empty()) return false;
   // Three barycentric coordinates, and per axis the distances from both faces, all >= 0:
   // sum p_i x_i - below = lo, sum p_i x_i + above = hi, sum x_i = 1.
-  const Triangle t = corners_of(triangle);
+  const Triangle t = to_rational(triangle);
   std::vector<Equation> equations;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t side = 0; side < 2; ++side) {
@@ -144,7 +128,7 @@ mpq_class squared_distance(const TriangleCorners& p, const TriangleCorners& q) {
   if (triangles_intersect(p, q)) return 0;
   // The closest points of two disjoint triangles lie on a corner and a face, edge or corner, or on
   // two edges: the smallest over all those pairs is the distance, degenerate triangles included.
-  const Triangle rp = corners_of(p), rq = corners_of(q);
+  const Triangle rp = to_rational(p), rq = to_rational(q);
   mpq_class best = squared_distance(rp[0], rq[0]);
   lower_by_corners(best, rp, rq);
   lower_by_corners(best, rq, rp);

@@ -7,17 +7,10 @@
 
 #include <gmpxx.h>
 
-#include <array>
-
 #include "core/types/vec3.h"
+#include "reference/rational/vectors.h"
 
 namespace contactcheck::rational {
-
-using Point = std::array<mpq_class, 3>;
-using TriangleCorners = std::array<Vec3, 3>;  ///< the same type as core's TrianglePoints
-
-/// Every finite double is a rational.
-Point to_rational(const Vec3& point);
 
 /// The sign that the predicates of core/narrow/predicates.h promise.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);

@@ -31,6 +31,8 @@ struct FamilyResult {
   /// Over all cases; 0 where nothing was judged.
   std::int64_t sum(const char* kind) const;
   std::size_t wrong() const;
+  /// Wrong somewhere, or without an answer because of an error.
+  bool goes_wrong() const { return failed() || wrong() > 0; }
   /// The case in which it ended in an error, where that is known.
   std::optional<std::size_t> failed_frame() const;
   /// Milliseconds of a case, cold, mapping and update included; nothing where none was timed.

@@ -95,7 +95,7 @@ std::string family_table(const Json& scene, const std::vector<FamilyResult>& all
   std::string rows;
   for (const FamilyResult& result : all) {
     if (&result.scene != &scene) continue;
-    if (result.failed() || result.wrong() > 0) rows += table_line(wrong_line(result));
+    if (result.goes_wrong()) rows += table_line(wrong_line(result));
   }
   if (rows.empty()) return "";
   const Json& family = scene.at("family");

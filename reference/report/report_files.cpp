@@ -9,9 +9,10 @@ namespace contactcheck {
 
 std::map<std::string, std::string> report_files(const nlohmann::ordered_json& results) {
   std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
+  const std::vector<FamilyResult> families = family_results(results);
   for (const auto& scene : results.at("scenes")) {
     if (!scene.contains("family")) continue;
-    const std::string plot = stability_plot(scene, results);
+    const std::string plot = stability_plot(scene, families);
     if (!plot.empty()) files[stability_plot_file(scene)] = plot;
   }
   return files;

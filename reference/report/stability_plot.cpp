@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "reference/report/family_result.h"
 #include "reference/report/svg.h"
 
 namespace contactcheck {
@@ -143,11 +142,10 @@ std::string stability_plot_file(const Json& scene) {
   return "plots/" + name + ".svg";
 }
 
-std::string stability_plot(const Json& scene, const Json& results) {
+std::string stability_plot(const Json& scene, const std::vector<FamilyResult>& results) {
   std::vector<FamilyResult> rows;
-  for (const FamilyResult& result : family_results(results))
-    if (result.scene.at("id") == scene.at("id") && (result.failed() || result.wrong() > 0))
-      rows.push_back(result);
+  for (const FamilyResult& result : results)
+    if (&result.scene == &scene && result.goes_wrong()) rows.push_back(result);
   return rows.empty() ? "" : StabilityPlot(scene, std::move(rows)).draw();
 }
 

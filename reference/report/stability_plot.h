@@ -3,14 +3,18 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
+
+#include "reference/report/family_result.h"
 
 namespace contactcheck {
 
 /// An SVG document: a row per detector that goes wrong in the family, a column per value of its
 /// parameter; of each square the upper half says which share of the true contacts was missed, the
 /// lower half which share of those reported is none. Empty when nobody goes wrong.
+/// @pre `results` are the family_results of the results that `scene` is a part of
 std::string stability_plot(const nlohmann::ordered_json& scene,
-                           const nlohmann::ordered_json& results);
+                           const std::vector<FamilyResult>& results);
 
 /// Where the report expects it, beside report.md: "plots/ID.svg".
 std::string stability_plot_file(const nlohmann::ordered_json& scene);

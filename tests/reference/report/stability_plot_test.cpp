@@ -27,7 +27,7 @@ std::size_t count_of(const std::string& part, const std::string& text) {
 
 std::string plot_of(const char* id, const Json& results) {
   for (const Json& scene : results.at("scenes"))
-    if (scene.at("id") == id) return stability_plot(scene, results);
+    if (scene.at("id") == id) return stability_plot(scene, family_results(results));
   return "no such scene";
 }
 

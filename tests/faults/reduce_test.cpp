@@ -7,6 +7,7 @@
 
 #include "reference/scene/scene.h"
 #include "tests/faults/whole_run.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {
@@ -58,7 +59,7 @@ class Reduce : public testing::Test {
     const std::filesystem::path out = scratch_.folder() / "out";
     test::run_program(CONTACTCHECK_WITH_FAULTS, {"run", file_.string(), "--detector", detector,
                                                  "--no-timing", "--quiet", "--out", out.string()});
-    return json::parse(test::bytes_of(out / "results.json"));
+    return json::parse(test::text_of(out / "results.json"));
   }
 
   Scratch scratch_;
@@ -109,9 +110,9 @@ TEST_F(Reduce, KeepsThreeTrianglesWhereItTakesThree) {
 
 TEST_F(Reduce, GivesTheSameBytesEveryTime) {
   const std::string out = reduce("fault-misses-crowds").out;
-  const std::string bytes = test::bytes_of(file_);
+  const std::string bytes = test::text_of(file_);
   EXPECT_EQ(reduce("fault-misses-crowds").out, out);
-  EXPECT_EQ(test::bytes_of(file_), bytes);
+  EXPECT_EQ(test::text_of(file_), bytes);
 }
 
 TEST_F(Reduce, ACrash) {

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
-
 #include "tests/reference/cli/tiny_scene.h"
+#include "tests/support/files.h"
 
 namespace contactcheck::test {
 namespace {
@@ -17,11 +15,6 @@ fs::path out_folder(const Scratch& scratch) { return scratch.folder() / "out"; }
 
 }  // namespace
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::string WholeRun::message(const std::string& detector) const {
   return row(detector).at("message");
 }
@@ -31,11 +24,8 @@ std::vector<std::string> WholeRun::notes(const std::string& detector) const {
 }
 
 std::vector<std::string> WholeRun::files() const {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(out_folder(*scratch)))
-    names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
+  const std::set<std::string> names = names_in(out_folder(*scratch));
+  return {names.begin(), names.end()};
 }
 
 std::string WholeRun::schema_errors() const {
@@ -59,7 +49,7 @@ WholeRun run_whole(const std::vector<std::string>& detectors,
   arguments.insert(arguments.end(), flags.begin(), flags.end());
   run.outcome = run_program(CONTACTCHECK_WITH_FAULTS, arguments);
   const json results =
-      json::parse(bytes_of(out_folder(*run.scratch) / "results.json"), nullptr, false);
+      json::parse(text_of(out_folder(*run.scratch) / "results.json"), nullptr, false);
   EXPECT_FALSE(results.is_discarded()) << run.outcome.err;
   if (results.is_discarded()) throw std::runtime_error("no results to look at");
   for (const json& row : results.at("runs")) run.rows[row.at("detector")] = row;

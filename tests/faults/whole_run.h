@@ -33,6 +33,4 @@ std::vector<std::string> honest_detectors();
 WholeRun run_whole(const std::vector<std::string>& detectors,
                    const std::vector<std::string>& flags = {"--no-timing"});
 
-std::string bytes_of(const std::filesystem::path& file);
-
 }  // namespace contactcheck::test

@@ -4,22 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "reference/rational/geometry.h"
 #include "tests/fuzz/hard_pair.h"
 #include "tests/fuzz/recording_repair.h"
+#include "tests/support/files.h"
 
 namespace contactcheck::test {
 namespace {
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::filesystem::path corpus(const std::string& target) {
   return std::filesystem::path(CONTACTCHECK_FIXTURES) / "fuzz" / target;
@@ -28,7 +22,7 @@ std::filesystem::path corpus(const std::string& target) {
 std::vector<std::pair<TrianglePoints, TrianglePoints>> corpus_pairs() {
   std::vector<std::pair<TrianglePoints, TrianglePoints>> pairs;
   for (const auto& entry : std::filesystem::directory_iterator(corpus("triangles"))) {
-    const std::string bytes = bytes_of(entry.path());
+    const std::string bytes = text_of(entry.path());
     const auto pair =
         hard_pair({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     EXPECT_TRUE(pair.has_value()) << entry.path();
@@ -95,7 +89,7 @@ TEST(HardPair, SkipsWhatIsNotFinite) {
 }
 
 TEST(RepairedRecording, GetsPastTheHashes) {
-  const std::string whole = bytes_of(corpus("recording") / "one-triangle.ccr");
+  const std::string whole = text_of(corpus("recording") / "one-triangle.ccr");
   EXPECT_EQ(repaired_recording(whole), whole);
   std::string damaged = whole;
   constexpr std::size_t kTimeStepAt = 24, kFirstVertexAt = 72;

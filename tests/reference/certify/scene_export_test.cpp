@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "tests/reference/cli/files.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::certify {

@@ -5,9 +5,9 @@
 
 #include <functional>
 
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "reference/defects/known_defects.h"
 #include "reference/scene/catalogue.h"
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <utility>
 
-#include "tests/reference/cli/files.h"
+#include "tests/support/files.h"
 
 extern char** environ;
 

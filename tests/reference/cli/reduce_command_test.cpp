@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/scene/scene.h"
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

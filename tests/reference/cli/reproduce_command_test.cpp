@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/scene/installed.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "core/lazy/kernels.h"
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/reference/cli/files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/types/check.h"
 #include "reference/scene/catalogue.h"
-#include "tests/reference/cli/files.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {

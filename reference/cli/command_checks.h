@@ -1,16 +1,9 @@
-// What commands that read scenes and write a folder check alike, before they write a byte.
+// What commands that write a folder check alike, before they write a byte.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 
-#include "reference/scene/scene.h"
-
 namespace contactcheck {
-
-/// A scene, a family or a recording (.ccr). `frames` above 0 replaces the number of frames.
-/// @throws InputError, also where a recording is to have other frames than its own
-Scene load_any_scene(const std::filesystem::path& file, std::size_t frames);
 
 /// Creates --out where it is missing. @throws InputError when it cannot be written
 void check_out(const std::filesystem::path& out);

@@ -8,6 +8,7 @@
 #include "reference/cli/commands.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/out_folder.h"
+#include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/suite_file.h"

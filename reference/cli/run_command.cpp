@@ -17,6 +17,7 @@
 #include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
 #include "reference/run/worker.h"
+#include "reference/scene/any_scene.h"
 #include "reference/scene/scene.h"
 
 namespace contactcheck {
@@ -27,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 void read_scene(std::size_t frames, SceneTask& task) {
   if (task.pairs) {
-    task.id = make_pairs_scene(*task.pairs).id;
+    task.id = kPairsSceneId;
     task.content = content_of(*task.pairs);
     return;
   }

@@ -8,6 +8,7 @@
 #include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "reference/scene/amount.h"
+#include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/json_field.h"
@@ -250,8 +251,7 @@ std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::pat
     throw InputError("\"" + named.target +
                      "\" is a suite; reduce takes a case, a scene, a family "
                      "of hard cases or a recording");
-  const Scene scene =
-      target.kind == TargetKind::kRecording ? load_recording(target.file) : load_scene(target.file);
+  const Scene scene = load_any_scene(target.file);
   if (scene.simulation)
     throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
   std::vector<ReductionTask> tasks;

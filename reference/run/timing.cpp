@@ -29,7 +29,7 @@ PhaseSample run_once(const JudgedScene& judged, std::size_t index, TimedEntry& e
   const auto start = Clock::now();
   if (needs_vertices) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      map_body(*scene.bodies[b].shape, judged.positions[index].nodes[b], mapped.vertices[b]);
+      map_body(*scene.bodies[b].shape, mapped.frame.bodies[b].nodes, mapped.vertices[b]);
   }
   const auto after_map = Clock::now();
   entry.detector->update(mapped.frame);

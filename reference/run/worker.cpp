@@ -22,6 +22,7 @@
 #include "reference/run/schedule.h"
 #include "reference/run/surroundings.h"
 #include "reference/run/timing.h"
+#include "reference/scene/any_scene.h"
 #include "reference/scene/scene.h"
 #include "reference/simulate/driven_simulation.h"
 #include "reference/simulate/simulate_scene.h"
@@ -80,8 +81,7 @@ class Worker {
  private:
   Scene load() const {
     if (job_.pairs) return make_pairs_scene(*job_.pairs);
-    if (job_.scene_file.extension() == ".ccr") return load_recording(job_.scene_file);
-    return load_scene(job_.scene_file, job_.settings.frames);
+    return load_any_scene(job_.scene_file, job_.settings.frames);
   }
 
   void add_entry(std::uint32_t position) {

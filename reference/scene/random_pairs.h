@@ -13,6 +13,8 @@ namespace contactcheck {
 struct PairSpec {
   std::uint64_t count = 0, seed = 1;
 };
+/// The id of the scene that they make.
+inline constexpr const char* kPairsSceneId = "random-pairs";
 constexpr std::uint64_t kMostPairs = 100'000'000;
 constexpr std::uint64_t kLargestPairSeed = (std::uint64_t{1} << 53) - 1;  ///< whole in every JSON
 

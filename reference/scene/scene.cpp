@@ -52,7 +52,7 @@ double Scene::size() const {
 
 Scene make_pairs_scene(const PairSpec& spec) {
   Scene scene;
-  scene.id = "random-pairs";
+  scene.id = kPairsSceneId;
   scene.title = "Random hard pairs of triangles: touching, or apart by rounding";
   scene.pairs = std::make_shared<RandomPairs>(spec);
   scene.frames = scene.pairs->frames();

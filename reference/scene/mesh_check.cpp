@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/scene/file_text.h"
+#include "reference/scene/words.h"
 
 namespace contactcheck {
 namespace {
@@ -113,12 +114,6 @@ std::string binary_stl_fault(const std::string& bytes) {
   return "";
 }
 
-std::optional<std::size_t> whole_number(const std::string& word) {
-  if (word.empty() || word.size() > 12) return std::nullopt;
-  if (word.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-  return static_cast<std::size_t>(std::strtoull(word.c_str(), nullptr, 10));
-}
-
 std::optional<SoupCounts> off_counts(const std::string& bytes) {
   std::vector<std::string> words;
   for_lines(bytes, [&](const Line& line) {
@@ -126,7 +121,8 @@ std::optional<SoupCounts> off_counts(const std::string& bytes) {
     return words.size() < 3;
   });
   if (words.size() < 3 || !is_off_keyword(words[0])) return std::nullopt;
-  const auto vertices = whole_number(words[1]), faces = whole_number(words[2]);
+  const auto vertices = whole_number<std::size_t>(words[1]),
+             faces = whole_number<std::size_t>(words[2]);
   if (!vertices || !faces) return std::nullopt;
   return SoupCounts{*vertices, *faces};
 }
@@ -137,7 +133,7 @@ std::optional<SoupCounts> ply_counts(const std::string& bytes) {
   for_lines(bytes, [&](const Line& line) {
     if (line.words[0] == "format" && line.words.size() > 1) ascii = line.words[1] == "ascii";
     if (line.words[0] == "element" && line.words.size() > 2) {
-      const std::size_t number = whole_number(line.words[2]).value_or(0);
+      const std::size_t number = whole_number<std::size_t>(line.words[2]).value_or(0);
       if (line.words[1] == "vertex") counts.vertices = number;
       if (line.words[1] == "face") counts.faces = number;
     }

@@ -1,6 +1,6 @@
-// What CGAL's readers may be given. Those of CGAL 5.5.1 trust the sizes in a file: a colour that is
-// not there is read beyond the end of a line, and a list or a polygon is allocated before its
-// corners are read, whatever its length.
+// What CGAL's readers may be given. Those of CGAL 5.5.1 trust a file: a colour that is not there is
+// read beyond the end of a line, a list or a polygon is allocated before its corners are read,
+// whatever its length, and what a property is called decides to which type it is cast.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace contactcheck {
 
-/// The bytes to read: OFF without normals, colours and texture coordinates, other formats as they
-/// are. Nothing when OFF or PLY names a size that the file does not hold, and for OFF that is
-/// binary or not three-dimensional.
+/// The bytes to read: OFF without normals, colours and texture coordinates, PLY with only what is
+/// wanted under its name, other formats as they are. Nothing when OFF or PLY names a size that the
+/// file does not hold, and for OFF that is binary or not three-dimensional.
 std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes);
 
 }  // namespace contactcheck

@@ -56,6 +56,10 @@ std::string binary_stl(float first) {
   return bytes;
 }
 
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
 struct Format {
   std::string name, bytes;
 };
@@ -114,6 +118,22 @@ TEST(MeshFile, OffIsReadWithoutItsColoursWhereverTheyEnd) {
   }
 }
 
+TEST(MeshFile, PlyIsReadWithoutItsOtherPropertiesWhateverTheirTypes) {
+  const std::string coloured = with(
+      with(with(kPly, "property double z\n",
+                "property double z\nproperty uchar red\nproperty float g\nproperty uchar blue\n"),
+           "element face", "element edge 1\nproperty list uchar int x\nelement face"),
+      "\n3 0 2 1", "\n2 7 9\n3 0 2 1");
+  std::string text = coloured;
+  for (const std::string& vertex : {kP, kX, kY, kZ})
+    text = with(text, '\n' + vertex, '\n' + vertex + " 255 0.5 128");
+  const Scratch scratch;
+  const TriangleMesh plain = read_mesh_file(scratch.write("plain.ply", kPly)).mesh;
+  const TriangleMesh mesh = read_mesh_file(scratch.write("coloured.ply", text)).mesh;
+  EXPECT_EQ(mesh.vertices, plain.vertices);
+  EXPECT_EQ(mesh.triangles, plain.triangles);
+}
+
 TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
   const Scratch scratch;
   // Two triangles of a square, six vertices, as exporters split them; a node moves it by (1, 2, 3).
@@ -150,10 +170,6 @@ TEST_P(BadMeshFile, IsRefusedWithOneSentence) {
   const std::filesystem::path file = scratch.write(GetParam().file, GetParam().bytes);
   EXPECT_EQ(sentence_of([&] { read_mesh_file(file); }),
             "mesh file \"" + file.string() + "\"" + GetParam().sentence);
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -199,6 +215,19 @@ INSTANTIATE_TEST_SUITE_P(
                 " cannot be read as OFF."},
         BadMesh{"PlyListLongerThanTheFile", "a.ply",
                 with(with(kPly, "list uchar", "list uint"), "3 0 3 2", "4000000000 0 3 2"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyFormatTwice", "a.ply",
+                with(kPly, "element face", "format binary_little_endian 1.0\nelement face"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyLengthOutOfRange", "a.ply", with(kPly, "3 0 3 2", "259 0 3 2"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyIndexNotWhole", "a.ply", with(kPly, "3 0 3 2", "3 0 3 2.5"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyWholeCoordinates", "a.ply", with(kPly, "double x", "int x"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyListOfCoordinates", "a.ply", with(kPly, "double x", "list uchar double x"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyIndicesOfFloats", "a.ply", with(kPly, "list uchar int", "list uchar float"),
                 " cannot be read as PLY."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),

@@ -1,0 +1,240 @@
+#include "reference/scene/ply_guard.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "reference/scene/words.h"
+
+namespace contactcheck {
+namespace {
+
+enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
+
+struct TypeNames {
+  const char *name, *sized_name;
+  Type type;
+  std::size_t size;  // bytes in a binary file
+};
+
+constexpr TypeNames kTypes[] = {
+    {"char", "int8", Type::kInt8, 1},      {"uchar", "uint8", Type::kUint8, 1},
+    {"short", "int16", Type::kInt16, 2},   {"ushort", "uint16", Type::kUint16, 2},
+    {"int", "int32", Type::kInt32, 4},     {"uint", "uint32", Type::kUint32, 4},
+    {"float", "float32", Type::kFloat, 4}, {"double", "float64", Type::kDouble, 8}};
+
+const TypeNames* type_of(const std::string& word) {
+  for (const TypeNames& names : kTypes)
+    if (word == names.name || word == names.sized_name) return &names;
+  return nullptr;
+}
+
+struct Property {
+  const TypeNames* length = nullptr;  // of a list
+  const TypeNames* item = nullptr;
+  std::string name;
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  std::string format;
+  std::vector<Element> elements;
+};
+
+bool is_floating(const TypeNames& type) {
+  return type.type == Type::kFloat || type.type == Type::kDouble;
+}
+
+bool add_element(const std::vector<std::string>& words, Header& header) {
+  const auto count = words.size() > 2 ? whole_number<std::size_t>(words[2]) : std::nullopt;
+  if (count) header.elements.push_back({words[1], *count, {}});
+  return count.has_value();
+}
+
+bool add_property(const std::vector<std::string>& words, Header& header) {
+  const bool list = words.size() > 4 && words[1] == "list";
+  if (header.elements.empty() || words.size() < 3) return false;
+  Property property;
+  if (list) property.length = type_of(words[2]);
+  property.item = type_of(words[list ? 3 : 1]);
+  property.name = words[list ? 4 : 2];
+  header.elements.back().properties.push_back(property);
+  return property.item && (!list || (property.length && !is_floating(*property.length)));
+}
+
+std::string next_line(std::istream& in) {
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+// Leaves `in` behind the line "end_header".
+std::optional<Header> read_header(std::istream& in) {
+  if (words_of(next_line(in)) != std::vector<std::string>{"ply"}) return std::nullopt;
+  const std::vector<std::string> format = words_of(next_line(in));
+  if (format.size() != 3 || format[0] != "format") return std::nullopt;
+  Header header{format[1], {}};
+  while (in) {
+    const std::vector<std::string> words = words_of(next_line(in));
+    const std::string keyword = words.empty() ? "" : words[0];
+    if (keyword == "end_header") return header;
+    const bool good = keyword == "element"    ? add_element(words, header)
+                      : keyword == "property" ? add_property(words, header)
+                                              : keyword == "comment" || keyword == "obj_info";
+    if (!good) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool is_coordinate(const Element& element, const Property& property) {
+  return (element.name == "vertex" || element.name == "vertices") &&
+         (property.name == "x" || property.name == "y" || property.name == "z");
+}
+
+bool is_corners(const Element& element, const Property& property) {
+  return (element.name == "face" || element.name == "faces") &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+// The reader casts what has these names to these types, unchecked in a build without assertions.
+bool names_have_their_types(const Header& header) {
+  for (const Element& element : header.elements)
+    for (const Property& property : element.properties) {
+      const Type item = property.item->type;
+      if (is_coordinate(element, property) && (property.length || !is_floating(*property.item)))
+        return false;
+      if (is_corners(element, property) &&
+          (!property.length || (item != Type::kInt32 && item != Type::kUint32)))
+        return false;
+    }
+  return true;
+}
+
+std::string plain_header(const Header& header) {
+  std::string out = "ply\nformat " + header.format + " 1.0\n";
+  for (const Element& element : header.elements) {
+    const bool known = element.name == "vertex" || element.name == "vertices" ||
+                       element.name == "face" || element.name == "faces";
+    out += "element " + (known ? element.name : "other") + ' ' + std::to_string(element.count);
+    out += '\n';
+    for (const Property& property : element.properties) {
+      out += "property ";
+      if (property.length) out += std::string("list ") + property.length->name + ' ';
+      const bool wanted = is_coordinate(element, property) || is_corners(element, property);
+      out += std::string(property.item->name) + ' ' + (wanted ? property.name : "other") + '\n';
+    }
+  }
+  return out + "end_header\n";
+}
+
+template <typename Integer>
+std::optional<std::int64_t> in_range(const std::string& word) {
+  return whole_number<Integer>(word);
+}
+
+// Nothing unless all of the word is a number of the type: the reader would go on behind the part
+// that is one, or go on without reading.
+std::optional<std::int64_t> integer(const std::string& word, Type type) {
+  switch (type) {
+    case Type::kInt8:
+      return in_range<std::int8_t>(word);
+    case Type::kUint8:
+      return in_range<std::uint8_t>(word);
+    case Type::kInt16:
+      return in_range<std::int16_t>(word);
+    case Type::kUint16:
+      return in_range<std::uint16_t>(word);
+    case Type::kInt32:
+      return in_range<std::int32_t>(word);
+    case Type::kUint32:
+      return in_range<std::uint32_t>(word);
+    case Type::kFloat:
+    case Type::kDouble:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool is_finite_decimal(const std::string& word, Type type) {
+  if (word.find_first_not_of("+-.0123456789eE") != std::string::npos) return false;
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  const double largest =
+      type == Type::kFloat ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+  return end == word.c_str() + word.size() && std::abs(value) <= largest;
+}
+
+// Steps over the values of a file; false where one is missing or is none of its type.
+class Values {
+ public:
+  Values(std::istream& in, const std::string& format)
+      : in_(in), ascii_(format == "ascii"), big_(format == "binary_big_endian") {}
+
+  bool skip(const Property& property) {
+    if (!property.length) return skip_item(*property.item);
+    const auto length =
+        ascii_ ? next_integer(property.length->type) : next_binary(*property.length);
+    if (!length) return false;
+    for (std::int64_t i = 0; i < *length; ++i)
+      if (!skip_item(*property.item)) return false;
+    return *length >= 0;
+  }
+
+ private:
+  std::optional<std::int64_t> next_integer(Type type) {
+    return in_ >> word_ ? integer(word_, type) : std::nullopt;
+  }
+  // A negative length, here a huge one, is longer than any file.
+  std::optional<std::int64_t> next_binary(const TypeNames& type) {
+    std::array<char, 8> bytes{};
+    if (!in_.read(bytes.data(), static_cast<std::streamsize>(type.size))) return std::nullopt;
+    std::int64_t value = 0;
+    for (std::size_t i = 0; i < type.size; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[big_ ? i : type.size - 1 - i]);
+    return value;
+  }
+  bool skip_item(const TypeNames& type) {
+    std::array<char, 8> bytes{};
+    if (!ascii_) return !!in_.read(bytes.data(), static_cast<std::streamsize>(type.size));
+    if (!is_floating(type)) return next_integer(type.type).has_value();
+    return in_ >> word_ && is_finite_decimal(word_, type.type);
+  }
+
+  std::istream& in_;
+  bool ascii_, big_;
+  std::string word_;
+};
+
+bool holds_its_values(const Header& header, std::istream& in, std::size_t size) {
+  Values values(in, header.format);
+  for (const Element& element : header.elements) {
+    if (element.count > size) return false;
+    for (std::size_t i = 0; i < element.count; ++i)
+      for (const Property& property : element.properties)
+        if (!values.skip(property)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::string> plain_ply(const std::string& bytes) {
+  std::istringstream in(bytes, std::ios::in | std::ios::binary);
+  const std::optional<Header> header = read_header(in);
+  if (!header || !names_have_their_types(*header)) return std::nullopt;
+  const std::streamoff body = in.tellg();
+  if (!holds_its_values(*header, in, bytes.size())) return std::nullopt;
+  return plain_header(*header) + bytes.substr(static_cast<std::size_t>(body));
+}
+
+}  // namespace contactcheck

@@ -14,6 +14,7 @@
 
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/report_folder.h"
 #include "reference/reduce/probe_worker.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
@@ -60,7 +61,7 @@ struct Choices {
   ListArguments list;
   ExportArguments exported;
   std::string results_file, job_file;
-  std::vector<std::string> formats = {"md"};
+  std::vector<std::string> formats = all_report_formats();
   std::string report_out = "out";
   std::vector<std::string> families;
   std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
@@ -245,7 +246,7 @@ void add_others(CLI::App& app, Choices& c) {
   list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
   CLI::App* report = app.add_subcommand("report", "write the report of an old results.json again");
   report->add_option("results", c.results_file, "a results.json")->required();
-  report->add_option("--format", c.formats, "formats: md")->delimiter(',');
+  report->add_option("--format", c.formats, "formats: html, md (default: all)")->delimiter(',');
   report->add_option("--out", c.report_out, "folder (default out)");
   report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");
   CLI::App* truth =

@@ -1,13 +1,22 @@
 #include "reference/cli/report_folder.h"
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/report/html.h"
+#include "reference/report/report_files.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
+
+bool wanted(const std::string& format, const std::vector<std::string>& formats) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
 
 // No other files: the folder is the user's.
 void remove_old_plots(const fs::path& plots) {
@@ -17,9 +26,44 @@ void remove_old_plots(const fs::path& plots) {
   fs::remove(plots, error);  // where nothing is left
 }
 
+// Before anything is written: no report is better than a part of one.
+void check_places(const fs::path& folder, const std::map<std::string, std::string>& files) {
+  for (const auto& [name, text] : files) {
+    std::error_code error;  // is told by the write
+    if (fs::is_directory(folder / name, error))
+      throw InputError("cannot write \"" + (folder / name).string() + "\": Is a directory.");
+  }
+}
+
 }  // namespace
 
+std::vector<std::string> all_report_formats() { return {"html", "md"}; }
+
+void check_report_formats(const std::vector<std::string>& formats) {
+  for (const std::string& format : formats)
+    if (!wanted(format, all_report_formats()))
+      throw InputError("--format \"" + format + "\" is not known; allowed: html, md");
+}
+
+std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+                                                const std::vector<std::string>& formats) {
+  std::map<std::string, std::string> files;
+  if (wanted("md", formats)) files = report_files(results);
+  if (wanted("html", formats) && has_html_report()) files["report.html"] = html_report(results, "");
+  return files;
+}
+
+std::string report_paths(const fs::path& folder, const std::map<std::string, std::string>& files) {
+  std::string paths;
+  for (const auto& [name, text] : files)
+    if (name.starts_with("report."))
+      paths += (paths.empty() ? "" : "  ") + (folder / name).string();
+  if (!has_html_report()) paths += "  (no report.html: this program was built without npm)";
+  return paths;
+}
+
 void write_report(const fs::path& folder, const std::map<std::string, std::string>& files) {
+  check_places(folder, files);
   remove_old_plots(folder / "plots");
   for (const auto& [name, text] : files) {
     std::error_code error;  // is told by the write

@@ -1,7 +1,8 @@
-// What `run` and `reproduce` share: run the scenes, write results.json and report.md.
+// What `run` and `reproduce` share: run the scenes, write results.json and its reports.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "core/detect/registry.h"
 #include "reference/cli/commands.h"
@@ -9,8 +10,13 @@
 
 namespace contactcheck {
 
-/// The results as written. @throws InputError, before anything is written, for bad arguments
-nlohmann::ordered_json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
-                                      SuiteOutcome* outcome);
+struct ReportedRun {
+  nlohmann::ordered_json results;  ///< as written
+  std::string reports;             ///< their paths, for a person
+};
+
+/// @throws InputError, before anything is written, for bad arguments
+ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
+                           SuiteOutcome* outcome);
 
 }  // namespace contactcheck

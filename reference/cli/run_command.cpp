@@ -47,7 +47,8 @@ void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
   }
 }
 
-void print_outcome(const RunArguments& arguments, const Json& results) {
+void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {
+  const Json& results = run_and_reports.results;
   if (!arguments.quiet) {
     const std::string tables = terminal_tables(results, isatty(STDOUT_FILENO) != 0);
     std::fwrite(tables.data(), 1, tables.size(), stdout);
@@ -59,7 +60,7 @@ void print_outcome(const RunArguments& arguments, const Json& results) {
   for (const Json& scene : results.value("resumed", Json::array()))
     std::printf("resumed: %s: finished by an earlier run\n", scene.get<std::string>().c_str());
   std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
-              (arguments.out / "report.md").c_str());
+              run_and_reports.reports.c_str());
 }
 
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
@@ -87,15 +88,16 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
 
 }  // namespace
 
-Json run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
-                    SuiteOutcome* outcome) {
+ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
+                           SuiteOutcome* outcome) {
   const SuiteRequest request = make_request(arguments, catalog);
   ProgressDisplay display(arguments.quiet, isatty(STDERR_FILENO) != 0);
   Json results = run_suite(
       request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
   display.finish();
-  write_report(arguments.out, report_files(results));
-  return results;
+  const auto files = report_texts(results, all_report_formats());
+  write_report(arguments.out, files);
+  return {std::move(results), report_paths(arguments.out, files)};
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {

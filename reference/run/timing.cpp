@@ -20,8 +20,8 @@ struct MappedFrame {
   Frame frame;
 };
 
-PhaseSample run_once(const JudgedScene& judged, std::size_t index, TimedEntry& entry,
-                     MappedFrame& mapped, ContactSet& contacts) {
+PhaseSample run_once(const JudgedScene& judged, TimedEntry& entry, MappedFrame& mapped,
+                     ContactSet& contacts) {
   const Scene& scene = *judged.scene;
   PhaseSample sample;
   const bool needs_vertices = entry.detector->needs_vertices();
@@ -46,8 +46,8 @@ void run_cold_and_hot(const JudgedScene& judged, std::size_t index, TimedEntry& 
                       MappedFrame& mapped, ContactSet& contacts) {
   try {
     FrameSamples& samples = entry.samples.frames[index];
-    samples.cold.push_back(run_once(judged, index, entry, mapped, contacts));
-    samples.hot.push_back(run_once(judged, index, entry, mapped, contacts));
+    samples.cold.push_back(run_once(judged, entry, mapped, contacts));
+    samples.hot.push_back(run_once(judged, entry, mapped, contacts));
   } catch (...) {
     entry.error = "frame " + std::to_string(index) + ", while timed: " + current_exception_text();
   }

@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <set>
+
+#include "reference/report/html.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
@@ -12,6 +15,7 @@ namespace fs = std::filesystem;
 using test::contactcheck_program;
 using test::Outcome;
 using test::text_of;
+using testing::HasSubstr;
 
 TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   const test::Scratch scratch;
@@ -21,9 +25,26 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
             0);
   const Outcome outcome = contactcheck_program({"report", out / "results.json", "--out", again});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, (again / "report.md").string() + "\n");
+  EXPECT_THAT(outcome.out, HasSubstr((again / "report.md").string()));
   EXPECT_NE(text_of(out / "report.md"), "");
   EXPECT_EQ(text_of(again / "report.md"), text_of(out / "report.md"));
+  EXPECT_EQ(fs::exists(again / "report.html"), has_html_report());
+  EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
+}
+
+TEST(ReportCommand, WritesTheFormatsAskedFor) {
+  const test::Scratch scratch;
+  const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
+  const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
+  ASSERT_EQ(contactcheck_program({"run", scene, "--quiet", "--no-timing", "--out", out}).exit_code,
+            0);
+  const fs::path results = out / "results.json";
+  EXPECT_EQ(contactcheck_program({"report", results, "--format", "md", "--out", again}).exit_code,
+            0);
+  EXPECT_EQ(test::names_in(again), std::set<std::string>{"report.md"});
+  const Outcome refused = contactcheck_program({"report", results, "--format", "pdf"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--format \"pdf\" is not known; allowed: html, md"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/lazy/kernels.h"
 #include "tests/reference/cli/program.h"
+#include "tests/reference/cli/run_files.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
@@ -56,7 +57,7 @@ class RunCommand : public testing::Test {
 TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
   const json results = run("out", {scene_, "--no-timing"});
   const fs::path out = scratch_.folder() / "out";
-  EXPECT_THAT(names_in(out), ElementsAre("cases", "recordings", "report.md", "results.json"));
+  EXPECT_EQ(names_in(out), test::run_files());
   EXPECT_THAT(names_in(out / "recordings"), ElementsAre("tiny.ccr"));
   EXPECT_THAT(text_of(out / "report.md"), HasSubstr("## tiny"));
   EXPECT_THAT(last_.out, HasSubstr("results.json"));

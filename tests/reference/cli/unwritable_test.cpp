@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tests/reference/cli/refusal.h"
+#include "tests/reference/cli/run_files.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
@@ -118,8 +119,7 @@ class FullDisk : public testing::Test {
                              const std::string& before) {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(out)) names.insert(entry.path().filename());
-    EXPECT_THAT(names, testing::IsSubsetOf(
-                           {"cases", "recordings", "report.md", "results.json", "partial"}));
+    EXPECT_THAT(names, testing::IsSubsetOf(test::run_files({"partial"})));
     for (const auto& entry : fs::recursive_directory_iterator(out))
       EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
     if (outcome.exit_code == 0) {

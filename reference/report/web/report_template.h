@@ -1,0 +1,11 @@
+// The page of the HTML report, bundled by build.mjs from this folder.
+#pragma once
+
+#include <string_view>
+
+namespace contactcheck {
+
+/// With the placeholders @results@ and @view@; empty in a build without npm.
+extern const std::string_view kReportTemplate;
+
+}  // namespace contactcheck

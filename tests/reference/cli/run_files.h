@@ -1,0 +1,19 @@
+// What a run leaves in its folder.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "reference/report/html.h"
+
+namespace contactcheck::test {
+
+/// And `further` names; report.html only where this build can make it.
+inline std::set<std::string> run_files(std::set<std::string> further = {}) {
+  std::set<std::string> names = {"cases", "recordings", "report.md", "results.json"};
+  if (has_html_report()) names.insert("report.html");
+  names.merge(further);
+  return names;
+}
+
+}  // namespace contactcheck::test

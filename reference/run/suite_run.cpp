@@ -13,6 +13,7 @@
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
 #include "reference/defects/comparison.h"
+#include "reference/run/contacts_json.h"
 #include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
@@ -70,6 +71,10 @@ class SceneRunner {
     finished.scene = first.at("scene");
     for (const Json& d : first.at("oracle_disagreements")) finished.disagreements.push_back(d);
     finished.runs = assemble(answers, finished.disagreements);
+    if (!first.contains("truth_contacts")) return finished;
+    finished.scene["contacts"] = contacts_path(task_.id);
+    finished.contacts =
+        contacts_text(task_.id, first.at("truth_contacts"), judged_contacts(first, finished.runs));
     return finished;
   }
 
@@ -227,6 +232,17 @@ class SceneRunner {
     }
   }
 
+  // Of those whose answers count: one that broke later, in another process, has no contacts either.
+  static Json judged_contacts(const Json& answer, const Json& runs) {
+    Json detectors = Json::array();
+    for (const Json& entry : answer.at("runs")) {
+      const Json& run = runs.at(entry.at("position").get<std::size_t>());
+      if (run.at("status") == name_of(RunStatus::kOk) && !entry.at("contacts").is_null())
+        detectors.push_back(entry.at("contacts"));
+    }
+    return detectors;
+  }
+
   Json broken_run(std::uint32_t position, const Json& answer) const {
     const WorkerOutcome& o = broken_.at(position);
     RunResult run;
@@ -280,6 +296,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
                                  SuiteOutcome* outcome) {
   make_out_folders(request.out);
   const ScratchFolder scratch(fs::absolute(request.out));
+  make_contacts_folder(scratch.path());
   const PartialResults partial(request.out, scratch.path());
   if (!request.resume) partial.clear();
   const RunIdentity identity(request);
@@ -304,6 +321,8 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
       finished = SceneRunner(request, task, scratch.path(), report).run();
       partial.keep(task.id, identity.of(task), *finished);
     }
+    if (!finished->contacts.empty())
+      write_file_atomically(scratch.path() / contacts_path(task.id), finished->contacts);
     scenes.push_back(std::move(finished->scene));
     append(std::move(finished->runs), runs);
     append(std::move(finished->disagreements), disagreements);
@@ -325,6 +344,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
   write_file_atomically(scratch.path() / "results.json", results.dump(1) + "\n");
   remove_old_cases(request.out);
   move_cases(request.out, cases);
+  move_contacts(request.out, scratch.path(), scenes);
   rename_file(scratch.path() / "results.json", request.out / "results.json");
   partial.clear();
   return results;

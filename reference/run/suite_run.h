@@ -48,8 +48,8 @@ struct SuiteOutcome {
   std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 
-/// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete
-/// out/partial/. Returns the results as written.
+/// Writes out/results.json, out/recordings/, out/contacts/ and out/cases/, and until results.json
+/// is complete out/partial/. Returns the results as written.
 /// @throws InputError for bad scenes or an unwritable folder
 nlohmann::ordered_json run_suite(const SuiteRequest& request,
                                  const std::function<void(const SuiteProgress&)>& on_progress,

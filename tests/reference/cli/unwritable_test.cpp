@@ -101,7 +101,7 @@ class FullDisk : public testing::Test {
             "--detector", "ffd-aabb", "--out",   out.string()};
   }
 
-  // The results with their cases.
+  // The results with their cases and contacts.
   static std::string state_of(const fs::path& out) {
     std::string state = text_of(out / "results.json");
     if (state.empty()) return "";
@@ -109,6 +109,11 @@ class FullDisk : public testing::Test {
     for (const auto& d : results.at("disagreements")) {
       const std::string text = text_of(out / d.at("case").get<std::string>());
       EXPECT_TRUE(nlohmann::json::accept(text)) << d;
+      state += text;
+    }
+    for (const auto& scene : results.at("scenes")) {
+      const std::string text = text_of(out / scene.at("contacts").get<std::string>());
+      EXPECT_TRUE(nlohmann::json::accept(text)) << scene.at("contacts");
       state += text;
     }
     return state;

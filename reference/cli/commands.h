@@ -22,6 +22,7 @@ struct RunArguments {
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
   bool timing = true, quiet = false, resume = false;
+  bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too

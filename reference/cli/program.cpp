@@ -153,6 +153,9 @@ void add_run(CLI::App& app, Choices& c) {
                 "take over the scenes that an interrupted run with the same settings has finished "
                 "in --out");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
+  run->add_flag("--json-lines", c.run.json_lines,
+                "for machines: what happens, as one JSON object a line, and nothing else, on "
+                "standard output (events start, progress, scene and end; fixtures/README.md)");
   run->footer(
       "Examples:\n"
       "  contactcheck run\n"
@@ -160,7 +163,8 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
-      "  contactcheck run references --resume");
+      "  contactcheck run references --resume\n"
+      "  contactcheck run default --json-lines --quiet | my-dashboard");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {

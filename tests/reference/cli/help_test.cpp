@@ -90,7 +90,7 @@ TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
   for (const char* flag :
        {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet", "--no-timing",
-        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB"})
+        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB", "--json-lines"})
     EXPECT_THAT(help.out, HasSubstr(flag));
 }
 

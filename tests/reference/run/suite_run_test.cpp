@@ -26,8 +26,7 @@ SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
 }
 
 nlohmann::ordered_json run(const SuiteRequest& request, SuiteOutcome* outcome) {
-  return run_suite(
-      request, [](const SuiteProgress&) {}, outcome);
+  return run_suite(request, {}, outcome);
 }
 
 TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {

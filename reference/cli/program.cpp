@@ -135,7 +135,7 @@ void add_run(CLI::App& app, Choices& c) {
   run->add_option("--processes", c.run.processes, "fresh processes that are timed (default 1)")
       ->check(CLI::Range(1, 100));
   run->add_option("--out", c.run.out,
-                  "folder for results.json, report.md, cases, recordings "
+                  "folder for results.json, reports, cases, contacts, recordings "
                   "(default out)");
   run->add_flag("--closed-loop", c.run.closed_loop,
                 "simulated scenes: let every detector drive the simulation too, and time whole "
@@ -250,9 +250,13 @@ void add_others(CLI::App& app, Choices& c) {
   list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
   CLI::App* report = app.add_subcommand("report", "write the report of an old results.json again");
   report->add_option("results", c.results_file, "a results.json")->required();
-  report->add_option("--format", c.formats, "formats: html, md (default: all)")->delimiter(',');
+  report->add_option("--format", c.formats, "formats: csv, html, md (default: all)")
+      ->delimiter(',');
   report->add_option("--out", c.report_out, "folder (default out)");
-  report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");
+  report->footer(
+      "Examples:\n"
+      "  contactcheck report out/results.json --out /tmp/report\n"
+      "  contactcheck report out/results.json --format csv,md");
   CLI::App* truth =
       app.add_subcommand("truth", "what is really there in each case of a family of hard cases");
   truth->add_option("families", c.families, "their ids; default: all");

@@ -6,6 +6,7 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
 
@@ -37,18 +38,19 @@ void check_places(const fs::path& folder, const std::map<std::string, std::strin
 
 }  // namespace
 
-std::vector<std::string> all_report_formats() { return {"html", "md"}; }
+std::vector<std::string> all_report_formats() { return {"csv", "html", "md"}; }
 
 void check_report_formats(const std::vector<std::string>& formats) {
   for (const std::string& format : formats)
     if (!wanted(format, all_report_formats()))
-      throw InputError("--format \"" + format + "\" is not known; allowed: html, md");
+      throw InputError("--format \"" + format + "\" is not known; allowed: csv, html, md");
 }
 
 std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
                                                 const std::vector<std::string>& formats) {
   std::map<std::string, std::string> files;
   if (wanted("md", formats)) files = report_files(results);
+  if (wanted("csv", formats)) files["report.csv"] = csv_report(results);
   if (wanted("html", formats) && has_html_report()) files["report.html"] = html_report(results, "");
   return files;
 }

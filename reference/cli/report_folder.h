@@ -9,7 +9,7 @@
 
 namespace contactcheck {
 
-/// What `report` makes when it is not told, of "html" and "md".
+/// What `report` makes when it is not told, of "csv", "html" and "md".
 std::vector<std::string> all_report_formats();
 
 /// @throws InputError for a format that is none

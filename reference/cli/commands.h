@@ -69,6 +69,8 @@ std::filesystem::path known_defects_file();
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
+/// Prints what differs between two results.
+int diff_command(const std::filesystem::path& before, const std::filesystem::path& after);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -67,6 +67,7 @@ struct Choices {
   std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   ReduceArguments reduce;
   std::string probe_detector;
+  std::string diff_before, diff_after;
   bool no_timing = false, write_truth = false, write_defects = false;
   int progress_fd = -1, channel_fd = -1;
 };
@@ -257,6 +258,12 @@ void add_others(CLI::App& app, Choices& c) {
       "Examples:\n"
       "  contactcheck report out/results.json --out /tmp/report\n"
       "  contactcheck report out/results.json --format csv,md");
+  CLI::App* diff = app.add_subcommand("diff", "two results side by side: worse, better, new, gone");
+  diff->add_option("before", c.diff_before, "a results.json")->required();
+  diff->add_option("after", c.diff_after, "another")->required();
+  diff->footer(
+      "Answers are compared exactly, times as speed-ups over a common reference.\n"
+      "Example:\n  contactcheck diff old/results.json out/results.json");
   CLI::App* truth =
       app.add_subcommand("truth", "what is really there in each case of a family of hard cases");
   truth->add_option("families", c.families, "their ids; default: all");
@@ -288,6 +295,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
+  if (app.got_subcommand("diff")) return diff_command(c.diff_before, c.diff_after);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
   if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};

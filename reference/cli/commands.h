@@ -52,6 +52,17 @@ struct ReduceArguments {
   std::uint64_t memory_limit_mib = 4096;
 };
 
+struct AbArguments {
+  std::filesystem::path base, head;    ///< two builds of this program
+  std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
+  std::vector<std::string> detectors;  ///< empty: those of the suite
+  std::size_t rounds = 7, frames = 0, repeats = 3;
+  double slower_than = 1.1;  ///< time(head) / time(base) that is allowed
+  double floor_us = 20.0;    ///< microseconds a frame that do not matter
+  bool accuracy_may_change = false, quiet = false, github = false;
+  std::filesystem::path out = "out/ab";
+};
+
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
@@ -71,6 +82,8 @@ int defects_command(const std::filesystem::path& results, bool write);
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
 /// Prints what differs between two results.
 int diff_command(const std::filesystem::path& before, const std::filesystem::path& after);
+/// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
+int ab_command(const AbArguments& arguments);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

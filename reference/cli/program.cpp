@@ -68,6 +68,7 @@ struct Choices {
   ReduceArguments reduce;
   std::string probe_detector;
   std::string diff_before, diff_after;
+  AbArguments ab;
   bool no_timing = false, write_truth = false, write_defects = false;
   int progress_fd = -1, channel_fd = -1;
 };
@@ -241,6 +242,62 @@ void add_export(CLI::App& app, Choices& c) {
       "  contactcheck export default --every 10 --out /tmp/truth");
 }
 
+// CLI11's own checks (2.1) let NaN pass.
+CLI::Validator number_from(double least) {
+  return CLI::Validator(
+      [least](const std::string& text) {
+        double value = 0.0;
+        const bool number = CLI::detail::lexical_cast(text, value);
+        return number && value >= least && value <= 1e9
+                   ? std::string()
+                   : "\"" + text + "\" is not a number from " + (least == 0.0 ? "0" : "1") +
+                         " to 1000000000";
+      },
+      "");
+}
+
+void add_ab_limits(CLI::App& ab, Choices& c) {
+  ab.add_option("--slower-than", c.ab.slower_than,
+                "time(head) / time(base) that is allowed (default 1.1)")
+      ->check(number_from(1.0))
+      ->type_name("RATIO");
+  ab.add_option("--floor-us", c.ab.floor_us,
+                "microseconds a frame that do not matter, whatever the ratio (default 20)")
+      ->check(number_from(0.0))
+      ->type_name("US");
+  ab.add_flag("--accuracy-may-change", c.ab.accuracy_may_change,
+              "name other answers, but do not fail for them");
+  ab.add_flag("--github", c.ab.github,
+              "GitHub annotations, and a job summary in the file $GITHUB_STEP_SUMMARY");
+}
+
+void add_ab(CLI::App& app, Choices& c) {
+  CLI::App* ab = app.add_subcommand(
+      "ab", "run two builds of this program in turns: is head slower, does it answer otherwise");
+  ab->add_option("base", c.ab.base, "the program as it was")->required();
+  ab->add_option("head", c.ab.head, "the program as it is")->required();
+  ab->add_option("targets", c.ab.targets, "suites, scenes or files, as of run; default: default");
+  ab->add_option("--detector", c.ab.detectors, "a detector, repeatable; default: the suite's")
+      ->allow_extra_args(false);
+  ab->add_option("--rounds", c.ab.rounds, "how often each of them runs (default 7)")
+      ->check(CLI::Range(3, 1000));
+  ab->add_option("--frames", c.ab.frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  ab->add_option("--repeat", c.ab.repeats, "timed repeats per frame and round (default 3)")
+      ->check(CLI::Range(1, 1000));
+  add_ab_limits(*ab, c);
+  ab->add_option("--out", c.ab.out, "folder for the last round's results (default out/ab)");
+  ab->add_flag("--quiet", c.ab.quiet, "no progress");
+  ab->footer(
+      "Rounds are base head, head base, ..., each in fresh processes. A detector fails only when\n"
+      "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
+      "the floor. Its own question counts, with cold caches.\n"
+      "Exit code 1 when a detector is slower, or when answers differ.\n"
+      "Example:\n"
+      "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
+      "bunny-touch");
+}
+
 void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
@@ -296,6 +353,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("diff")) return diff_command(c.diff_before, c.diff_after);
+  if (app.got_subcommand("ab")) return ab_command(c.ab);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   c.run.timing = !c.no_timing;
   if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
@@ -330,6 +388,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   add_reproduce(app, choices);
   add_reduce(app, choices);
   add_export(app, choices);
+  add_ab(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);

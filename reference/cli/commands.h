@@ -51,6 +51,12 @@ struct ReduceArguments {
   std::uint64_t memory_limit_mib = 4096;
 };
 
+struct GateArguments {
+  std::filesystem::path results, policy;
+  std::filesystem::path baseline, junit;  ///< empty: none
+  bool github = false;
+};
+
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
@@ -68,6 +74,11 @@ std::filesystem::path known_defects_file();
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
+/// Holds results against a policy; 1 when it says no. `github` adds annotations on standard output
+/// and appends to the file that GITHUB_STEP_SUMMARY names, where it does.
+int gate_command(const GateArguments& arguments);
+/// Writes results as a baseline, and prints what it changes against the one in its place.
+int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
 /// `formats`: of "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -65,6 +65,8 @@ struct Choices {
   std::vector<std::string> families;
   std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   ReduceArguments reduce;
+  GateArguments gate;
+  std::string baseline_file;
   std::string probe_detector;
   bool no_timing = false, write_truth = false, write_defects = false;
   int progress_fd = -1, channel_fd = -1;
@@ -235,6 +237,38 @@ void add_export(CLI::App& app, Choices& c) {
       "  contactcheck export default --every 10 --out /tmp/truth");
 }
 
+void add_gate(CLI::App& app, Choices& c) {
+  CLI::App* gate =
+      app.add_subcommand("gate", "hold results against the rules of a policy; what a CI job calls");
+  gate->add_option("results", c.gate.results, "a results.json")->required();
+  gate->add_option("--policy", c.gate.policy,
+                   "rules, as fixtures/policies/README.md describes them")
+      ->required()
+      ->type_name("FILE");
+  gate->add_option("--baseline", c.gate.baseline,
+                   "results of an earlier run, as accept writes them; what they have must be there")
+      ->type_name("RESULTS");
+  gate->add_option("--junit", c.gate.junit, "JUnit XML: a test case per rule, scene and detector")
+      ->type_name("FILE");
+  gate->add_flag("--github", c.gate.github,
+                 "annotations for GitHub Actions, and a job summary in the file that "
+                 "GITHUB_STEP_SUMMARY names");
+  gate->footer(
+      "Exit code 1 when the policy is broken.\n"
+      "Examples:\n"
+      "  contactcheck gate out/results.json --policy fixtures/policies/default.json\n"
+      "  contactcheck gate out/results.json --policy fixtures/policies/ci.json \\\n"
+      "      --baseline fixtures/baselines/ci.json --junit out/gate.xml --github");
+  CLI::App* accept =
+      app.add_subcommand("accept", "make results the baseline that later gates compare with");
+  accept->add_option("results", c.results_file, "a results.json")->required();
+  accept->add_option("--as", c.baseline_file, "the baseline's file; what it changes is printed")
+      ->required()
+      ->type_name("FILE");
+  accept->footer(
+      "Example:\n  contactcheck accept out/results.json --as fixtures/baselines/ci.json");
+}
+
 void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
@@ -280,6 +314,8 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
+  if (app.got_subcommand("gate")) return gate_command(c.gate);
+  if (app.got_subcommand("accept")) return accept_command(c.results_file, c.baseline_file);
   c.run.timing = !c.no_timing;
   if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
@@ -313,6 +349,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   add_reproduce(app, choices);
   add_reduce(app, choices);
   add_export(app, choices);
+  add_gate(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);

@@ -74,8 +74,8 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command :
-       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects"}) {
+  for (const std::string command : {"", "run", "reproduce", "reduce", "export", "list", "report",
+                                    "truth", "defects", "gate", "accept"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);

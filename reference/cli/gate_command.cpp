@@ -36,10 +36,13 @@ GateResult judged(const GateArguments& arguments) {
   const ResultsFile results = whole_results(arguments.results);
   std::optional<ResultsFile> baseline;
   if (!arguments.baseline.empty()) baseline = whole_results(arguments.baseline);
-  return results.read([&](const Json& now) {
-    if (!baseline) return run_gate(policy, now, nullptr);
+  const auto alone = [&](const Json& now) { return run_gate(policy, now, nullptr); };
+  const auto beside = [&](const Json& now) {
     return baseline->read([&](const Json& before) { return run_gate(policy, now, &before); });
-  });
+  };
+  // What is wrong with the results is said of the results: first without the baseline.
+  const GateResult result = results.read(alone);
+  return baseline ? results.read(beside) : result;
 }
 
 // GitHub gives every step a file of its own, to which all its commands append.

@@ -61,6 +61,7 @@ std::optional<std::size_t> frame_to_blame(const Rule& rule, const Json& results,
   if (rule.measure->field == std::string("covered_length_fraction") &&
       per_frame.contains("covered_length_fraction"))
     return smallest_share(per_frame.at("covered_length_fraction"));
+  if (rule.rounded) return std::nullopt;  // per frame there are counts of the doubles alone
   const bool counted = kind == MeasureKind::kLevel || kind == MeasureKind::kHash ||
                        kind == MeasureKind::kStages || !kind_of(rule).empty();
   if (!counted) return std::nullopt;

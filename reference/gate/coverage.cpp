@@ -21,6 +21,21 @@ Check failure(const std::string& rule, const std::string& reason) {
   return out;
 }
 
+std::string quoted(const std::vector<std::string>& patterns) {
+  std::string out;
+  for (const std::string& pattern : patterns) out += (out.empty() ? "" : ", ") + in_quotes(pattern);
+  return out;
+}
+
+Check idle_rule(const Rule& rule) {
+  Check out =
+      failure(rule.name, "matches nothing: no row has a scene of " + quoted(rule.scenes.wanted));
+  if (!rule.detectors.wanted.empty())
+    out.reason += " and a detector of " + quoted(rule.detectors.wanted);
+  out.why = rule.why;
+  return out;
+}
+
 void add_idle(const Rule& rule, const Patterns& patterns, const char* key, const Rows& rows,
               std::vector<Check>& out) {
   for (const std::string& pattern : patterns.wanted) {
@@ -59,6 +74,7 @@ Check ended(const RowIndex& now, const Json& row) {
 }  // namespace
 
 std::vector<Check> idle_patterns(const Rule& rule, const Rows& rows) {
+  if (rows.empty()) return {idle_rule(rule)};
   std::vector<Check> out;
   add_idle(rule, rule.scenes, "scene", rows, out);
   add_idle(rule, rule.detectors, "detector", rows, out);

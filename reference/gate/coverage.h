@@ -15,7 +15,7 @@ namespace contactcheck {
 inline constexpr const char* kBaselineRule = "everything that the baseline has";
 
 /// A failure for every pattern of the rule that stands for none of `rows`, which are those that the
-/// rule is about; a rule without any row fails for all its patterns.
+/// rule is about; one failure for a rule without any row.
 std::vector<Check> idle_patterns(const Rule& rule,
                                  const std::vector<const nlohmann::ordered_json*>& rows);
 

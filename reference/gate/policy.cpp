@@ -29,7 +29,7 @@ Keys bounds_of(const Measure& measure) {
 Keys own_keys(const Measure& measure) {
   if (is_timing(measure))
     return {"question", "reference", "part", "floor_us", "noise_width", "noisy"};
-  if (measure.kind == MeasureKind::kLevel) return {"level"};
+  if (measure.kind == MeasureKind::kLevel) return {"level", "rounded"};
   if (measure.kind == MeasureKind::kStages) return {"stage"};
   return {};
 }
@@ -69,11 +69,19 @@ double parse_limit(const JsonField& field, const Measure& measure) {
   return field.number(range);
 }
 
+// A key that says something by being there.
+bool says_true(const JsonField& rule, const std::string& key) {
+  if (!rule.has(key)) return false;
+  const JsonField field = rule.at(key);
+  if (!field.is(JsonValue::Kind::kBool) || !field.value().boolean) field.refuse("true");
+  return true;
+}
+
 void parse_bound(const JsonField& field, Rule& rule) {
   const std::string key = field.exactly_one_of(bounds_of(*rule.measure));
   const JsonField bound = field.at(key);
   if (key == "unchanged") {
-    if (!bound.is(JsonValue::Kind::kBool) || !bound.value().boolean) bound.refuse("true");
+    says_true(field, key);
     rule.bound = Bound::kUnchanged;
   } else if (key == "equals") {
     bound.one_of({rule.measure->kind == MeasureKind::kHash ? "truth" : "ok"});
@@ -112,6 +120,7 @@ Rule parse_rule(const JsonField& field) {
   if (field.has("level"))
     rule.level = field.at("level").one_of(
         {"body", "containment", "cell", "box", "triangle", "vertex", "near"});
+  rule.rounded = says_true(field, "rounded");
   if (field.has("stage")) rule.stage = field.at("stage").text();
   if (is_timing(*rule.measure)) parse_timing(field, rule);
   rule.unjudged_fails = fails(field, "unjudged", false);

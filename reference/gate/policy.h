@@ -27,6 +27,7 @@ struct Rule {
   Bound bound = Bound::kAtMost;
   double limit = 0.0;     ///< of kAtMost and kAtLeast
   std::string level;      ///< empty: the finest that the detector claims and that was judged
+  bool rounded = false;   ///< judged by the input that a detector in single precision was fed
   std::string stage;      ///< of stage_missed; empty: all together
   std::string question;   ///< of timing rules
   std::string reference;  ///< of timing rules: a detector

@@ -31,7 +31,9 @@ std::string why_no_level(const std::string& level, const Json& row) {
 Reading read_level(const Rule& rule, const Json& row) {
   const std::string level = level_of(rule, row);
   if (level.empty()) return without("no level that the detector claims was judged");
-  const Json& levels = row.at("levels");
+  if (rule.rounded && !row.contains("levels_rounded"))
+    return without("the detector is fed doubles: nothing is rounded");
+  const Json& levels = row.at(rule.rounded ? "levels_rounded" : "levels");
   if (!levels.contains(level)) return without(why_no_level(level, row));
   if (levels.at(level).value("informative", false))
     return without("level " + level + " is informative for this detector: shown, never gated");
@@ -111,6 +113,7 @@ std::string measured_text(const Rule& rule, const Reading& reading) {
   std::string out = std::string(rule.measure->name) + " " + shown(*reading.value);
   if (!unit.empty()) out += " " + unit;
   if (!reading.level.empty()) out += " at level " + reading.level;
+  if (rule.rounded) out += " of the rounded input";
   if (!rule.stage.empty()) out += " in stage " + rule.stage;
   return out;
 }

@@ -297,6 +297,23 @@ TEST(RowThatTheBaselineLacks, CannotBeCompared) {
             "in the baseline its status is error");
 }
 
+TEST(RoundedInput, IsJudgedWhereTheRuleSaysSo) {
+  Json results = sample_results();
+  Json& row = row_of(results, "touch", "paper");
+  row["levels_rounded"] = row["levels"];
+  row["levels_rounded"]["cell"]["missed"] = 1;
+  const Check check =
+      check_of("paper", "'measure': 'missed', 'rounded': true, 'at_most': 0", results);
+  EXPECT_EQ(check.verdict, Verdict::kFail);
+  EXPECT_EQ(check.measured, "missed 1 at level cell of the rounded input");
+  EXPECT_EQ(check.frame, "") << "the counts per frame are of the doubles";
+  EXPECT_EQ(
+      check_of("paper", "'measure': 'missed', 'rounded': true, 'at_most': 1", results).verdict,
+      Verdict::kPass);
+  EXPECT_EQ(check_of("exact", "'measure': 'missed', 'rounded': true, 'at_most': 0", results).reason,
+            "the detector is fed doubles: nothing is rounded");
+}
+
 constexpr const char* kDefectsRule =
     "'scenes': ['hard-gap'], 'detectors': ['exact'], 'measure': 'known_defects', 'at_most': 0";
 

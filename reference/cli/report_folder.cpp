@@ -1,6 +1,7 @@
 #include "reference/cli/report_folder.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -51,6 +52,19 @@ std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& re
   if (wanted("md", formats)) files = report_files(results);
   if (wanted("html", formats) && has_html_report()) files["report.html"] = html_report(results, "");
   return files;
+}
+
+nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results, const fs::path& folder) {
+  const fs::path file = folder / "reproduction.json";
+  std::ifstream in(file);
+  if (!in) return results;
+  auto reproduction = nlohmann::ordered_json::parse(in, nullptr, false);
+  if (!reproduction.is_object())
+    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
+  // Another run into the same folder leaves the file of an earlier one there.
+  if (reproduction.contains("command") && reproduction["command"] == results.at("command"))
+    results["reproduction"] = std::move(reproduction);
+  return results;
 }
 
 std::string report_paths(const fs::path& folder, const std::map<std::string, std::string>& files) {

@@ -20,6 +20,11 @@ void check_report_formats(const std::vector<std::string>& formats);
 std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
                                                 const std::vector<std::string>& formats);
 
+/// Results with what `reproduce` has made of them ("reproduction"), for the HTML report, where the
+/// reproduction.json beside them is of the same run. @throws InputError when that is no JSON
+nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results,
+                                         const std::filesystem::path& folder);
+
 /// Where the reports among `files` are, one behind the other; also what was left out, and why.
 std::string report_paths(const std::filesystem::path& folder,
                          const std::map<std::string, std::string>& files);

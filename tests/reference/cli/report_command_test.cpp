@@ -47,5 +47,29 @@ TEST(ReportCommand, WritesTheFormatsAskedFor) {
   EXPECT_THAT(refused.err, HasSubstr("--format \"pdf\" is not known; allowed: html, md"));
 }
 
+TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
+  if (!has_html_report()) GTEST_SKIP() << "this program was built without the page";
+  const test::Scratch scratch;
+  const auto report = [&] {
+    const Outcome outcome = contactcheck_program(
+        {"report", CONTACTCHECK_EXAMPLE_RESULTS, "--format", "html", "--out", scratch.folder()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return text_of(scratch.folder() / "report.html");
+  };
+  const auto report_beside = [&](const std::string& reproduction) {
+    const fs::path results = scratch.write("results.json", text_of(CONTACTCHECK_EXAMPLE_RESULTS));
+    scratch.write("reproduction.json", reproduction);
+    return contactcheck_program({"report", results, "--format", "html", "--out", scratch.folder()});
+  };
+  const std::string alone = report();
+  EXPECT_EQ(report_beside(R"({"command": "contactcheck run other"})").exit_code, 0);
+  EXPECT_EQ(text_of(scratch.folder() / "report.html"), alone);
+  EXPECT_EQ(report_beside(R"({"command": "contactcheck run hello"})").exit_code, 0);
+  EXPECT_NE(text_of(scratch.folder() / "report.html"), alone);
+  const Outcome refused = report_beside("{");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("reproduction.json\" is no JSON object"));
+}
+
 }  // namespace
 }  // namespace contactcheck

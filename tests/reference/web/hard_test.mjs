@@ -4,7 +4,8 @@ import {test} from "node:test";
 import {tableTexts, unfoldAll, useReport} from "./report.mjs";
 
 const kTimes = {mss: 2, cell: 1, test: 0.5, response: 0.25, total: 3.75};
-const kRatio = {test: {ratio: 1.5, low: 1.25, high: 1.75}, total: {ratio: 1.1, low: 1, high: 1.2}, same_contacts: true, missed_before: 3, missed_after: 4};
+const kRatio = {test: {ratio: 1.5, low: 1.25, high: 1.75}, total: {ratio: 1.1, low: 1, high: 1.2},
+                same_contacts: true, missed_before: 3, missed_after: 4};
 const kReproduction = {
   schema: "contactcheck-reproduction/1", command: "contactcheck run hello",
   scenes: [{
@@ -20,7 +21,8 @@ const kReproduction = {
   }],
   means: {scenes: 1, test_ratio: {ours: 1.5, paper: 2.19}, frame_rate_ratio: {ours: 1.1, paper: 1.274, paper_claims: 1.344}},
   paper: {source: {authors: ["Jeon", "Hong"], title: "Spheres", journal: "Journal", year: 2013, doi: "10.1/1"},
-          findings: [{topic: "rest", table: "Table 3", scene: "teapot", method: null, sentence: "Below 0.", claimed: 0, computed: -0.5, unit: "ms", agrees: false}]},
+          findings: [{topic: "rest", table: "Table 3", scene: "teapot", method: null, sentence: "Below 0.", claimed: 0,
+                      computed: -0.5, unit: "ms", agrees: false}]},
 };
 
 const report = useReport("../schema/example_results.json", {beside: {"reproduction.json": kReproduction}});
@@ -60,7 +62,8 @@ test("known defects are held against the list", async () => {
 
 test("an error of the oracle itself is not hidden", async () => {
   const {page} = await report.shared();
-  assert.match(await page.locator("#pairs").textContent(), /1,152 pairs, seed 7, 500 touch; oracle against rational arithmetic: 1 wrong, AN ERROR OF CONTACTCHECK ITSELF\./);
+  const text = await page.locator("#pairs").textContent();
+  assert.match(text, /1,152 pairs, seed 7, 500 touch; oracle against rational arithmetic: 1 wrong, AN ERROR OF CONTACTCHECK ITSELF\./);
   assert.deepEqual((await tableTexts(page, "Kinds of pairs"))[1], ["vertex-face", "576", "300", "0.521"]);
   assert.match(await page.locator("dl.findings").textContent(), /the oracle was wrong 1 time: an error of contactcheck itself/);
 });

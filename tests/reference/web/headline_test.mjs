@@ -29,6 +29,7 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
       "and ffd-aabb 11.1 % (1 of 9).",
     "Ended in an error": "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
     "Not built": "<img src=x onerror=alert(1)>.",
+    "Goals": "1 of 3 goals of the suite is met; 1 goal could not be measured.",
   });
 });
 

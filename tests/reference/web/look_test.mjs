@@ -12,10 +12,12 @@ const background = (page) => page.evaluate(() => getComputedStyle(document.body)
 // Of the ink on the surface, by WCAG 2.
 const contrast = (page, selector) => page.locator(selector).first().evaluate((element) => {
   const luminance = (css) => {
-    const [r, g, b] = css.match(/[\d.]+/g).slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
+    const [r, g, b] = css.match(/[\d.]+/g).slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.03928
+        ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
-  const a = luminance(getComputedStyle(element).color), b = luminance(getComputedStyle(document.body).backgroundColor);
+  const a = luminance(getComputedStyle(element).color),
+      b = luminance(getComputedStyle(document.body).backgroundColor);
   return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
 });
 
@@ -52,10 +54,12 @@ test("at 400 pixels the page does not scroll sideways, with everything open", as
 
 test("charts follow the width of the window", async () => {
   const {page} = await report.open();
-  const width = () => page.locator("#speed-error figure svg").first().evaluate((svg) => Math.round(svg.getBoundingClientRect().width));
+  const width = () => page.locator("#speed-error figure svg").first().evaluate((svg) =>
+      Math.round(svg.getBoundingClientRect().width));
   const wide = await width();
   await page.setViewportSize(kNarrow);
-  await page.waitForFunction((before) => document.querySelector("#speed-error figure svg").getBoundingClientRect().width < before, wide);
+  await page.waitForFunction((before) =>
+      document.querySelector("#speed-error figure svg").getBoundingClientRect().width < before, wide);
   assert.ok(wide > 1000 && await width() <= 400);
 });
 
@@ -65,7 +69,8 @@ test("print is black on white, without controls, and whole", async () => {
   assert.equal(await background(page), kLight);
   for (const selector of ["nav", ".controls", ".theme"])
     assert.equal(await page.locator(selector).first().isVisible(), false, selector);
-  const cut = await page.locator(".scroll").evaluateAll((all) => all.filter((box) => getComputedStyle(box).overflow !== "visible").length);
+  const cut = await page.locator(".scroll").evaluateAll((all) => all.filter((box) =>
+      getComputedStyle(box).overflow !== "visible").length);
   assert.equal(cut, 0, "tables that a printer would cut");
   assert.ok((await page.pdf()).length > 10000);
 });
@@ -84,5 +89,6 @@ test("every control is reached by the keyboard", async () => {
   await page.locator("#speed-error").getByRole("combobox", {name: "Level"}).focus();
   await page.keyboard.press("ArrowDown");
   await settled(page);
-  assert.equal(await page.locator("#speed-error").getByRole("combobox", {name: "Level"}).inputValue(), "body");
+  assert.equal(await page.locator("#speed-error").getByRole("combobox", {name: "Level"}).inputValue(),
+      "body");
 });

@@ -23,7 +23,8 @@ export function useReport(results, {beside = {}, args} = {}) {
   let browser, shared;
   before(async () => {
     copyFileSync(resolve(here, results), join(folder, "results.json"));
-    for (const [name, json] of Object.entries(beside)) writeFileSync(join(folder, name), JSON.stringify(json));
+    for (const [name, json] of Object.entries(beside)) writeFileSync(join(folder, name),
+        JSON.stringify(json));
     execFileSync(program, ["report", join(folder, "results.json"), "--format", "html", "--out", folder]);
     if (!existsSync(join(folder, "report.html"))) {
       console.log("skipped: this program was built without the page (npm ci failed)");

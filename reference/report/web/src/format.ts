@@ -16,7 +16,8 @@ function exponent(value: number): string {
 
 // Halves go to the even digit, as printf has them; toFixed rounds them up.
 function fixed(value: number, digits: number): string {
-  const rounded = value.toFixed(digits), rest = value.toFixed(digits + 40).slice(value.toFixed(digits + 1).length - 1);
+  const rounded = value.toFixed(digits), rest = value.toFixed(digits + 40).slice(value.toFixed(digits
+      + 1).length - 1);
   if (!/^50*$/.test(rest)) return rounded;
   return (2 * Math.round((value * 10 ** digits) / 2) / 10 ** digits).toFixed(digits);
 }

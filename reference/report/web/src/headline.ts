@@ -172,7 +172,8 @@ function oracleFinding(report: Report): Finding[] {
 function goalsFinding(report: Report): Finding[] {
   const goals = report.results.goals ?? [];
   if (goals.length === 0) return [];
-  const met = goals.filter((goal) => goal.met).length, unknown = goals.filter((goal) => goal.met === null).length;
+  const met = goals.filter((goal) => goal.met).length, unknown = goals.filter((goal) =>
+      goal.met === null).length;
   const rest = unknown > 0 ? `; ${plural(unknown, "goal")} could not be measured` : "";
   return [{topic: "Goals", sentence: `${met} of ${plural(goals.length, "goal")} of the suite ` +
     `${met === 1 ? "is" : "are"} met${rest}.`}];

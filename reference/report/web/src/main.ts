@@ -43,7 +43,8 @@ function contentOf(section: Section, report: Report): Child[] {
 }
 
 function sectionElement({id, title}: Section, content: Child[]): HTMLElement {
-  return h("section", {id, "aria-labelledby": `${id}-title`}, h("h2", {id: `${id}-title`}, title), ...content);
+  return h("section", {id, "aria-labelledby": `${id}-title`}, h("h2", {id: `${id}-title`}, title),
+      ...content);
 }
 
 /** A link to something inside a closed part opens that. */

@@ -66,7 +66,8 @@ export function points(report: Report, choice: Choice): {points: Point[]; leftOu
   for (const detector of report.detectors) {
     const runs = choice.scenes.map((scene) => report.okRun(scene.id, detector));
     const complete = runs.filter((run) => run !== null);
-    const point = complete.length === runs.length && runs.length > 0 ? pointOf(detector, complete, choice) : null;
+    const point = complete.length === runs.length && runs.length > 0 ? pointOf(detector, complete,
+        choice) : null;
     if (point) found.push(point);
     else leftOut.push({detector, why: whyNot(runs, choice)});
   }

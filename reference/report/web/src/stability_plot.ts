@@ -25,7 +25,8 @@ function mark(x: number, y: number, part: number, down: boolean): SVGElement[] {
 }
 
 function judgedSquare(result: FamilyResult, frame: number, x: number, y: number): SVGElement {
-  const truth = result.at("truth", frame), missed = result.at("missed", frame), spurious = result.at("spurious", frame);
+  const truth = result.at("truth", frame), missed = result.at("missed", frame),
+      spurious = result.at("spurious", frame);
   const lost = share(missed, truth) ?? 0, invented = share(spurious, truth - missed + spurious) ?? 0;
   const words = `${result.run.detector} at ${result.value(frame)}: ${missed} missed of ${truth}, ${spurious} spurious`;
   return s("g", {}, s("title", {}, words), ...half(x, y, lost, "var(--missed)"),
@@ -40,7 +41,8 @@ function failedSquare(result: FamilyResult, frame: number, x: number, y: number)
     return s("rect", {...box, fill: "none", stroke: "var(--grey)", "stroke-dasharray": "2 2"});
   const cross = `M${x + 6} ${y + 6}l10 10m0-10l-10 10`;
   return s("g", {}, s("title", {}, `${result.run.detector} at ${result.value(frame)}: ${result.run.message}`),
-           s("rect", {...box, fill: "var(--ink)"}), s("path", {d: cross, stroke: "var(--surface)", "stroke-width": 2}));
+           s("rect", {...box, fill: "var(--ink)"}), s("path", {d: cross, stroke: "var(--surface)",
+               "stroke-width": 2}));
 }
 
 /** @pre `rows` are of one family, and there is at least one */
@@ -51,7 +53,8 @@ export function stabilityPlot(rows: FamilyResult[]): SVGElement {
   const width = left + values.length * kStep + 8, height = below + foot;
   const squares = rows.flatMap((row, r) => [
     s("text", {x: left - 8, y: r * kStep + 15, "text-anchor": "end"}, row.run.detector),
-    ...row.frames().map((frame) => (row.failed ? failedSquare : judgedSquare)(row, frame, left + frame * kStep, r * kStep)),
+    ...row.frames().map((frame) => (row.failed ? failedSquare : judgedSquare)(row, frame,
+        left + frame * kStep, r * kStep)),
   ]);
   const names = values.map((value, i) => {
     const x = left + i * kStep + 15, y = below + 10;

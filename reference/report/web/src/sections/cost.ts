@@ -29,14 +29,18 @@ const lineLegend = ({detectors, style}: Lines): HTMLElement =>
 const timed = (run: Run | null): run is Run => run?.time_ms.cold !== undefined;
 
 function timedDetectors(report: Report): string[] {
-  return report.detectors.filter((name) => report.scenes.some((scene) => timed(report.okRun(scene.id, name))));
+  return report.detectors.filter((name) => report.scenes.some((scene) => timed(report.okRun(scene.id,
+      name))));
 }
 
 /** The fastest without error, the usual references, then others in file order. */
 function firstChoice(report: Report, all: string[]): string[] {
-  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort((a, b) => b[1].length - a[1].length);
-  const wanted = [...wins.map(([name]) => name), "fcl-aabb", "fcl-obbrss", "embree", "ffd-aabb-sphere2", ...all];
-  return [...new Set(wanted)].filter((name) => all.includes(name)).slice(0, 5).sort((a, b) => all.indexOf(a) - all.indexOf(b));
+  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort((a,
+      b) => b[1].length - a[1].length);
+  const wanted = [...wins.map(([name]) => name), "fcl-aabb", "fcl-obbrss", "embree", "ffd-aabb-sphere2",
+      ...all];
+  return [...new Set(wanted)].filter((name) => all.includes(name)).slice(0, 5).sort((a,
+      b) => all.indexOf(a) - all.indexOf(b));
 }
 
 // Against triangles ------------------------------------------------------------------------------
@@ -57,7 +61,8 @@ function costs(report: Report, detectors: string[], part: Part): Cost[] {
   for (const scene of report.scenes)
     for (const detector of detectors) {
       const run = report.okRun(scene.id, detector), ms = timed(run) ? run.time_ms[part]!.frame : 0;
-      if (ms > 0) out.push({detector, scene: scene.id, series: seriesOf(scene.id), triangles: trianglesOf(scene), ms});
+      if (ms > 0) out.push({detector, scene: scene.id, series: seriesOf(scene.id),
+          triangles: trianglesOf(scene), ms});
     }
   return out.sort((a, b) => a.triangles - b.triangles);
 }
@@ -76,16 +81,20 @@ const plainNumber = (value: number): string => (value >= 1000 ? grouped(value) :
 
 function drawCosts(width: number, all: Cost[], lines: Lines): Node {
   const xy = {x: "triangles", y: "ms"} as const, sizes = all.map((cost) => cost.triangles);
-  const title = (d: Cost): string => `${d.detector}\n${d.scene}: ${grouped(d.triangles)} triangles\n${number(d.ms)} ms per frame`;
+  const title = (d: Cost): string =>
+      `${d.detector}\n${d.scene}: ${grouped(d.triangles)} triangles\n${number(d.ms)} ms per frame`;
   return Plot.plot({
-    width, height: Math.min(400, 240 + width / 5), marginLeft: 52, marginTop: 28, marginRight: 24, marginBottom: 40,
-    x: {type: "log", domain: [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2], label: "triangles of all bodies →", grid: true,
+    width, height: Math.min(400, 240 + width / 5), marginLeft: 52, marginTop: 28, marginRight: 24,
+        marginBottom: 40,
+    x: {type: "log", domain: [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2],
+        label: "triangles of all bodies →", grid: true,
         tickFormat: plainNumber, ticks: width < 600 ? 3 : 6},
     y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
     marks: [
       ...series(all).map((group) => Plot.line(group, {...xy, stroke: lines.style(group[0].detector).colour,
         strokeDasharray: lines.style(group[0].detector).dash, strokeWidth: 1.8, strokeOpacity: 0.8})),
-      Plot.dot(all, {...xy, fill: (d: Cost) => lines.style(d.detector).colour, r: 4, symbol: (d: Cost) => lines.style(d.detector).shape, ariaLabel: title}),
+      Plot.dot(all, {...xy, fill: (d: Cost) => lines.style(d.detector).colour, r: 4,
+          symbol: (d: Cost) => lines.style(d.detector).shape, ariaLabel: title}),
       Plot.tip(all, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -118,7 +127,8 @@ function drawFrames(width: number, scene: Scene, all: FrameCost[], lines: Lines)
     y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
     marks: [
       ...lines.detectors.map((name) => Plot.line(all.filter((d) => d.detector === name),
-        {...xy, stroke: lines.style(name).colour, strokeDasharray: lines.style(name).dash, strokeWidth: 1.8})),
+        {...xy, stroke: lines.style(name).colour, strokeDasharray: lines.style(name).dash,
+            strokeWidth: 1.8})),
       Plot.tip(all, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -133,11 +143,13 @@ interface FrameCount {
 
 function frameErrors(report: Report, scene: Scene, detectors: string[]): FrameCount[] {
   return detectors.flatMap((detector) => (["missed", "spurious"] as const).flatMap((kind) =>
-    (report.okRun(scene.id, detector)?.per_frame[kind] ?? []).flatMap((n, frame) => (n > 0 ? [{detector, kind, frame, n}] : []))));
+    (report.okRun(scene.id, detector)?.per_frame[kind] ?? []).flatMap((n, frame) => (n > 0 ? [{detector, kind,
+        frame, n}] : []))));
 }
 
 // The truth of the finest level that any of them is judged at, and the errors of each.
-function drawContacts(width: number, scene: Scene, truth: number[], errors: FrameCount[], lines: Lines): Node {
+function drawContacts(width: number, scene: Scene, truth: number[], errors: FrameCount[],
+    lines: Lines): Node {
   const xy = {x: "frame", y: "n"} as const;
   const title = (d: FrameCount): string => `${d.detector}, frame ${d.frame}\n${grouped(d.n)} ${d.kind}`;
   return Plot.plot({
@@ -147,7 +159,8 @@ function drawContacts(width: number, scene: Scene, truth: number[], errors: Fram
     marks: [
       Plot.areaY(truth, {x: (_, i) => i, y: (n: number) => n, fill: "var(--right)", stroke: "var(--grey)"}),
       Plot.dot(errors, {...xy, stroke: (d: FrameCount) => lines.style(d.detector).colour, r: 3.5,
-                        symbol: (d: FrameCount) => (d.kind === "missed" ? "triangle" : "times"), ariaLabel: title}),
+                        symbol: (d: FrameCount) => (d.kind === "missed" ? "triangle" : "times"),
+                            ariaLabel: title}),
       Plot.tip(errors, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
       Plot.ruleY([0]),
     ],
@@ -170,10 +183,13 @@ export const cost: Section = {
     let lines = linesOf(firstChoice(report, all)), part: Part = "cold", scene = report.scenes[0];
     const legends = h("div");
     const charts: Chart[] = [
-      chart("Milliseconds per frame against the number of triangles", (width) => drawCosts(width, costs(report, lines.detectors, part), lines)),
-      chart("Milliseconds of each frame", (width) => drawFrames(width, scene, frameCosts(report, scene, lines.detectors), lines)),
+      chart("Milliseconds per frame against the number of triangles", (width) => drawCosts(width,
+          costs(report, lines.detectors, part), lines)),
+      chart("Milliseconds of each frame", (width) => drawFrames(width, scene, frameCosts(report, scene,
+          lines.detectors), lines)),
       chart("True, missed and spurious contacts of each frame", (width) =>
-        drawContacts(width, scene, truthOf(report, scene), frameErrors(report, scene, lines.detectors), lines)),
+        drawContacts(width, scene, truthOf(report, scene), frameErrors(report, scene, lines.detectors),
+            lines)),
     ];
     const redraw = (): void => {
       legends.replaceChildren(lineLegend(lines));
@@ -184,12 +200,15 @@ export const cost: Section = {
       p(`Up to ${kMost} detectors, each with its own colour, dashes and shape. A line joins the sizes of one scene; `
         + "the suite scaling has scenes of 1, 4 and 16 times the triangles."),
       controlBar(
-        radios("Caches (by triangles)", [["cold", "cold"], ["hot", "hot"]], part, (value) => { part = value as Part; redraw(); }),
-        checkboxes("Choose detectors", all, lines.detectors, kMost, (names) => { lines = linesOf(names); redraw(); })),
+        radios("Caches (by triangles)", [["cold", "cold"], ["hot", "hot"]], part,
+            (value) => { part = value as Part; redraw(); }),
+        checkboxes("Choose detectors", all, lines.detectors, kMost,
+            (names) => { lines = linesOf(names); redraw(); })),
       legends, h("h3", {}, "Against the number of triangles"), charts[0].element,
       h("h3", {}, "Frame by frame"),
       p("Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs."),
-      controlBar(select("Scene", report.scenes.map((s, i) => [String(i), s.id]), "0", (value) => { scene = report.scenes[Number(value)]; redraw(); })),
+      controlBar(select("Scene", report.scenes.map((s, i) => [String(i), s.id]), "0",
+          (value) => { scene = report.scenes[Number(value)]; redraw(); })),
       charts[1].element, charts[2].element,
     ];
   },

@@ -25,9 +25,11 @@ export const defects: Section = {
       {text: d.detectors.join(", "), class: "wrap"}, String(d.scenes.length), shown(d)]);
     return [
       p(defectsSentence(known)),
-      rows.length > 0 && table([left("library"), left("described in"), left("seen as"), left("why"), left("detectors"),
+      rows.length > 0 && table([left("library"), left("described in"), left("seen as"), left("why"),
+          left("detectors"),
         right("families"), right("cases that show it")], rows, "Known defects"),
-      ...sightings("Listed, and not shown: mended in this build of the library, or the case has changed.", known.not_shown),
+      ...sightings("Listed, and not shown: mended in this build of the library, or the case has changed.",
+          known.not_shown),
       ...sightings("Shown, and not listed.", known.unlisted),
     ];
   },

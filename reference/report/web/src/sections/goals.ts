@@ -8,7 +8,8 @@ import {left, right, table} from "../table";
 const unit = (goal: Goal): string => (goal.per ? " us" : "x");
 
 const wanted = (goal: Goal): string =>
-  goal.at_least !== undefined ? `>= ${number(goal.at_least)}${unit(goal)}` : `<= ${number(goal.at_most)}${unit(goal)}`;
+  goal.at_least !== undefined ? `>= ${number(goal.at_least)}${unit(goal)}`
+      : `<= ${number(goal.at_most)}${unit(goal)}`;
 
 function measured(goal: Goal): string {
   if (goal.measured === null) return "-";
@@ -29,7 +30,8 @@ export const goals: Section = {
                         : {text: goal.met ? "✓ yes" : "✗ no", class: goal.met ? "good" : "bad"}]);
     return [
       p("Times are medians; a ratio over a detector is its time over that of the detector named, with a 95 % interval."),
-      table([left("goal"), left("scene"), left("detector"), right("wanted"), right("measured"), left("met")], rows, "Goals"),
+      table([left("goal"), left("scene"), left("detector"), right("wanted"), right("measured"), left("met")],
+          rows, "Goals"),
     ];
   },
 };

@@ -14,7 +14,8 @@ type Measure = "recall" | "spurious";
 export function heat(errors: number | null, colour: string): Cell["heat"] {
   if (errors === null || errors === 0) return undefined;
   const strength = 12 + 48 * Math.min(1, Math.max(0, 1 + Math.log10(errors) / 4));
-  return {background: `color-mix(in srgb, var(${colour}) ${strength.toFixed(0)}%, var(--surface))`, ink: "var(--ink)"};
+  return {background: `color-mix(in srgb, var(${colour}) ${strength.toFixed(0)}%, var(--surface))`,
+      ink: "var(--ink)"};
 }
 
 function countsCell(counts: Counts | null, measure: Measure, where: string): Cell {
@@ -31,7 +32,8 @@ function countsCell(counts: Counts | null, measure: Measure, where: string): Cel
 
 function sceneCell(run: Run | null, level: string, measure: Measure): Cell {
   if (!run) return {text: "", sort: null};
-  if (run.status !== "ok") return {text: run.status, class: "error", label: `${run.detector} in ${run.scene}: ${run.message}`};
+  if (run.status !== "ok") return {text: run.status, class: "error",
+      label: `${run.detector} in ${run.scene}: ${run.message}`};
   const where = `${run.detector} in ${run.scene}, level ${level === kFinest ? finestLevel(run) : level}`;
   return countsCell(levelOf(run, level), measure, where);
 }
@@ -48,7 +50,8 @@ function heatTable(report: Report, level: string, measure: Measure): HTMLElement
   }
   const columns = [left("detector"), ...(report.scenes.length > 1 ? [right("all scenes")] : []),
                    ...report.scenes.map((scene) => right(scene.id))];
-  return table(columns, rows, measure === "recall" ? "Recall per detector and scene" : "Spurious rate per detector and scene");
+  return table(columns, rows, measure === "recall" ? "Recall per detector and scene"
+      : "Spurious rate per detector and scene");
 }
 
 export const levels: Section = {
@@ -70,7 +73,8 @@ export const levels: Section = {
         "The spurious rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing ",
         "reported. An empty cell: the detector does not claim this level there."),
       controlBar(
-        select("Level", [[kFinest, "each detector's finest"], ...names], choice.level, (level) => update({level})),
+        select("Level", [[kFinest, "each detector's finest"], ...names], choice.level,
+            (level) => update({level})),
         radios("Shown", [["recall", "recall"], ["spurious", "spurious rate"]], choice.measure,
                (value) => update({measure: value as Measure}))),
       place,

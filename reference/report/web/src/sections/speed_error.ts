@@ -63,26 +63,32 @@ function anchorOf(ms: number, [low, high]: [number, number]): Anchor {
 function draw(width: number, all: Point[], choice: Choice): Node {
   if (all.length === 0) return p("No detector was timed and judged so.");
   const front = all.filter((point) => point.onFront).sort((a, b) => a.ms - b.ms);
-  const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5, Math.max(...times) * 1.5];
+  const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5,
+      Math.max(...times) * 1.5];
   const highest = Math.max(0.01, ...all.map((point) => point.error));
   const ends = front.filter((point) => isEnd(point, front));
   const xy = {x: "ms", y: "error"} as const;
   return Plot.plot({
-    width, height: Math.min(460, 260 + width / 4), marginLeft: 52, marginRight: 24, marginTop: 40, marginBottom: 44,
-    x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true, ticks: width < 600 ? 4 : 8,
+    width, height: Math.min(460, 260 + width / 4), marginLeft: 52, marginRight: 24, marginTop: 40,
+        marginBottom: 44,
+    x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true,
+        ticks: width < 600 ? 4 : 8,
         tickFormat: (ms: number) => String(ms)},
-    y: {...kErrorAxis, domain: [0, Math.min(1, 1.6 * highest)], label: `↑ ${kAxis[choice.measure]}`, grid: true,
+    y: {...kErrorAxis, domain: [0, Math.min(1, 1.6 * highest)], label: `↑ ${kAxis[choice.measure]}`,
+        grid: true,
         insetBottom: 12,
         tickFormat: (share: number) => `${100 * share} %`},
     marks: [
       Plot.ruleY([0]),
-      Plot.line(front, {...xy, z: "question", curve: "step-after", stroke: "currentColor", strokeOpacity: 0.55,
+      Plot.line(front, {...xy, z: "question", curve: "step-after", stroke: "currentColor",
+          strokeOpacity: 0.55,
                         strokeDasharray: "5 3", strokeWidth: 1.5, className: "fronts"}),
       Plot.dot(all, {...xy, r: 5.5, fill: (d: Point) => groupOf(d.detector).colour, stroke: "var(--surface)",
                      symbol: (d: Point) => shapeOf(d.question), ariaLabel: sentenceOf, className: "points"}),
       ...(["start", "middle", "end"] as const).map((textAnchor) => Plot.text(
         ends.filter((point) => anchorOf(point.ms, span) === textAnchor),
-        {...xy, text: "detector", dy: -13, textAnchor, fill: "currentColor", stroke: "var(--surface)", strokeWidth: 4})),
+        {...xy, text: "detector", dy: -13, textAnchor, fill: "currentColor", stroke: "var(--surface)",
+            strokeWidth: 4})),
       Plot.tip(all, Plot.pointer({...xy, title: sentenceOf, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -102,7 +108,8 @@ function pointsTable(all: Point[]): HTMLElement {
     errorRate(point.error), String(point.counts.missed), String(point.counts.spurious),
     point.onFront ? "yes" : "",
   ]);
-  return table([left("detector"), left("options"), left("question timed"), right("ms per frame"), left("level"),
+  return table([left("detector"), left("options"), left("question timed"), right("ms per frame"),
+      left("level"),
                 right("error"), right("missed"), right("spurious"), left("on the front")],
                rows, "Points of the chart of speed against error");
 }
@@ -135,7 +142,8 @@ export const speedError: Section = {
   id: "speed-error",
   title: "Speed against error",
   build(report) {
-    if (!report.timed) return [p("This run measured no times (", h("code", {}, "--no-timing"), "), so that there is nothing to compare.")];
+    if (!report.timed) return [p("This run measured no times (", h("code", {}, "--no-timing"),
+        "), so that there is nothing to compare.")];
     const options = sceneOptions(report), first = firstChoice(report, options);
     const choice: Choice = {...kDefaults, scenes: chosenScenes(report, first)};
     let shown = points(report, choice);
@@ -145,7 +153,8 @@ export const speedError: Section = {
     const update = (change: Partial<Choice>): void => {
       shown = points(report, Object.assign(choice, change));
       picture.redraw();
-      below.replaceChildren(legends(shown.points), ...[leftOutText(shown.leftOut)].filter((n) => n !== null) as Node[],
+      below.replaceChildren(legends(shown.points), ...[leftOutText(shown.leftOut)].filter((n) =>
+          n !== null) as Node[],
         unfolding("The same as a table", () => [pointsTable(shown.points)]));
     };
     update({});
@@ -156,8 +165,10 @@ export const speedError: Section = {
       controlBar(
         select("Scenes", options, first, (value) => update({scenes: chosenScenes(report, value)})),
         select("Level", levelOptions(report), choice.level, (level) => update({level})),
-        select("Error", Object.entries(kMeasures), choice.measure, (value) => update({measure: value as Measure})),
-        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part, (value) => update({part: value as "cold" | "hot"}))),
+        select("Error", Object.entries(kMeasures), choice.measure,
+            (value) => update({measure: value as Measure})),
+        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
+            (value) => update({part: value as "cold" | "hot"}))),
       picture.element, below,
     ];
   },

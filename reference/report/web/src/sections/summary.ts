@@ -30,7 +30,8 @@ export const summary: Section = {
         + "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the "
         + "detector named divided by the time of this one in the same question, cold, the smallest and the largest of any scene. "
         + "A click on a heading sorts."),
-      table([left("detector"), right("scenes"), left("level"), right("truth"), right("recall"), right("missed"),
+      table([left("detector"), right("scenes"), left("level"), right("truth"), right("recall"),
+          right("missed"),
              right("spurious"), right("body m/s"), right("hover mm"), left("question"), right("vs fcl-aabb"),
              right("vs fcl-obbrss"), right("vs embree")], rows, "Summary of all detectors"),
     ];

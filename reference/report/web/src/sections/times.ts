@@ -77,20 +77,27 @@ function draw(width: number, all: Bar[], whole: boolean): Node {
   const bars = all.slice(0, kMost), end = axisEnd(bars, whole), narrow = width < 600;
   const names = bars.map((bar) => bar.detector);
   const pieces: Piece[] = bars.flatMap(({detector, phases}) =>
-    kPhases.filter(([phase]) => phases[phase] !== null).map(([phase]) => ({detector, phase, ms: phases[phase]!})));
+    kPhases.filter(([phase]) => phases[phase] !== null).map(([phase]) => ({detector, phase,
+        ms: phases[phase]!})));
   const wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
-  const label = (bar: Bar): string => (bar.total > end ? `${number(bar.total)} ms ▸` : `${number(bar.total)} ms`);
+  const label = (bar: Bar): string => (bar.total > end ? `${number(bar.total)} ms ▸`
+      : `${number(bar.total)} ms`);
   return Plot.plot({
-    width, height: 44 + (narrow ? 44 : 24) * bars.length, marginLeft: narrow ? 14 : wide, marginRight: 76, marginTop: 8, marginBottom: 36,
+    width, height: 44 + (narrow ? 44 : 24) * bars.length, marginLeft: narrow ? 14 : wide, marginRight: 76,
+        marginTop: 8, marginBottom: 36,
     x: {domain: [0, end], label: "milliseconds per frame →", grid: true},
-    y: {domain: names, label: null, axis: narrow ? null : "left", tickSize: 0, paddingInner: narrow ? 0.55 : 0.25},
+    y: {domain: names, label: null, axis: narrow ? null : "left", tickSize: 0,
+        paddingInner: narrow ? 0.55 : 0.25},
     color: {domain: kPhases.map(([phase]) => phase), range: kPhases.map(([, , colour]) => colour)},
     marks: [
-      Plot.barX(pieces, Plot.stackX({y: "detector", x: "ms", fill: "phase", order: kPhases.map(([phase]) => phase), clip: true,
+      Plot.barX(pieces, Plot.stackX({y: "detector", x: "ms", fill: "phase",
+          order: kPhases.map(([phase]) => phase), clip: true,
         ariaLabel: (d: Piece) => `${d.detector}: ${d.phase} ${number(d.ms)} ms`,
         title: (d: Piece) => `${d.detector}\n${d.phase}: ${number(d.ms)} ms per frame`, tip: true})),
-      Plot.text(bars, {y: "detector", x: (bar: Bar) => Math.min(bar.total, end), text: label, textAnchor: "start", dx: 5, fill: "currentColor"}),
-      narrow ? Plot.text(bars, {y: "detector", text: "detector", frameAnchor: "left", dy: -18, fill: "currentColor"}) : null,
+      Plot.text(bars, {y: "detector", x: (bar: Bar) => Math.min(bar.total, end), text: label,
+          textAnchor: "start", dx: 5, fill: "currentColor"}),
+      narrow ? Plot.text(bars, {y: "detector", text: "detector", frameAnchor: "left", dy: -18,
+          fill: "currentColor"}) : null,
       Plot.ruleX([0]),
     ],
   });
@@ -98,8 +105,10 @@ function draw(width: number, all: Bar[], whole: boolean): Node {
 
 function barsTable(bars: Bar[]): HTMLElement {
   const rows = bars.map(({detector, question, scenes, phases, total}) => [
-    detector, question, String(scenes), number(phases.map), number(phases.update), number(phases.query), number(total)]);
-  return table([left("detector"), left("question"), right("scenes"), right("map"), right("update"), right("query"), right("sum")],
+    detector, question, String(scenes), number(phases.map), number(phases.update), number(phases.query),
+        number(total)]);
+  return table([left("detector"), left("question"), right("scenes"), right("map"), right("update"),
+      right("query"), right("sum")],
                rows, "Milliseconds per frame and phase");
 }
 
@@ -110,7 +119,8 @@ export const times: Section = {
   build(report) {
     if (!report.timed) return [];
     const options = sceneOptions(report);
-    const choice: Choice = {scenes: chosenScenes(report, options[0][0]), part: "cold", mapping: true, whole: false};
+    const choice: Choice = {scenes: chosenScenes(report, options[0][0]), part: "cold", mapping: true,
+        whole: false};
     let bars = barsOf(report, choice);
     const below = h("div");
     const picture = chart("Milliseconds per frame and phase of every detector", (width) =>
@@ -119,7 +129,8 @@ export const times: Section = {
       bars = barsOf(report, Object.assign(choice, change));
       picture.redraw();
       below.replaceChildren(
-        ...(bars.length > kMost ? [h("p", {class: "note"}, `The ${kMost} fastest of ${bars.length} are drawn; the table has all.`)] : []),
+        ...(bars.length > kMost ? [h("p", {class: "note"},
+            `The ${kMost} fastest of ${bars.length} are drawn; the table has all.`)] : []),
         unfolding("The same as a table", () => [barsTable(bars)]));
     };
     update({});
@@ -129,9 +140,12 @@ export const times: Section = {
         "do not compare. A bar with ▸ is cut."),
       controlBar(
         select("Scenes", options, options[0][0], (value) => update({scenes: chosenScenes(report, value)})),
-        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part, (value) => update({part: value as Part})),
-        radios("Mapping", [["with", "with"], ["without", "without"]], "with", (value) => update({mapping: value === "with"})),
-        radios("Long bars", [["cut", "cut"], ["whole", "whole"]], "cut", (value) => update({whole: value === "whole"}))),
+        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
+            (value) => update({part: value as Part})),
+        radios("Mapping", [["with", "with"], ["without", "without"]], "with",
+            (value) => update({mapping: value === "with"})),
+        radios("Long bars", [["cut", "cut"], ["whole", "whole"]], "cut",
+            (value) => update({whole: value === "whole"}))),
       picture.element,
       legend(kPhases.map(([, text, colour]) => ({text, swatch: square(colour)}))),
       below,

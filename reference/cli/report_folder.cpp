@@ -8,6 +8,7 @@
 #include "core/types/check.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/view/view_bytes.h"
 
 namespace contactcheck {
 namespace {
@@ -46,10 +47,12 @@ void check_report_formats(const std::vector<std::string>& formats) {
 }
 
 std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+                                                const fs::path& folder,
                                                 const std::vector<std::string>& formats) {
   std::map<std::string, std::string> files;
   if (wanted("md", formats)) files = report_files(results);
-  if (wanted("html", formats) && has_html_report()) files["report.html"] = html_report(results, "");
+  if (wanted("html", formats) && has_html_report())
+    files["report.html"] = html_report(results, view_bytes(results, folder));
   return files;
 }
 

@@ -16,8 +16,10 @@ std::vector<std::string> all_report_formats();
 void check_report_formats(const std::vector<std::string>& formats);
 
 /// Texts by path below the report's folder; pictures (plots/*.svg) come with "md". "html" gives
-/// nothing in a build without npm. @pre check_report_formats passed
+/// nothing in a build without npm; its 3D view shows the recordings in `folder`, where results.json
+/// stands. @pre check_report_formats passed
 std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+                                                const std::filesystem::path& folder,
                                                 const std::vector<std::string>& formats);
 
 /// Where the reports among `files` are, one behind the other; also what was left out, and why.

@@ -95,7 +95,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
   Json results = run_suite(
       request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
   display.finish();
-  const auto files = report_texts(results, all_report_formats());
+  const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);
   return {std::move(results), report_paths(arguments.out, files)};
 }

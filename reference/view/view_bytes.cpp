@@ -1,5 +1,7 @@
 #include "reference/view/view_bytes.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -20,18 +22,14 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kMagic = "CCVIEW1\n";
 constexpr std::size_t kAlignment = 4;
 
-// Of a recording's bytes at least a quarter comes into the view: nodes half, vertices more than a
-// quarter (52 bytes become 14 or 16), triangles with their labels likewise (20 become 6 or 12).
-constexpr std::size_t kLargestShrinking = 4;
+// A recording of this many times the limit is not even read: compressed, the view of one has been
+// between a third and a seventh of it.
+constexpr std::size_t kReadLimits = 10;
 
 struct Candidate {
   std::string scene;
   SceneView view;
   std::string why;  ///< why it is left out; empty: it is not
-  std::size_t size() const {
-    return view.header.dump(-1, ' ', false, Json::error_handler_t::replace).size() +
-           view.arrays.size();
-  }
 };
 
 std::string file_bytes(const fs::path& folder, const std::string& name) {
@@ -43,9 +41,24 @@ std::string file_bytes(const fs::path& folder, const std::string& name) {
   return bytes;
 }
 
+// Names come from files, which may hold any bytes.
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::size_t compressed_size(const SceneView& view) {
+  const std::string bytes = dumped(view.header) + view.arrays;
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  const int result =
+      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_SPEED);
+  return result == Z_OK ? size : bytes.size();
+}
+
 std::string too_large(std::size_t limit) {
-  return "it does not fit into the report's " + std::to_string(limit / 1'000'000) +
-         " MB for 3D scenes, the smallest of which come first.";
+  return "it does not fit into the " + std::to_string(limit / 1000) +
+         " kB that the report has for 3D scenes; the smallest ones come first.";
 }
 
 // "" where no run of the scene names one.
@@ -74,7 +87,7 @@ Candidate candidate(const fs::path& folder, const std::string& recording, const 
   Candidate out{scene.at("id").get<std::string>(), {}, ""};
   std::error_code error;  // is told by the read
   const std::uintmax_t size = fs::file_size(folder / recording, error);
-  if (!error && size / kLargestShrinking > limit) {
+  if (!error && size / kReadLimits > limit) {
     out.why = too_large(limit);
     return out;
   }
@@ -89,7 +102,7 @@ Candidate candidate(const fs::path& folder, const std::string& recording, const 
 // The smallest scenes first: they are the most for the room.
 void leave_out_beyond(std::size_t limit, std::vector<Candidate>& scenes) {
   std::vector<std::size_t> sizes, order(scenes.size());
-  for (const Candidate& scene : scenes) sizes.push_back(scene.size());
+  for (const Candidate& scene : scenes) sizes.push_back(compressed_size(scene.view));
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
@@ -116,8 +129,7 @@ std::string container(std::vector<Candidate>& scenes) {
     header["scenes"].push_back(std::move(scene.view.header));
     arrays += scene.view.arrays;
   }
-  // Names come from files, which may hold any bytes.
-  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = dumped(header);
   text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
   std::string out(kMagic);
   for (int i = 0; i < 4; ++i) out += static_cast<char>(text.size() >> (8 * i) & 0xff);

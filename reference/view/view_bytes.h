@@ -37,14 +37,14 @@
 
 namespace contactcheck {
 
-/// With page and results a report then stays below 15 MB even where nothing can be compressed:
-/// base64 makes 4 bytes of 3.
+/// Bytes, compressed as html.h does it: base64 makes 4 of 3, and with page and results a report
+/// then stays below 15 MB.
 inline constexpr std::size_t kViewLimit = 9'500'000;
 
 /// From the recordings and contacts that `results` name, in `folder`, where results.json stands. A
 /// scene is left out, and named, when a file of its is missing or unreadable, or when the smaller
-/// scenes leave no room for it below `limit` bytes. Empty when no scene of the results has a
-/// recording. @throws nlohmann::json::exception when results are not as the schema says
+/// scenes leave no room for it below `limit` compressed bytes. Empty when no scene of the results
+/// has a recording. @throws nlohmann::json::exception when results are not as the schema says
 std::string view_bytes(const nlohmann::ordered_json& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
 

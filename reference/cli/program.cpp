@@ -245,7 +245,11 @@ void add_others(CLI::App& app, Choices& c) {
                  "detectors only, with what each claims and its options");
   list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
   CLI::App* report = app.add_subcommand("report", "write the report of an old results.json again");
-  report->add_option("results", c.results_file, "a results.json")->required();
+  report
+      ->add_option("results", c.results_file,
+                   "a results.json; the HTML report's 3D view draws the recordings and contacts "
+                   "beside it")
+      ->required();
   report->add_option("--format", c.formats, "formats: html, md (default: all)")->delimiter(',');
   report->add_option("--out", c.report_out, "folder (default out)");
   report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");

@@ -21,18 +21,14 @@ const state = (page) => page.evaluate(() => window.contactcheckView.state());
 /** Red, green, blue and alpha of every third pixel of the canvas in both directions. */
 async function pixels(page) {
   await settled(page);
-  const png = (await page.locator(".view-canvas").screenshot()).toString("base64");
-  return page.evaluate(async (data) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${data}`;
-    await image.decode();
-    const width = Math.floor(image.width / 3), height = Math.floor(image.height / 3);
-    const canvas = Object.assign(document.createElement("canvas"), {width, height});
-    const context = canvas.getContext("2d");
+  return page.evaluate(() => {
+    const drawn = document.querySelector(".view-canvas");
+    const width = Math.floor(drawn.width / 3), height = Math.floor(drawn.height / 3);
+    const context = Object.assign(document.createElement("canvas"), {width, height}).getContext("2d");
     context.imageSmoothingEnabled = false;
-    context.drawImage(image, 0, 0, width, height);
+    context.drawImage(drawn, 0, 0, width, height);
     return {width, height, rgba: Array.from(context.getImageData(0, 0, width, height).data)};
-  }, png);
+  });
 }
 
 function count({rgba}, holds) {

@@ -129,11 +129,20 @@ function markers(points: number[], origin: number[], style: MarkStyle, pattern: 
   return out;
 }
 
-/** One kind of contacts of a frame. `origin` is taken off all positions. */
-export function makeMarks(geometries: PairGeometry[], origin: number[], style: MarkStyle): Group {
+/** Without the faces in `drawn`, to which it adds: many pairs share a triangle, which is drawn once. */
+function notYet(geometries: PairGeometry[], drawn: Set<string>): PairGeometry[] {
+  const fresh = (part: number[]): boolean => {
+    const size = drawn.size;
+    return drawn.add(part.join(" ")).size > size;
+  };
+  return geometries.map(({triangles, boxes, points}) => ({triangles: triangles.filter(fresh), boxes: boxes.filter(fresh), points}));
+}
+
+/** One kind of contacts of a frame. `origin` is taken off all positions; faces: see notYet. */
+export function makeMarks(all: PairGeometry[], origin: number[], style: MarkStyle, drawn: Set<string>): Group {
   const group = new Group();
-  if (geometries.length === 0) return group;
-  const centers = geometries.flatMap(centroid);
+  if (all.length === 0) return group;
+  const centers = all.flatMap(centroid), geometries = notYet(all, drawn);
   // Boxes of other pairs would hide the one that was asked for.
   if (!style.dimmed || geometries.every(({boxes}) => boxes.length === 0))
     group.add(faces(geometries, origin, style));
@@ -142,12 +151,15 @@ export function makeMarks(geometries: PairGeometry[], origin: number[], style: M
   const own = (points: number[], extent = 0): Points =>
     markers(points, origin, style, kPattern[style.kind], kMarkerPixels[style.kind], extent);
   if (style.selected) {
-    const extent = Math.max(...geometries.map((g) => reach(g, centroid(g))));
+    const extent = Math.max(...all.map((g) => reach(g, centroid(g))));
     group.add(markers(centers, origin, style, kRing, kRingPixels, extent));
     group.add(own(geometries.flatMap(({points}) => points.flat())));
   } else if (!style.dimmed) {
     group.add(own(centers));
   }
-  for (const child of group.children) child.frustumCulled = false;
+  for (const child of group.children) {
+    child.frustumCulled = false;
+    if (style.selected) child.renderOrder += 5;  // over what is transparent
+  }
   return group;
 }

@@ -70,18 +70,17 @@ export class SceneModel {
     return found;
   }
 
-  /** Centre and half diagonal of everything in the frame. */
+  /** The middle of everything in the frame, and how far from it that reaches. */
   extent(): {center: number[]; radius: number} {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (let b = 0; b < this.header.bodies.length; ++b) {
-      const points = this.verticesOf(b);
+    const bodies = this.header.bodies.map((_, b) => this.verticesOf(b));
+    for (const points of bodies)
       for (let i = 0; i < points.length; ++i) {
         low[i % 3] = Math.min(low[i % 3], points[i]);
         high[i % 3] = Math.max(high[i % 3], points[i]);
       }
-    }
     const center = low.map((value, k) => 0.5 * (value + high[k]));
-    return {center, radius: Math.max(1e-6, 0.5 * Math.hypot(...high.map((value, k) => value - low[k])))};
+    return {center, radius: Math.max(1e-6, ...bodies.map((points) => farthest(points, center)))};
   }
 
   truth(): Pair[] {
@@ -159,11 +158,14 @@ export function centroid(geometry: PairGeometry): number[] {
   return sum;
 }
 
+function farthest(points: ArrayLike<number>, center: number[]): number {
+  let out = 0;
+  for (let i = 0; i < points.length; i += 3)
+    out = Math.max(out, Math.hypot(points[i] - center[0], points[i + 1] - center[1], points[i + 2] - center[2]));
+  return out;
+}
+
 /** The largest distance of a point of the pair from `center`. */
 export function reach(geometry: PairGeometry, center: number[]): number {
-  let out = 0;
-  for (const part of [...geometry.triangles, ...geometry.boxes, ...geometry.points])
-    for (let i = 0; i < part.length; i += 3)
-      out = Math.max(out, Math.hypot(part[i] - center[0], part[i + 1] - center[1], part[i + 2] - center[2]));
-  return out;
+  return Math.max(0, ...[...geometry.triangles, ...geometry.boxes, ...geometry.points].map((part) => farthest(part, center)));
 }

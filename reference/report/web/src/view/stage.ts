@@ -13,7 +13,8 @@ export const kOverview = new Vector3(0.45, 0.35, 0.82).normalize();
 
 /** null where the browser has no WebGL 2. */
 export function makeStage(canvas: HTMLCanvasElement, onDraw: () => void): Stage | null {
-  const context = canvas.getContext("webgl2", {antialias: true, powerPreference: "low-power"});
+  // Kept after it was shown: printing asks for it again.
+  const context = canvas.getContext("webgl2", {antialias: true, powerPreference: "low-power", preserveDrawingBuffer: true});
   return context && new Stage(canvas, context, onDraw);
 }
 

@@ -147,7 +147,7 @@ class SceneViewer implements View {
     if (!this.stage) return;
     const {center, radius} = this.model.extent();
     this.stage.radius = radius;
-    this.stage.look(center, 0.9 * radius, direction);
+    this.stage.look(center, 0.85 * radius, direction);
   }
 
   private lookAtPair({pair, level, kind}: ListedPair): void {
@@ -185,11 +185,11 @@ class SceneViewer implements View {
 
   private makeMarks(origin: number[]): ReturnType<typeof makeMarks>[] {
     const level = this.model.detector(this.detector)?.level ?? "triangle";
-    const {chosen} = this;
+    const {chosen} = this, drawn = new Set<string>();
     const missed = this.model.differences(this.detector, "missed"), keys = new Set(missed.map(String));
     const make = (kind: MarkKind, pairs: Pair[], selected: boolean) =>
       makeMarks(pairs.map((pair) => this.model.geometry(pair, level, kind)), origin,
-                {kind, color: this.colours[kind], selected, dimmed: chosen !== null && !selected});
+                {kind, color: this.colours[kind], selected, dimmed: chosen !== null && !selected}, drawn);
     const others = (kind: Kind, pairs: Pair[]): Pair[] =>
       pairs.filter((pair) => !(chosen && chosen.kind === kind && same(chosen.pair, pair)));
     // Boxes about a missed pair would hide it.
@@ -198,11 +198,11 @@ class SceneViewer implements View {
     const trianglesMissed = level === "triangle" || level === "cell";
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
-    return [
-      ...(shown.has("true") ? [make("true", truth, false)] : []),
+    return [  // what matters most first: it takes the faces that others share with it
+      ...(chosen ? [make(chosen.kind, [chosen.pair], true)] : []),
       ...(shown.has("missed") ? [make("missed", others("missed", missed), false)] : []),
       ...(shown.has("spurious") ? [make("spurious", spurious, false)] : []),
-      ...(chosen ? [make(chosen.kind, [chosen.pair], true)] : []),
+      ...(shown.has("true") ? [make("true", truth, false)] : []),
     ];
   }
 
@@ -212,13 +212,14 @@ class SceneViewer implements View {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
       return `${this.detector}, frame ${frame}, ${this.chosen.kind}: ${one} and ${other}.`;
     }
+    if (header.detectors.length === 0 && header.truth.length === 0)
+      return `Frame ${frame}. The results list no contacts of this scene one by one.`;
     const truth = header.truth.find((entry) => entry.frame === frame)?.count ?? 0;
-    const touching = header.detectors.length === 0 ? "" : `${truth} pairs of triangles touch`;
     const found = this.model.detector(this.detector)?.frames.find((entry) => entry.frame === frame);
     const differs = this.detector === "" ? "" :
       `; ${this.detector} misses ${found?.missed.count ?? 0} and makes up ${found?.spurious.count ?? 0}`;
     const listed = found ? [found.missed, found.spurious].some(({count, pairs}) => count > pairs.length / 4) : false;
-    return `Frame ${frame}${touching ? `: ${touching}` : ""}${differs}${listed ? " (the first of them are drawn)" : ""}.`;
+    return `Frame ${frame}: ${truth} pairs of triangles touch${differs}${listed ? " (the first of them are drawn)" : ""}.`;
   }
 
   private repaint(): void {

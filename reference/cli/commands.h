@@ -22,6 +22,7 @@ struct RunArguments {
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
   bool timing = true, quiet = false, resume = false;
+  bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
@@ -51,6 +52,23 @@ struct ReduceArguments {
   std::uint64_t memory_limit_mib = 4096;
 };
 
+struct GateArguments {
+  std::filesystem::path results, policy;
+  std::filesystem::path baseline, junit;  ///< empty: none
+  bool github = false;
+};
+
+struct AbArguments {
+  std::filesystem::path base, head;    ///< two builds of this program
+  std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
+  std::vector<std::string> detectors;  ///< empty: those of the suite
+  std::size_t rounds = 7, frames = 0, repeats = 3;
+  double slower_than = 1.1;  ///< time(head) / time(base) that is allowed
+  double floor_us = 20.0;    ///< microseconds a frame that do not matter
+  bool accuracy_may_change = false, quiet = false, github = false;
+  std::filesystem::path out = "out/ab";
+};
+
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
@@ -68,7 +86,16 @@ std::filesystem::path known_defects_file();
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
-/// `formats`: of "md".
+/// Prints what differs between two results.
+int diff_command(const std::filesystem::path& before, const std::filesystem::path& after);
+/// Holds results against a policy; 1 when it says no. `github` adds annotations on standard output
+/// and appends to the file that GITHUB_STEP_SUMMARY names, where it does.
+int gate_command(const GateArguments& arguments);
+/// Writes results as a baseline, and prints what it changes against the one in its place.
+int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
+/// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
+int ab_command(const AbArguments& arguments);
+/// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);
 

@@ -66,7 +66,11 @@ struct Choices {
   std::vector<std::string> families;
   std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   ReduceArguments reduce;
+  GateArguments gate;
+  std::string baseline_file;
   std::string probe_detector;
+  std::string diff_before, diff_after;
+  AbArguments ab;
   bool no_timing = false, write_truth = false, write_defects = false;
   int progress_fd = -1, channel_fd = -1;
 };
@@ -135,7 +139,7 @@ void add_run(CLI::App& app, Choices& c) {
   run->add_option("--processes", c.run.processes, "fresh processes that are timed (default 1)")
       ->check(CLI::Range(1, 100));
   run->add_option("--out", c.run.out,
-                  "folder for results.json, report.md, cases, recordings "
+                  "folder for results.json, reports, cases, contacts, recordings "
                   "(default out)");
   run->add_flag("--closed-loop", c.run.closed_loop,
                 "simulated scenes: let every detector drive the simulation too, and time whole "
@@ -153,6 +157,9 @@ void add_run(CLI::App& app, Choices& c) {
                 "take over the scenes that an interrupted run with the same settings has finished "
                 "in --out");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
+  run->add_flag("--json-lines", c.run.json_lines,
+                "for machines: what happens, as one JSON object a line, and nothing else, on "
+                "standard output (events start, progress, scene and end; fixtures/README.md)");
   run->footer(
       "Examples:\n"
       "  contactcheck run\n"
@@ -160,7 +167,8 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
-      "  contactcheck run references --resume");
+      "  contactcheck run references --resume\n"
+      "  contactcheck run default --json-lines --quiet | my-dashboard");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {
@@ -236,6 +244,94 @@ void add_export(CLI::App& app, Choices& c) {
       "  contactcheck export default --every 10 --out /tmp/truth");
 }
 
+void add_gate(CLI::App& app, Choices& c) {
+  CLI::App* gate =
+      app.add_subcommand("gate", "hold results against the rules of a policy; what a CI job calls");
+  gate->add_option("results", c.gate.results, "a results.json")->required();
+  gate->add_option("--policy", c.gate.policy,
+                   "rules, as fixtures/policies/README.md describes them")
+      ->required()
+      ->type_name("FILE");
+  gate->add_option("--baseline", c.gate.baseline,
+                   "results of an earlier run, as accept writes them; what they have must be there")
+      ->type_name("RESULTS");
+  gate->add_option("--junit", c.gate.junit, "JUnit XML: a test case per rule, scene and detector")
+      ->type_name("FILE");
+  gate->add_flag("--github", c.gate.github,
+                 "annotations for GitHub Actions, and a job summary in the file that "
+                 "GITHUB_STEP_SUMMARY names");
+  gate->footer(
+      "Exit code 1 when the policy is broken.\n"
+      "Examples:\n"
+      "  contactcheck gate out/results.json --policy fixtures/policies/default.json\n"
+      "  contactcheck gate out/results.json --policy fixtures/policies/ci.json \\\n"
+      "      --baseline fixtures/baselines/ci.json --junit out/gate.xml --github");
+  CLI::App* accept =
+      app.add_subcommand("accept", "make results the baseline that later gates compare with");
+  accept->add_option("results", c.results_file, "a results.json")->required();
+  accept->add_option("--as", c.baseline_file, "the baseline's file; what it changes is printed")
+      ->required()
+      ->type_name("FILE");
+  accept->footer(
+      "Example:\n  contactcheck accept out/results.json --as fixtures/baselines/ci.json");
+}
+
+// CLI11's own checks (2.1) let NaN pass.
+CLI::Validator number_from(double least) {
+  return CLI::Validator(
+      [least](const std::string& text) {
+        double value = 0.0;
+        const bool number = CLI::detail::lexical_cast(text, value);
+        return number && value >= least && value <= 1e9
+                   ? std::string()
+                   : "\"" + text + "\" is not a number from " + (least == 0.0 ? "0" : "1") +
+                         " to 1000000000";
+      },
+      "");
+}
+
+void add_ab_limits(CLI::App& ab, Choices& c) {
+  ab.add_option("--slower-than", c.ab.slower_than,
+                "time(head) / time(base) that is allowed (default 1.1)")
+      ->check(number_from(1.0))
+      ->type_name("RATIO");
+  ab.add_option("--floor-us", c.ab.floor_us,
+                "microseconds a frame that do not matter, whatever the ratio (default 20)")
+      ->check(number_from(0.0))
+      ->type_name("US");
+  ab.add_flag("--accuracy-may-change", c.ab.accuracy_may_change,
+              "name other answers, but do not fail for them");
+  ab.add_flag("--github", c.ab.github,
+              "GitHub annotations, and a job summary in the file $GITHUB_STEP_SUMMARY");
+}
+
+void add_ab(CLI::App& app, Choices& c) {
+  CLI::App* ab = app.add_subcommand(
+      "ab", "run two builds of this program in turns: is head slower, does it answer otherwise");
+  ab->add_option("base", c.ab.base, "the program as it was")->required();
+  ab->add_option("head", c.ab.head, "the program as it is")->required();
+  ab->add_option("targets", c.ab.targets, "suites, scenes or files, as of run; default: default");
+  ab->add_option("--detector", c.ab.detectors, "a detector, repeatable; default: the suite's")
+      ->allow_extra_args(false);
+  ab->add_option("--rounds", c.ab.rounds, "how often each of them runs (default 7)")
+      ->check(CLI::Range(3, 1000));
+  ab->add_option("--frames", c.ab.frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  ab->add_option("--repeat", c.ab.repeats, "timed repeats per frame and round (default 3)")
+      ->check(CLI::Range(1, 1000));
+  add_ab_limits(*ab, c);
+  ab->add_option("--out", c.ab.out, "folder for the last round's results (default out/ab)");
+  ab->add_flag("--quiet", c.ab.quiet, "no progress");
+  ab->footer(
+      "Rounds are base head, head base, ..., each in fresh processes. A detector fails only when\n"
+      "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
+      "the floor. Its own question counts, with cold caches.\n"
+      "Exit code 1 when a detector is slower, or when answers differ.\n"
+      "Example:\n"
+      "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
+      "bunny-touch");
+}
+
 void add_others(CLI::App& app, Choices& c) {
   CLI::App* list = app.add_subcommand("list", "scenes, suites and detectors, with one line each");
   list->add_flag("--suites", c.list.suites, "suites only");
@@ -245,10 +341,24 @@ void add_others(CLI::App& app, Choices& c) {
                  "detectors only, with what each claims and its options");
   list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
   CLI::App* report = app.add_subcommand("report", "write the report of an old results.json again");
-  report->add_option("results", c.results_file, "a results.json")->required();
-  report->add_option("--format", c.formats, "formats: html, md (default: all)")->delimiter(',');
+  report
+      ->add_option("results", c.results_file,
+                   "a results.json; the HTML report's 3D view draws the recordings and contacts "
+                   "beside it")
+      ->required();
+  report->add_option("--format", c.formats, "formats: csv, html, md (default: all)")
+      ->delimiter(',');
   report->add_option("--out", c.report_out, "folder (default out)");
-  report->footer("Example:\n  contactcheck report out/results.json --out /tmp/report");
+  report->footer(
+      "Examples:\n"
+      "  contactcheck report out/results.json --out /tmp/report\n"
+      "  contactcheck report out/results.json --format csv,md");
+  CLI::App* diff = app.add_subcommand("diff", "two results side by side: worse, better, new, gone");
+  diff->add_option("before", c.diff_before, "a results.json")->required();
+  diff->add_option("after", c.diff_after, "another")->required();
+  diff->footer(
+      "Answers are compared exactly, times as speed-ups over a common reference.\n"
+      "Example:\n  contactcheck diff old/results.json out/results.json");
   CLI::App* truth =
       app.add_subcommand("truth", "what is really there in each case of a family of hard cases");
   truth->add_option("families", c.families, "their ids; default: all");
@@ -280,7 +390,11 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
+  if (app.got_subcommand("diff")) return diff_command(c.diff_before, c.diff_after);
+  if (app.got_subcommand("ab")) return ab_command(c.ab);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
+  if (app.got_subcommand("gate")) return gate_command(c.gate);
+  if (app.got_subcommand("accept")) return accept_command(c.results_file, c.baseline_file);
   c.run.timing = !c.no_timing;
   if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
   if (app.got_subcommand("reproduce")) return reproduce_command(c.run, catalog);
@@ -314,6 +428,8 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   add_reproduce(app, choices);
   add_reduce(app, choices);
   add_export(app, choices);
+  add_gate(app, choices);
+  add_ab(app, choices);
   add_others(app, choices);
   try {
     app.parse(argc, argv);

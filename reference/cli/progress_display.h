@@ -1,10 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "reference/run/suite_run.h"
 
 namespace contactcheck {
+
+/// Seconds that the rest will take when it goes on as from `first_share` on; none before there is
+/// anything to go by.
+std::optional<double> seconds_left(double elapsed, double first_share, double share);
+
+/// The bar, share, time left, scene, detector and frame, as one line of at most `columns`.
+std::string progress_line(const SuiteProgress& progress, std::optional<double> seconds_left,
+                          std::size_t columns);
 
 /// Shows a run's progress on stderr: a bar on a terminal, one plain line per scene elsewhere.
 class ProgressDisplay {
@@ -12,7 +21,7 @@ class ProgressDisplay {
   ProgressDisplay(bool quiet, bool terminal) : quiet_(quiet), terminal_(terminal) {}
   ~ProgressDisplay() { finish(); }
 
-  void show(const SuiteProgress& progress);
+  void show(const SuiteProgress& progress, std::optional<double> seconds_left);
   /// Clears the bar.
   void finish();
 

@@ -11,7 +11,10 @@ int report_command(const std::filesystem::path& file, const std::vector<std::str
                    const std::filesystem::path& out) {
   check_report_formats(formats);
   const ResultsFile results(file);
-  const auto files = results.read([&](const auto& json) { return report_texts(json, formats); });
+  const std::filesystem::path folder = file.parent_path();
+  const auto files = results.read([&](const auto& json) {
+    return report_texts(with_reproduction(json, folder), folder, formats);
+  });
   write_report(out, files);
   std::printf("%s\n", report_paths(out, files).c_str());
   return 0;

@@ -1,13 +1,16 @@
 #include "reference/cli/report_folder.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/view/view_bytes.h"
 
 namespace contactcheck {
 namespace {
@@ -37,20 +40,36 @@ void check_places(const fs::path& folder, const std::map<std::string, std::strin
 
 }  // namespace
 
-std::vector<std::string> all_report_formats() { return {"html", "md"}; }
+std::vector<std::string> all_report_formats() { return {"csv", "html", "md"}; }
 
 void check_report_formats(const std::vector<std::string>& formats) {
   for (const std::string& format : formats)
     if (!wanted(format, all_report_formats()))
-      throw InputError("--format \"" + format + "\" is not known; allowed: html, md");
+      throw InputError("--format \"" + format + "\" is not known; allowed: csv, html, md");
 }
 
 std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+                                                const fs::path& folder,
                                                 const std::vector<std::string>& formats) {
   std::map<std::string, std::string> files;
   if (wanted("md", formats)) files = report_files(results);
-  if (wanted("html", formats) && has_html_report()) files["report.html"] = html_report(results, "");
+  if (wanted("csv", formats)) files["report.csv"] = csv_report(results);
+  if (wanted("html", formats) && has_html_report())
+    files["report.html"] = html_report(results, view_bytes(results, folder));
   return files;
+}
+
+nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results, const fs::path& folder) {
+  const fs::path file = folder / "reproduction.json";
+  std::ifstream in(file);
+  if (!in) return results;
+  auto reproduction = nlohmann::ordered_json::parse(in, nullptr, false);
+  if (!reproduction.is_object())
+    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
+  // Another run into the same folder leaves the file of an earlier one there.
+  if (reproduction.contains("command") && reproduction["command"] == results.at("command"))
+    results["reproduction"] = std::move(reproduction);
+  return results;
 }
 
 std::string report_paths(const fs::path& folder, const std::map<std::string, std::string>& files) {

@@ -5,6 +5,7 @@
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/reproduce/paper_arithmetic.h"
 #include "reference/reproduce/paper_report.h"
@@ -64,6 +65,9 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   write_file_atomically(arguments.out / "reproduction.json", reproduction.dump(1) + "\n");
   write_file_atomically(arguments.out / "reproduction.md",
                         reproduction_markdown(reproduction) + paper_markdown(tables, findings));
+  // Once more, now that the page can have the paper's tables.
+  write_report(arguments.out, report_texts(with_reproduction(results, arguments.out), arguments.out,
+                                           all_report_formats()));
   print(arguments.out, reproduction, arguments.quiet);
   return outcome.unlisted_error ? 3 : 0;
 }

@@ -24,13 +24,17 @@ Json read_results(const std::filesystem::path& file) {
   return results;
 }
 
+// "" when there is none, or no schema to go by.
+std::string defect_of(const Json& results) {
+  const std::filesystem::path schema_file = fixtures_directory() / "results.schema.json";
+  if (!std::filesystem::is_regular_file(schema_file)) return "";
+  return schema_defect(Json::parse(read_file_bytes(schema_file, "schema file")), results);
+}
+
 // The place that the report could not use. It is looked for only then: results of another program
 // may break the schema where no report looks.
 std::string defect_of(const Json& results, const Json::exception& e) {
-  const std::filesystem::path schema_file = fixtures_directory() / "results.schema.json";
-  std::string found;
-  if (std::filesystem::is_regular_file(schema_file))
-    found = schema_defect(Json::parse(read_file_bytes(schema_file, "schema file")), results);
+  const std::string found = defect_of(results);
   if (!found.empty()) return found;
   const std::string what = e.what();  // "[json.exception.type_error.302] sentence"
   const std::size_t bracket = what.find("] ");
@@ -41,6 +45,11 @@ std::string defect_of(const Json& results, const Json::exception& e) {
 
 ResultsFile::ResultsFile(const std::filesystem::path& file)
     : file_(file), results_(read_results(file)) {}
+
+void ResultsFile::require_schema() const {
+  const std::string found = defect_of(results_);
+  if (!found.empty()) throw InputError(file_.string() + ": not complete: " + found);
+}
 
 void ResultsFile::refuse(const Json::exception& e) const {
   throw InputError(file_.string() + ": not complete: " + defect_of(results_, e));

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -8,6 +9,7 @@
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/event_lines.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
@@ -30,10 +32,12 @@ void read_scene(std::size_t frames, SceneTask& task) {
   if (task.pairs) {
     task.id = kPairsSceneId;
     task.content = content_of(*task.pairs);
+    task.frames = RandomPairs(*task.pairs).frames();
     return;
   }
   const Scene scene = load_any_scene(task.file, frames);
   task.id = scene.id;
+  task.frames = scene.frames;
   task.content = content_of(task.file, scene);
 }
 
@@ -63,6 +67,38 @@ void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_rep
               run_and_reports.reports.c_str());
 }
 
+/// Shows a run's progress to people and to machines.
+class Watcher {
+ public:
+  explicit Watcher(const RunArguments& arguments)
+      : display(arguments.quiet, isatty(STDERR_FILENO) != 0), events(arguments.json_lines) {}
+
+  SuiteListener listener() {
+    return {[this](const SuiteProgress& progress) { show(progress); },
+            [this](const SceneEnd& end) {
+              if (events.wanted()) events.print(scene_event(end));
+            }};
+  }
+
+  ProgressDisplay display;
+  EventLines events;
+
+ private:
+  void show(const SuiteProgress& progress) {
+    const Clock::time_point now = Clock::now();
+    // Scenes that are taken over from an earlier run took no time.
+    if (!first_share_) first_share_ = progress.share;
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const auto left = seconds_left(elapsed, *first_share_, progress.share);
+    display.show(progress, left);
+    events.progress(progress, left);
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start_ = Clock::now();
+  std::optional<double> first_share_;
+};
+
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
   RunTasks tasks = make_tasks(arguments, catalog);
@@ -86,23 +122,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   return request;
 }
 
-}  // namespace
-
-ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
-                           SuiteOutcome* outcome) {
-  const SuiteRequest request = make_request(arguments, catalog);
-  ProgressDisplay display(arguments.quiet, isatty(STDERR_FILENO) != 0);
-  Json results = run_suite(
-      request, [&](const SuiteProgress& progress) { display.show(progress); }, outcome);
-  display.finish();
-  const auto files = report_texts(results, all_report_formats());
-  write_report(arguments.out, files);
-  return {std::move(results), report_paths(arguments.out, files)};
-}
-
-int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  SuiteOutcome outcome;
-  print_outcome(arguments, run_and_report(arguments, catalog, &outcome));
+int exit_code_of(const SuiteOutcome& outcome) {
   if (outcome.oracle_wrong > 0) {
     std::fprintf(stderr,
                  "contactcheck: internal error: rational arithmetic contradicts the oracle on %llu "
@@ -111,6 +131,32 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
     return kExitInternal;
   }
   return outcome.unlisted_error ? 3 : 0;
+}
+
+}  // namespace
+
+ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
+                           SuiteOutcome* outcome) {
+  const SuiteRequest request = make_request(arguments, catalog);
+  Watcher watcher(arguments);
+  watcher.events.print(start_event(request));
+  Json results = run_suite(request, watcher.listener(), outcome);
+  watcher.display.finish();
+  const auto files = report_texts(results, arguments.out, all_report_formats());
+  write_report(arguments.out, files);
+  return {std::move(results), report_paths(arguments.out, files)};
+}
+
+int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  SuiteOutcome outcome;
+  const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
+  const int code = exit_code_of(outcome);
+  if (arguments.json_lines) {
+    EventLines(true).print(end_event(arguments.out, code));
+  } else {
+    print_outcome(arguments, reported);
+  }
+  return code;
 }
 
 }  // namespace contactcheck

@@ -62,8 +62,9 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
   return out;
 }
 
-Judge::Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels)
-    : bodies_(bodies), semantics_(semantics), wanted_(std::move(levels)) {
+Judge::Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels,
+             std::size_t listed)
+    : bodies_(bodies), semantics_(semantics), wanted_(std::move(levels)), listed_(listed) {
   for (Level level : wanted_) levels_[level];
   if (!wanted_.empty()) per_frame_.level = name_of(finest(wanted_, semantics_));
 }
@@ -81,6 +82,25 @@ void Judge::note(Level level, const char* kind, std::size_t frame, const Element
 }
 
 template <typename T>
+ListedPairs Judge::listed(const std::vector<T>& pairs) const {
+  ListedPairs out;
+  out.count = pairs.size();
+  for (std::size_t i = 0; i < std::min(listed_, pairs.size()); ++i)
+    out.pairs.push_back(as_pair(pairs[i]));
+  return out;
+}
+
+template <typename T>
+void Judge::note_and_list(Level level, std::size_t frame, const std::vector<T>& missed,
+                          const std::vector<T>& spurious) {
+  if (!missed.empty()) note(level, "missed", frame, as_pair(missed.front()));
+  if (!spurious.empty()) note(level, "spurious", frame, as_pair(spurious.front()));
+  if (listed_ == 0 || per_frame_.level != name_of(level)) return;
+  if (missed.empty() && spurious.empty()) return;
+  differences_.push_back({frame, listed(missed), listed(spurious)});
+}
+
+template <typename T>
 LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vector<T>& truth,
                                 const std::vector<T>& reported) {
   std::vector<T> missed, spurious;
@@ -88,8 +108,7 @@ LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vecto
                       std::back_inserter(missed));
   std::set_difference(reported.begin(), reported.end(), truth.begin(), truth.end(),
                       std::back_inserter(spurious));
-  if (!missed.empty()) note(level, "missed", frame, as_pair(missed.front()));
-  if (!spurious.empty()) note(level, "spurious", frame, as_pair(spurious.front()));
+  note_and_list(level, frame, missed, spurious);
   return {truth.size(), reported.size(), truth.size() - missed.size(), missed.size(),
           spurious.size()};
 }
@@ -98,23 +117,15 @@ LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vecto
 LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
                                const std::vector<ElementPair>& reported) {
   std::vector<char> covers(reported.size(), 0);
-  LevelCounts counts;
-  counts.truth = truth.size();
-  counts.reported = reported.size();
-  for (const ElementPair& pair : truth) {
-    if (covered_by_cells(bodies_, reported, pair, [&](std::size_t i) { covers[i] = 1; })) {
-      ++counts.hit;
-    } else {
-      ++counts.missed;
-      note(Level::kCell, "missed", frame, pair);
-    }
-  }
-  for (std::size_t i = 0; i < reported.size(); ++i) {
-    if (covers[i]) continue;
-    ++counts.spurious;
-    note(Level::kCell, "spurious", frame, reported[i]);
-  }
-  return counts;
+  std::vector<ElementPair> missed, spurious;
+  for (const ElementPair& pair : truth)
+    if (!covered_by_cells(bodies_, reported, pair, [&](std::size_t i) { covers[i] = 1; }))
+      missed.push_back(pair);
+  for (std::size_t i = 0; i < reported.size(); ++i)
+    if (covers[i] == 0) spurious.push_back(reported[i]);
+  note_and_list(Level::kCell, frame, missed, spurious);
+  return {truth.size(), reported.size(), truth.size() - missed.size(), missed.size(),
+          spurious.size()};
 }
 
 LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& truth,

@@ -13,6 +13,10 @@
 
 namespace contactcheck {
 
+/// How many missed and how many spurious pairs of a frame are listed: as many as a picture can
+/// show.
+inline constexpr std::size_t kListedPairs = 500;
+
 /// Why a level cannot be judged on these bodies ("not judged: open"), or "".
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
 
@@ -25,7 +29,9 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
 
 class Judge {
  public:
-  Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels);
+  /// `listed`: how many pairs of each kind and frame differences() keeps; 0: it stays empty.
+  Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::vector<Level> levels,
+        std::size_t listed = 0);
 
   /// `near`: the true pairs nearer than the margin of the semantics, for the level `near`.
   /// @pre all sets are canonical; frames come in order
@@ -34,6 +40,8 @@ class Judge {
 
   const std::map<Level, LevelCounts>& levels() const { return levels_; }
   const PerFrame& per_frame() const { return per_frame_; }
+  /// Frames without any are left out.
+  const std::vector<FrameDifferences>& differences() const { return differences_; }
   /// The first missed and the first spurious contact of each level claimed; scene and detector left
   /// empty.
   const std::vector<Disagreement>& disagreements() const { return disagreements_; }
@@ -46,13 +54,20 @@ class Judge {
                            const std::vector<T>& reported);
   LevelCounts judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
                           const std::vector<ElementPair>& reported);
+  template <typename T>
+  void note_and_list(Level level, std::size_t frame, const std::vector<T>& missed,
+                     const std::vector<T>& spurious);
   void note(Level level, const char* kind, std::size_t frame, const ElementPair& pair);
+  template <typename T>
+  ListedPairs listed(const std::vector<T>& pairs) const;
 
   const std::vector<Body>& bodies_;
   Semantics semantics_;
   std::vector<Level> wanted_;
+  std::size_t listed_;
   std::map<Level, LevelCounts> levels_;
   PerFrame per_frame_;
+  std::vector<FrameDifferences> differences_;
   std::vector<Disagreement> disagreements_;
 };
 

@@ -37,6 +37,20 @@ struct PerFrame {
   std::vector<std::optional<double>> covered_length_fraction;
 };
 
+/// How many of a frame's pairs there are, and the first of them in canonical order.
+struct ListedPairs {
+  std::uint64_t count = 0;
+  std::vector<ElementPair> pairs;
+};
+
+/// What a frame's answer lacks and what it has too much, at the level of PerFrame. The elements of
+/// a pair are those that the level counts: missed at level `cell` are triangles; a level of bodies
+/// has none, and of `vertex` only the first is one (what is none is 0).
+struct FrameDifferences {
+  std::size_t frame = 0;
+  ListedPairs missed, spurious;
+};
+
 /// Errors over all contacts that could be judged; values only where there was one.
 struct ErrorSpread {
   std::size_t judged = 0;
@@ -113,6 +127,7 @@ struct RunResult {
   std::map<std::string, std::string> options;
   std::string recording;
   PerFrame per_frame;
+  std::vector<FrameDifferences> differences;  ///< frames that have any; where pairs are listed
   std::map<Level, LevelCounts> levels;
   std::map<Level, LevelCounts> levels_rounded;  ///< against the truth of the values it was fed
   std::map<Level, std::string> not_judged;      ///< claimed, but why not judged

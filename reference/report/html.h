@@ -10,7 +10,9 @@ namespace contactcheck {
 /// Whether this build carries the page (it takes npm to make it).
 bool has_html_report();
 
-/// `view`: the bytes of reference/view/view_bytes.h, or nothing: a report without 3D view.
+/// `results`: as in results.json; beside its fields the page shows "reproduction", where that is
+/// added (reproduction.json). `view`: the bytes of reference/view/view_bytes.h, or nothing: a
+/// report without 3D view.
 /// @pre has_html_report()
 std::string html_report(const nlohmann::ordered_json& results, std::string_view view);
 

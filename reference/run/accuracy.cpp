@@ -71,7 +71,7 @@ class AccuracyPass {
   void make_judges() {
     const Semantics& semantics = result_.semantics;
     levels_ = judged_levels(scene_.bodies, semantics, scene_.levels, &result_.not_judged);
-    judge_.emplace(scene_.bodies, semantics, levels_);
+    judge_.emplace(scene_.bodies, semantics, levels_, scene_.follows_time() ? kListedPairs : 0);
     graded_.emplace(scene_.bodies, semantics, scene_.size());
     losses_.emplace(scene_.bodies);
     if (semantics.precision != Precision::kSingle) return;
@@ -170,6 +170,7 @@ class AccuracyPass {
     result_.levels = judge_->levels();
     if (rounded_judge_) result_.levels_rounded = rounded_judge_->levels();
     result_.per_frame = judge_->per_frame();
+    result_.differences = judge_->differences();
     result_.per_frame.covered_length_fraction = covered_;
     if (scene_.grades_lengths()) result_.graded = graded_->errors();
     result_.disagreements = judge_->disagreements();

@@ -35,6 +35,12 @@ bool is_case_file(const fs::path& file) {
          stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
+void make_folder(const fs::path& parent, const char* name) {
+  std::error_code error;
+  fs::create_directories(parent / name, error);
+  if (error) throw InputError("cannot write in " + parent.string() + ": " + error.message());
+}
+
 // From 1.
 std::string case_name(std::size_t number) {
   char name[32];
@@ -58,11 +64,15 @@ ScratchFolder::~ScratchFolder() {
 }
 
 void make_out_folders(const fs::path& out) {
-  for (const char* folder : {"cases", "recordings"}) {
-    std::error_code error;
-    fs::create_directories(out / folder, error);
-    if (error) throw InputError("cannot write in " + out.string() + ": " + error.message());
-  }
+  for (const char* folder : {"cases", "contacts", "recordings"}) make_folder(out, folder);
+}
+
+void make_contacts_folder(const fs::path& scratch) { make_folder(scratch, "contacts"); }
+
+void move_contacts(const fs::path& out, const fs::path& scratch, const Json& scenes) {
+  for (const Json& scene : scenes)
+    if (const std::string file = scene.value("contacts", ""); !file.empty())
+      rename_file(scratch / file, out / file);
 }
 
 void remove_old_cases(const fs::path& out) {

@@ -22,8 +22,16 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Makes the folders of cases and recordings. @throws InputError when `out` cannot be written
+/// Makes the folders of cases, contacts and recordings. @throws InputError when `out` cannot be
+/// written
 void make_out_folders(const std::filesystem::path& out);
+
+/// Where contacts/SCENE.json waits until the run is complete. @throws InputError
+void make_contacts_folder(const std::filesystem::path& scratch);
+
+/// Moves what `scenes` name from the scratch folder.
+void move_contacts(const std::filesystem::path& out, const std::filesystem::path& scratch,
+                   const nlohmann::ordered_json& scenes);
 
 /// Removes the case files of earlier runs and nothing else.
 void remove_old_cases(const std::filesystem::path& out);

@@ -53,6 +53,7 @@ FinishedScene PartialResults::unpacked(const std::string& id, Json file) const {
   FinishedScene scene;
   scene.scene = std::move(file.at("scene"));
   scene.runs = std::move(file.at("runs"));
+  file.at("contacts").get_to(scene.contacts);
   std::size_t number = 0;
   for (Json& d : file.at("disagreements")) {
     const fs::path text_file = scratch_ / (id + ".resumed" + std::to_string(number++));
@@ -71,7 +72,8 @@ void PartialResults::keep(const std::string& id, const Json& identity,
                      {"identity", identity},
                      {"scene", scene.scene},
                      {"runs", scene.runs},
-                     {"disagreements", std::move(disagreements)}};
+                     {"disagreements", std::move(disagreements)},
+                     {"contacts", scene.contacts}};
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw InputError("cannot write in " + folder_.string() + ": " + error.message());

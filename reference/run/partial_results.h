@@ -14,10 +14,12 @@ namespace contactcheck {
 struct FinishedScene {
   nlohmann::ordered_json scene, runs = nlohmann::ordered_json::array(),
                                 disagreements = nlohmann::ordered_json::array();
+  std::string contacts;  ///< text of contacts/SCENE.json; empty: there is no such file
 };
 
 /// One file per scene, OUT/partial/SCENE.partial.json, complete or not there, with the case files'
-/// texts in it: no other file that could be missing, but for the recording, which is looked for.
+/// texts and the contacts in it: no other file that could be missing, but for the recording, which
+/// is looked for.
 class PartialResults {
  public:
   /// `scratch`: where the case files of scenes that are taken over are written again.

@@ -13,6 +13,7 @@
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
 #include "reference/defects/comparison.h"
+#include "reference/run/contacts_json.h"
 #include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
@@ -70,6 +71,10 @@ class SceneRunner {
     finished.scene = first.at("scene");
     for (const Json& d : first.at("oracle_disagreements")) finished.disagreements.push_back(d);
     finished.runs = assemble(answers, finished.disagreements);
+    if (!first.contains("truth_contacts")) return finished;
+    finished.scene["contacts"] = contacts_path(task_.id);
+    finished.contacts =
+        contacts_text(task_.id, first.at("truth_contacts"), judged_contacts(first, finished.runs));
     return finished;
   }
 
@@ -82,10 +87,18 @@ class SceneRunner {
     while (true) {
       write_job(job_file, job_);
       const WorkerOutcome outcome =
-          run_supervised(request_.executable, job_file, job_.settings, on_progress_);
+          run_supervised(request_.executable, job_file, job_.settings,
+                         [&](const WorkerProgress& worker) { report(process, worker); });
       if (outcome.done) return Json::parse(read_text_file(job_.answer_file));
       book(outcome);
     }
+  }
+
+  // All processes together are the scene's work.
+  void report(std::size_t process, WorkerProgress worker) const {
+    const std::size_t processes = job_.settings.timing ? job_.settings.processes : 1;
+    worker.share = (static_cast<double>(process) + worker.share) / static_cast<double>(processes);
+    on_progress_(worker);
   }
 
   // The detector that ran; or, where the suite's own code died in a way that is not its own, the
@@ -227,6 +240,17 @@ class SceneRunner {
     }
   }
 
+  // Of those whose answers count: one that broke later, in another process, has no contacts either.
+  static Json judged_contacts(const Json& answer, const Json& runs) {
+    Json detectors = Json::array();
+    for (const Json& entry : answer.at("runs")) {
+      const Json& run = runs.at(entry.at("position").get<std::size_t>());
+      if (run.at("status") == name_of(RunStatus::kOk) && !entry.at("contacts").is_null())
+        detectors.push_back(entry.at("contacts"));
+    }
+    return detectors;
+  }
+
   Json broken_run(std::uint32_t position, const Json& answer) const {
     const WorkerOutcome& o = broken_.at(position);
     RunResult run;
@@ -275,11 +299,11 @@ std::uint64_t oracle_errors(const Json& scenes) {
 
 }  // namespace
 
-nlohmann::ordered_json run_suite(const SuiteRequest& request,
-                                 const std::function<void(const SuiteProgress&)>& on_progress,
+nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListener& listener,
                                  SuiteOutcome* outcome) {
   make_out_folders(request.out);
   const ScratchFolder scratch(fs::absolute(request.out));
+  make_contacts_folder(scratch.path());
   const PartialResults partial(request.out, scratch.path());
   if (!request.resume) partial.clear();
   const RunIdentity identity(request);
@@ -290,20 +314,27 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
     const SceneTask& task = request.tasks[progress.scene];
     progress.scene_id = task.id;
-    const auto report = [&](double share, std::optional<std::uint32_t> detector) {
-      progress.detector = detector ? task.detectors[*detector] : "";
-      progress.share =
-          (static_cast<double>(progress.scene) + share) / static_cast<double>(progress.scenes);
-      on_progress(progress);
+    progress.frames = task.frames;
+    const auto report = [&](const WorkerProgress& worker) {
+      progress.detector = worker.detector ? task.detectors[*worker.detector] : "";
+      progress.frame = worker.frame;
+      progress.share = (static_cast<double>(progress.scene) + worker.share) /
+                       static_cast<double>(progress.scenes);
+      listener.progress(progress);
     };
     std::optional<FinishedScene> finished = partial.take(task.id, identity.of(task));
-    if (finished) {
+    const bool resumed_now = finished.has_value();
+    if (resumed_now) {
       resumed.push_back(task.id);
     } else {
       partial.drop(task.id);  // its recording will be replaced
+      report({});
       finished = SceneRunner(request, task, scratch.path(), report).run();
       partial.keep(task.id, identity.of(task), *finished);
     }
+    if (!finished->contacts.empty())
+      write_file_atomically(scratch.path() / contacts_path(task.id), finished->contacts);
+    listener.scene_end({task.id, resumed_now, finished->runs});
     scenes.push_back(std::move(finished->scene));
     append(std::move(finished->runs), runs);
     append(std::move(finished->disagreements), disagreements);
@@ -325,6 +356,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request,
   write_file_atomically(scratch.path() / "results.json", results.dump(1) + "\n");
   remove_old_cases(request.out);
   move_cases(request.out, cases);
+  move_contacts(request.out, scratch.path(), scenes);
   rename_file(scratch.path() / "results.json", request.out / "results.json");
   partial.clear();
   return results;

@@ -21,6 +21,7 @@ struct SceneTask {
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
   std::optional<PairSpec> pairs = {};  ///< random pairs in place of a file
+  std::size_t frames = 0;              ///< that will be judged
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
@@ -39,8 +40,24 @@ struct SuiteRequest {
 /// What is going on, for the progress display.
 struct SuiteProgress {
   std::size_t scene = 0, scenes = 0;
-  std::string scene_id, detector;
-  double share = 0.0;  ///< of the whole suite
+  std::string scene_id, detector;      ///< no detector: the suite's own work
+  std::optional<std::uint32_t> frame;  ///< none: no frame is being judged or timed
+  std::size_t frames = 0;              ///< of the scene
+  double share = 0.0;                  ///< of the whole suite
+};
+
+/// A scene that is finished, as it will stand in the results.
+struct SceneEnd {
+  std::string scene_id;
+  bool resumed = false;  ///< taken over from an interrupted run
+  const nlohmann::ordered_json& runs;
+};
+
+/// What a run tells while it works.
+struct SuiteListener {
+  /// At the start of a scene that is run, and a few times per second.
+  std::function<void(const SuiteProgress&)> progress = [](const SuiteProgress&) {};
+  std::function<void(const SceneEnd&)> scene_end = [](const SceneEnd&) {};
 };
 
 struct SuiteOutcome {
@@ -48,11 +65,10 @@ struct SuiteOutcome {
   std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 
-/// Writes out/results.json, out/recordings/ and out/cases/, and until results.json is complete
-/// out/partial/. Returns the results as written.
+/// Writes out/results.json, out/recordings/, out/contacts/ and out/cases/, and until results.json
+/// is complete out/partial/. Returns the results as written.
 /// @throws InputError for bad scenes or an unwritable folder
-nlohmann::ordered_json run_suite(const SuiteRequest& request,
-                                 const std::function<void(const SuiteProgress&)>& on_progress,
+nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListener& listener,
                                  SuiteOutcome* outcome);
 
 }  // namespace contactcheck

@@ -72,6 +72,14 @@ std::optional<std::uint32_t> checked(std::uint32_t detector, const RunSettings& 
   return detector;
 }
 
+WorkerProgress place_of(const SharedProgress& progress, const RunSettings& settings) {
+  WorkerProgress place;
+  place.share = std::min(progress.permille / 1000.0, 1.0);
+  place.detector = checked(progress.detector, settings);
+  if (place.detector || progress.phase == Phase::kTruth) place.frame = progress.frame;
+  return place;
+}
+
 // Watches for stand-still, memory and output; says which limit was passed, or "".
 class Watch {
  public:
@@ -132,7 +140,7 @@ std::string watch_to_the_end(WorkerProcess& worker, const SharedProgress& progre
       limit = watch.broken_limit(worker);
       if (!limit.empty()) worker.kill();
     }
-    on_progress(std::min(progress.permille / 1000.0, 1.0), checked(progress.detector, settings));
+    on_progress(place_of(progress, settings));
   }
   return limit;
 }

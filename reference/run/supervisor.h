@@ -25,8 +25,15 @@ struct WorkerOutcome {
   std::string error_text;  ///< what a worker that is not done had on its standard error at the end
 };
 
+/// Where a worker is.
+struct WorkerProgress {
+  double share = 0.0;                     ///< of its work
+  std::optional<std::uint32_t> detector;  ///< none: in the suite's own code
+  std::optional<std::uint32_t> frame;     ///< that a detector answers or the oracle judges
+};
+
 /// Called a few times per second while the worker runs.
-using ProgressCallback = std::function<void(double share, std::optional<std::uint32_t> detector)>;
+using ProgressCallback = std::function<void(const WorkerProgress&)>;
 
 /// Runs `executable worker JOB_FILE` with the job's limits until it ends; children that it leaves
 /// behind are ended with it. A worker is killed whose step counter stands still for `call_limit`

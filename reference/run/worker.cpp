@@ -12,6 +12,7 @@
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
 #include "reference/run/closed_loop.h"
+#include "reference/run/contacts_json.h"
 #include "reference/run/float_environment.h"
 #include "reference/run/hover.h"
 #include "reference/run/job.h"
@@ -313,6 +314,11 @@ class Worker {
     return written_cases(wrong);
   }
 
+  // Of frames that are cases there is no picture to be made; a refused scene has no truth.
+  bool lists_contacts() const {
+    return judges() && scene_.follows_time() && judged_.refused.empty();
+  }
+
   void write_answer() {
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
     Json runs = Json::array();
@@ -327,13 +333,15 @@ class Worker {
                       {"run", std::move(run)},
                       {"samples", samples},
                       {"disagreements", cases}});
+      if (lists_contacts()) runs.back()["contacts"] = detector_contacts(entry.result);
     }
-    const Json answer = {{"scene", scene_summary(judged_)},
-                         {"contact_frames", judged_.contact_frames},
-                         {"order", job_.order},
-                         {"prefixes", job_.prefixes},
-                         {"runs", runs},
-                         {"oracle_disagreements", oracle_cases()}};
+    Json answer = {{"scene", scene_summary(judged_)},
+                   {"contact_frames", judged_.contact_frames},
+                   {"order", job_.order},
+                   {"prefixes", job_.prefixes},
+                   {"runs", runs},
+                   {"oracle_disagreements", oracle_cases()}};
+    if (lists_contacts()) answer["truth_contacts"] = truth_contacts(judged_);
     // Texts of libraries may hold anything; JSON takes UTF-8 alone.
     write_file_atomically(job_.answer_file,
                           answer.dump(-1, ' ', false, Json::error_handler_t::replace));

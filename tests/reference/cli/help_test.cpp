@@ -74,8 +74,8 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command :
-       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects"}) {
+  for (const std::string command : {"", "run", "reproduce", "reduce", "export", "list", "report",
+                                    "truth", "defects", "diff", "gate", "accept", "ab"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);
@@ -90,7 +90,7 @@ TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
   for (const char* flag :
        {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet", "--no-timing",
-        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB"})
+        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB", "--json-lines"})
     EXPECT_THAT(help.out, HasSubstr(flag));
 }
 

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "reference/report/html.h"
@@ -32,6 +33,30 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
 }
 
+// What the page holds for its 3D view, packed.
+std::string view_in(const fs::path& page) {
+  const std::string text = text_of(page), before = R"(id="contactcheck-view" type="text/plain">)";
+  const std::size_t at = text.find(before);
+  if (at == std::string::npos) return "";
+  return text.substr(at + before.size(), text.find('<', at) - at - before.size());
+}
+
+TEST(ReportCommand, ShowsTheRecordingsBesideTheResults) {
+  if (!has_html_report()) GTEST_SKIP() << "built without npm";
+  const test::Scratch scratch;
+  const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
+  const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
+  ASSERT_EQ(contactcheck_program({"run", scene, "--quiet", "--no-timing", "--out", out}).exit_code,
+            0);
+  const std::string view = view_in(out / "report.html");
+  EXPECT_GT(view.size(), 1000u);
+  // A scene without its recording is named in the view and not drawn; the report is written.
+  fs::remove_all(out / "recordings");
+  EXPECT_EQ(contactcheck_program({"report", out / "results.json", "--out", again}).exit_code, 0);
+  EXPECT_LT(view_in(again / "report.html").size(), view.size() / 2);
+  EXPECT_NE(view_in(again / "report.html"), "");
+}
+
 TEST(ReportCommand, WritesTheFormatsAskedFor) {
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
@@ -44,7 +69,74 @@ TEST(ReportCommand, WritesTheFormatsAskedFor) {
   EXPECT_EQ(test::names_in(again), std::set<std::string>{"report.md"});
   const Outcome refused = contactcheck_program({"report", results, "--format", "pdf"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("--format \"pdf\" is not known; allowed: html, md"));
+  EXPECT_THAT(refused.err, HasSubstr("--format \"pdf\" is not known; allowed: csv, html, md"));
+}
+
+// Python's reader, which knows nothing of this program, gets back what results.json holds.
+constexpr const char* kReader = R"(
+import csv, json, sys
+results = json.load(open(sys.argv[1], encoding="utf-8"))
+with open(sys.argv[2], newline="", encoding="utf-8") as file:
+    rows = list(csv.DictReader(file, strict=True))
+assert len(rows) == len(results["runs"]) > 3, len(rows)
+for row, run in zip(rows, results["runs"]):
+    assert None not in row and None not in row.values(), row
+    for key in ("scene", "detector", "status", "message"):
+        assert row[key] == run[key], (row[key], run[key])
+    for level, counts in run.get("levels", {}).items():
+        for key in ("truth", "reported", "hit", "missed", "spurious"):
+            assert int(row[level + "_" + key]) == counts[key], (level, key)
+        assert row[level + "_recall"] == ("" if counts["recall"] is None else repr(counts["recall"]))
+    assert row["contact_hash"] == run.get("contact_hash", "")
+    if "cold" in run.get("time_ms", {}):
+        assert float(row["cold_frame_ms"]) == run["time_ms"]["cold"]["frame"]
+    for reference, ratios in run.get("speedup", {}).get(row["speedup_question"], {}).items():
+        for key in ("ratio", "low", "high"):
+            assert float(row[f"vs_{reference}_cold_{key}"]) == ratios["cold"][key]
+print("same")
+)";
+
+TEST(ReportCommand, CsvIsWhatPythonReadsBack) {
+  const test::Scratch scratch;
+  const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
+  const fs::path out = scratch.folder() / "out", file = out / "results.json";
+  ASSERT_EQ(contactcheck_program({"run", scene, "--quiet", "--repeat", "2", "--out", out,
+                                  "--detector", "fcl-aabb", "--detector", "ffd-lazy", "--detector",
+                                  "ffd-grid", "--detector", "fcl-obbrss"})
+                .exit_code,
+            0);
+  auto results = nlohmann::ordered_json::parse(text_of(file));
+  results["runs"][0]["message"] = "said \"no\", and\r\nthen \u00e4 \n";
+  scratch.write("out/results.json", results.dump());
+  const Outcome report = contactcheck_program({"report", file, "--format", "csv,md", "--out", out});
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  const Outcome read =
+      test::run_program(CONTACTCHECK_PYTHON, {"-c", kReader, file, out / "report.csv"});
+  EXPECT_EQ(read.out, "same\n") << read.err;
+}
+
+TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
+  if (!has_html_report()) GTEST_SKIP() << "this program was built without the page";
+  const test::Scratch scratch;
+  const auto report = [&] {
+    const Outcome outcome = contactcheck_program(
+        {"report", CONTACTCHECK_EXAMPLE_RESULTS, "--format", "html", "--out", scratch.folder()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return text_of(scratch.folder() / "report.html");
+  };
+  const auto report_beside = [&](const std::string& reproduction) {
+    const fs::path results = scratch.write("results.json", text_of(CONTACTCHECK_EXAMPLE_RESULTS));
+    scratch.write("reproduction.json", reproduction);
+    return contactcheck_program({"report", results, "--format", "html", "--out", scratch.folder()});
+  };
+  const std::string alone = report();
+  EXPECT_EQ(report_beside(R"({"command": "contactcheck run other"})").exit_code, 0);
+  EXPECT_EQ(text_of(scratch.folder() / "report.html"), alone);
+  EXPECT_EQ(report_beside(R"({"command": "contactcheck run hello"})").exit_code, 0);
+  EXPECT_NE(text_of(scratch.folder() / "report.html"), alone);
+  const Outcome refused = report_beside("{");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("reproduction.json\" is no JSON object"));
 }
 
 }  // namespace

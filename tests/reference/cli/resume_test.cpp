@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/reference/cli/program.h"
+#include "tests/reference/cli/run_files.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
@@ -123,7 +124,7 @@ TEST_F(Resume, KilledRunsLeaveEarlierResultsAsTheyWere) {
   run({"run", scene("first"), "--no-timing", "--detector", "ffd-grid", "--out", out().string()});
   const std::string results = text_of(out() / "results.json"),
                     report = text_of(out() / "report.md");
-  const auto cases = texts_in(out() / "cases");
+  const auto cases = texts_in(out() / "cases"), contacts = texts_in(out() / "contacts");
   ASSERT_NE(results, "");
   ASSERT_FALSE(cases.empty());
   for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
@@ -131,13 +132,14 @@ TEST_F(Resume, KilledRunsLeaveEarlierResultsAsTheyWere) {
     EXPECT_EQ(text_of(out() / "results.json"), results) << "signal " << signal;
     EXPECT_EQ(text_of(out() / "report.md"), report) << "signal " << signal;
     EXPECT_EQ(texts_in(out() / "cases"), cases) << "signal " << signal;
+    EXPECT_EQ(texts_in(out() / "contacts"), contacts) << "signal " << signal;
     fs::remove(kept());
   }
 }
 
 TEST_F(Resume, InterruptedRunTakesItsScratchFolderAway) {
   interrupt(both(), SIGINT);
-  EXPECT_THAT(names_in(out()), ElementsAre("cases", "partial", "recordings"));
+  EXPECT_THAT(names_in(out()), ElementsAre("cases", "contacts", "partial", "recordings"));
   EXPECT_THAT(names_in(out() / "partial"), ElementsAre("first.partial.json"));
 }
 
@@ -153,6 +155,8 @@ TEST_F(Resume, GivesWhatAnUninterruptedRunGivesWithoutRunningTheFirstSceneAgain)
   EXPECT_EQ(results.at("disagreements"), whole.at("disagreements"));
   EXPECT_EQ(results.at("disagreements").at(0).at("scene"), "first") << "there is a case to keep";
   EXPECT_EQ(texts_in(out() / "cases"), texts_in(scratch_.folder() / "whole" / "cases"));
+  EXPECT_EQ(texts_in(out() / "contacts"), texts_in(scratch_.folder() / "whole" / "contacts"));
+  EXPECT_THAT(names_in(out() / "contacts"), ElementsAre("first.json", "second.json"));
 }
 
 TEST_F(Resume, SaysWhatItTookOverAndLeavesNothingElse) {
@@ -161,7 +165,7 @@ TEST_F(Resume, SaysWhatItTookOverAndLeavesNothingElse) {
   EXPECT_THAT(last_.out, HasSubstr("resumed: first: finished by an earlier run\n"));
   EXPECT_THAT(last_.out, Not(HasSubstr("resumed: second")));
   EXPECT_THAT(text_of(out() / "report.md"), HasSubstr("interrupted (`--resume`)"));
-  EXPECT_THAT(names_in(out()), ElementsAre("cases", "recordings", "report.md", "results.json"));
+  EXPECT_EQ(names_in(out()), test::run_files());
 }
 
 TEST_F(Resume, RowsAreThoseThatWereKept) {

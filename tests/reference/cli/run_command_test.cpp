@@ -32,6 +32,23 @@ std::map<std::string, std::string> hashes_of(const json& results) {
   return out;
 }
 
+// Of lists of contacts; each holds as many pairs as it says.
+std::size_t sum_of(const std::vector<json>& lists) {
+  std::size_t sum = 0;
+  for (const json& list : lists) {
+    EXPECT_EQ(list.at("pairs").size(), 4 * list.at("count").get<std::size_t>());
+    sum += list.at("count").get<std::size_t>();
+  }
+  return sum;
+}
+
+json counts_by_frame(const json& detector, const char* kind) {
+  std::vector<std::size_t> counts(5, 0);
+  for (const json& frame : detector.at("frames"))
+    counts.at(frame.at("frame")) = frame.at(kind).at("count");
+  return counts;
+}
+
 class RunCommand : public testing::Test {
  protected:
   RunCommand() { scene_ = scratch_.write("tiny.json", tiny_scene()); }
@@ -67,6 +84,39 @@ TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
   for (const std::string& name : names_in(out / "cases")) files.insert("cases/" + name);
   EXPECT_EQ(cases, files);
   for (const std::string& file : files) EXPECT_TRUE(json::accept(text_of(out / file))) << file;
+}
+
+// What the report's 3D view shows is what the judge has counted.
+TEST_F(RunCommand, ContactsOneByOneAddUpToTheCountsOfTheResults) {
+  const json results = run("out", {scene_, "--no-timing"});
+  const json& scene = results.at("scenes").at(0);
+  const fs::path file = scratch_.folder() / "out" / scene.at("contacts").get<std::string>();
+  EXPECT_EQ(file, scratch_.folder() / "out" / "contacts" / "tiny.json");
+  const json contacts = json::parse(text_of(file));
+  EXPECT_EQ(contacts.at("schema"), "contactcheck-contacts/1");
+  EXPECT_EQ(sum_of(contacts.at("truth").get<std::vector<json>>()),
+            scene.at("truth").at("triangle"));
+  ASSERT_EQ(contacts.at("detectors").size(), results.at("runs").size());
+  std::size_t differences = 0;
+  for (std::size_t i = 0; i < results.at("runs").size(); ++i) {
+    const json& run = results.at("runs").at(i);
+    const json& detector = contacts.at("detectors").at(i);
+    EXPECT_EQ(detector.at("detector"), run.at("detector"));
+    EXPECT_EQ(detector.at("level"), run.at("per_frame").at("level"));
+    for (const char* kind : {"missed", "spurious"}) {
+      EXPECT_EQ(counts_by_frame(detector, kind), run.at("per_frame").at(kind))
+          << detector.at("detector") << " " << kind;
+      for (const json& frame : detector.at("frames")) differences += sum_of({frame.at(kind)});
+    }
+  }
+  EXPECT_GT(differences, 0u) << "a scene in which nobody errs shows nothing";
+}
+
+TEST_F(RunCommand, CasesThatAreNoMomentsHaveNoContactsToShow) {
+  const json results =
+      run("out", {"hard-boxes-gap", "--pairs", "600", "--no-timing", "--detector", "ffd-grid"});
+  for (const json& scene : results.at("scenes")) EXPECT_FALSE(scene.contains("contacts"));
+  EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre());
 }
 
 TEST_F(RunCommand, RandomPairsAloneAreOneSceneThatNamesCountAndSeed) {

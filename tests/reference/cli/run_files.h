@@ -10,7 +10,8 @@ namespace contactcheck::test {
 
 /// And `further` names; report.html only where this build can make it.
 inline std::set<std::string> run_files(std::set<std::string> further = {}) {
-  std::set<std::string> names = {"cases", "recordings", "report.md", "results.json"};
+  std::set<std::string> names = {"cases",      "contacts",  "recordings",
+                                 "report.csv", "report.md", "results.json"};
   if (has_html_report()) names.insert("report.html");
   names.merge(further);
   return names;

@@ -266,5 +266,46 @@ TEST(JudgedLevels, OneBodyWithoutLatticeStopsCellAndBoxWithAReason) {
   EXPECT_EQ(not_judged[Level::kBox], "not judged: a body has no lattice");
 }
 
+std::vector<FrameDifferences> differences_of(Level level, const Truth& truth,
+                                             const ContactSet& answer, std::size_t listed) {
+  const std::vector<Body> bodies = labelled_bodies();
+  Judge judge(bodies, {}, {Level::kBody, level}, listed);
+  judge.add_frame(4, truth, answer);
+  return judge.differences();
+}
+
+TEST(Judge, ListsTheDifferencesOfItsFinestLevel) {
+  const auto frames = differences_of(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1)}),
+                                     answer_of({pair(1, 1), pair(2, 3)}), 9);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].frame, 4u);
+  EXPECT_EQ(frames[0].missed.count, 1u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(0, 0)));
+  EXPECT_EQ(frames[0].spurious.count, 1u);
+  EXPECT_THAT(frames[0].spurious.pairs, ElementsAre(pair(2, 3)));
+}
+
+TEST(Judge, ListsTheFirstDifferencesAndCountsAll) {
+  const auto frames = differences_of(
+      Level::kTriangle, truth_of({pair(3, 3), pair(0, 0), pair(1, 1)}), ContactSet{}, 2);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].missed.count, 3u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(0, 0), pair(1, 1)));
+}
+
+TEST(Judge, ListsMissedTrianglesAndSpuriousCells) {
+  const auto frames = differences_of(Level::kCell, truth_of({pair(0, 0), pair(2, 2)}),
+                                     cells_of({pair(0, 0), pair(1, 0)}), 9);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(2, 2)));
+  EXPECT_THAT(frames[0].spurious.pairs, ElementsAre(pair(1, 0)));
+}
+
+TEST(Judge, ListsNothingOfPerfectFramesNorUnlessAsked) {
+  const Truth truth = truth_of({pair(0, 0)});
+  EXPECT_THAT(differences_of(Level::kTriangle, truth, truth.surface, 9), IsEmpty());
+  EXPECT_THAT(differences_of(Level::kTriangle, truth, ContactSet{}, 0), IsEmpty());
+}
+
 }  // namespace
 }  // namespace contactcheck

@@ -7,6 +7,7 @@
 
 #include "core/types/check.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {
@@ -25,8 +26,7 @@ SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
 }
 
 nlohmann::ordered_json run(const SuiteRequest& request, SuiteOutcome* outcome) {
-  return run_suite(
-      request, [](const SuiteProgress&) {}, outcome);
+  return run_suite(request, {}, outcome);
 }
 
 TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {
@@ -45,6 +45,25 @@ TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {
             "scene fake, frame 3, phase truth: signal 11 (Segmentation fault) in the suite's own "
             "code, after this detector had run");
   EXPECT_EQ(broken.at("frames"), 9);
+}
+
+TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
+  const Scratch scratch;
+  SuiteRequest request = request_for(scratch, "later");
+  request.tasks.front().detectors.pop_back();
+  request.settings.timing = true;
+  request.settings.processes = 2;
+  SuiteOutcome outcome;
+  const auto results = run(request, &outcome);
+  EXPECT_EQ(results.at("runs").at(0).at("status"), "ok");
+  EXPECT_EQ(results.at("runs").at(1).at("status"), "error");
+  EXPECT_EQ(results.at("scenes").at(0).at("contacts"), "contacts/fake.json");
+  EXPECT_EQ(test::text_of(request.out / "contacts" / "fake.json"),
+            R"({"schema":"contactcheck-contacts/1","scene":"fake","limit":500,)"
+            R"("truth":[{"frame":3,"count":1,"pairs":[0,2,1,5]}],)"
+            R"("detectors":[{"detector":"one","level":"triangle","frames":[{"frame":3,)"
+            R"("missed":{"count":1,"pairs":[0,2,1,5]},"spurious":{"count":0,"pairs":[]}}]}]})"
+            "\n");
 }
 
 TEST(SuiteRun, DeathThatGoesOnWithoutItsDetectorEndsTheRunWithASentence) {

@@ -32,7 +32,7 @@ RunSettings limits(double seconds) {
 WorkerOutcome outcome_of(const std::string& what, double seconds = 20.0) {
   const Scratch scratch;
   return run_supervised(CONTACTCHECK_FAKE_WORKER, scratch.write("job", what), limits(seconds),
-                        [](double, std::optional<std::uint32_t>) {});
+                        [](const WorkerProgress&) {});
 }
 
 void expect_booked_on_detector_one(const WorkerOutcome& outcome) {
@@ -107,7 +107,7 @@ TEST(Supervisor, DetectorThatIsNotInTheJobIsNoDetector) {
   settings.detectors = {"one", "two"};
   const WorkerOutcome outcome =
       run_supervised(CONTACTCHECK_FAKE_WORKER, scratch.write("job", "wild"), settings,
-                     [](double, std::optional<std::uint32_t>) {});
+                     [](const WorkerProgress&) {});
   EXPECT_EQ(outcome.detector, std::nullopt);
   EXPECT_EQ(outcome.last_detector, std::nullopt);
 }
@@ -157,8 +157,8 @@ Pids pids_beside(const std::filesystem::path& job) {
 TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
   const Scratch scratch;
   const std::filesystem::path job = scratch.write("job", "crash with child");
-  const WorkerOutcome outcome = run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
-                                               [](double, std::optional<std::uint32_t>) {});
+  const WorkerOutcome outcome =
+      run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0), [](const WorkerProgress&) {});
   EXPECT_EQ(outcome.reason, "signal 11 (Segmentation fault)");
   EXPECT_TRUE(test::dies(pids_beside(job).child));
 }
@@ -168,8 +168,7 @@ int status_of_struck_supervisor(const std::filesystem::path& job, int signal, Pi
   const pid_t supervisor = fork();
   if (supervisor == 0) {
     try {
-      run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0),
-                     [](double, std::optional<std::uint32_t>) {});
+      run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0), [](const WorkerProgress&) {});
     } catch (const Interrupted& interrupted) {
       die_of(interrupted);
     }
@@ -204,8 +203,7 @@ TEST(Supervisor, WorkerDoesNotOutliveASupervisorThatIsKilled) {
 
 TEST(Supervisor, MissingProgramIsASentence) {
   const std::string sentence = test::sentence_of([] {
-    run_supervised("/nonexistent/worker", "job", limits(1.0),
-                   [](double, std::optional<std::uint32_t>) {});
+    run_supervised("/nonexistent/worker", "job", limits(1.0), [](const WorkerProgress&) {});
   });
   EXPECT_THAT(sentence, HasSubstr("/nonexistent/worker"));
   EXPECT_THAT(sentence, HasSubstr("No such file"));
@@ -213,12 +211,13 @@ TEST(Supervisor, MissingProgramIsASentence) {
 
 TEST(Supervisor, ReportsProgressWhileTheWorkerRuns) {
   const Scratch scratch;
-  bool half_in_detector_one = false;
+  bool half_in_frame_seven = false;
   run_supervised(CONTACTCHECK_FAKE_WORKER, scratch.write("job", "slowly"), limits(20.0),
-                 [&](double share, std::optional<std::uint32_t> detector) {
-                   if (share == 0.5 && detector == 1u) half_in_detector_one = true;
+                 [&](const WorkerProgress& p) {
+                   if (p.share == 0.5 && p.detector == 1u && p.frame == 7u)
+                     half_in_frame_seven = true;
                  });
-  EXPECT_TRUE(half_in_detector_one);
+  EXPECT_TRUE(half_in_frame_seven);
 }
 
 constexpr const char* kScene = R"({"id": "tiny", "frames": 3, "duration": 1, "levels": ["triangle"],
@@ -238,9 +237,8 @@ TEST(Supervisor, RealWorkerWritesItsAnswer) {
   const Scratch scratch;
   const Job job = job_in(scratch, scratch.write("tiny.json", kScene));
   write_job(scratch.folder() / "job", job);
-  const WorkerOutcome outcome =
-      run_supervised(CONTACTCHECK_PROGRAM, scratch.folder() / "job", RunSettings{},
-                     [](double, std::optional<std::uint32_t>) {});
+  const WorkerOutcome outcome = run_supervised(CONTACTCHECK_PROGRAM, scratch.folder() / "job",
+                                               RunSettings{}, [](const WorkerProgress&) {});
   ASSERT_TRUE(outcome.done) << outcome.reason;
   const auto answer = nlohmann::json::parse(read_text_file(job.answer_file));
   EXPECT_EQ(answer.at("scene").at("id"), "tiny");
@@ -252,9 +250,8 @@ TEST(Supervisor, RealWorkerWritesItsAnswer) {
 TEST(Supervisor, RealWorkerWithoutItsSceneExitsWithTwoOutsideAnyDetector) {
   const Scratch scratch;
   write_job(scratch.folder() / "job", job_in(scratch, scratch.folder() / "missing.json"));
-  const WorkerOutcome outcome =
-      run_supervised(CONTACTCHECK_PROGRAM, scratch.folder() / "job", RunSettings{},
-                     [](double, std::optional<std::uint32_t>) {});
+  const WorkerOutcome outcome = run_supervised(CONTACTCHECK_PROGRAM, scratch.folder() / "job",
+                                               RunSettings{}, [](const WorkerProgress&) {});
   EXPECT_FALSE(outcome.done);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.detector, std::nullopt);

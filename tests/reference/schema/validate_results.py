@@ -211,6 +211,15 @@ def contradicts_the_oracle(results, disagreement):
         if scene.get("id") == disagreement["scene"] and "pairs" in scene)
 
 
+def contacts_errors(place, scene):
+    if "contacts" not in scene:
+        return
+    if "family" in scene or "pairs" in scene:
+        yield place, "frames that are cases have no file of contacts"
+    elif scene["contacts"] != f"contacts/{scene['id']}.json":
+        yield place, f"is {scene['contacts']}, not contacts/{scene['id']}.json"
+
+
 def consistency_errors(results):
     """What a schema cannot state. Expects results that satisfy the schema."""
     runs = {}
@@ -226,6 +235,7 @@ def consistency_errors(results):
     for number, scene in enumerate(results.get("scenes", [])):
         if "pairs" in scene:
             yield from pairs_errors(f"/scenes/{number}/pairs", scene["pairs"])
+        yield from contacts_errors(f"/scenes/{number}/contacts", scene)
     scenes = {scene for scene, _ in runs}
     for number, scene in enumerate(results.get("resumed", [])):
         if scene not in scenes:

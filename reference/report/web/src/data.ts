@@ -1,10 +1,15 @@
-// What the program put into the page: results.json, and the scenes for the 3D view.
+// What the program put into the page: results.json (with the tables of `contactcheck reproduce`,
+// where there are such), and the scenes for the 3D view.
+import type {Results} from "./results";
+
+export type {Results, Run, Scene} from "./results";
 
 /** Inflates what html.cpp deflated; an empty text is nothing. */
 async function unpacked(id: string): Promise<ArrayBuffer | null> {
   const text = document.getElementById(id)?.textContent?.trim() ?? "";
   if (text === "") return null;
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const packed = atob(text), bytes = new Uint8Array(packed.length);
+  for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).arrayBuffer();
 }
@@ -18,28 +23,4 @@ export async function readResults(): Promise<Results> {
 /** The bytes described in reference/view/view_bytes.h; null when the report has no recordings. */
 export function readView(): Promise<ArrayBuffer | null> {
   return unpacked("contactcheck-view");
-}
-
-/** results.json, as far as the page reads it; fixtures/results.schema.json has all of it. */
-export interface Results {
-  schema: string;
-  version: string;
-  command: string;
-  machine: Record<string, string | number>;
-  libraries: Record<string, string>;
-  scenes: Scene[];
-  runs: Run[];
-}
-
-export interface Scene {
-  id: string;
-  title: string;
-  frames: number;
-}
-
-export interface Run {
-  scene: string;
-  detector: string;
-  status: "ok" | "error" | "absent" | "refused";
-  message: string;
 }

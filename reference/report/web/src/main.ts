@@ -1,11 +1,75 @@
-import {readResults} from "./data";
+import {readResults, readView} from "./data";
+import {h, p, type Child} from "./dom";
+import {Report} from "./report";
+import type {Section} from "./section";
+import {claims} from "./sections/claims";
+import {cost} from "./sections/cost";
+import {defects} from "./sections/defects";
+import {detectors} from "./sections/detectors";
+import {goals} from "./sections/goals";
+import {graded} from "./sections/graded";
+import {hard} from "./sections/hard";
+import {header} from "./sections/headline";
+import {levels} from "./sections/levels";
+import {machine} from "./sections/machine";
+import {pairs} from "./sections/pairs";
+import {paper} from "./sections/paper";
+import {scenes} from "./sections/scenes";
+import {speedError} from "./sections/speed_error";
+import {stages} from "./sections/stages";
+import {summary} from "./sections/summary";
+import {times} from "./sections/times";
+import {view} from "./sections/view";
+import {words} from "./sections/words";
+import {mountView} from "./view/view";
+import {provideView} from "./view_slot";
+
+// The answers first, the numbers that they come from below.
+const kSections: Section[] = [
+  words, speedError, levels, view, summary, stages, times, cost, graded, goals, hard, defects, pairs, claims,
+  paper, scenes, detectors, machine,
+];
+
+function navigation(sections: Section[]): HTMLElement {
+  const links = sections.map(({id, short, title}) => h("li", {}, h("a", {href: `#${id}`}, short ?? title)));
+  return h("nav", {"aria-label": "Contents"}, h("ul", {}, ...links));
+}
+
+// One part that cannot be shown (results of another version, or written by hand) takes no other along.
+function contentOf(section: Section, report: Report): Child[] {
+  try {
+    return section.build(report);
+  } catch (error) {
+    return [p(`This part cannot be shown: ${String(error)}`)];
+  }
+}
+
+function sectionElement({id, title}: Section, content: Child[]): HTMLElement {
+  return h("section", {id, "aria-labelledby": `${id}-title`}, h("h2", {id: `${id}-title`}, title),
+      ...content);
+}
+
+/** A link to something inside a closed part opens that. */
+function openTarget(): void {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (target instanceof HTMLDetailsElement) target.open = true;
+}
+
+function show(report: Report, place: HTMLElement): void {
+  const filled = kSections.map((section) => ({section, content: contentOf(section, report)}))
+    .filter(({content}) => content.some((child) => child));
+  place.replaceChildren(header(report), navigation(filled.map(({section}) => section)),
+                        ...filled.map(({section, content}) => sectionElement(section, content)));
+}
 
 async function main(): Promise<void> {
-  const results = await readResults();
-  const report = document.getElementById("report")!;
-  const heading = document.createElement("h1");
-  heading.textContent = `contactcheck: ${results.scenes.length} scenes, ${results.runs.length} runs`;
-  report.append(heading);
+  provideView(mountView);
+  const report = new Report(await readResults(), await readView());
+  const place = document.getElementById("report")!;
+  show(report, place);
+  document.title = `contactcheck: ${place.querySelector("h1")!.textContent}`;
+  addEventListener("hashchange", openTarget);
+  openTarget();
 }
 
 main().catch((error: unknown) => {

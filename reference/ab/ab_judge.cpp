@@ -1,0 +1,101 @@
+#include "reference/ab/ab_judge.h"
+
+#include <algorithm>
+
+#include "core/types/check.h"
+#include "reference/ab/paired_ratio.h"
+#include "reference/diff/results_diff.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr double kMicrosecondsPerMillisecond = 1e3;
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
+  const RatioRow& r = time.ratio;
+  const double excess_us = (time.head_ms - time.base_ms) * kMicrosecondsPerMillisecond;
+  if (r.low > limits.slower_than)
+    return excess_us > limits.floor_us ? AbVerdict::kSlower : AbVerdict::kPass;
+  const double most_us = (r.high - 1.0) * time.base_ms * kMicrosecondsPerMillisecond;
+  const bool undecided = r.high > limits.slower_than && most_us > limits.floor_us;
+  return undecided && r.high > kNoisyWidth * r.low ? AbVerdict::kTooNoisy : AbVerdict::kPass;
+}
+
+// The times of one row in every round of one side; empty where some round has none.
+std::vector<double> times_of(const std::vector<AbRound>& rounds, ResultTable AbRound::*side,
+                             const ResultRow& row) {
+  std::vector<double> times;
+  for (const AbRound& round : rounds) {
+    const ResultRow* const found = (round.*side).find(row.scene, row.detector);
+    if (found == nullptr || found->times.empty() || !found->times.front().cold) return {};
+    times.push_back(*found->times.front().cold);
+    if (times.back() <= 0.0) return {};
+  }
+  return times;
+}
+
+bool same_question(const ResultRow& a, const ResultRow& b) {
+  return !a.times.empty() && !b.times.empty() &&
+         a.times.front().question == b.times.front().question;
+}
+
+void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJudgement& judgement) {
+  for (const ResultRow& row : rounds.front().head.rows) {
+    const ResultRow* const was = rounds.front().base.find(row.scene, row.detector);
+    if (was == nullptr) continue;
+    const std::vector<double> base = times_of(rounds, &AbRound::base, row),
+                              head = times_of(rounds, &AbRound::head, row);
+    if (base.empty() || head.empty() || !same_question(*was, row)) {
+      ++judgement.untimed;
+      continue;
+    }
+    AbTime time = {row.scene,       row.detector,    paired_ratio(base, head),
+                   median_of(base), median_of(head), AbVerdict::kPass};
+    time.verdict = verdict_of(time, limits);
+    judgement.times.push_back(std::move(time));
+  }
+  std::stable_sort(judgement.times.begin(), judgement.times.end(),
+                   [](const AbTime& a, const AbTime& b) { return a.ratio.ratio > b.ratio.ratio; });
+}
+
+// One line per row, however many rounds differ.
+void add_unsteady(const ResultTable& first, const ResultTable& later, const char* side,
+                  std::vector<RowChange>& unsteady) {
+  for (RowChange& change : accuracy_changes(first, later)) {
+    change.detector += std::string(" in ") + side;
+    const bool known = std::any_of(unsteady.begin(), unsteady.end(), [&](const RowChange& u) {
+      return u.scene == change.scene && u.detector == change.detector;
+    });
+    if (!known) unsteady.push_back(std::move(change));
+  }
+}
+
+}  // namespace
+
+bool AbJudgement::slower() const {
+  return std::any_of(times.begin(), times.end(),
+                     [](const AbTime& time) { return time.verdict == AbVerdict::kSlower; });
+}
+
+AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits) {
+  CONTACTCHECK_INVARIANT(!rounds.empty(), "something was run");
+  const AbRound& first = rounds.front();
+  AbJudgement judgement;
+  add_times(rounds, limits, judgement);
+  judgement.answers = accuracy_changes(first.base, first.head);
+  for (const AbRound& round : rounds) {
+    add_unsteady(first.base, round.base, "base", judgement.unsteady);
+    add_unsteady(first.head, round.head, "head", judgement.unsteady);
+  }
+  judgement.only_base = missing_rows(first.head, first.base);
+  judgement.only_head = missing_rows(first.base, first.head);
+  return judgement;
+}
+
+}  // namespace contactcheck

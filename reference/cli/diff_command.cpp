@@ -1,0 +1,27 @@
+#include "reference/diff/diff_text.h"
+
+#include <cstdio>
+
+#include "reference/cli/commands.h"
+#include "reference/cli/results_file.h"
+
+namespace contactcheck {
+namespace {
+
+void print_heading(const char* label, const std::filesystem::path& file, const ResultTable& table) {
+  std::printf("%-7s %s  version %s, %zu rows\n", label, file.c_str(), table.version.c_str(),
+              table.rows.size());
+}
+
+}  // namespace
+
+int diff_command(const std::filesystem::path& before, const std::filesystem::path& after) {
+  const ResultTable was = ResultsFile(before).read(read_table),
+                    is = ResultsFile(after).read(read_table);
+  print_heading("before", before, was);
+  print_heading("after", after, is);
+  std::printf("\n%s", diff_text(diff_results(was, is)).c_str());
+  return 0;
+}
+
+}  // namespace contactcheck

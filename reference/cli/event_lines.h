@@ -1,0 +1,36 @@
+// What `run --json-lines` says: one JSON object a line (schema contactcheck-events/1,
+// fixtures/README.md).
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "reference/run/suite_run.h"
+
+namespace contactcheck {
+
+/// Each is one line without its end.
+std::string start_event(const SuiteRequest& request);
+std::string progress_event(const SuiteProgress& progress, std::optional<double> seconds_left);
+std::string scene_event(const SceneEnd& end);
+std::string end_event(const std::filesystem::path& out, int exit_code);
+
+/// Prints events to stdout, each at once: who reads them wants to know now.
+class EventLines {
+ public:
+  explicit EventLines(bool wanted) : wanted_(wanted) {}
+
+  bool wanted() const { return wanted_; }
+  void print(const std::string& event) const;
+  /// The first of a scene, and further ones four times a second at most.
+  void progress(const SuiteProgress& progress, std::optional<double> seconds_left);
+
+ private:
+  bool wanted_;
+  std::string last_scene_;
+  std::chrono::steady_clock::time_point last_ = {};
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,75 @@
+#include "reference/gate/gate.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/results_file.h"
+#include "reference/gate/github.h"
+#include "reference/gate/junit.h"
+#include "reference/gate/screen.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kRed = 1;
+
+ResultsFile whole_results(const fs::path& file) {
+  ResultsFile results(file);
+  results.require_schema();
+  return results;
+}
+
+GateResult judged(const GateArguments& arguments) {
+  const Policy policy = read_policy(arguments.policy);
+  const ResultsFile results = whole_results(arguments.results);
+  std::optional<ResultsFile> baseline;
+  if (!arguments.baseline.empty()) baseline = whole_results(arguments.baseline);
+  const auto alone = [&](const Json& now) { return run_gate(policy, now, nullptr); };
+  const auto beside = [&](const Json& now) {
+    return baseline->read([&](const Json& before) { return run_gate(policy, now, &before); });
+  };
+  // What is wrong with the results is said of the results: first without the baseline.
+  const GateResult result = results.read(alone);
+  return baseline ? results.read(beside) : result;
+}
+
+// GitHub gives every step a file of its own, to which all its commands append.
+void append_summary(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary | std::ios::app);
+  out << text;
+  out.close();
+  if (!out)
+    throw InputError("cannot append to " + file.string() +
+                     ", which GITHUB_STEP_SUMMARY names: " + std::strerror(errno));
+}
+
+// Files first: a gate that could not write one has said nothing yet.
+void write_files(const GateArguments& arguments, const GateResult& result) {
+  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(result));
+  const char* const summary = arguments.github ? std::getenv("GITHUB_STEP_SUMMARY") : nullptr;
+  if (summary != nullptr && *summary != '\0') append_summary(summary, github_summary(result));
+}
+
+}  // namespace
+
+int gate_command(const GateArguments& arguments) {
+  const GateResult result = judged(arguments);
+  write_files(arguments, result);
+  std::fputs(gate_screen(result, isatty(STDOUT_FILENO) != 0).c_str(), stdout);
+  if (arguments.github) std::fputs(github_annotations(result).c_str(), stdout);
+  return result.red() ? kRed : 0;
+}
+
+}  // namespace contactcheck

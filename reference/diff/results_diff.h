@@ -1,0 +1,26 @@
+// Two results side by side: what got worse, better, new and gone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/diff/accuracy_changes.h"
+#include "reference/diff/time_changes.h"
+
+namespace contactcheck {
+
+struct ResultsDiff {
+  std::vector<std::string> machine;       ///< "cpu A -> B": what makes it another machine
+  std::vector<std::string> other_scenes;  ///< scenes whose exact truth is not the same
+  std::vector<RowChange> changes;
+  std::vector<TimeChange> times;
+  std::vector<std::string> added, gone;  ///< scenes and detectors, in words
+  std::size_t common = 0;                ///< rows that both have
+};
+
+ResultsDiff diff_results(const ResultTable& before, const ResultTable& after);
+
+/// What `other` has and `table` lacks: whole scenes, then detectors with their scenes.
+std::vector<std::string> missing_rows(const ResultTable& table, const ResultTable& other);
+
+}  // namespace contactcheck

@@ -1,0 +1,30 @@
+// Whether a detector has become faster or slower against a reference that ran beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/diff/result_table.h"
+
+namespace contactcheck {
+
+/// Smaller changes are not worth a line.
+inline constexpr double kSmallestTimeChange = 0.05;
+
+/// The speed-up over `reference` now divided by the one then: above 1 is faster than before.
+struct TimeChange {
+  std::string scene, detector, reference;
+  RatioRow factor;
+};
+
+/// now / then. Half widths of the two intervals are combined in the log domain as independent
+/// errors: the square root of the sum of their squares, each side apart.
+/// @pre all bounds are above 0
+RatioRow quotient(const RatioRow& now, const RatioRow& then);
+
+/// Of rows with a speed-up over the same reference in both (the first of the row that is not the
+/// detector itself): those whose whole interval is on one side of 1, and whose factor is further
+/// than kSmallestTimeChange from it. The largest first.
+std::vector<TimeChange> time_changes(const ResultTable& before, const ResultTable& after);
+
+}  // namespace contactcheck

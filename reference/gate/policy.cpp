@@ -1,0 +1,169 @@
+#include "reference/gate/policy.h"
+
+#include "reference/scene/file_text.h"
+#include "reference/scene/json_field.h"
+
+namespace contactcheck {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+Keys bounds_of(const Measure& measure) {
+  switch (measure.kind) {
+    case MeasureKind::kHash:
+      return {"unchanged", "equals"};
+    case MeasureKind::kStatus:
+      return {"equals"};
+    case MeasureKind::kSpeedup:
+      return {"at_least"};
+    case MeasureKind::kSlowdown:
+      return {"at_most"};
+    case MeasureKind::kOracle:
+      return {"at_most"};
+    default:
+      return {"at_most", "at_least", "unchanged"};
+  }
+}
+
+// Beside those of every rule and the bounds.
+Keys own_keys(const Measure& measure) {
+  if (is_timing(measure))
+    return {"question", "reference", "part", "floor_us", "noise_width", "noisy"};
+  if (measure.kind == MeasureKind::kLevel) return {"level", "rounded"};
+  if (measure.kind == MeasureKind::kStages) return {"stage"};
+  return {};
+}
+
+Keys allowed_keys(const Measure& measure) {
+  Keys keys = {"rule", "why", "measure", "scenes", "error", "unjudged"};
+  // The oracle is none of the detectors.
+  if (measure.kind != MeasureKind::kOracle) keys.emplace_back("detectors");
+  for (const Keys& more : {bounds_of(measure), own_keys(measure)})
+    keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+Patterns parse_patterns(const JsonField& field) {
+  Patterns out;
+  for (const JsonField& item : field.items(1)) {
+    const std::string pattern = item.text();
+    if (pattern == "!") item.refuse("a pattern, also behind \"!\"");
+    if (pattern[0] == '!')
+      out.unwanted.push_back(pattern.substr(1));
+    else
+      out.wanted.push_back(pattern);
+  }
+  if (out.wanted.empty()) field.fail("has no pattern without \"!\"; it holds nothing");
+  return out;
+}
+
+bool fails(const JsonField& rule, const std::string& key, bool otherwise) {
+  return rule.has(key) ? rule.at(key).one_of({"pass", "fail"}) == "fail" : otherwise;
+}
+
+double parse_limit(const JsonField& field, const Measure& measure) {
+  NumberRange range;
+  range.low = measure.least;
+  range.high = measure.greatest;
+  range.low_open = is_timing(measure);  // no ratio of times is 0
+  return field.number(range);
+}
+
+// A key that says something by being there.
+bool says_true(const JsonField& rule, const std::string& key) {
+  if (!rule.has(key)) return false;
+  const JsonField field = rule.at(key);
+  if (!field.is(JsonValue::Kind::kBool) || !field.value().boolean) field.refuse("true");
+  return true;
+}
+
+void parse_bound(const JsonField& field, Rule& rule) {
+  const std::string key = field.exactly_one_of(bounds_of(*rule.measure));
+  const JsonField bound = field.at(key);
+  if (key == "unchanged") {
+    says_true(field, key);
+    rule.bound = Bound::kUnchanged;
+  } else if (key == "equals") {
+    bound.one_of({rule.measure->kind == MeasureKind::kHash ? "truth" : "ok"});
+    rule.bound = Bound::kEquals;
+  } else {
+    rule.bound = key == "at_most" ? Bound::kAtMost : Bound::kAtLeast;
+    rule.limit = parse_limit(bound, *rule.measure);
+  }
+}
+
+void parse_timing(const JsonField& field, Rule& rule) {
+  constexpr NumberRange kShare{0.0, false, 10.0, false}, kMicroseconds{0.0, false, 1e9, false};
+  rule.question = field.at("question").one_of({"triangles", "body", "cells", "contacts"});
+  rule.reference = field.at("reference").text();
+  if (field.has("part"))
+    rule.part = field.at("part").one_of({"cold", "hot", "contact_frames", "without_map"});
+  if (field.has("floor_us")) rule.floor_us = field.at("floor_us").number(kMicroseconds);
+  if (field.has("noise_width")) rule.noise_width = field.at("noise_width").number(kShare);
+  rule.noisy_fails = fails(field, "noisy", false);
+}
+
+const Measure* parse_measure(const JsonField& field) {
+  return find_measure(field.at("measure").one_of(measure_names()));
+}
+
+Rule parse_rule(const JsonField& field) {
+  Rule rule;
+  rule.measure = parse_measure(field);
+  field.only_keys(allowed_keys(*rule.measure));
+  rule.name = field.at("rule").text();
+  if (field.has("why")) rule.why = field.at("why").text();
+  rule.scenes = parse_patterns(field.at("scenes"));
+  if (rule.measure->kind != MeasureKind::kOracle)
+    rule.detectors = parse_patterns(field.at("detectors"));
+  parse_bound(field, rule);
+  if (field.has("level"))
+    rule.level = field.at("level").one_of(
+        {"body", "containment", "cell", "box", "triangle", "vertex", "near"});
+  rule.rounded = says_true(field, "rounded");
+  if (field.has("stage")) rule.stage = field.at("stage").text();
+  if (is_timing(*rule.measure)) parse_timing(field, rule);
+  rule.unjudged_fails = fails(field, "unjudged", false);
+  rule.error_fails = fails(field, "error", true);
+  return rule;
+}
+
+void require_own_name(const JsonField& field, const Rule& rule, const std::vector<Rule>& others) {
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (others[i].name == rule.name)
+      field.at("rule").refuse("different from rules[" + std::to_string(i) + "].rule");
+}
+
+}  // namespace
+
+bool needs_baseline(const Rule& rule) {
+  return rule.bound == Bound::kUnchanged || rule.measure->kind == MeasureKind::kSlowdown;
+}
+
+std::string allowed_text(const Rule& rule) {
+  if (rule.bound == Bound::kUnchanged) return "that of the baseline";
+  if (rule.bound == Bound::kEquals)
+    return rule.measure->kind == MeasureKind::kHash ? "that of the truth" : "ok";
+  const std::string unit = rule.measure->unit;
+  const std::string number = shown(rule.limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;
+  return (rule.bound == Bound::kAtMost ? "at most " : "at least ") + number;
+}
+
+Policy read_policy(const std::filesystem::path& file) {
+  const std::string document = "policy " + in_quotes(file.string());
+  const JsonValue value = parse_json(read_file_bytes(file, "policy"), document);
+  const JsonField root(value, document);
+  root.only_keys({"schema", "id", "title", "rules"});
+  root.at("schema").one_of({"contactcheck-policy/1"});
+  Policy policy;
+  policy.id = root.at("id").text();
+  policy.title = root.at("title").text();
+  for (const JsonField& item : root.at("rules").items(1)) {
+    Rule rule = parse_rule(item);
+    require_own_name(item, rule, policy.rules);
+    policy.rules.push_back(std::move(rule));
+  }
+  return policy;
+}
+
+}  // namespace contactcheck

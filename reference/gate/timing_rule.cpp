@@ -1,0 +1,54 @@
+#include "reference/gate/timing_rule.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace contactcheck {
+namespace {
+
+// The logarithm of how far an end lies from the value.
+double reach(double from, double to) { return std::abs(std::log(to / from)); }
+
+TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance) {
+  TimingVerdict out;
+  out.excess_us = slowness.frame_us * (1.0 - 1.0 / slowness.ratio.value);
+  const bool matters = out.excess_us >= tolerance.floor_us;
+  out.verdict = matters ? Verdict::kFail : Verdict::kPass;
+  out.reason = matters ? fmt::format("{:.3g} us too long per frame of {:.4g} us", out.excess_us,
+                                     slowness.frame_us)
+                       : fmt::format("beyond the limit by {:.3g} us per frame, less than {:.3g} us",
+                                     out.excess_us, tolerance.floor_us);
+  return out;
+}
+
+}  // namespace
+
+TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance) {
+  const RatioInterval& r = slowness.ratio;
+  if (r.low > 1.0) return beyond(slowness, tolerance);
+  const bool wide = r.high > r.low * (1.0 + tolerance.noise_width);
+  if (r.high <= 1.0 || !wide) return {};
+  TimingVerdict out;
+  out.verdict = Verdict::kTooNoisy;
+  out.reason = fmt::format("the limit lies inside the 95 % interval, whose ends are {:.3g}x apart",
+                           r.high / r.low);
+  return out;
+}
+
+RatioInterval slowness_of(const RatioInterval& speedup, double limit) {
+  return {limit / speedup.value, limit / speedup.high, limit / speedup.low};
+}
+
+RatioInterval slowdown(const RatioInterval& before, const RatioInterval& now) {
+  const double value = before.value / now.value;
+  const double down = std::hypot(reach(before.value, before.low), reach(now.value, now.high));
+  const double up = std::hypot(reach(before.value, before.high), reach(now.value, now.low));
+  return {value, value * std::exp(-down), value * std::exp(up)};
+}
+
+RatioInterval over_limit(const RatioInterval& slowdown, double limit) {
+  return {slowdown.value / limit, slowdown.low / limit, slowdown.high / limit};
+}
+
+}  // namespace contactcheck

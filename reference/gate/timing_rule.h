@@ -1,0 +1,50 @@
+// When a ratio of times is beyond its limit: on plain numbers, so that a simulation can ask it.
+#pragma once
+
+#include <string>
+
+#include "reference/gate/verdict.h"
+
+namespace contactcheck {
+
+/// A ratio with its 95 % interval.
+struct RatioInterval {
+  double value = 1.0, low = 1.0, high = 1.0;
+};
+
+/// A detector's time over the longest time that its limit allows: beyond 1 it is too slow.
+struct Slowness {
+  RatioInterval ratio;
+  double frame_us = 0.0;  ///< the detector's time per frame
+};
+
+/// How the rule may judge it; as in a policy.
+struct TimingTolerance {
+  double floor_us = 0.0, noise_width = 0.0;
+};
+
+struct TimingVerdict {
+  Verdict verdict = Verdict::kPass;
+  double excess_us = 0.0;  ///< per frame above what is allowed; 0 where nothing is
+  std::string reason;      ///< unless it passes for being fast enough
+};
+
+/// Fails when the whole interval is beyond 1 and the excess per frame reaches the floor. Too noisy
+/// when 1 lies inside an interval that is wider than the noise width: whether it would have failed
+/// is a matter of luck then. Passes else.
+TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance);
+
+/// Of a speed-up (time of the reference / time of the detector) that must be at least `limit`.
+/// A speed-up of 0 is slowness without end.
+RatioInterval slowness_of(const RatioInterval& speedup, double limit);
+
+/// How many times slower a detector is than it was, both times measured by the same reference:
+/// before / now. The two were measured apart, so their errors are independent: the half-widths of
+/// their intervals, as logarithms, add up in squares, for either end apart.
+/// @pre all ends above 0
+RatioInterval slowdown(const RatioInterval& before, const RatioInterval& now);
+
+/// Of such a slow-down that may be at most `limit`.
+RatioInterval over_limit(const RatioInterval& slowdown, double limit);
+
+}  // namespace contactcheck

@@ -1,0 +1,61 @@
+#include "reference/gate/verdict.h"
+
+#include <algorithm>
+
+namespace contactcheck {
+namespace {
+
+void append(std::string& text, const std::string& separator, const std::string& part) {
+  if (!part.empty()) text += (text.empty() ? "" : separator) + part;
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kTooNoisy:
+      return "too noisy to judge";
+    case Verdict::kCannotJudge:
+      return "cannot judge";
+  }
+  return "";
+}
+
+bool GateResult::red() const {
+  return std::any_of(checks.begin(), checks.end(), [](const Check& c) { return c.red; });
+}
+
+std::size_t GateResult::count(Verdict verdict) const {
+  return static_cast<std::size_t>(std::count_if(
+      checks.begin(), checks.end(), [&](const Check& c) { return c.verdict == verdict; }));
+}
+
+std::string counts_text(const GateResult& result) {
+  std::string out = std::to_string(result.checks.size()) + " checks of " +
+                    std::to_string(result.rules) + " rules:";
+  for (const Verdict v :
+       {Verdict::kPass, Verdict::kFail, Verdict::kTooNoisy, Verdict::kCannotJudge})
+    out += std::string(v == Verdict::kPass ? " " : ", ") + std::to_string(result.count(v)) + " " +
+           name_of(v);
+  return out;
+}
+
+std::string sentence_of(const Check& check) {
+  std::string where, what;
+  const bool open = check.verdict != Verdict::kPass && check.verdict != Verdict::kFail;
+  if (check.red && open) what = name_of(check.verdict);
+  append(where, "  ", check.scene);
+  append(where, "  ", check.detector);
+  append(what, ": ", check.measured);
+  if (!check.measured.empty()) append(what, ", ", "allowed " + check.allowed);
+  append(what, ", ", check.frame);
+  append(what, check.measured.empty() ? ": " : "; ", check.reason);
+  append(where, ": ", what);
+  return where;
+}
+
+}  // namespace contactcheck

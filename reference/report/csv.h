@@ -1,0 +1,16 @@
+// The results as a table for spreadsheets and scripts: report.csv (fixtures/README.md).
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace contactcheck {
+
+/// One line per scene and detector below a line of titles: RFC 4180 (CRLF, quotes doubled), UTF-8.
+/// Numbers as results.json has them; a cell is empty where there is no value. The columns are the
+/// same for all results but for the references, of which there are those that some run has a
+/// speed-up against.
+/// @throws nlohmann::json::exception when results are not as the schema says
+std::string csv_report(const nlohmann::ordered_json& results);
+
+}  // namespace contactcheck

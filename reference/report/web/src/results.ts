@@ -1,0 +1,236 @@
+// results.json, as far as the page reads it; fixtures/results.schema.json has all of it. Units:
+// metres, milliseconds, degrees, bytes. Fields that older versions did not write are optional.
+
+import type {Reproduction} from "./reproduction";
+
+export interface Results {
+  schema: string;
+  version: string;
+  command: string;
+  machine: Machine;
+  libraries: Record<string, string>;
+  scenes: Scene[];
+  runs: Run[];
+  disagreements: Disagreement[];
+  goals?: Goal[];
+  resumed?: string[];
+  known_defects?: KnownDefects;
+  /** Not in results.json: the program adds reproduction.json of the same run. */
+  reproduction?: Reproduction;
+}
+
+export interface Machine {
+  cpu: string;
+  cores: number;
+  isa: string;
+  os: string;
+  compiler: string;
+  build: string;
+}
+
+export interface Scene {
+  id: string;
+  title: string;
+  frames: number;
+  size: number;
+  contact_frames: number;
+  truth: Record<string, number | string>;
+  bodies: Body[];
+  family?: Family;
+  pairs?: RandomPairs;
+  simulation?: {driver: string; step: number; every: number};
+}
+
+export interface Body {
+  name: string;
+  source: string;
+  notes: string;
+  vertices: number;
+  triangles: number;
+  cells: number;
+  solid: boolean;
+}
+
+export interface Family {
+  parameter: string;
+  values: string[];
+  origin: string;
+  stresses: string;
+}
+
+export interface RandomPairs {
+  count: number;
+  seed: number;
+  touching: number;
+  per_kind: Record<string, {pairs: number; touching: number}>;
+  rational: {checked: number; oracle_wrong: number};
+}
+
+/** One detector in one scene. Everything below `message` is there when `status` is "ok". */
+export interface Run {
+  scene: string;
+  detector: string;
+  status: "ok" | "error" | "absent" | "refused";
+  message: string;
+  failed_frame?: number;
+  frames: number;
+  contact_frames: number;
+  semantics: Semantics;
+  options: Record<string, string>;
+  per_frame: PerFrame;
+  levels: Record<string, Level>;
+  levels_rounded?: Record<string, Level>;
+  geometry: Geometry;
+  stages: Stage[];
+  counters?: Record<string, number>;
+  time_ms: Times;
+  speedup?: Record<string, Record<string, Speedup>>;
+  memory_bytes: number;
+  contact_hash: string;
+  not_judged?: Record<string, string>;
+  notes?: string[];
+  float_environment?: string[];
+}
+
+export interface Semantics {
+  levels?: string[];
+  informative?: string[];
+  questions?: string[];
+  body?: string;
+  touching?: string;
+  exact?: boolean;
+  margin?: number;
+  precision?: string;
+  scale?: number;
+  means?: string;
+  depth_kind?: string;
+}
+
+export interface PerFrame {
+  level?: string;
+  truth: number[];
+  missed: number[];
+  spurious: number[];
+  frame_ms?: (number | null)[];
+}
+
+export interface Level {
+  truth: number;
+  reported: number;
+  hit: number;
+  missed: number;
+  spurious: number;
+  recall: number | null;
+  spurious_rate: number | null;
+  margin?: number;
+  informative?: boolean;
+}
+
+export interface Geometry {
+  missed_length: number | null;
+  covered_length_fraction: number | null;
+  spurious_distance_max: number | null;
+  depth_kind?: string;
+  depth_judged?: number;
+  depth_error_mean?: number | null;
+  depth_error_p95?: number | null;
+  depth_error_max: number | null;
+  normal_judged?: number;
+  normal_error_deg_mean?: number | null;
+  normal_error_deg_p95?: number | null;
+  normal_error_deg_max: number | null;
+  hover_gap_max: number | null;
+  late_frames: number | null;
+}
+
+export interface Stage {
+  name: string;
+  unit: string;
+  in: number;
+  out: number;
+  missed: number;
+  visited?: number;
+  visited_unit?: string;
+}
+
+/** Milliseconds per frame. `map` is null where the detector maps what it needs itself. */
+export interface Phases {
+  map: number | null;
+  update: number;
+  query: number;
+  frame: number;
+  contact_frame: number | null;
+}
+
+/** A run without timing has `prepare` alone. */
+export interface Times {
+  prepare: number;
+  question?: string;
+  timed_frames?: number;
+  repeats?: number;
+  cold?: Phases;
+  hot?: Phases;
+}
+
+export interface Ratio {
+  ratio: number;
+  low: number;
+  high: number;
+}
+
+export interface Speedup {
+  cold: Ratio;
+  hot: Ratio | null;
+  contact_frames: Ratio | null;
+  without_map: Ratio | null;
+  reference_options?: Record<string, string>;
+}
+
+export interface Goal {
+  goal: string;
+  scene: string;
+  detector: string;
+  per?: string;
+  at_least?: number;
+  at_most?: number;
+  measured: number | null;
+  low?: number;
+  high?: number;
+  why?: string;
+  met: boolean | null;
+}
+
+export interface KnownDefects {
+  defects: KnownDefect[];
+  not_shown: Sightings[];
+  unlisted: Sightings[];
+}
+
+export interface KnownDefect {
+  library: string;
+  version: string;
+  issue: string;
+  kind: string;
+  sentence: string;
+  detectors: string[];
+  scenes: string[];
+  listed: number;
+  shown: number;
+  other_version: boolean;
+}
+
+export interface Sightings {
+  detector: string;
+  scene: string;
+  kind: string;
+  values: string[];
+}
+
+export interface Disagreement {
+  scene: string;
+  frame: number;
+  detector: string;
+  level: string;
+  kind: "missed" | "spurious";
+  case: string;
+}

@@ -1,0 +1,33 @@
+// The top of the page: what was found, by which command, on which machine.
+import {code, h, type Child} from "../dom";
+import {findings, title} from "../headline";
+import type {Report} from "../report";
+import {themeSwitch} from "../theme";
+
+// Results that a sentence cannot be made of still have tables.
+function findingsList(report: Report): Child[] {
+  try {
+    return findings(report).flatMap(({topic, sentence}) => [h("dt", {}, topic), h("dd", {}, sentence)]);
+  } catch (error) {
+    return [h("dt", {}, "Not complete"), h("dd", {}, `The findings cannot be shown: ${String(error)}`)];
+  }
+}
+
+function titleText(report: Report): string {
+  try {
+    return title(report);
+  } catch {
+    return "contactcheck report";
+  }
+}
+
+export function header(report: Report): HTMLElement {
+  const {command, version, machine, resumed = []} = report.results;
+  return h("header", {},
+    h("div", {class: "topline"}, h("span", {class: "brand"}, `contactcheck ${version}`), themeSwitch()),
+    h("h1", {}, titleText(report)),
+    h("dl", {class: "findings"}, ...findingsList(report)),
+    h("p", {class: "note"}, code(command), ` on ${machine.cpu}, ${machine.cores} cores, ${machine.isa}.`),
+    resumed.length > 0 && h("p", {class: "note"},
+      `Taken over from an earlier run that was interrupted (--resume), with the times measured then: ${resumed.join(", ")}.`));
+}

@@ -1,0 +1,175 @@
+// The chart of speed against error: every detector a point.
+import * as Plot from "@observablehq/plot";
+import {chart, legend} from "../chart";
+import {controlBar, radios, select, type Option} from "../controls";
+import {h, p, unfolding, type Child} from "../dom";
+import {errorRate, grouped, number, optionsText} from "../format";
+import {groupOf, groupsOf} from "../groups";
+import {points, type Choice, type LeftOut, type Measure, type Point} from "../pareto";
+import {judgedLevels, kFinest, type Report} from "../report";
+import {chosenScenes, sceneOptions} from "../scene_choice";
+import type {Section} from "../section";
+import {square, symbol} from "../swatch";
+import {left, right, table} from "../table";
+
+const kMeasures: Record<Measure, string> = {
+  worse: "missed or spurious, whichever is worse", missed: "missed", spurious: "spurious",
+};
+const kAxis: Record<Measure, string> = {
+  worse: "share of contacts missed, or of reports spurious (the worse)",
+  missed: "share of true contacts missed", spurious: "share of reports that are no contact",
+};
+// Per question: Plot's name of the shape, and its outline for the legend.
+const kShapes: [string, Plot.SymbolType, string][] = [
+  ["triangles", "circle", "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z"],
+  ["body", "square", "M-4.5-4.5h9v9h-9Z"],
+  ["cells", "triangle", "M0-5.5L5.5 4.5h-11Z"],
+  ["contacts", "diamond", "M0-6L4 0L0 6L-4 0Z"],
+];
+const kAnswers: Record<string, string> = {
+  triangles: "all pairs of triangles", body: "which bodies touch", cells: "all pairs of cells",
+  contacts: "contacts with depth and normal",
+};
+
+const shapeOf = (question: string) => (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
+
+function sentenceOf(point: Point): string {
+  const {detector, counts: c, level, ms, question} = point;
+  return [
+    `${detector}: ${number(ms)} ms per frame (question ${question})`,
+    `missed ${grouped(c.missed)} of ${grouped(c.truth)}, spurious ${grouped(c.spurious)} of ` +
+      `${grouped(c.reported)} (level ${level})`,
+    `options: ${optionsText(point.options)}`,
+  ].join("\n");
+}
+
+// Shares of 0 and of 1 in 10,000 must both be seen: the axis is linear below 0.1 %, then a logarithm.
+const kErrorAxis = {type: "symlog" as const, constant: 0.001, ticks: [0, 0.001, 0.01, 0.1, 0.5, 1]};
+
+// Names of all points would cover one another: the fastest and the best of each front are named.
+function isEnd(point: Point, front: Point[]): boolean {
+  const own = front.filter((other) => other.question === point.question);
+  return point === own[0] || point === own[own.length - 1];
+}
+
+// Names at the edges grow inwards.
+type Anchor = "start" | "middle" | "end";
+
+function anchorOf(ms: number, [low, high]: [number, number]): Anchor {
+  const place = Math.log(ms / low) / Math.log(high / low);
+  return place < 0.3 ? "start" : place > 0.7 ? "end" : "middle";
+}
+
+function draw(width: number, all: Point[], choice: Choice): Node {
+  if (all.length === 0) return p("No detector was timed and judged so.");
+  const front = all.filter((point) => point.onFront).sort((a, b) => a.ms - b.ms);
+  const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5,
+      Math.max(...times) * 1.5];
+  const highest = Math.max(0.01, ...all.map((point) => point.error));
+  const ends = front.filter((point) => isEnd(point, front));
+  const xy = {x: "ms", y: "error"} as const;
+  return Plot.plot({
+    width, height: Math.min(460, 260 + width / 4), marginLeft: 52, marginRight: 24, marginTop: 40,
+        marginBottom: 44,
+    x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true,
+        ticks: width < 600 ? 4 : 8,
+        tickFormat: (ms: number) => String(ms)},
+    y: {...kErrorAxis, domain: [0, Math.min(1, 1.6 * highest)], label: `↑ ${kAxis[choice.measure]}`,
+        grid: true,
+        insetBottom: 12,
+        tickFormat: (share: number) => `${100 * share} %`},
+    marks: [
+      Plot.ruleY([0]),
+      Plot.line(front, {...xy, z: "question", curve: "step-after", stroke: "currentColor",
+          strokeOpacity: 0.55,
+                        strokeDasharray: "5 3", strokeWidth: 1.5, className: "fronts"}),
+      Plot.dot(all, {...xy, r: 5.5, fill: (d: Point) => groupOf(d.detector).colour, stroke: "var(--surface)",
+                     symbol: (d: Point) => shapeOf(d.question), ariaLabel: sentenceOf, className: "points"}),
+      ...(["start", "middle", "end"] as const).map((textAnchor) => Plot.text(
+        ends.filter((point) => anchorOf(point.ms, span) === textAnchor),
+        {...xy, text: "detector", dy: -13, textAnchor, fill: "currentColor", stroke: "var(--surface)",
+            strokeWidth: 4})),
+      Plot.tip(all, Plot.pointer({...xy, title: sentenceOf, fill: "var(--surface)", fontSize: 12})),
+    ],
+  });
+}
+
+function legends(all: Point[]): HTMLElement {
+  const colours = groupsOf(all.map((point) => point.detector))
+    .map((group) => ({text: group.name, swatch: square(group.colour)}));
+  const shapes = kShapes.filter(([question]) => all.some((point) => point.question === question))
+    .map(([question, , outline]) => ({text: `timed: ${kAnswers[question]}`, swatch: symbol(outline)}));
+  return legend([...colours, ...shapes]);
+}
+
+function pointsTable(all: Point[]): HTMLElement {
+  const rows = all.map((point) => [
+    point.detector, optionsText(point.options), point.question, number(point.ms), point.level,
+    errorRate(point.error), String(point.counts.missed), String(point.counts.spurious),
+    point.onFront ? "yes" : "",
+  ]);
+  return table([left("detector"), left("options"), left("question timed"), right("ms per frame"),
+      left("level"),
+                right("error"), right("missed"), right("spurious"), left("on the front")],
+               rows, "Points of the chart of speed against error");
+}
+
+function leftOutText(leftOut: LeftOut[]): Child {
+  if (leftOut.length === 0) return null;
+  const byReason = new Map<string, string[]>();
+  for (const {detector, why} of leftOut) byReason.set(why, [...(byReason.get(why) ?? []), detector]);
+  const texts = [...byReason].map(([why, names]) => `${names.join(", ")} (${why})`);
+  return h("p", {class: "note"}, `Not in the chart: ${texts.join("; ")}.`);
+}
+
+function levelOptions(report: Report): Option[] {
+  const levels = judgedLevels(report.results.runs).map((level): Option => [level, level]);
+  return [[kFinest, "each detector's finest"], ...levels];
+}
+
+// All scenes where most detectors ran in all, else the first scene: a point needs every scene.
+function firstChoice(report: Report, options: Option[]): string {
+  const count = (value: string): number =>
+    points(report, {...kDefaults, scenes: chosenScenes(report, value)}).points.length;
+  const counts = options.map(([value]) => count(value));
+  const best = Math.max(...counts);
+  return options[counts.findIndex((n) => 2 * n >= best)][0];
+}
+
+const kDefaults: Choice = {scenes: [], level: kFinest, measure: "worse", part: "cold"};
+
+export const speedError: Section = {
+  id: "speed-error",
+  title: "Speed against error",
+  build(report) {
+    if (!report.timed) return [p("This run measured no times (", h("code", {}, "--no-timing"),
+        "), so that there is nothing to compare.")];
+    const options = sceneOptions(report), first = firstChoice(report, options);
+    const choice: Choice = {...kDefaults, scenes: chosenScenes(report, first)};
+    let shown = points(report, choice);
+    const below = h("div");
+    const picture = chart("Time per frame and share of errors of every detector",
+                          (width) => draw(width, shown.points, choice));
+    const update = (change: Partial<Choice>): void => {
+      shown = points(report, Object.assign(choice, change));
+      picture.redraw();
+      below.replaceChildren(legends(shown.points), ...[leftOutText(shown.leftOut)].filter((n) =>
+          n !== null) as Node[],
+        unfolding("The same as a table", () => [pointsTable(shown.points)]));
+    };
+    update({});
+    return [
+      p("Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it "
+        + "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same "
+        + "question is both faster and better than a detector there. Times of different questions (shapes) do not compare."),
+      controlBar(
+        select("Scenes", options, first, (value) => update({scenes: chosenScenes(report, value)})),
+        select("Level", levelOptions(report), choice.level, (level) => update({level})),
+        select("Error", Object.entries(kMeasures), choice.measure,
+            (value) => update({measure: value as Measure})),
+        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
+            (value) => update({part: value as "cold" | "hot"}))),
+      picture.element, below,
+    ];
+  },
+};

@@ -1,0 +1,154 @@
+// Time per phase of a frame, as stacked bars, with and without the mapping of the vertices.
+import * as Plot from "@observablehq/plot";
+import {chart, legend} from "../chart";
+import {controlBar, radios, select} from "../controls";
+import {h, p, unfolding} from "../dom";
+import {number} from "../format";
+import type {Report} from "../report";
+import type {Phases, Run, Scene} from "../results";
+import {chosenScenes, sceneOptions} from "../scene_choice";
+import type {Section} from "../section";
+import {square} from "../swatch";
+import {left, right, table} from "../table";
+
+type Part = "cold" | "hot";
+type Phase = "map" | "update" | "query";
+
+const kPhases: [Phase, string, string][] = [
+  ["map", "map: deform the vertices", "var(--sky)"],
+  ["update", "update: refit trees and bounds", "var(--orange)"],
+  ["query", "query: find the contacts", "var(--blue)"],
+];
+
+interface Bar {
+  detector: string;
+  question: string;
+  scenes: number;
+  phases: Record<Phase, number | null>;
+  total: number;
+}
+
+interface Piece {
+  detector: string;
+  phase: Phase;
+  ms: number;
+}
+
+const phasesOf = (phases: Phases): Record<Phase, number | null> =>
+  ({map: phases.map, update: phases.update, query: phases.query});
+
+// The mean over scenes; a lazy detector maps within its query, and has no time of mapping.
+function barOf(detector: string, runs: Run[], part: Part, mapping: boolean): Bar | null {
+  const timed = runs.filter((run) => run.time_ms[part]);
+  if (timed.length === 0) return null;
+  const mean = (phase: Phase): number | null => {
+    const values = timed.map((run) => phasesOf(run.time_ms[part]!)[phase]).filter((ms) => ms !== null);
+    return values.length > 0 ? values.reduce((sum, ms) => sum + ms, 0) / timed.length : null;
+  };
+  const phases = {map: mapping ? mean("map") : null, update: mean("update"), query: mean("query")};
+  const total = (phases.map ?? 0) + (phases.update ?? 0) + (phases.query ?? 0);
+  return {detector, question: timed[0].time_ms.question ?? "", scenes: timed.length, phases, total};
+}
+
+interface Choice {
+  scenes: Scene[];
+  part: Part;
+  mapping: boolean;
+  whole: boolean;
+}
+
+function barsOf(report: Report, choice: Choice): Bar[] {
+  return report.detectors.map((detector) => {
+    const runs = choice.scenes.map((scene) => report.okRun(scene.id, detector)).filter((run) => run !== null);
+    return barOf(detector, runs, choice.part, choice.mapping);
+  }).filter((bar) => bar !== null).sort((a, b) => a.total - b.total);
+}
+
+// Some detectors take a thousand times as long: unless all is asked for, the axis ends where two
+// thirds of the bars fit, and longer ones are cut and say how long they are.
+function axisEnd(bars: Bar[], whole: boolean): number {
+  const longest = bars[bars.length - 1].total;
+  return whole ? longest : Math.min(longest, 1.25 * bars[Math.floor((bars.length - 1) * 0.67)].total);
+}
+
+const kMost = 40;
+
+function draw(width: number, all: Bar[], whole: boolean): Node {
+  const bars = all.slice(0, kMost), end = axisEnd(bars, whole), narrow = width < 600;
+  const names = bars.map((bar) => bar.detector);
+  const pieces: Piece[] = bars.flatMap(({detector, phases}) =>
+    kPhases.filter(([phase]) => phases[phase] !== null).map(([phase]) => ({detector, phase,
+        ms: phases[phase]!})));
+  const wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
+  const label = (bar: Bar): string => (bar.total > end ? `${number(bar.total)} ms ▸`
+      : `${number(bar.total)} ms`);
+  return Plot.plot({
+    width, height: 44 + (narrow ? 44 : 24) * bars.length, marginLeft: narrow ? 14 : wide, marginRight: 76,
+        marginTop: 8, marginBottom: 36,
+    x: {domain: [0, end], label: "milliseconds per frame →", grid: true},
+    y: {domain: names, label: null, axis: narrow ? null : "left", tickSize: 0,
+        paddingInner: narrow ? 0.55 : 0.25},
+    color: {domain: kPhases.map(([phase]) => phase), range: kPhases.map(([, , colour]) => colour)},
+    marks: [
+      Plot.barX(pieces, Plot.stackX({y: "detector", x: "ms", fill: "phase",
+          order: kPhases.map(([phase]) => phase), clip: true,
+        ariaLabel: (d: Piece) => `${d.detector}: ${d.phase} ${number(d.ms)} ms`,
+        title: (d: Piece) => `${d.detector}\n${d.phase}: ${number(d.ms)} ms per frame`, tip: true})),
+      Plot.text(bars, {y: "detector", x: (bar: Bar) => Math.min(bar.total, end), text: label,
+          textAnchor: "start", dx: 5, fill: "currentColor"}),
+      narrow ? Plot.text(bars, {y: "detector", text: "detector", frameAnchor: "left", dy: -18,
+          fill: "currentColor"}) : null,
+      Plot.ruleX([0]),
+    ],
+  });
+}
+
+function barsTable(bars: Bar[]): HTMLElement {
+  const rows = bars.map(({detector, question, scenes, phases, total}) => [
+    detector, question, String(scenes), number(phases.map), number(phases.update), number(phases.query),
+        number(total)]);
+  return table([left("detector"), left("question"), right("scenes"), right("map"), right("update"),
+      right("query"), right("sum")],
+               rows, "Milliseconds per frame and phase");
+}
+
+export const times: Section = {
+  id: "times",
+  title: "Where the time goes",
+  short: "Time per phase",
+  build(report) {
+    if (!report.timed) return [];
+    const options = sceneOptions(report);
+    const choice: Choice = {scenes: chosenScenes(report, options[0][0]), part: "cold", mapping: true,
+        whole: false};
+    let bars = barsOf(report, choice);
+    const below = h("div");
+    const picture = chart("Milliseconds per frame and phase of every detector", (width) =>
+      bars.length > 0 ? draw(width, bars, choice.whole) : h("p", {}, "No detector was timed here."));
+    const update = (change: Partial<Choice>): void => {
+      bars = barsOf(report, Object.assign(choice, change));
+      picture.redraw();
+      below.replaceChildren(
+        ...(bars.length > kMost ? [h("p", {class: "note"},
+            `The ${kMost} fastest of ${bars.length} are drawn; the table has all.`)] : []),
+        unfolding("The same as a table", () => [barsTable(bars)]));
+    };
+    update({});
+    return [
+      p("Milliseconds per frame, medians over repeats, means over the scenes in which a detector was timed. A detector without a piece “map” ",
+        "maps only the vertices that it needs, within its query. Each is timed in its own question, so that two bars of different questions ",
+        "do not compare. A bar with ▸ is cut."),
+      controlBar(
+        select("Scenes", options, options[0][0], (value) => update({scenes: chosenScenes(report, value)})),
+        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
+            (value) => update({part: value as Part})),
+        radios("Mapping", [["with", "with"], ["without", "without"]], "with",
+            (value) => update({mapping: value === "with"})),
+        radios("Long bars", [["cut", "cut"], ["whole", "whole"]], "cut",
+            (value) => update({whole: value === "whole"}))),
+      picture.element,
+      legend(kPhases.map(([, text, colour]) => ({text, swatch: square(colour)}))),
+      below,
+    ];
+  },
+};

@@ -1,0 +1,23 @@
+// The scenes in 3D, where the page holds their recordings.
+import {h} from "../dom";
+import type {Section} from "../section";
+import {canHaveView, mountInto} from "../view_slot";
+
+export const view: Section = {
+  id: "view",
+  title: "Scenes in 3D",
+  short: "3D view",
+  build({results, viewBytes}) {
+    if (!viewBytes || !canHaveView()) return [];
+    const place = h("div", {class: "view-place"});
+    // Once it stands in the page and has a size.
+    requestAnimationFrame(() => {
+      try {
+        mountInto(place, results, viewBytes);
+      } catch (error) {
+        place.textContent = `The 3D view cannot be shown: ${String(error)}`;
+      }
+    });
+    return [place];
+  },
+};

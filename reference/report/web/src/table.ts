@@ -1,0 +1,90 @@
+// Tables in a box of their own, which scrolls where the window is narrow. Headings sort.
+import {h, type Child} from "./dom";
+
+export interface Column {
+  title: string;
+  left?: boolean;
+  /** For the legend of words. */
+  meaning?: string;
+}
+
+export interface Cell {
+  text: string;
+  /** Shown instead of the text. */
+  node?: Node;
+  /** What sorting goes by instead of the text. */
+  sort?: number | null;
+  class?: string;
+  /** Background and ink, of heat tables. */
+  heat?: {background: string; ink: string};
+  /** Shown when the pointer rests on the cell. */
+  label?: string;
+}
+
+export type Row = (string | Cell)[];
+
+const cellOf = (cell: string | Cell): Cell => (typeof cell === "string" ? {text: cell} : cell);
+
+// "1.39 to 9.13x" sorts as 1.39; words sort behind numbers.
+function sortKey(cell: Cell): number | string {
+  if (cell.sort !== undefined) return cell.sort ?? Infinity;
+  const value = Number.parseFloat(cell.text.replaceAll(",", ""));
+  return Number.isNaN(value) ? cell.text : value;
+}
+
+function compare(a: number | string, b: number | string): number {
+  if (typeof a === "number" && typeof b === "number") return a - b;
+  if (typeof a === "string" && typeof b === "string") return a.localeCompare(b);
+  return typeof a === "number" ? -1 : 1;
+}
+
+function tableCell(cell: Cell, column: Column, first: boolean): HTMLElement {
+  const attributes = {class: [column.left ? "left" : "", cell.class ?? ""].join(" ").trim() || null,
+                      title: cell.label};
+  const element = first ? h("th", {scope: "row", ...attributes}, cell.node ?? cell.text)
+                        : h("td", attributes, cell.node ?? cell.text);
+  if (cell.heat) {
+    element.style.background = cell.heat.background;
+    element.style.color = cell.heat.ink;
+  }
+  return element;
+}
+
+function sortBy(body: HTMLElement, heads: HTMLElement[], index: number, rows: Row[]): void {
+  const down = heads[index].getAttribute("aria-sort") === "ascending";
+  heads.forEach((head) => head.removeAttribute("aria-sort"));
+  heads[index].setAttribute("aria-sort", down ? "descending" : "ascending");
+  const lines = [...body.children];
+  const keys = rows.map((row) => sortKey(cellOf(row[index])));
+  const number = new Map(lines.map((line) => [line, Number((line as HTMLElement).dataset.row)]));
+  lines.sort((a, b) => compare(keys[number.get(a)!], keys[number.get(b)!]) * (down ? -1 : 1));
+  body.append(...lines);
+}
+
+function headLine(columns: Column[], sort: (heads: HTMLElement[], index: number) => void): HTMLElement {
+  const heads: HTMLElement[] = columns.map((column, i) => {
+    const button = h("button", {type: "button", click: () => sort(heads, i)}, column.title);
+    return h("th", {scope: "col", class: column.left ? "left" : null}, button);
+  });
+  return h("tr", {}, ...heads);
+}
+
+/** `what` says to a screen reader what the table holds. */
+export function table(columns: Column[], rows: Row[], what: string): HTMLElement {
+  const body = h("tbody");
+  rows.forEach((row, r) => {
+    const cells = row.map((cell, i) => tableCell(cellOf(cell), columns[i], i === 0));
+    body.append(h("tr", {"data-row": r}, ...cells));
+  });
+  const head = headLine(columns, (heads, index) => sortBy(body, heads, index, rows));
+  return h("div", {class: "scroll", role: "region", tabindex: 0, "aria-label": what},
+           h("table", {}, h("thead", {}, head), body));
+}
+
+/** Nothing without rows: a title and a sentence over a table. */
+export function titledTable(title: string, columns: Column[], rows: Row[]): Child[] {
+  return rows.length > 0 ? [h("h4", {}, title), table(columns, rows, title)] : [];
+}
+
+export const left = (title: string, meaning?: string): Column => ({title, left: true, meaning});
+export const right = (title: string, meaning?: string): Column => ({title, meaning});

@@ -1,0 +1,46 @@
+// Time samples of a reference and a detector as a run would take them, under a stated noise model.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "reference/compare/speedup.h"
+
+namespace contactcheck::test {
+
+/// Every part is a factor of the time of one sample; sigma: of its logarithm.
+struct NoiseModel {
+  const char* name;
+  double sample_sigma;   ///< of each sample alone
+  double drift_sigma;    ///< per step of a random walk that both sides share, as they interleave
+  double process_sigma;  ///< of all samples of one side in one process: where its memory lies
+  double spike_share;    ///< of samples that an interrupt falls into
+  double spike_factor;   ///< how long such a sample takes
+};
+
+struct RunShape {
+  std::size_t frames, repeats, processes;
+};
+
+struct SimulatedRun {
+  ProcessSamples reference, detector;
+};
+
+/// The raw output of mt19937_64, which the standard fixes, and logarithms: the same table for every
+/// standard library.
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : random_(seed) {}
+  /// Uniform in (0, 1).
+  double uniform() { return (static_cast<double>(random_() >> 12) + 0.5) * 0x1p-52; }
+  double normal();
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Frames of `detector_us`, of which the reference takes `ratio` times as long.
+SimulatedRun simulate_run(const NoiseModel& model, const RunShape& shape, double detector_us,
+                          double ratio, Noise& noise);
+
+}  // namespace contactcheck::test

@@ -1,0 +1,24 @@
+// Rounds of two builds, written by hand.
+#pragma once
+
+#include "reference/ab/ab_judge.h"
+#include "tests/reference/diff/tables.h"
+
+namespace contactcheck::test {
+
+/// One scene "s" and one detector "d", with these times per round, in milliseconds.
+inline std::vector<AbRound> rounds_of(const std::vector<double>& base,
+                                      const std::vector<double>& head) {
+  std::vector<AbRound> rounds;
+  for (std::size_t i = 0; i < base.size(); ++i)
+    rounds.push_back(
+        {table_of({timed_row("s", "d", base[i])}), table_of({timed_row("s", "d", head[i])})});
+  return rounds;
+}
+
+/// The same time in each of seven rounds.
+inline std::vector<AbRound> steady_rounds(double base_ms, double head_ms) {
+  return rounds_of(std::vector<double>(7, base_ms), std::vector<double>(7, head_ms));
+}
+
+}  // namespace contactcheck::test

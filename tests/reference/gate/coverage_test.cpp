@@ -1,0 +1,112 @@
+// What a gate must not pass over in silence.
+#include <gmock/gmock.h>
+
+#include "reference/gate/coverage.h"
+#include "tests/reference/gate/gate_world.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::checks_of;
+using test::row_of;
+using test::sample_results;
+
+constexpr const char* kHolds =
+    "'scenes': ['touch'], 'detectors': ['exact'], 'measure': 'missed', "
+    "'at_most': 0";
+
+std::vector<std::string> red_sentences(const std::vector<Check>& checks) {
+  std::vector<std::string> out;
+  for (const Check& check : checks)
+    if (check.red) out.push_back(check.rule + ": " + sentence_of(check));
+  return out;
+}
+
+TEST(RuleThatMatchesNothing, IsBroken) {
+  const auto checks =
+      checks_of("'scenes': ['tuch'], 'detectors': ['exact'], 'measure': 'missed', 'at_most': 0",
+                sample_results());
+  EXPECT_THAT(red_sentences(checks),
+              testing::ElementsAre("R: matches nothing: no row has a scene of \"tuch\" and a "
+                                   "detector of \"exact\""));
+}
+
+TEST(PatternThatMatchesNothing, IsBrokenBesideOnesThatDo) {
+  const auto checks = checks_of(
+      "'scenes': ['*'], 'detectors': ['exact', 'ex?ct2'], 'measure': 'missed', 'at_most': 0",
+      sample_results());
+  EXPECT_EQ(checks.size(), 4u) << "three scenes and the pattern";
+  EXPECT_THAT(
+      red_sentences(checks),
+      testing::ElementsAre("R: matches nothing: no row of the rule has a detector \"ex?ct2\""));
+}
+
+TEST(PatternWithAnExclamationMark, TakesRowsOutAndNeedNotMatch) {
+  const auto checks = checks_of(
+      "'scenes': ['touch'], 'detectors': ['*', '!broken', '!l?st', '!nobody'], "
+      "'measure': 'status', 'equals': 'ok'",
+      sample_results());
+  ASSERT_EQ(checks.size(), 4u);
+  for (const Check& check : checks) EXPECT_EQ(check.verdict, Verdict::kPass) << check.detector;
+}
+
+TEST(OracleRuleWithoutRandomPairs, MatchesNothing) {
+  EXPECT_THAT(
+      red_sentences(checks_of("'scenes': ['touch'], 'measure': 'oracle_wrong', 'at_most': 0",
+                              sample_results())),
+      testing::ElementsAre("R: matches nothing: no row has a scene of \"touch\""));
+}
+
+TEST(Baseline, OfTheSameRowsIsGreen) {
+  const Json baseline = sample_results();
+  EXPECT_EQ(red_sentences(checks_of(kHolds, sample_results(), &baseline)).size(), 0u);
+}
+
+TEST(Baseline, SceneThatTheResultsLackIsBroken) {
+  const Json baseline = sample_results();
+  Json results = sample_results();
+  results["scenes"].erase(1);
+  results["runs"].erase(6);
+  ASSERT_EQ(red_sentences(checks_of(kHolds, results)).size(), 0u);
+  EXPECT_THAT(red_sentences(checks_of(kHolds, results, &baseline)),
+              testing::ElementsAre(std::string(kBaselineRule) +
+                                   ": hard-gap: the baseline has this scene, the results do not"));
+}
+
+TEST(Baseline, DetectorThatTheResultsLackInASceneIsBroken) {
+  const Json baseline = sample_results();
+  Json results = sample_results();
+  results["runs"].erase(2);
+  EXPECT_THAT(red_sentences(checks_of(kHolds, results, &baseline)),
+              testing::ElementsAre(std::string(kBaselineRule) +
+                                   ": touch  paper: the baseline has this detector in this scene, "
+                                   "the results do not"));
+}
+
+TEST(Baseline, DetectorThatEndedWellAndNoLongerDoesIsBroken) {
+  Json baseline = sample_results();
+  const Json well = row_of(baseline, "touch", "paper");
+  row_of(baseline, "touch", "broken") = well;
+  baseline["runs"][4]["detector"] = "broken";
+  const auto checks = checks_of(kHolds, sample_results(), &baseline);
+  ASSERT_FALSE(checks.empty());
+  EXPECT_EQ(checks.back().scene, "touch");
+  EXPECT_EQ(checks.back().detector, "broken");
+  EXPECT_EQ(checks.back().frame, "frame 4");
+  EXPECT_EQ(checks.back().measured, "status error");
+  EXPECT_EQ(checks.back().rerun,
+            "contactcheck run scenes/touch.json --frames 8 --detector broken --no-timing");
+}
+
+TEST(Baseline, RowThatFailedInItMayFailAgainOrBeNew) {
+  const Json baseline = sample_results();  // "broken" failed and "lost" was absent
+  Json results = sample_results();
+  Json row = row_of(results, "touch", "exact");
+  row["detector"] = "new";
+  results["runs"].push_back(row);
+  EXPECT_EQ(red_sentences(checks_of(kHolds, results, &baseline)).size(), 0u);
+}
+
+}  // namespace
+}  // namespace contactcheck

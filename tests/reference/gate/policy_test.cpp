@@ -1,0 +1,72 @@
+#include "reference/gate/policy.h"
+
+#include <gmock/gmock.h>
+
+#include "reference/scene/catalogue.h"
+#include "tests/reference/gate/gate_world.h"
+
+namespace contactcheck {
+namespace {
+
+TEST(Policy, OfEveryKeyIsRead) {
+  const Rule rule = test::policy_of(
+                        "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
+                        "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
+                        "'part': 'hot', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
+                        "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass'")
+                        .rules.at(0);
+  EXPECT_EQ(rule.name, "R");
+  EXPECT_EQ(rule.why, "because");
+  EXPECT_TRUE(rule.scenes.hold("aa"));
+  EXPECT_FALSE(rule.scenes.hold("ab"));
+  EXPECT_FALSE(rule.scenes.hold("b"));
+  EXPECT_STREQ(rule.measure->name, "slowdown");
+  EXPECT_EQ(rule.question, "body");
+  EXPECT_EQ(rule.reference, "fcl-aabb");
+  EXPECT_EQ(rule.part, "hot");
+  EXPECT_EQ(rule.limit, 1.25);
+  EXPECT_EQ(rule.floor_us, 3.5);
+  EXPECT_EQ(rule.noise_width, 0.2);
+  EXPECT_TRUE(rule.noisy_fails);
+  EXPECT_TRUE(rule.unjudged_fails);
+  EXPECT_FALSE(rule.error_fails);
+  EXPECT_TRUE(needs_baseline(rule));
+}
+
+TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsFail) {
+  const Rule rule =
+      test::policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', 'at_most': 0")
+          .rules.at(0);
+  EXPECT_FALSE(rule.noisy_fails);
+  EXPECT_FALSE(rule.unjudged_fails);
+  EXPECT_TRUE(rule.error_fails);
+  EXPECT_EQ(rule.level, "");
+  EXPECT_FALSE(needs_baseline(rule));
+}
+
+TEST(Patterns, StandForNamesWithOptionsToo) {
+  const Patterns patterns{{"ffd-*:bounds=safe*", "fcl-[ao]*"}, {"*isa=SSE4"}};
+  EXPECT_TRUE(patterns.hold("ffd-aabb:bounds=safe"));
+  EXPECT_TRUE(patterns.hold("ffd-aabb:bounds=safe,isa=AVX2"));
+  EXPECT_FALSE(patterns.hold("ffd-aabb:bounds=safe,isa=SSE4"));
+  EXPECT_FALSE(patterns.hold("ffd-aabb"));
+  EXPECT_TRUE(patterns.hold("fcl-obbrss"));
+  EXPECT_FALSE(patterns.hold("fcl-collide"));
+}
+
+// What is committed can be read, and is found under its id.
+TEST(CommittedPolicies, AreRead) {
+  std::size_t policies = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(CONTACTCHECK_FIXTURES) + "/policies")) {
+    if (entry.path().extension() != ".json") continue;
+    const Policy policy = read_policy(entry.path());
+    EXPECT_EQ(policy.id, entry.path().stem());
+    EXPECT_GT(policy.rules.size(), 3u);
+    ++policies;
+  }
+  EXPECT_GE(policies, 2u);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,203 @@
+// Timing rules on results written by hand.
+#include <gmock/gmock.h>
+
+#include "reference/gate/timing_reading.h"
+#include "tests/reference/gate/gate_world.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::check_of;
+using test::row_of;
+using test::sample_results;
+using testing::HasSubstr;
+
+std::string speedup(const std::string& limit, const std::string& more = "") {
+  return "'measure': 'speedup', 'question': 'triangles', 'reference': 'ref', 'at_least': " + limit +
+         more;
+}
+
+std::string slowdown(const std::string& limit, const std::string& more = "") {
+  return "'measure': 'slowdown', 'question': 'triangles', 'reference': 'ref', 'at_most': " + limit +
+         more;
+}
+
+Json& ratio_of(Json& results, const char* part = "cold") {
+  return row_of(results, "touch", "exact")["speedup"]["triangles"]["ref"][part];
+}
+
+// The detector takes `factor` times as long as in the sample.
+Json slower(double factor) {
+  Json results = sample_results();
+  Json& ratio = ratio_of(results);
+  for (const char* key : {"ratio", "low", "high"}) ratio[key] = ratio[key].get<double>() / factor;
+  Json& frame = row_of(results, "touch", "exact")["time_ms"]["cold"]["frame"];
+  frame = frame.get<double>() * factor;
+  return results;
+}
+
+TEST(Speedup, ReachedPasses) {
+  const Check check = check_of("exact", speedup("3.8"), sample_results());
+  EXPECT_EQ(check.verdict, Verdict::kPass);
+  EXPECT_EQ(check.measured, "speedup 4x [3.8, 4.2] over ref, triangles, cold");
+  EXPECT_EQ(check.allowed, "at least 3.8x");
+}
+
+TEST(Speedup, MissedByTheWholeIntervalFailsWithItsCommand) {
+  const Check check = check_of("exact", speedup("5"), sample_results());
+  EXPECT_EQ(check.verdict, Verdict::kFail);
+  EXPECT_TRUE(check.red);
+  EXPECT_EQ(check.reason, "200 us too long per frame of 1000 us");
+  EXPECT_EQ(check.rerun,
+            "contactcheck run scenes/touch.json --frames 8 --detector exact --detector ref "
+            "--repeat 9 --processes=3");
+}
+
+TEST(Speedup, MissedByLessThanTheFloorPasses) {
+  EXPECT_EQ(check_of("exact", speedup("5", ", 'floor_us': 201"), sample_results()).verdict,
+            Verdict::kPass);
+  EXPECT_EQ(check_of("exact", speedup("5", ", 'floor_us': 199"), sample_results()).verdict,
+            Verdict::kFail);
+}
+
+TEST(Speedup, WithTheLimitInItsIntervalIsTooNoisyAsTheRuleHasIt) {
+  const Check check = check_of("exact", speedup("4", ", 'noise_width': 0.05"), sample_results());
+  EXPECT_EQ(check.verdict, Verdict::kTooNoisy);
+  EXPECT_FALSE(check.red);
+  EXPECT_TRUE(
+      check_of("exact", speedup("4", ", 'noise_width': 0.05, 'noisy': 'fail'"), sample_results())
+          .red);
+  EXPECT_EQ(check_of("exact", speedup("4", ", 'noise_width': 0.2"), sample_results()).verdict,
+            Verdict::kPass);
+}
+
+TEST(Speedup, IsOfThePartThatTheRuleNames) {
+  for (const auto& [part, good, bad, us] : {std::tuple{"hot", "7.8", "8.3", "500"},
+                                            {"contact_frames", "2.9", "3.2", "2000"},
+                                            {"without_map", "4.9", "5.2", "900"}}) {
+    const std::string named = std::string(", 'part': '") + part + "'";
+    EXPECT_EQ(check_of("exact", speedup(good, named), sample_results()).verdict, Verdict::kPass);
+    const Check check = check_of("exact", speedup(bad, named), sample_results());
+    EXPECT_EQ(check.verdict, Verdict::kFail) << part;
+    EXPECT_THAT(check.reason, HasSubstr(std::string("per frame of ") + us + " us"));
+  }
+}
+
+TEST(Speedup, OfAnotherQuestionTakesItsOwnTimes) {
+  Json results = sample_results();
+  Json& row = row_of(results, "touch", "exact");
+  row["speedup"]["body"] = row["speedup"]["triangles"];
+  const std::string rule =
+      "'measure': 'speedup', 'question': 'body', 'reference': 'ref', 'at_least': 5";
+  EXPECT_EQ(check_of("exact", rule, results).reason, "no times per frame of the question body");
+  Json times = row["time_ms"];
+  times["question"] = "body";
+  times["cold"]["frame"] = 0.01;
+  row["time_ms_other_questions"] = {times};
+  EXPECT_EQ(check_of("exact", rule, results).reason,
+            "beyond the limit by 2 us per frame, less than 2 us");
+}
+
+TEST(Speedup, ThatIsNotThereCannotBeJudged) {
+  Json results = sample_results();
+  EXPECT_EQ(check_of("paper", speedup("1"), results).reason, "the run was not timed");
+  EXPECT_EQ(check_of("exact",
+                     "'measure': 'speedup', 'question': 'triangles', 'reference': 'embree', "
+                     "'at_least': 1",
+                     results)
+                .reason,
+            "no speed-up over embree in the question triangles");
+  ratio_of(results, "without_map") = nullptr;
+  ratio_of(results, "contact_frames") = nullptr;
+  EXPECT_THAT(check_of("exact", speedup("1", ", 'part': 'without_map'"), results).reason,
+              HasSubstr("maps lazily"));
+  EXPECT_EQ(check_of("exact", speedup("1", ", 'part': 'contact_frames'"), results).reason,
+            "no frame with contact was timed");
+}
+
+TEST(Slowdown, OfThirtyPercentFails) {
+  const Json baseline = sample_results();
+  const Check check = check_of("exact", slowdown("1.1"), slower(1.3), &baseline);
+  EXPECT_EQ(check.verdict, Verdict::kFail);
+  EXPECT_TRUE(check.red);
+  EXPECT_EQ(check.measured,
+            "slowdown 1.3x [1.211, 1.395] (speed-up 3.077x, in the baseline 4x, over ref, "
+            "triangles, cold)");
+  EXPECT_EQ(check.allowed, "at most 1.1x");
+  EXPECT_EQ(check.reason, "200 us too long per frame of 1300 us");
+}
+
+TEST(Slowdown, OfNothingPasses) {
+  const Json baseline = sample_results();
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), sample_results(), &baseline).verdict,
+            Verdict::kPass);
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), slower(0.5), &baseline).verdict, Verdict::kPass)
+      << "faster is no change for the worse";
+}
+
+TEST(Slowdown, CloseToTheLimitIsTooNoisy) {
+  const Json baseline = sample_results();
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), slower(1.1), &baseline).verdict, Verdict::kTooNoisy);
+}
+
+TEST(Slowdown, WithoutABaselineCannotBeJudged) {
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), slower(1.3)).reason, "no baseline is given");
+}
+
+struct Elsewhere {
+  std::string pointer;
+  Json value;
+  std::string reason;
+};
+
+TEST(Slowdown, AgainstAnotherMachineCannotBeJudged) {
+  for (const Elsewhere& e :
+       {Elsewhere{"/machine/cpu", "B CPU", "cpu is \"A CPU\" here and \"B CPU\" in the baseline"},
+        {"/machine/cores", 64, "cores is 2 here and 64 in the baseline"},
+        {"/machine/isa", "SSE4", "isa is \"AVX2\" here and \"SSE4\""},
+        {"/machine/compiler", "clang 16", "compiler is \"g++ 12\" here and \"clang 16\""},
+        {"/machine/build", "Debug", "build is \"Release\" here and \"Debug\""},
+        {"/libraries/fcl", "0.8.0", "library fcl is \"0.7.0\" here and \"0.8.0\""},
+        {"/libraries/embree", "3.13.5", "library embree is null here and \"3.13.5\""}}) {
+    Json baseline = sample_results();
+    baseline[Json::json_pointer(e.pointer)] = e.value;
+    const Check check = check_of("exact", slowdown("1.1"), slower(1.3), &baseline);
+    EXPECT_EQ(check.verdict, Verdict::kCannotJudge) << e.pointer;
+    EXPECT_FALSE(check.red);
+    EXPECT_THAT(check.reason, HasSubstr("another machine or build: " + e.reason));
+    // What does not depend on the machine is judged all the same.
+    EXPECT_EQ(check_of("exact", "'measure': 'contact_hash', 'unchanged': true", sample_results(),
+                       &baseline)
+                  .verdict,
+              Verdict::kPass);
+  }
+}
+
+TEST(Slowdown, OnAnotherOperatingSystemOfTheSameMachineIsJudged) {
+  Json baseline = sample_results();
+  baseline["machine"]["os"] = "Debian 13";
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), slower(1.3), &baseline).verdict, Verdict::kFail);
+}
+
+TEST(Slowdown, OfAnotherMeasurementCannotBeJudged) {
+  for (const Elsewhere& e :
+       {Elsewhere{"/runs/0/frames", 4, "frames is 8 here and 4 in the baseline"},
+        {"/runs/0/contact_frames", 2, "contact_frames is 3 here and 2 in the baseline"},
+        {"/runs/0/time_ms/timed_frames", 6, "8 frames are timed here and 6 in the baseline"},
+        {"/runs/0/speedup/triangles/ref/reference_options",
+         {{"bounds", "safe"}},
+         "the reference has other options in the baseline"},
+        {"/runs/0/speedup/triangles/ref/cold/low", 0, "a speed-up of 0 has no logarithm"},
+        {"/runs/0/speedup/triangles", Json::object(),
+         "in the baseline: no speed-up over ref in the question triangles"}}) {
+    Json baseline = sample_results();
+    baseline[Json::json_pointer(e.pointer)] = e.value;
+    const Check check = check_of("exact", slowdown("1.1"), slower(1.3), &baseline);
+    EXPECT_EQ(check.verdict, Verdict::kCannotJudge) << e.pointer;
+    EXPECT_EQ(check.reason, e.reason);
+  }
+}
+
+}  // namespace
+}  // namespace contactcheck

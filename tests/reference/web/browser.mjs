@@ -1,0 +1,46 @@
+// A headless Chromium, driven by the playwright-core that the bundler of the page has installed.
+// Environment: CONTACTCHECK_WEB_WORK, the bundler's work folder (its node_modules); CHROMIUM.
+import {createRequire} from "node:module";
+import {dirname, resolve} from "node:path";
+import {fileURLToPath, pathToFileURL} from "node:url";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
+const work = resolve(process.env.CONTACTCHECK_WEB_WORK ?? `${root}/build/release/reference/report/web/work`);
+const {chromium} = createRequire(`${work}/package.json`)("playwright-core");
+
+/** Flags for launch(): WebGL without a graphics card. */
+export const kWebGl = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export const kWide = {width: 1280, height: 900}, kNarrow = {width: 400, height: 800};
+
+/** @returns a browser; close() ends it. `args`: further flags, for WebGL for instance */
+export function launch(args = ["--disable-gpu"]) {
+  return chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    headless: true,
+    args: ["--no-sandbox", "--disable-quic", "--no-first-run", ...args],
+  });
+}
+
+/**
+ * Opens a report from disk and waits until it is drawn. `requests` and `errors` grow with every
+ * request that is not the page itself or inside it, and with every exception or console error.
+ */
+export async function openReport(browser, file, {viewport = kWide, colorScheme = "light"} = {}) {
+  const context = await browser.newContext({viewport, colorScheme});
+  const page = await context.newPage();
+  const url = pathToFileURL(resolve(file)).href, requests = [], errors = [];
+  page.on("request", (request) => {
+    if (request.url().split("#")[0] !== url && !/^(data|blob):/.test(request.url())) requests.push(request.url());
+  });
+  page.on("pageerror", (error) => errors.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+  await page.goto(url);
+  await page.waitForSelector("h1");
+  await settled(page);
+  return {page, requests, errors, close: () => context.close()};
+}
+
+/** Charts are drawn in the frame after their place is known; two frames later they stand. */
+export const settled = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));

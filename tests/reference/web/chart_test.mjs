@@ -1,0 +1,119 @@
+// The chart of speed against error, and the other charts' bars.
+import assert from "node:assert/strict";
+import {test} from "node:test";
+import {settled} from "./browser.mjs";
+import {tableTexts, useReport} from "./report.mjs";
+
+const report = useReport("two_scenes.json");
+const kTable = "Points of the chart of speed against error";
+
+const section = (page) => page.locator("#speed-error");
+const labels = (page) =>
+  section(page).locator(".points [aria-label]").evaluateAll((all) =>
+    all.map((point) => point.getAttribute("aria-label").split("\n")));
+const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
+const front = (lines) => lines.slice(1).filter((line) => line[8] === "yes").map((line) => line[0]);
+
+async function choose(page, label, option) {
+  await section(page).getByRole("combobox", {name: label}).selectOption(option);
+  await settled(page);
+}
+
+async function pointsTable(page) {
+  await section(page).getByText("The same as a table").click();
+  return tableTexts(page, kTable);
+}
+
+test("every detector that was timed and judged in all scenes is a point", async () => {
+  const {page} = await report.shared();
+  const points = await labels(page);
+  assert.deepEqual(points.map(([first]) => first), [
+    "fcl-aabb: 1.00 ms per frame (question triangles)", "fcl-obbrss: 20.0 ms per frame (question triangles)",
+    "ffd-lazy: 0.0300 ms per frame (question triangles)", "ffd-aabb: 0.100 ms per frame (question cells)",
+    "ffd-grid: 0.200 ms per frame (question cells)"]);
+  assert.deepEqual(points[3].slice(1), ["missed 4 of 16, spurious 1 of 9 (level cell)", "options: bounds=paper"]);
+  assert.match(await section(page).locator(".note").textContent(),
+               /^Not in the chart: <img src=x onerror=alert\(1\)> \(ended well in 0 of 2 scenes\)\.$/);
+});
+
+test("the front holds who is not beaten in the same question", async () => {
+  const {page} = await report.open();
+  const lines = await pointsTable(page);
+  assert.deepEqual(lines[3], ["ffd-lazy", "-", "triangles", "0.0300", "triangle", "0", "0", "0", "yes"]);
+  assert.deepEqual(lines[4], ["ffd-aabb", "bounds=paper", "cells", "0.100", "cell", "0.25000", "4", "1", "yes"]);
+  assert.deepEqual(front(lines), ["ffd-lazy", "ffd-aabb"]);
+  assert.equal(await section(page).locator(".fronts path").count(), 2);
+});
+
+test("another measure of error makes another front", async () => {
+  const {page} = await report.open();
+  await choose(page, "Error", "missed");
+  assert.deepEqual(front(await pointsTable(page)), ["ffd-lazy", "ffd-aabb", "ffd-grid"]);
+});
+
+test("a level leaves out who does not claim it", async () => {
+  const {page} = await report.open();
+  await choose(page, "Level", "triangle");
+  assert.equal((await labels(page)).length, 3);
+  assert.match(await section(page).locator(".note").textContent(), /ffd-aabb, ffd-grid \(does not claim level triangle\)/);
+  await choose(page, "Level", "body");
+  assert.deepEqual((await labels(page))[4][1], "missed 0 of 3, spurious 1 of 4 (level body)");
+});
+
+test("one scene and hot caches have times of their own", async () => {
+  const {page} = await report.open();
+  await choose(page, "Scenes", {label: "<script>alert(1)</script>"});
+  await section(page).getByLabel("hot").check();
+  await settled(page);
+  assert.equal((await labels(page))[0][0], "fcl-aabb: 1.20 ms per frame (question triangles)");
+});
+
+test("points stand where their time and error say", async () => {
+  const {page} = await report.shared();
+  const places = await section(page).locator(".points [aria-label]").evaluateAll((all) =>
+    all.map((point) => point.getBoundingClientRect()).map((box) => [box.x + box.width / 2, box.y + box.height / 2]));
+  const [aabb, obbrss, lazy, ffd, grid] = places;
+  assert.ok(lazy[0] < ffd[0] && ffd[0] < grid[0] && grid[0] < aabb[0] && aabb[0] < obbrss[0], "left is faster");
+  assert.ok(Math.abs(lazy[1] - aabb[1]) < 0.5, "no error is one line");
+  assert.ok(obbrss[1] < lazy[1] && ffd[1] < obbrss[1] && grid[1] < ffd[1], "up is worse");
+  // A logarithm: a factor of 20 is as long wherever it stands.
+  const octave = (a, b, factor) => (b[0] - a[0]) / Math.log(factor);
+  assert.ok(Math.abs(octave(aabb, obbrss, 20) - octave(ffd, grid, 2)) < 1);
+});
+
+test("losses per stage are bars, and add up in words", async () => {
+  const {page} = await report.shared();
+  const bars = await labelsOf(page.locator("#stages [aria-label*='lost in']"));
+  assert.deepEqual(bars.filter((bar) => bar.includes(": ")), ["ffd-aabb: 2 lost in hash", "ffd-aabb: 2 lost in node-plane"]);
+  assert.deepEqual(await page.locator("#stages li:has-text('loses')").allTextContents(),
+                   ["ffd-aabb loses 4: 2 in hash and 2 in node-plane."]);
+});
+
+test("time per phase is stacked, with and without mapping", async () => {
+  const {page} = await report.open();
+  const bars = () => labelsOf(page.locator("#times [aria-label^='fcl-aabb:']"));
+  assert.deepEqual((await bars()).sort(), ["fcl-aabb: map 0.200 ms", "fcl-aabb: query 0.200 ms", "fcl-aabb: update 0.600 ms"]);
+  await page.locator("#times").getByLabel("without").check();
+  await settled(page);
+  assert.deepEqual((await bars()).sort(), ["fcl-aabb: query 0.200 ms", "fcl-aabb: update 0.600 ms"]);
+});
+
+test("cost is drawn against triangles and frames for the detectors chosen", async () => {
+  const {page} = await report.open();
+  const dots = page.locator("#cost figure").first().locator("[aria-label^='ffd-lazy']");
+  assert.deepEqual(await labelsOf(dots), [
+    "ffd-lazy\nmeet: 24 triangles\n0.0200 ms per frame",
+    "ffd-lazy\n<script>alert(1)</script>: 2,400 triangles\n0.0400 ms per frame"]);
+  await page.locator("#cost summary").click();
+  await page.locator("#cost").getByRole("checkbox", {name: "ffd-lazy"}).uncheck();
+  await settled(page);
+  assert.equal(await dots.count(), 0);
+});
+
+test("depths and normals are ranges from the mean to the largest", async () => {
+  const {page} = await report.shared();
+  const titles = await labelsOf(page.locator("#graded [aria-label^='ffd-aabb']"));
+  assert.deepEqual(titles.map((title) => title.split("\n")[1]), [
+    "mean 1.00 mm, 95 % below 3.00 mm, largest 4.00 mm",
+    "mean 10.0 °, 95 % below 45.0 °, largest 90.0 °"]);
+});

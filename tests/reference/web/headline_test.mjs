@@ -1,0 +1,42 @@
+// What the page says in words.
+import assert from "node:assert/strict";
+import {test} from "node:test";
+import {useReport} from "./report.mjs";
+
+const report = useReport("two_scenes.json");
+
+async function findings(page) {
+  const texts = await page.locator("dl.findings > *").allTextContents();
+  return Object.fromEntries(texts.flatMap((text, i) => (i % 2 === 0 ? [[text, texts[i + 1]]] : [])));
+}
+
+test("the title says how many made no error", async () => {
+  const {page} = await report.shared();
+  assert.equal(await page.locator("h1").textContent(), "2 of 5 detectors made no error in 2 scenes");
+  assert.equal(await page.title(), "contactcheck: 2 of 5 detectors made no error in 2 scenes");
+});
+
+test("the findings name who is exact, fastest, wrong and failed", async () => {
+  const {page} = await report.shared();
+  assert.deepEqual(await findings(page), {
+    "No error": "At level triangle: fcl-aabb and ffd-lazy.",
+    "Fastest without error":
+      "ffd-lazy in all 2 scenes: 0.0300 ms per frame there for all pairs of triangles, caches cold. " +
+      "fcl-aabb takes 25.0 to 37.5 times as long and fcl-obbrss takes 500 to 750 times as long.",
+    "Missed": "2 detectors did not report all true contacts: ffd-aabb 25.0 % (4 of 16, level cell) and " +
+      "fcl-obbrss 6.3 % (1 of 16, level triangle).",
+    "Spurious": "2 detectors reported contacts that are none, at level cell: ffd-grid 41.7 % (10 of 24) " +
+      "and ffd-aabb 11.1 % (1 of 9).",
+    "Ended in an error": "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
+    "Not built": "<img src=x onerror=alert(1)>.",
+    "Goals": "1 of 3 goals of the suite is met; 1 goal could not be measured.",
+  });
+});
+
+test("command, machine and libraries are told", async () => {
+  const {page} = await report.shared();
+  const facts = page.locator("#machine");
+  assert.match(await facts.textContent(), /contactcheck run "<i>mine<\/i>"\.json/);
+  assert.match(await facts.textContent(), /example, 2 cores, AVX2, Debian 12/);
+  assert.match(await facts.textContent(), /fcl 0\.7\.0/);
+});

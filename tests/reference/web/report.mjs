@@ -1,0 +1,71 @@
+// Reports made by the built program from hand-built results, and opened in the browser.
+// Environment: CONTACTCHECK_PROGRAM, and that of browser.mjs.
+import {execFileSync} from "node:child_process";
+import {copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {dirname, join, resolve} from "node:path";
+import {after, before} from "node:test";
+import {fileURLToPath} from "node:url";
+import {launch, openReport} from "./browser.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const program = process.env.CONTACTCHECK_PROGRAM ?? resolve(here, "../../../build/release/contactcheck");
+
+/**
+ * A browser and the report of `results` (a file of this folder), for all tests of a file.
+ * `beside`: JSON files to lie beside the results, by name.
+ * @returns open(options), as openReport; shared(), a page for tests that only read; requests() and
+ * errors() of all that was opened; markdown(), the report of the same results in Markdown
+ */
+export function useReport(results, {beside = {}, args} = {}) {
+  const folder = mkdtempSync(join(tmpdir(), "contactcheck-web-"));
+  const opened = [];
+  let browser, shared;
+  before(async () => {
+    copyFileSync(resolve(here, results), join(folder, "results.json"));
+    for (const [name, json] of Object.entries(beside)) writeFileSync(join(folder, name),
+        JSON.stringify(json));
+    execFileSync(program, ["report", join(folder, "results.json"), "--format", "html", "--out", folder]);
+    if (!existsSync(join(folder, "report.html"))) {
+      console.log("skipped: this program was built without the page (npm ci failed)");
+      process.exit(0);
+    }
+    browser = await launch(args);
+  });
+  after(async () => {
+    await browser?.close();
+    rmSync(folder, {recursive: true, force: true});
+  });
+  return {
+    async open(options) {
+      const report = await openReport(browser, join(folder, "report.html"), options);
+      opened.push(report);
+      return report;
+    },
+    markdown() {
+      execFileSync(program, ["report", join(folder, "results.json"), "--format", "md", "--out", folder]);
+      return readFileSync(join(folder, "report.md"), "utf8");
+    },
+    /** The page, opened once, for tests that leave it as it is. */
+    async shared() {
+      shared ??= await this.open();
+      return shared;
+    },
+    requests: () => opened.flatMap((report) => report.requests),
+    errors: () => opened.flatMap((report) => report.errors),
+  };
+}
+
+/** The texts of all cells of a table by its accessible name, line by line, headings first. */
+export const tableTexts = (page, name) =>
+  page.getByRole("region", {name, exact: true}).locator("tr").evaluateAll((lines) =>
+    lines.map((line) => [...line.children].map((cell) => cell.textContent)));
+
+/** Opens every part of the page that is folded. */
+export const unfoldAll = (page) => page.evaluate(async () => {
+  // What is opened may hold more to open.
+  for (let closed; (closed = document.querySelectorAll("details:not([open])")).length > 0;) {
+    closed.forEach((details) => (details.open = true));
+    await new Promise((done) => setTimeout(done, 50));
+  }
+});

@@ -1,15 +1,16 @@
 #include "reference/cli/report_folder.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/cli/results_file.h"
 #include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/scene/file_text.h"
 #include "reference/view/view_bytes.h"
 
 namespace contactcheck {
@@ -61,11 +62,12 @@ std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& re
 
 nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results, const fs::path& folder) {
   const fs::path file = folder / "reproduction.json";
-  std::ifstream in(file);
-  if (!in) return results;
-  auto reproduction = nlohmann::ordered_json::parse(in, nullptr, false);
+  if (!fs::exists(file)) return results;
+  const std::string bytes = read_file_bytes(file, "reproduction file");
+  auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
   if (!reproduction.is_object())
     throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
+  check_json_depth(bytes, file);
   // Another run into the same folder leaves the file of an earlier one there.
   if (reproduction.contains("command") && reproduction["command"] == results.at("command"))
     results["reproduction"] = std::move(reproduction);

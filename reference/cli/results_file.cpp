@@ -1,5 +1,7 @@
 #include "reference/cli/results_file.h"
 
+#include <algorithm>
+
 #include "core/types/check.h"
 #include "reference/cli/schema_defect.h"
 #include "reference/scene/catalogue.h"
@@ -12,16 +14,36 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "contactcheck-results/1";
 
 Json read_results(const std::filesystem::path& file) {
+  const std::string bytes = read_file_bytes(file, "results file");
   Json results;
   try {
-    results = Json::parse(read_file_bytes(file, "results file"));
+    results = Json::parse(bytes);
   } catch (const Json::parse_error& e) {
     throw InputError(file.string() + ": not JSON at byte " + std::to_string(e.byte));
   }
   const auto schema = results.is_object() ? results.find("schema") : results.end();
   if (!results.is_object() || schema == results.end() || *schema != kSchema)
     throw InputError(file.string() + ": field schema is not \"" + kSchema + "\"");
+  check_json_depth(bytes, file);
   return results;
+}
+
+std::size_t depth_of(std::string_view json) {
+  std::size_t depth = 0, deepest = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text && c == '\\') {
+      ++i;  // what is behind it ends no text
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      deepest = std::max(deepest, ++depth);
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  return deepest;
 }
 
 // "" when there is none, or no schema to go by.
@@ -42,6 +64,13 @@ std::string defect_of(const Json& results, const Json::exception& e) {
 }
 
 }  // namespace
+
+void check_json_depth(std::string_view json, const std::filesystem::path& file) {
+  constexpr std::size_t kDeepest = 64;
+  if (const std::size_t depth = depth_of(json); depth > kDeepest)
+    throw InputError(file.string() + ": nested " + std::to_string(depth) + " deep; at most " +
+                     std::to_string(kDeepest) + " is allowed");
+}
 
 ResultsFile::ResultsFile(const std::filesystem::path& file)
     : file_(file), results_(read_results(file)) {}

@@ -4,8 +4,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace contactcheck {
+
+/// Whoever copies or writes JSON recurses into it, and the stack is no place to find out how deep
+/// it is. `json`: bytes that were parsed. @throws InputError when they are nested deeper than
+/// results can be
+void check_json_depth(std::string_view json, const std::filesystem::path& file);
 
 class ResultsFile {
  public:

@@ -67,6 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadBytes{"DeepInside",
                  R"({"schema": "contactcheck-results/1", "scenes": )" + std::string(100'000, '[') +
                      std::string(100'000, ']') + "}",
+                 {"nested 100001 deep; at most 64 is allowed"}},
+        BadBytes{"DeepTextIsNotDeep",
+                 R"({"schema": "contactcheck-results/1", "command": ")" +
+                     std::string(100'000, '[') + R"(\"{"})",
                  {"version is missing"}},
         BadBytes{"Null", "null", kNotOurs}, BadBytes{"Text", "\"results\"", kNotOurs},
         BadBytes{"Number", "1", kNotOurs}, BadBytes{"EmptyObject", "{}", kNotOurs},

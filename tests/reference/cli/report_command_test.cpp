@@ -137,6 +137,10 @@ TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
   const Outcome refused = report_beside("{");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("reproduction.json\" is no JSON object"));
+  const Outcome deep = report_beside(R"({"command": "contactcheck run hello", "scenes": )" +
+                                     std::string(100'000, '[') + std::string(100'000, ']') + "}");
+  EXPECT_EQ(deep.exit_code, 2);
+  EXPECT_THAT(deep.err, HasSubstr("reproduction.json: nested 100001 deep"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ double median_of(std::vector<double> values) {
 }
 
 AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
-  const RatioRow& r = time.ratio;
+  const RatioInterval& r = time.ratio;
   const double excess_us = (time.head_ms - time.base_ms) * kMicrosecondsPerMillisecond;
   if (r.low > limits.slower_than)
     return excess_us > limits.floor_us ? AbVerdict::kSlower : AbVerdict::kPass;
@@ -61,7 +61,7 @@ void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJud
     judgement.times.push_back(std::move(time));
   }
   std::stable_sort(judgement.times.begin(), judgement.times.end(),
-                   [](const AbTime& a, const AbTime& b) { return a.ratio.ratio > b.ratio.ratio; });
+                   [](const AbTime& a, const AbTime& b) { return a.ratio.value > b.ratio.value; });
 }
 
 // One line per row, however many rounds differ.

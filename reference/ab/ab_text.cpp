@@ -11,8 +11,8 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string ratio_text(const RatioRow& r) {
-  return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", r.ratio, r.low, r.high);
+std::string ratio_text(const RatioInterval& r) {
+  return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", r.value, r.low, r.high);
 }
 
 std::string time_line(const AbTime& t) {
@@ -129,7 +129,7 @@ std::string ab_markdown(const AbJudgement& judgement, const AbSetting& setting) 
       "|---|---|--:|--:|--:|--:|---|\n";
   for (const AbTime& t : judgement.times)
     text += fmt::format("| {} | {} | {:.2f} | {:.2f} to {:.2f} | {:.3g} | {:.3g} | {} |\n",
-                        escaped(t.scene), escaped(t.detector), t.ratio.ratio, t.ratio.low,
+                        escaped(t.scene), escaped(t.detector), t.ratio.value, t.ratio.low,
                         t.ratio.high, t.base_ms, t.head_ms, name_of(t.verdict));
   return text;
 }

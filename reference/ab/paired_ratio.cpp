@@ -25,7 +25,7 @@ double median_of_draw(const std::vector<double>& ratios, std::mt19937_64& random
 
 }  // namespace
 
-RatioRow paired_ratio(const std::vector<double>& base, const std::vector<double>& head) {
+RatioInterval paired_ratio(const std::vector<double>& base, const std::vector<double>& head) {
   CONTACTCHECK_INVARIANT(!base.empty() && base.size() == head.size(), "times in pairs");
   std::vector<double> ratios, draws;
   for (std::size_t i = 0; i < base.size(); ++i) ratios.push_back(head[i] / base[i]);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reference/diff/result_table.h"
+#include "reference/diff/ratio_interval.h"
 
 namespace contactcheck {
 
@@ -11,6 +11,6 @@ namespace contactcheck {
 /// rounds with replacement, fixed seed). The two times of a round ran one after the other: what
 /// slows the machine for a while slows both, and one slow round moves the median little.
 /// @pre as many of both, at least one; all above 0
-RatioRow paired_ratio(const std::vector<double>& base, const std::vector<double>& head);
+RatioInterval paired_ratio(const std::vector<double>& base, const std::vector<double>& head);
 
 }  // namespace contactcheck

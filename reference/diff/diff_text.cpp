@@ -31,18 +31,18 @@ Lines lines_of(const std::vector<RowChange>& changes, Direction direction) {
 
 // "1.32 times [1.28, 1.36] slower".
 std::string time_line(const TimeChange& change) {
-  RatioRow f = change.factor;
-  const bool slower = f.ratio < 1.0;
-  if (slower) f = {1.0 / f.ratio, 1.0 / f.high, 1.0 / f.low};
+  RatioInterval f = change.factor;
+  const bool slower = f.value < 1.0;
+  if (slower) f = {1.0 / f.value, 1.0 / f.high, 1.0 / f.low};
   return fmt::format("{}  {}  {:.2f}x {} [{:.2f}, {:.2f}], measured against {}", change.scene,
-                     change.detector, f.ratio, slower ? "slower" : "faster", f.low, f.high,
+                     change.detector, f.value, slower ? "slower" : "faster", f.low, f.high,
                      change.reference);
 }
 
 Lines time_lines(const std::vector<TimeChange>& times, bool slower) {
   Lines lines;
   for (const TimeChange& change : times)
-    if ((change.factor.ratio < 1.0) == slower) lines.push_back(time_line(change));
+    if ((change.factor.value < 1.0) == slower) lines.push_back(time_line(change));
   return lines;
 }
 

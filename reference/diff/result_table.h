@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/diff/ratio_interval.h"
+
 namespace contactcheck {
 
 /// Sums over frames at one level.
@@ -15,11 +17,6 @@ struct LevelRow {
   std::uint64_t truth = 0, missed = 0, spurious = 0;
   bool informative = false;
   bool operator==(const LevelRow&) const = default;
-};
-
-/// A ratio with its 95 % interval.
-struct RatioRow {
-  double ratio = 0.0, low = 0.0, high = 0.0;
 };
 
 /// Milliseconds per frame.
@@ -36,7 +33,7 @@ struct ResultRow {
   std::string contact_hash;
   std::vector<TimeRow> times;  ///< its own question first; empty without timing
   /// time(reference) / time(detector), cold, in the question that the two are compared in.
-  std::vector<std::pair<std::string, RatioRow>> speedups;
+  std::vector<std::pair<std::string, RatioInterval>> speedups;
 };
 
 struct ResultTable {

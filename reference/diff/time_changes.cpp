@@ -7,9 +7,9 @@
 namespace contactcheck {
 namespace {
 
-double log_size(const TimeChange& change) { return std::fabs(std::log(change.factor.ratio)); }
+double log_size(const TimeChange& change) { return std::fabs(std::log(change.factor.value)); }
 
-bool usable(const RatioRow& r) { return r.low > 0.0 && r.ratio > 0.0 && r.high > 0.0; }
+bool usable(const RatioInterval& r) { return r.low > 0.0 && r.value > 0.0 && r.high > 0.0; }
 
 std::optional<TimeChange> change_of(const ResultRow& was, const ResultRow& is) {
   for (const auto& [reference, now] : is.speedups) {
@@ -21,19 +21,12 @@ std::optional<TimeChange> change_of(const ResultRow& was, const ResultRow& is) {
   return std::nullopt;
 }
 
-bool is_clear(const RatioRow& factor) {
+bool is_clear(const RatioInterval& factor) {
   const bool one_sided = factor.low > 1.0 || factor.high < 1.0;
-  return one_sided && std::fabs(std::log(factor.ratio)) > std::log1p(kSmallestTimeChange);
+  return one_sided && std::fabs(std::log(factor.value)) > std::log1p(kSmallestTimeChange);
 }
 
 }  // namespace
-
-RatioRow quotient(const RatioRow& now, const RatioRow& then) {
-  const double down = std::hypot(std::log(now.ratio / now.low), std::log(then.high / then.ratio));
-  const double up = std::hypot(std::log(now.high / now.ratio), std::log(then.ratio / then.low));
-  const double ratio = now.ratio / then.ratio;
-  return {ratio, ratio * std::exp(-down), ratio * std::exp(up)};
-}
 
 std::vector<TimeChange> time_changes(const ResultTable& before, const ResultTable& after) {
   std::vector<TimeChange> changes;

@@ -14,13 +14,8 @@ inline constexpr double kSmallestTimeChange = 0.05;
 /// The speed-up over `reference` now divided by the one then: above 1 is faster than before.
 struct TimeChange {
   std::string scene, detector, reference;
-  RatioRow factor;
+  RatioInterval factor;
 };
-
-/// now / then. Half widths of the two intervals are combined in the log domain as independent
-/// errors: the square root of the sum of their squares, each side apart.
-/// @pre all bounds are above 0
-RatioRow quotient(const RatioRow& now, const RatioRow& then);
 
 /// Of rows with a speed-up over the same reference in both (the first of the row that is not the
 /// detector itself): those whose whole interval is on one side of 1, and whose factor is further

@@ -129,7 +129,7 @@ Check judge_slowdown(const Rule& rule, const RowIndex& now, const RowIndex* befo
   if (!reason.empty()) return cannot_judge(rule, reason);
   if (!is_above_zero(*ratio) || !is_above_zero(*known))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
-  const RatioInterval slow = slowdown(*known, *ratio);
+  const RatioInterval slow = quotient(*known, *ratio);
   return judged(rule, over_limit(slow, rule.limit),
                 fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                             interval_text(slow), ratio->value, known->value, where_text(rule)),

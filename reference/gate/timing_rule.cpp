@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace contactcheck {
 namespace {
-
-// The logarithm of how far an end lies from the value.
-double reach(double from, double to) { return std::abs(std::log(to / from)); }
 
 TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance) {
   TimingVerdict out;
@@ -38,13 +33,6 @@ TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& to
 
 RatioInterval slowness_of(const RatioInterval& speedup, double limit) {
   return {limit / speedup.value, limit / speedup.high, limit / speedup.low};
-}
-
-RatioInterval slowdown(const RatioInterval& before, const RatioInterval& now) {
-  const double value = before.value / now.value;
-  const double down = std::hypot(reach(before.value, before.low), reach(now.value, now.high));
-  const double up = std::hypot(reach(before.value, before.high), reach(now.value, now.low));
-  return {value, value * std::exp(-down), value * std::exp(up)};
 }
 
 RatioInterval over_limit(const RatioInterval& slowdown, double limit) {

@@ -3,14 +3,10 @@
 
 #include <string>
 
+#include "reference/diff/ratio_interval.h"
 #include "reference/gate/verdict.h"
 
 namespace contactcheck {
-
-/// A ratio with its 95 % interval.
-struct RatioInterval {
-  double value = 1.0, low = 1.0, high = 1.0;
-};
 
 /// A detector's time over the longest time that its limit allows: beyond 1 it is too slow.
 struct Slowness {
@@ -38,13 +34,8 @@ TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& to
 /// A speed-up of 0 is slowness without end.
 RatioInterval slowness_of(const RatioInterval& speedup, double limit);
 
-/// How many times slower a detector is than it was, both times measured by the same reference:
-/// before / now. The two were measured apart, so their errors are independent: the half-widths of
-/// their intervals, as logarithms, add up in squares, for either end apart.
-/// @pre all ends above 0
-RatioInterval slowdown(const RatioInterval& before, const RatioInterval& now);
-
-/// Of such a slow-down that may be at most `limit`.
+/// Of a slow-down (speed-up before / speed-up now, over the same reference) that may be at most
+/// `limit`.
 RatioInterval over_limit(const RatioInterval& slowdown, double limit);
 
 }  // namespace contactcheck

@@ -63,7 +63,7 @@ void one_trial(const NoiseModel& model, const RunShape& shape, Noise& noise, Tal
   for (std::size_t i = 0; i < kSlowdowns.size(); ++i) {
     const RatioInterval slower = divided(now, kSlowdowns[i]);
     against_limit[i].add(slowness_of(slower, kRatio / kLimit));
-    against_baseline[i].add(over_limit(slowdown(before, slower), kLimit));
+    against_baseline[i].add(over_limit(quotient(before, slower), kLimit));
   }
 }
 

@@ -23,7 +23,7 @@ AbVerdict verdict(const std::vector<AbRound>& rounds, const AbLimits& limits = {
 TEST(AbJudge, ThirtyPercentSlowerFails) {
   const AbJudgement judgement = judge_ab(steady_rounds(1.0, 1.3), {});
   EXPECT_TRUE(judgement.slower());
-  EXPECT_DOUBLE_EQ(judgement.times.at(0).ratio.ratio, 1.3);
+  EXPECT_DOUBLE_EQ(judgement.times.at(0).ratio.value, 1.3);
   EXPECT_EQ(judgement.times.at(0).base_ms, 1.0);
   EXPECT_EQ(judgement.times.at(0).head_ms, 1.3);
   EXPECT_FALSE(judgement.answers_differ());

@@ -61,26 +61,6 @@ TEST(Slowness, OfASpeedUpOfNothingHasNoEnd) {
   EXPECT_EQ(judge_slowness({r, 100.0}, kTolerance).verdict, Verdict::kFail);
 }
 
-TEST(Slowdown, CombinesBothIntervalsInSquaresOfLogarithms) {
-  const double e = std::exp(0.01);
-  // Half-widths of 3 % and 4 %, as logarithms: 5 % together.
-  const RatioInterval before{8.0, 8.0 / std::pow(e, 3), 8.0 * std::pow(e, 3)};
-  const RatioInterval now{4.0, 4.0 / std::pow(e, 4), 4.0 * std::pow(e, 4)};
-  const RatioInterval r = slowdown(before, now);
-  EXPECT_DOUBLE_EQ(r.value, 2.0);
-  EXPECT_NEAR(r.low, 2.0 / std::pow(e, 5), 1e-12);
-  EXPECT_NEAR(r.high, 2.0 * std::pow(e, 5), 1e-12);
-}
-
-TEST(Slowdown, TakesEitherEndFromTheEndThatMovesItThere) {
-  const double e = std::exp(0.01);
-  // It was perhaps less fast, it may be faster now: both make the slow-down smaller.
-  const RatioInterval r =
-      slowdown({8.0, 8.0 / std::pow(e, 3), 8.0}, {4.0, 4.0, 4.0 * std::pow(e, 4)});
-  EXPECT_NEAR(r.low, 2.0 / std::pow(e, 5), 1e-12);
-  EXPECT_DOUBLE_EQ(r.high, 2.0);
-}
-
 TEST(Slowdown, OverItsLimitIsASlowness) {
   const RatioInterval r = over_limit({2.2, 1.1, 3.3}, 1.1);
   EXPECT_DOUBLE_EQ(r.value, 2.0);

@@ -1,49 +1,30 @@
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 
 #include "core/types/check.h"
 #include "reference/ab/ab_text.h"
 #include "reference/cli/ab_rounds.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/github_job.h"
+#include "reference/gate/github.h"
 
 namespace contactcheck {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Before anything runs: a summary that nobody can write would be noticed too late.
-std::string summary_file() {
-  const char* const file = std::getenv("GITHUB_STEP_SUMMARY");
-  if (file == nullptr || *file == '\0')
+fs::path required_summary_file() {
+  const fs::path file = github_summary_file();
+  if (file.empty())
     throw InputError("--github: the environment names no file in GITHUB_STEP_SUMMARY");
   return file;
 }
 
-void append(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::app | std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw InputError("cannot write " + file + ": " + std::strerror(errno));
-}
-
-// What stands for itself in a workflow command's message.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '%' || c == '\r' || c == '\n') {
-      out += c == '%' ? "%25" : (c == '\r' ? "%0D" : "%0A");
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-void tell_github(const std::string& file, const AbJudgement& judgement, const AbSetting& setting) {
+void tell_github(const fs::path& file, const AbJudgement& judgement, const AbSetting& setting) {
   for (const std::string& failure : ab_failures(judgement, setting))
-    std::printf("::error title=contactcheck ab::%s\n", escaped(failure).c_str());
-  append(file, ab_markdown(judgement, setting));
+    std::fputs(github_annotation("error", "contactcheck ab", failure).c_str(), stdout);
+  append_github_summary(file, ab_markdown(judgement, setting));
 }
 
 AbSetting setting_of(const AbArguments& arguments) {
@@ -57,7 +38,7 @@ AbSetting setting_of(const AbArguments& arguments) {
 }  // namespace
 
 int ab_command(const AbArguments& arguments) {
-  const std::string summary = arguments.github ? summary_file() : "";
+  const fs::path summary = arguments.github ? required_summary_file() : "";
   check_out(arguments.out);
   const std::vector<AbRound> rounds = run_rounds(arguments, [&](std::size_t round) {
     if (!arguments.quiet) std::fprintf(stderr, "round %zu of %zu\n", round + 1, arguments.rounds);

@@ -2,16 +2,12 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <optional>
 
 #include "core/deform/atomic_file.h"
-#include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/github_job.h"
 #include "reference/cli/results_file.h"
 #include "reference/gate/github.h"
 #include "reference/gate/junit.h"
@@ -45,21 +41,11 @@ GateResult judged(const GateArguments& arguments) {
   return baseline ? results.read(beside) : result;
 }
 
-// GitHub gives every step a file of its own, to which all its commands append.
-void append_summary(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out << text;
-  out.close();
-  if (!out)
-    throw InputError("cannot append to " + file.string() +
-                     ", which GITHUB_STEP_SUMMARY names: " + std::strerror(errno));
-}
-
 // Files first: a gate that could not write one has said nothing yet.
 void write_files(const GateArguments& arguments, const GateResult& result) {
   if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(result));
-  const char* const summary = arguments.github ? std::getenv("GITHUB_STEP_SUMMARY") : nullptr;
-  if (summary != nullptr && *summary != '\0') append_summary(summary, github_summary(result));
+  const fs::path summary = arguments.github ? github_summary_file() : "";
+  if (!summary.empty()) append_github_summary(summary, github_summary(result));
 }
 
 }  // namespace

@@ -22,21 +22,17 @@ std::string command_text(const std::string& text, bool property) {
   return out;
 }
 
-std::string annotation(const char* kind, const std::string& title, const std::string& message) {
-  return fmt::format("::{} title={}::{}\n", kind, command_text(title, true),
-                     command_text(message, false));
-}
-
 std::string red_annotation(const Check& check) {
   const std::string rerun = check.rerun.empty() ? "" : "\n" + check.rerun;
-  return annotation("error", check.rule, sentence_of(check) + rerun);
+  return github_annotation("error", check.rule, sentence_of(check) + rerun);
 }
 
 std::string open_annotation(const char* kind, Verdict verdict, const RuleChecks& group) {
   const std::size_t others = group.checks.size() - 1;
-  return annotation(kind, group.rule,
-                    std::string(name_of(verdict)) + ": " + sentence_of(*group.checks.front()) +
-                        (others == 0 ? "" : fmt::format("; and {} more", others)));
+  return github_annotation(kind, group.rule,
+                           std::string(name_of(verdict)) + ": " +
+                               sentence_of(*group.checks.front()) +
+                               (others == 0 ? "" : fmt::format("; and {} more", others)));
 }
 
 // The first ten, or nine and how many there are besides.
@@ -46,8 +42,9 @@ std::string limited(const std::vector<std::string>& lines, const char* kind) {
   std::string out;
   for (std::size_t i = 0; i < shown; ++i) out += lines[i];
   if (!all)
-    out += annotation(kind, "contactcheck gate",
-                      fmt::format("and {} more; the job summary lists them", lines.size() - shown));
+    out += github_annotation(
+        kind, "contactcheck gate",
+        fmt::format("and {} more; the job summary lists them", lines.size() - shown));
   return out;
 }
 
@@ -122,6 +119,12 @@ std::string open_list(const GateResult& result, Verdict verdict) {
 }
 
 }  // namespace
+
+std::string github_annotation(const std::string& kind, const std::string& title,
+                              const std::string& message) {
+  return fmt::format("::{} title={}::{}\n", kind, command_text(title, true),
+                     command_text(message, false));
+}
 
 std::string github_annotations(const GateResult& result) {
   std::vector<std::string> errors;

@@ -7,6 +7,11 @@
 
 namespace contactcheck {
 
+/// A workflow command in a line of its own. `kind` is error, warning or notice; the other two may
+/// hold anything.
+std::string github_annotation(const std::string& kind, const std::string& title,
+                              const std::string& message);
+
 /// Workflow commands, one a line: `error` for what makes the gate red, `warning` for what is too
 /// noisy, `notice` for what cannot be judged, by rule. GitHub shows ten of a kind per step: of
 /// more, the tenth says how many are left out.

@@ -1,0 +1,46 @@
+// The subcommands' words on the command line. Each function adds one or two of them with their
+// options and help; the one that is given leaves what is to be done in `chosen`.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "core/detect/registry.h"
+
+namespace CLI {
+class App;
+}
+
+namespace contactcheck {
+
+struct CommandLine {
+  CLI::App& app;
+  const DetectorCatalog& catalog;
+  std::string words;            ///< as they were given, for the record
+  std::function<int()> chosen;  ///< returns the exit code; empty before the words are parsed
+};
+
+void add_run(CommandLine& line);
+void add_reproduce(CommandLine& line);
+void add_reduce(CommandLine& line);
+void add_export(CommandLine& line);
+void add_gate(CommandLine& line);
+void add_accept(CommandLine& line);
+void add_ab(CommandLine& line);
+void add_list(CommandLine& line);
+void add_report(CommandLine& line);
+void add_diff(CommandLine& line);
+void add_truth(CommandLine& line);
+void add_defects(CommandLine& line);
+/// What the program starts itself with; no help names it.
+void add_workers(CommandLine& line);
+
+/// The subcommand `command` does `what`.
+void choose(CLI::App& command, CommandLine& line, std::function<int()> what);
+
+/// --call-limit and --memory-limit: what ends a detector that goes astray.
+void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
+                const std::string& default_seconds);
+
+}  // namespace contactcheck

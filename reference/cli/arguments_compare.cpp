@@ -1,0 +1,87 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "reference/cli/arguments.h"
+#include "reference/cli/commands.h"
+
+namespace contactcheck {
+namespace {
+
+struct DiffFiles {
+  std::string before, after;
+};
+
+// CLI11's own checks (2.1) let NaN pass.
+CLI::Validator number_from(double least) {
+  return CLI::Validator(
+      [least](const std::string& text) {
+        double value = 0.0;
+        const bool number = CLI::detail::lexical_cast(text, value);
+        return number && value >= least && value <= 1e9
+                   ? std::string()
+                   : "\"" + text + "\" is not a number from " + (least == 0.0 ? "0" : "1") +
+                         " to 1000000000";
+      },
+      "");
+}
+
+void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
+  ab.add_option("--slower-than", arguments.slower_than,
+                "time(head) / time(base) that is allowed (default 1.1)")
+      ->check(number_from(1.0))
+      ->type_name("RATIO");
+  ab.add_option("--floor-us", arguments.floor_us,
+                "microseconds a frame that do not matter, whatever the ratio (default 20)")
+      ->check(number_from(0.0))
+      ->type_name("US");
+  ab.add_flag("--accuracy-may-change", arguments.accuracy_may_change,
+              "name other answers, but do not fail for them");
+  ab.add_flag("--github", arguments.github,
+              "GitHub annotations, and a job summary in the file $GITHUB_STEP_SUMMARY");
+}
+
+}  // namespace
+
+void add_ab(CommandLine& line) {
+  const auto arguments = std::make_shared<AbArguments>();
+  CLI::App* ab = line.app.add_subcommand(
+      "ab", "run two builds of this program in turns: is head slower, does it answer otherwise");
+  ab->add_option("base", arguments->base, "the program as it was")->required();
+  ab->add_option("head", arguments->head, "the program as it is")->required();
+  ab->add_option("targets", arguments->targets,
+                 "suites, scenes or files, as of run; default: default");
+  ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
+      ->allow_extra_args(false);
+  ab->add_option("--rounds", arguments->rounds, "how often each of them runs (default 7)")
+      ->check(CLI::Range(3, 1000));
+  ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  ab->add_option("--repeat", arguments->repeats, "timed repeats per frame and round (default 3)")
+      ->check(CLI::Range(1, 1000));
+  add_ab_limits(*ab, *arguments);
+  ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)");
+  ab->add_flag("--quiet", arguments->quiet, "no progress");
+  ab->footer(
+      "Rounds are base head, head base, ..., each in fresh processes. A detector fails only when\n"
+      "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
+      "the floor. Its own question counts, with cold caches.\n"
+      "Exit code 1 when a detector is slower, or when answers differ.\n"
+      "Example:\n"
+      "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
+      "bunny-touch");
+  choose(*ab, line, [arguments] { return ab_command(*arguments); });
+}
+
+void add_diff(CommandLine& line) {
+  const auto files = std::make_shared<DiffFiles>();
+  CLI::App* diff =
+      line.app.add_subcommand("diff", "two results side by side: worse, better, new, gone");
+  diff->add_option("before", files->before, "a results.json")->required();
+  diff->add_option("after", files->after, "another")->required();
+  diff->footer(
+      "Answers are compared exactly, times as speed-ups over a common reference.\n"
+      "Example:\n  contactcheck diff old/results.json out/results.json");
+  choose(*diff, line, [files] { return diff_command(files->before, files->after); });
+}
+
+}  // namespace contactcheck

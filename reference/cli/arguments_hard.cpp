@@ -1,0 +1,47 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "reference/cli/arguments.h"
+#include "reference/cli/commands.h"
+
+namespace contactcheck {
+namespace {
+
+struct TruthWords {
+  std::vector<std::string> families;
+  bool write = false;
+};
+
+struct DefectsWords {
+  std::string results;
+  bool write = false;
+};
+
+}  // namespace
+
+void add_truth(CommandLine& line) {
+  const auto words = std::make_shared<TruthWords>();
+  CLI::App* truth = line.app.add_subcommand(
+      "truth", "what is really there in each case of a family of hard cases");
+  truth->add_option("families", words->families, "their ids; default: all");
+  truth->add_flag(
+      "--write", words->write,
+      "keep the answers in fixtures/hard/expected.json, which tests hold the oracle to");
+  truth->footer("Example:\n  contactcheck truth hard-vertex-face");
+  choose(*truth, line, [words] { return truth_command(words->families, words->write); });
+}
+
+void add_defects(CommandLine& line) {
+  const auto words = std::make_shared<DefectsWords>();
+  CLI::App* defects = line.app.add_subcommand(
+      "defects", "known defects of libraries beside those that a run shows");
+  defects->add_option("results", words->results, "a results.json, of the suite hard")->required();
+  defects->add_flag("--write", words->write,
+                    "make fixtures/hard/known-defects.json say what the run shows");
+  defects->footer(
+      "Exit code 1 when a listed defect did not show or an unlisted one did.\n"
+      "Example:\n  contactcheck run hard --no-timing\n  contactcheck defects out/results.json");
+  choose(*defects, line, [words] { return defects_command(words->results, words->write); });
+}
+
+}  // namespace contactcheck

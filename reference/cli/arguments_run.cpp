@@ -1,0 +1,122 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "reference/cli/arguments.h"
+#include "reference/cli/commands.h"
+
+namespace contactcheck {
+namespace {
+
+struct RunWords {
+  RunArguments run;
+  bool no_timing = false;
+  std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
+
+  RunArguments arguments() const {
+    RunArguments out = run;
+    out.timing = !no_timing;
+    if (pairs > 0) out.pairs = PairSpec{pairs, pair_seed};
+    return out;
+  }
+};
+
+void add_threads(CLI::App& command, std::uint32_t& threads) {
+  command
+      .add_option("--threads", threads,
+                  "threads of detectors that can use them, and that deform the bodies of "
+                  "simulated scenes (default 1); results do not depend on it, times do")
+      ->check(CLI::Range(1, 256));
+}
+
+void add_pairs(CLI::App& run, RunWords& words) {
+  CLI::Option* pairs =
+      run.add_option(
+             "--pairs", words.pairs,
+             "so many random hard pairs of triangles as a scene of their own, random-pairs, "
+             "beside the targets or alone; the oracle is held against rational arithmetic "
+             "on each; detectors: those of the suite hard")
+          ->check(CLI::Range(std::uint64_t{1}, kMostPairs))
+          ->type_name("N");
+  run.add_option("--seed", words.pair_seed, "of the random pairs (default 1)")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestPairSeed))
+      ->type_name("S")
+      ->needs(pairs);
+}
+
+}  // namespace
+
+void add_run(CommandLine& line) {
+  const auto words = std::make_shared<RunWords>();
+  RunArguments& arguments = words->run;
+  arguments.command_line = line.words;
+  CLI::App* run = line.app.add_subcommand("run", "run detectors on scenes and judge every answer");
+  run->add_option(
+      "targets", arguments.targets,
+      "suites, scenes or files (.json scene or suite, .ccr recording); default: default");
+  run->add_option("--detector", arguments.detectors, "a detector, repeatable; default: the suite's")
+      ->allow_extra_args(false);
+  run->add_option("--frames", arguments.frames, "frames per scene, same duration")
+      ->check(CLI::Range(1, 100000));
+  run->add_option("--repeat", arguments.repeats, "timed repeats per frame (default 5)")
+      ->check(CLI::Range(1, 1000));
+  run->add_option("--processes", arguments.processes, "fresh processes that are timed (default 1)")
+      ->check(CLI::Range(1, 100));
+  run->add_option("--out", arguments.out,
+                  "folder for results.json, reports, cases, contacts, recordings "
+                  "(default out)");
+  run->add_flag("--closed-loop", arguments.closed_loop,
+                "simulated scenes: let every detector drive the simulation too, and time whole "
+                "steps");
+  add_threads(*run, arguments.threads);
+  run->add_option("--isa", arguments.isas,
+                  "instruction set of detectors that have a choice (default best), repeatable: "
+                  "every such detector runs with each")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  add_pairs(*run, *words);
+  add_limits(*run, arguments.call_limit, arguments.memory_limit_mib, "60");
+  run->add_flag("--no-timing", words->no_timing, "judge only");
+  run->add_flag("--resume", arguments.resume,
+                "take over the scenes that an interrupted run with the same settings has finished "
+                "in --out");
+  run->add_flag("--quiet", arguments.quiet, "no progress, no tables");
+  run->add_flag("--json-lines", arguments.json_lines,
+                "for machines: what happens, as one JSON object a line, and nothing else, on "
+                "standard output (events start, progress, scene and end; fixtures/README.md)");
+  run->footer(
+      "Examples:\n"
+      "  contactcheck run\n"
+      "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
+      "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
+      "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
+      "  contactcheck run references --resume\n"
+      "  contactcheck run default --json-lines --quiet | my-dashboard");
+  choose(*run, line, [words, &line] { return run_command(words->arguments(), line.catalog); });
+}
+
+void add_reproduce(CommandLine& line) {
+  const auto arguments = std::make_shared<RunArguments>();
+  arguments->command_line = line.words;
+  CLI::App* reproduce =
+      line.app.add_subcommand("reproduce", "simulate the paper's scenes; its tables beside ours");
+  reproduce->add_option("scenes", arguments->targets,
+                        "some of its scenes; default: the suite paper");
+  reproduce->add_option("--frames", arguments->frames, "frames per scene, same step")
+      ->check(CLI::Range(1, 100000));
+  reproduce->add_option("--repeat", arguments->repeats, "timed repeats per step (default 5)")
+      ->check(CLI::Range(1, 1000));
+  add_threads(*reproduce, arguments->threads);
+  reproduce->add_option("--out", arguments->out,
+                        "folder for reproduction.md, reproduction.json and all that run writes "
+                        "(default out)");
+  reproduce->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  reproduce->footer(
+      "Examples:\n"
+      "  contactcheck reproduce\n"
+      "  contactcheck reproduce paper-rabbit --frames 60");
+  choose(*reproduce, line,
+         [arguments, &line] { return reproduce_command(*arguments, line.catalog); });
+}
+
+}  // namespace contactcheck

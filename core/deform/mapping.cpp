@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "core/types/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/deform/mapping.cpp"
 #include <hwy/foreach_target.h>

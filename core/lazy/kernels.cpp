@@ -1,5 +1,7 @@
 #include "core/lazy/kernels.h"
 
+#include "core/types/vector_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/lazy/kernels.cpp"
 #include <hwy/foreach_target.h>

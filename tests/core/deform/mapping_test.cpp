@@ -1,5 +1,7 @@
 #include "core/deform/mapping.h"
 
+#include "core/types/vector_targets.h"
+
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 

@@ -16,7 +16,24 @@ std::string seconds_in_range(const std::string& text) {
              : "\"" + text + "\" is not a number from 0.1 to 1000000";
 }
 
+// In the order of --help.
+constexpr void (*kSubcommands[])(CommandLine&) = {
+    add_run,  add_reproduce, add_reduce, add_export, add_gate,    add_accept, add_ab,
+    add_list, add_report,    add_diff,   add_truth,  add_defects, add_workers};
+
 }  // namespace
+
+void describe_program(CommandLine& line) {
+  line.app.name("contactcheck");
+  line.app.description("Judges collision detectors of deformable bodies against an exact oracle.");
+  line.app.require_subcommand(1);
+  line.app.set_version_flag("--version", CONTACTCHECK_VERSION);
+  line.app.footer(
+      "Exit codes: 0 done, 1 a check says no, 2 bad usage or input, 3 a detector ended in an error "
+      "that is no known defect.\n"
+      "Example:\n  contactcheck run bunny-touch");
+  for (const auto& add : kSubcommands) add(line);
+}
 
 void choose(CLI::App& command, CommandLine& line, std::function<int()> what) {
   command.callback([&line, what = std::move(what)] { line.chosen = what; });

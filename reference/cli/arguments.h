@@ -21,6 +21,9 @@ struct CommandLine {
   std::function<int()> chosen;  ///< returns the exit code; empty before the words are parsed
 };
 
+/// What the program is, and all its subcommands, in the order of --help.
+void describe_program(CommandLine& line);
+
 void add_run(CommandLine& line);
 void add_reproduce(CommandLine& line);
 void add_reduce(CommandLine& line);

@@ -65,22 +65,10 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
   return kBadUsage;
 }
 
-// In the order of --help.
-constexpr void (*kSubcommands[])(CommandLine&) = {
-    add_run,  add_reproduce, add_reduce, add_export, add_gate,    add_accept, add_ab,
-    add_list, add_report,    add_diff,   add_truth,  add_defects, add_workers};
-
 int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
-  CLI::App app("Judges collision detectors of deformable bodies against an exact oracle.");
-  app.name("contactcheck");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", CONTACTCHECK_VERSION);
-  app.footer(
-      "Exit codes: 0 done, 1 a check says no, 2 bad usage or input, 3 a detector ended in an error "
-      "that is no known defect.\n"
-      "Example:\n  contactcheck run bunny-touch");
+  CLI::App app;
   CommandLine line{app, catalog, join_command_line(argc, argv), {}};
-  for (const auto& add : kSubcommands) add(line);
+  describe_program(line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

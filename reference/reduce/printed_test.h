@@ -13,8 +13,8 @@ struct CaseAnswers {
 };
 CaseAnswers answers_of(const MinimalCase& minimal, const Verdict& verdict);
 
-/// A GoogleTest in plain C++17 that needs <array> alone: the vertices and triangles of both meshes
-/// bit for bit, with what is to be expected, and what was answered, in comments.
+/// A GoogleTest in plain C++17 that needs `<array>` alone: the vertices and triangles of both
+/// meshes bit for bit, with what is to be expected, and what was answered, in comments.
 std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers);
 
 }  // namespace contactcheck

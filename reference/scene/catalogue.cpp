@@ -1,7 +1,6 @@
 #include "reference/scene/catalogue.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
 #include "core/types/check.h"
@@ -71,11 +70,6 @@ bool is_suite_file(const fs::path& file) {
 }
 
 }  // namespace
-
-fs::path fixtures_directory() {
-  const char* own = std::getenv("CONTACTCHECK_FIXTURES");
-  return own != nullptr && *own != '\0' ? own : CONTACTCHECK_FIXTURES_BUILT_FROM;
-}
 
 std::vector<CatalogueEntry> list_scenes(const fs::path& fixtures) {
   return list_folder(fixtures / "scenes", "scene");

@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+#include "reference/scene/fixtures_folder.h"
 
-/// Where scenes/, suites/ and hard/families/ lie: $CONTACTCHECK_FIXTURES, else the source tree this
-/// was built from.
-std::filesystem::path fixtures_directory();
+namespace contactcheck {
 
 struct CatalogueEntry {
   std::string id;  ///< equal to the file's name without ".json"

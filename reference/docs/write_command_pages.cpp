@@ -1,0 +1,45 @@
+// Writes the manual page and the shells' completions out of the command line's own words:
+//   write_command_pages FOLDER
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "reference/adapters/register.h"
+#include "reference/cli/arguments.h"
+#include "reference/docs/completion.h"
+#include "reference/docs/man_page.h"
+
+namespace {
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + file.string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: write_command_pages FOLDER\n");
+    return 2;
+  }
+  CLI::App app;
+  const contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
+  contactcheck::CommandLine line{app, catalog, "", {}};
+  contactcheck::describe_program(line);
+  const contactcheck::ProgramWords program = contactcheck::words_of(app);
+  const std::filesystem::path folder = argv[1];
+  try {
+    write(folder / "contactcheck.1", contactcheck::man_page(program));
+    write(folder / "contactcheck.bash", contactcheck::bash_completion(program));
+    write(folder / "_contactcheck", contactcheck::zsh_completion(program));
+    write(folder / "contactcheck.fish", contactcheck::fish_completion(program));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "write_command_pages: %s\n", e.what());
+    return 1;
+  }
+  return 0;
+}

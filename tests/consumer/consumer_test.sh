@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs what is built, moves the installed tree, and uses it as another project would.
+#   consumer_test.sh BUILD_FOLDER SCRATCH_FOLDER
+set -euo pipefail
+build=$1 scratch=$2
+here=$(cd "$(dirname "$0")" && pwd)
+
+fail() { echo "consumer_test: $1"; exit 1; }
+expect() {  # expect WHAT FILE: the file holds the text
+  grep -qF -- "$1" "$2" || { cat "$2"; fail "\"$1\" is not in $2"; }
+}
+
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cmake --install "$build" --prefix "$scratch/first" >"$scratch/install.log"
+# Nothing may depend on where it was installed.
+mv "$scratch/first" "$scratch/installed"
+prefix=$scratch/installed
+
+configure() {
+  cmake -S "$here" -B "$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
+    "${@:2}" >"$1.log" 2>&1 || { cat "$1.log"; fail "cannot configure"; }
+  cmake --build "$1" >>"$1.log" 2>&1 || { cat "$1.log"; fail "cannot build"; }
+}
+
+reference=$([ -x "$prefix/bin/contactcheck" ] && echo ON || echo OFF)
+configure "$scratch/consumer" -DWITH_REFERENCE="$reference"
+"$scratch/consumer/two_boxes" >"$scratch/two_boxes.txt" || fail "two_boxes found no contact"
+expect "0 pairs at rest" "$scratch/two_boxes.txt"
+
+# Core alone asks for none of the libraries that only judging needs.
+without=()
+for package in CGAL CLI11 assimp ccd embree fcl fmt meshoptimizer nlohmann_json; do
+  without+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+done
+configure "$scratch/core_alone" -DWITH_REFERENCE=OFF "${without[@]}"
+
+# The same program by pkg-config, without CMake.
+pc=$(dirname "$(find "$prefix" -name contactcheck.pc)")
+flags=$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs contactcheck)
+# shellcheck disable=SC2086 # flags are words
+g++ -std=c++20 "$here/two_boxes.cpp" -o "$scratch/by_pkg_config" $flags
+"$scratch/by_pkg_config" | cmp - "$scratch/two_boxes.txt" || fail "by pkg-config it says otherwise"
+
+if [ "$reference" = ON ]; then
+  # The installed program reads the data beside it, not the source tree's.
+  suites=$prefix/share/contactcheck/fixtures/suites
+  sed 's/"default"/"installed"/' "$suites/default.json" >"$suites/installed.json"
+  "$prefix/bin/contactcheck" list --suites >"$scratch/suites.txt"
+  expect "installed" "$scratch/suites.txt"
+  "$scratch/consumer/judge" run bunny-touch --frames 4 --no-timing \
+    --detector sphere-per-body --detector fcl-aabb --out "$scratch/out" --quiet
+  expect '"detector": "sphere-per-body"' "$scratch/out/results.json"
+fi
+echo "consumer_test: passed"

@@ -61,7 +61,7 @@ HWY_INLINE SlabDirection load_direction(const RunningBounds& from, const PieceLa
     return load_rows([&](std::size_t lane) HWY_ATTR { return all[pieces.child[first + lane]]; });
   };
   const Rows world = rows_of(from.world), local = rows_of(from.local);
-  SlabDirection out;
+  SlabDirection out{};
   for (int k = 0; k < 3; ++k) {
     out.world[k] = world.part[k];
     out.local[k] = local.part[k];
@@ -76,7 +76,7 @@ struct PieceRanges {
 
 HWY_INLINE PieceRanges ranges_of(const Expansions& x, const PieceLanes& pieces,
                                  const Middles& middle, const SlabDirection& n, std::size_t first) {
-  PieceRanges out;
+  PieceRanges out{};
   for (int k = 0; k < 3; ++k) out.axis[k] = range_over(x.axis[k], middle.half);
   out.slab = slab_range(along(n, x), pieces, middle, n, first);
   return out;
@@ -162,7 +162,7 @@ HWY_INLINE void finish_block(const LazyState& state, const RunningBounds& from,
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(FloatLanes())) {
     const Rows lo = rows_of(from.lo + first), hi = rows_of(from.hi + first);
     const Rows n = rows_of(from.world + first);
-    PieceRanges all;
+    PieceRanges all{};
     for (int k = 0; k < 3; ++k) all.axis[k] = {lo.part[k], hi.part[k]};
     all.slab = {lo.part[3], hi.part[3]};
     const FloatVec normal[3] = {n.part[0], n.part[1], n.part[2]};
@@ -176,7 +176,7 @@ HWY_NOINLINE void bound_block(const LazyState& state, std::uint32_t index, Block
   const bool more = block.end > block.begin + 1;
   RunningBounds running;
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(FloatLanes())) {
-    SlabDirection n;
+    SlabDirection n{};
     const PieceRanges ranges = begin_block(state, own, state.tree->slabs[index], first, n);
     if (!more) {
       finish_block(state, ranges, n.world, block.children, first, out);

@@ -37,7 +37,7 @@ struct Rows {
 #if HWY_TARGET == HWY_SCALAR
 template <class RowOfLane>
 HWY_INLINE Rows load_rows(RowOfLane&& row) {
-  Rows out;
+  Rows out{};
   for (int k = 0; k < 4; ++k) out.part[k] = hn::Set(FloatLanes(), row(0)[k]);
   return out;
 }
@@ -85,7 +85,7 @@ struct Middles {
 
 HWY_INLINE Middles middles_of(const PieceLanes& pieces, std::size_t first) {
   const auto half_step = hn::Set(FloatLanes(), static_cast<float>(0.5 / PieceLanes::kSteps));
-  Middles out;
+  Middles out{};
   for (int k = 0; k < 3; ++k) {
     const auto lo = steps_of(pieces.lo[k], first), hi = steps_of(pieces.hi[k], first);
     out.at[k] = hn::Mul(half_step, hn::Add(lo, hi));
@@ -101,7 +101,7 @@ struct Expansion {
 
 // `term`: as in CellTerms.
 HWY_INLINE Expansion expand(const FloatVec (&term)[8], const FloatVec (&at)[3]) {
-  Expansion out;
+  Expansion out{};
   out.stu = term[7];
   out.st = hn::MulAdd(at[2], term[7], term[3]);
   out.su = hn::MulAdd(at[1], term[7], term[5]);
@@ -130,7 +130,7 @@ HWY_INLINE Expansions expand(const LazyState& state, const PieceLanes& pieces, s
     });
     for (int k = 0; k < 3; ++k) term[k][i] = rows.part[k];
   }
-  Expansions out;
+  Expansions out{};
   for (int k = 0; k < 3; ++k) out.axis[k] = expand(term[k], at);
   return out;
 }
@@ -161,7 +161,7 @@ struct SlabDirection {
 HWY_INLINE SlabDirection slab_direction(const Expansions& x, const BlockSlabs& slabs,
                                         std::size_t first) {
   const FloatLanes d;
-  SlabDirection out;
+  SlabDirection out{};
   for (int k = 0; k < 3; ++k) out.local[k] = steps_of(slabs.normal[k], first);
   auto square = hn::Zero(d), length2 = hn::Zero(d);
   for (int k = 0; k < 3; ++k) {
@@ -188,7 +188,7 @@ HWY_INLINE Expansion along(const SlabDirection& n, const Expansions& x) {
     const auto last = hn::Mul(n.world[2], part(x.axis[2]));
     return hn::MulAdd(n.world[0], part(x.axis[0]), hn::MulAdd(n.world[1], part(x.axis[1]), last));
   };
-  Expansion out;
+  Expansion out{};
   out.value = sum([](const Expansion& e) HWY_ATTR { return e.value; });
   for (int k = 0; k < 3; ++k)
     out.gradient[k] = sum([k](const Expansion& e) HWY_ATTR { return e.gradient[k]; });

@@ -100,7 +100,7 @@ struct Sides {
 
 HWY_INLINE Sides sides(const PointOf (&plane)[3], const PointOf (&points)[3], PairVec bound) {
   const auto normal = cross(minus(plane[1], plane[0]), minus(plane[2], plane[0]));
-  Sides out;
+  Sides out{};
   for (int i = 0; i < 3; ++i) {
     const auto side = dot(normal, minus(points[i], plane[0]));
     out.above[i] = hn::Gt(side, bound);
@@ -120,7 +120,7 @@ HWY_INLINE Turned turn(const PointOf (&p)[3], const Sides& s) {
     return hn::Or(hn::And(s.above[i], s.above[j]), hn::And(s.below[i], s.below[j]));
   };
   const auto first = same(1, 2), second = same(0, 2);  // else the third
-  Turned out;
+  Turned out{};
   out.lone = select(first, p[0], select(second, p[1], p[2]));
   out.next = select(first, p[1], select(second, p[2], p[0]));
   out.last = select(first, p[2], select(second, p[0], p[1]));
@@ -146,7 +146,7 @@ HWY_INLINE PairMask share_a_corner(const PointOf (&p)[3], const PointOf (&q)[3])
 }
 
 HWY_INLINE Verdict test_lanes(const TriangleBatch& batch, std::size_t first) {
-  PointOf p[3], q[3];
+  PointOf p[3] = {}, q[3] = {};
   for (int c = 0; c < 3; ++c) {
     p[c] = load_corner(batch, 0, c, first);
     q[c] = load_corner(batch, 1, c, first);

@@ -18,8 +18,8 @@ std::string seconds_in_range(const std::string& text) {
 
 // In the order of --help.
 constexpr void (*kSubcommands[])(CommandLine&) = {
-    add_run,  add_reproduce, add_reduce, add_export, add_gate,    add_accept, add_ab,
-    add_list, add_report,    add_diff,   add_truth,  add_defects, add_workers};
+    add_run, add_reproduce, add_tune,   add_reduce, add_export, add_gate,    add_accept,
+    add_ab,  add_list,      add_report, add_diff,   add_truth,  add_defects, add_workers};
 
 }  // namespace
 

@@ -31,6 +31,7 @@ void add_export(CommandLine& line);
 void add_gate(CommandLine& line);
 void add_accept(CommandLine& line);
 void add_ab(CommandLine& line);
+void add_tune(CommandLine& line);
 void add_list(CommandLine& line);
 void add_report(CommandLine& line);
 void add_diff(CommandLine& line);

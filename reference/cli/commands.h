@@ -69,10 +69,29 @@ struct AbArguments {
   std::filesystem::path out = "out/ab";
 };
 
+struct TuneArguments {
+  std::string target;
+  std::string question = "body";
+  std::vector<std::string> detectors;  ///< empty: all that answer
+  std::vector<double> lattices;        ///< beside the scene's own
+  std::optional<std::uint64_t> max_missed, max_spurious;
+  std::optional<double> max_hover, max_deviation;  ///< metres
+  std::optional<long> max_late;                    ///< frames
+  std::optional<double> budget_ms;
+  std::size_t frames = 0, repeats = 5, most = 0;
+  bool exhaustive = false, quiet = false;
+  double call_limit = 60.0;  ///< seconds
+  std::uint64_t memory_limit_mib = 4096;
+  std::filesystem::path out = "out";
+  std::string command_line;  ///< for the record
+};
+
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
+/// Searches the cheapest configuration within limits; 1 when there is none.
+int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
 /// Prints the exact answers to families of hard cases (all, if none is named); `write` puts them
 /// into fixtures/hard/expected.json.

@@ -75,7 +75,7 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
   for (const std::string command : {"", "run", "reproduce", "reduce", "export", "list", "report",
-                                    "truth", "defects", "diff", "gate", "accept", "ab"}) {
+                                    "truth", "defects", "diff", "gate", "accept", "ab", "tune"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);

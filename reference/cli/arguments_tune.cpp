@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "reference/cli/arguments.h"
+#include "reference/cli/commands.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::uint64_t kMostContacts = std::uint64_t{1} << 53;
+
+// CLI11's own range (2.1) lets NaN pass.
+std::string finite_from_zero(const std::string& text) {
+  double value = -1.0;
+  const bool number = CLI::detail::lexical_cast(text, value);
+  return number && value >= 0.0 && value <= 1e9 ? "" : "\"" + text + "\" is not a number from 0 on";
+}
+
+std::string lattice_factor(const std::string& text) {
+  double value = 0.0;
+  const bool number = CLI::detail::lexical_cast(text, value);
+  return number && value >= 0.01 && value <= 100.0
+             ? ""
+             : "\"" + text + "\" is not a number from 0.01 to 100";
+}
+
+void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
+  tune.add_option("--max-missed", arguments.max_missed,
+                  "contacts that may be missed, over all frames, at the question's level (default "
+                  "0)")
+      ->check(CLI::Range(std::uint64_t{0}, kMostContacts))
+      ->type_name("N");
+  tune.add_option("--max-spurious", arguments.max_spurious,
+                  "contacts that may be reported and are not there (default: any number)")
+      ->check(CLI::Range(std::uint64_t{0}, kMostContacts))
+      ->type_name("N");
+  tune.add_option("--max-hover", arguments.max_hover,
+                  "true distance, in metres, at which contact may first be reported (default: any)")
+      ->check(finite_from_zero)
+      ->type_name("METRES");
+  tune.add_option("--max-late", arguments.max_late,
+                  "frames that a first report may be late or early (default: any number)")
+      ->check(CLI::Range(0, 1000000))
+      ->type_name("N");
+  tune.add_option(
+          "--max-deviation", arguments.max_deviation,
+          "with --lattice: how far a vertex may be from where the scene's own lattice takes "
+          "it, in metres (default: any distance)")
+      ->check(finite_from_zero)
+      ->type_name("METRES");
+  tune.add_option("--budget-ms", arguments.budget_ms,
+                  "what a frame may cost; exit code 1 when nothing is both accurate and cheap "
+                  "enough")
+      ->check(finite_from_zero)
+      ->type_name("MS");
+}
+
+void add_space(CLI::App& tune, TuneArguments& arguments) {
+  tune.add_option(
+          "--question", arguments.question,
+          "what the detector is for: body (which bodies touch), cells or triangles (default "
+          "body)")
+      ->check(CLI::IsMember({"body", "cells", "triangles"}));
+  tune.add_option("--detector", arguments.detectors,
+                  "a detector to try, repeatable; its options are varied, but for those that the "
+                  "name sets; default: all that answer the question")
+      ->allow_extra_args(false);
+  tune.add_option("--lattice", arguments.lattices,
+                  "try lattices of so many times the scene's cells too, repeatable: a coarser "
+                  "model is another surface, see --max-deviation")
+      ->check(lattice_factor)
+      ->type_name("FACTOR")
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
+void add_tune(CommandLine& line) {
+  const auto arguments = std::make_shared<TuneArguments>();
+  CLI::App* tune = line.app.add_subcommand(
+      "tune", "the cheapest detector and options that are accurate enough for a scene");
+  tune->add_option("target", arguments->target, "a scene, a scene file or a recording")->required();
+  add_error_limits(*tune, *arguments);
+  add_space(*tune, *arguments);
+  tune->add_option(
+          "--frames", arguments->frames,
+          "frames to choose by (default: the scene's, at most 30); the choice is confirmed "
+          "on others")
+      ->check(CLI::Range(4, 100000));
+  tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
+      ->check(CLI::Range(1, 1000));
+  tune->add_option("--most", arguments->most, "configurations measured at most (default: no limit)")
+      ->check(CLI::Range(1, 1000000));
+  tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration");
+  add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");
+  tune->add_option("--out", arguments->out, "folder for tune.json and tune.md (default out)");
+  tune->add_flag("--quiet", arguments->quiet, "no progress, no tables");
+  tune->footer(
+      "Exit code 1 when nothing meets the limits.\n"
+      "Examples:\n"
+      "  contactcheck tune bunny-touch --max-missed 0 --max-hover 0.005\n"
+      "  contactcheck tune mine.json --detector ffd-aabb-sphere2 --lattice 0.5 --max-deviation "
+      "0.01\n"
+      "  contactcheck tune out/recordings/paper-rabbit.ccr --question triangles --budget-ms 2");
+  choose(*tune, line, [arguments, &line] {
+    arguments->command_line = line.words;
+    return tune_command(*arguments, line.catalog);
+  });
+}
+
+}  // namespace contactcheck

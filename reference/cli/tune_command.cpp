@@ -1,0 +1,94 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/cli/command_checks.h"
+#include "reference/cli/commands.h"
+#include "reference/scene/catalogue.h"
+#include "reference/tune/tune_text.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scene_file(const std::string& name) {
+  const Target target = find_target(name, fixtures_directory());
+  if (target.kind == TargetKind::kSuite)
+    throw InputError("\"" + name + "\" is a suite; tune takes one scene");
+  return target.file;
+}
+
+Question question_named(const std::string& name) {
+  for (const Question question : {Question::kTriangles, Question::kCells})
+    if (name == name_of(question)) return question;
+  return Question::kBody;
+}
+
+Limits limits_of(const TuneArguments& arguments) {
+  Limits limits;
+  limits.missed = arguments.max_missed.value_or(0);
+  limits.spurious = arguments.max_spurious;
+  limits.hover = arguments.max_hover;
+  limits.late_frames = arguments.max_late;
+  limits.deviation = arguments.max_deviation;
+  return limits;
+}
+
+TuningRequest make_request(const TuneArguments& arguments) {
+  TuningRequest request;
+  request.target = arguments.target;
+  request.scene_file = scene_file(arguments.target);
+  request.space.question = question_named(arguments.question);
+  request.space.detectors = arguments.detectors;
+  for (const double lattice : arguments.lattices)
+    if (lattice != 1.0) request.space.lattices.push_back(lattice);
+  request.limits = limits_of(arguments);
+  request.budget_ms = arguments.budget_ms;
+  request.search.most = arguments.most;
+  request.exhaustive = arguments.exhaustive;
+  request.frames = arguments.frames;
+  request.settings.repeats = arguments.repeats;
+  request.settings.call_limit = arguments.call_limit;
+  request.settings.memory_limit = arguments.memory_limit_mib << 20;
+  request.out = arguments.out;
+  request.executable = fs::read_symlink("/proc/self/exe");
+  request.known_defects = read_known_defects(known_defects_file());
+  request.command = arguments.command_line;
+  return request;
+}
+
+// A line that is overwritten on a terminal, one per step elsewhere.
+void show(const TuningProgress& progress) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const std::string what =
+      progress.confirming
+          ? "confirming on held-out frames"
+          : std::to_string(progress.measured) + " of " + std::to_string(progress.candidates) +
+                " configurations measured" +
+                (progress.best.empty() ? "" : "; cheapest so far: " + progress.best);
+  std::fprintf(stderr, terminal ? "\r\033[K%s" : "%s\n", what.c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog) {
+  const TuningRequest request = make_request(arguments);
+  check_out(arguments.out);
+  const Tuning tuning = tune(request, catalog, [&](const TuningProgress& progress) {
+    if (!arguments.quiet) show(progress);
+  });
+  if (!arguments.quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+  write_file_atomically(arguments.out / "tune.json", to_json(tuning, request).dump(1) + "\n");
+  write_file_atomically(arguments.out / "tune.md", tuning_markdown(tuning, request));
+  if (!arguments.quiet) std::printf("%s\n", tuning_text(tuning, request).c_str());
+  std::printf("%s  %s\n", (arguments.out / "tune.json").c_str(),
+              (arguments.out / "tune.md").c_str());
+  return tuning.within_budget(request.budget_ms) ? 0 : 1;
+}
+
+}  // namespace contactcheck

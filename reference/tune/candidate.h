@@ -1,0 +1,24 @@
+// What can be chosen for a scene: a detector with its options, in a lattice of some resolution.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace contactcheck {
+
+/// One way to set one thing: "detector" is "ffd-aabb", "cell" is "2", "lattice" is "0.5".
+struct Choice {
+  std::string axis, value;
+
+  bool operator==(const Choice&) const = default;
+};
+
+struct Candidate {
+  std::string detector;  ///< canonical name, options included
+  double lattice = 1.0;  ///< times the scene's own number of kept cells
+  /// The first is the detector's id, on the axis "detector"; then options and lattice.
+  std::vector<Choice> choices;
+  bool usual = false;  ///< every option at its default, in the scene's own lattice
+};
+
+}  // namespace contactcheck

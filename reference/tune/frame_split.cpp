@@ -1,0 +1,43 @@
+#include "reference/tune/frame_split.h"
+
+#include <algorithm>
+
+#include "core/deform/recording.h"
+#include "core/types/check.h"
+#include "reference/scene/any_scene.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kUsualFrames = 30, kFewestFrames = 4;
+
+SceneFrames every_other(const Scene& scene, std::size_t first, const fs::path& file) {
+  Recording part{scene.id, scene.bodies, 2.0 * scene.time_step, {}};
+  for (std::size_t f = first; f < scene.frames; f += 2) part.frames.push_back(scene.recorded[f]);
+  write_recording(file, part);
+  return {file, 0};
+}
+
+}  // namespace
+
+FrameSplit split_frames(const fs::path& file, std::size_t frames, const fs::path& work) {
+  const Scene scene = load_any_scene(file);
+  if (scene.simulation)
+    throw InputError("scene " + scene.id + " is simulated: `contactcheck run " + scene.id +
+                     "` records its frames; tune for the recording");
+  if (!scene.follows_time())
+    throw InputError("scene " + scene.id + " is a family of cases, of which none can be held out");
+  const std::size_t count = frames > 0 ? frames : std::min(scene.frames, kUsualFrames);
+  if (count < kFewestFrames || scene.frames < kFewestFrames)
+    throw InputError("scene " + scene.id +
+                     ": to choose by some frames and confirm on others, at "
+                     "least 4 are needed");
+  if (scene.scripted()) return {{file, count}, {file, count - 1}};
+  fs::create_directories(work);
+  return {every_other(scene, 0, work / (scene.id + "-chosen-by.ccr")),
+          every_other(scene, 1, work / (scene.id + "-held-out.ccr"))};
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,28 @@
+// Frames to choose by, and others to confirm the choice on.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+
+/// A scene as it is run: its file, and how many frames of it.
+struct SceneFrames {
+  std::filesystem::path file;
+  std::size_t frames = 0;  ///< 0: all that a recording has
+};
+
+struct FrameSplit {
+  SceneFrames chosen_by, held_out;
+};
+
+/// Of a scripted scene: `frames` moments (0: at most 30) and one less, over the same time, which
+/// share the first and the last alone. Of a recording: every other frame, written to `work`.
+/// @throws InputError for scenes that cannot be split: simulated ones, families, and those with
+/// fewer than 4 frames
+FrameSplit split_frames(const std::filesystem::path& file, std::size_t frames,
+                        const std::filesystem::path& work);
+
+}  // namespace contactcheck

@@ -1,0 +1,78 @@
+#include "reference/tune/lattice_variant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "reference/run/frame_positions.h"
+#include "reference/scene/file_text.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Meshes are named from the scene's folder, which is another one now.
+void make_paths_absolute(Json& mesh, const fs::path& folder) {
+  if (mesh.is_object() && mesh.contains("file"))
+    mesh["file"] = fs::absolute(folder / mesh["file"].get<std::string>()).lexically_normal();
+}
+
+void scale_lattice(Json& body, double factor, const std::string& document) {
+  if (!body.contains("lattice"))
+    throw InputError(document + ": body \"" + body.value("name", "") +
+                     "\" has no lattice, whose resolution could be another");
+  Json& lattice = body["lattice"];
+  if (lattice.contains("kept")) {
+    const double kept = std::round(lattice["kept"].get<double>() * factor);
+    lattice["kept"] = static_cast<std::size_t>(std::max(1.0, kept));
+  } else if (lattice.contains("cells")) {
+    for (Json& cells : lattice["cells"]) {
+      const double along = std::round(cells.get<double>() * std::cbrt(factor));
+      cells = static_cast<std::size_t>(std::max(1.0, along));
+    }
+  } else {
+    throw InputError(document + ": the lattice of body \"" + body.value("name", "") +
+                     "\" has neither \"kept\" nor \"cells\"");
+  }
+}
+
+}  // namespace
+
+fs::path write_lattice_variant(const fs::path& file, double factor, const fs::path& folder) {
+  const std::string document = "scene file " + in_quotes(file.string());
+  Json scene = Json::parse(read_file_bytes(file, "scene file"), nullptr, false);
+  if (!scene.is_object() || !scene.contains("bodies") || !scene.contains("id"))
+    throw InputError(document + " is no scene whose lattices could be others");
+  const std::string percent = std::to_string(std::lround(100.0 * factor));
+  const std::string id = scene["id"].get<std::string>() + "-lattice-" + percent;
+  scene["id"] = id;
+  for (Json& body : scene["bodies"]) {
+    if (body.contains("mesh")) make_paths_absolute(body["mesh"], file.parent_path());
+    scale_lattice(body, factor, document);
+  }
+  fs::create_directories(folder);
+  const fs::path variant = folder / (id + ".json");
+  write_file_atomically(variant, scene.dump(1) + "\n");
+  return variant;
+}
+
+double deviation(const Scene& scene, const Scene& variant) {
+  const FramePositions first(scene), second(variant);
+  double largest = 0.0;
+  for (std::size_t f = 0; f < scene.frames; ++f)
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const auto &one = first[f].vertices[b], &other = second[f].vertices[b];
+      if (one.size() != other.size())
+        throw InputError("scene " + variant.id + " has other meshes than " + scene.id);
+      for (std::size_t v = 0; v < one.size(); ++v)
+        largest = std::max(largest, (one[v] - other[v]).norm());
+    }
+  return largest;
+}
+
+}  // namespace contactcheck

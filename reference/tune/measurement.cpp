@@ -1,0 +1,39 @@
+#include "reference/tune/measurement.h"
+
+#include <array>
+#include <cstdlib>
+
+namespace contactcheck {
+namespace {
+
+std::array<double, 6> badness(const Measurement& m) {
+  return {m.cost_ms,
+          static_cast<double>(m.missed),
+          static_cast<double>(m.spurious),
+          m.hover.value_or(0.0),
+          static_cast<double>(std::labs(m.late_frames.value_or(0))),
+          m.deviation};
+}
+
+}  // namespace
+
+bool Limits::met_by(const Measurement& m) const {
+  if (!m.failure.empty()) return false;
+  return (!missed || m.missed <= *missed) && (!spurious || m.spurious <= *spurious) &&
+         (!hover || m.hover.value_or(0.0) <= *hover) &&
+         (!late_frames || std::labs(m.late_frames.value_or(0)) <= *late_frames) &&
+         (!deviation || m.deviation <= *deviation);
+}
+
+bool dominates(const Measurement& a, const Measurement& b) {
+  if (!a.failure.empty() || !b.failure.empty()) return a.failure.empty() && !b.failure.empty();
+  const auto first = badness(a), second = badness(b);
+  bool better = false;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] > second[i]) return false;
+    better |= first[i] < second[i];
+  }
+  return better;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,31 @@
+// What a candidate costs and how wrong it is, and what is allowed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace contactcheck {
+
+struct Measurement {
+  std::string failure;   ///< not empty: it gave no answer or no time, and nothing else is set
+  double cost_ms = 0.0;  ///< per frame: map, update and query with cold caches
+  std::uint64_t missed = 0, spurious = 0;  ///< at the level of the question, over all frames
+  std::optional<double> hover;             ///< metres; none without an episode
+  std::optional<long> late_frames;
+  double deviation = 0.0;  ///< metres: how far the lattice takes a vertex from the scene's own
+};
+
+/// Nothing set: nothing asked for.
+struct Limits {
+  std::optional<std::uint64_t> missed, spurious;
+  std::optional<double> hover, deviation;  ///< metres
+  std::optional<long> late_frames;         ///< of either sign
+
+  bool met_by(const Measurement& m) const;
+};
+
+/// No dearer and no more wrong in anything, and better in something. A failure dominates nothing.
+bool dominates(const Measurement& a, const Measurement& b);
+
+}  // namespace contactcheck

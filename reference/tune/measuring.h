@@ -1,0 +1,63 @@
+// Candidates measured by runs of the suite: judged on every frame, timed beside one another in one
+// worker.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/types/semantics.h"
+#include "reference/run/suite_run.h"
+#include "reference/tune/candidate.h"
+#include "reference/tune/measurement.h"
+
+namespace contactcheck {
+
+struct MeasuringRequest {
+  std::filesystem::path scene_file;
+  Question question = Question::kBody;
+  RunSettings settings;
+  std::filesystem::path work;        ///< scenes in other lattices are kept here
+  std::filesystem::path executable;  ///< see SuiteRequest
+  KnownDefects known_defects;
+  SuiteListener listener;
+  /// The detector that costs are taken against; empty: the first that is measured and answers.
+  std::string anchor;
+};
+
+/// The machine may be faster in one run than in the next. So the first detector that answers stays
+/// for all runs as what costs are taken against: a candidate costs its ratio to it, measured
+/// interleaved on the same frames, times what the first run took for it.
+class Measuring {
+ public:
+  Measuring(const std::vector<Candidate>& candidates, MeasuringRequest request);
+
+  /// Measures candidates in one run; as many answers in the same order.
+  /// @throws InputError for scenes that cannot be read
+  std::vector<Measurement> operator()(const std::vector<std::size_t>& batch);
+
+  /// Empty before anything was measured.
+  const std::string& anchor() const { return anchor_; }
+
+  /// The scene of a candidate: the given one, or one in other lattices.
+  std::filesystem::path scene_of(const Candidate& candidate) const;
+
+ private:
+  SceneTask task_of(double lattice, const std::vector<std::size_t>& batch) const;
+  void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
+  void prepare_variant(double lattice);
+  Measurement read(const Candidate& candidate, const nlohmann::ordered_json& runs) const;
+
+  const std::vector<Candidate>& candidates_;
+  MeasuringRequest request_;
+  std::string anchor_;      ///< name of the detector that costs are taken against
+  double anchor_ms_ = 0.0;  ///< its time in the first run
+  std::map<double, std::filesystem::path> scenes_;  ///< by Candidate::lattice
+  std::map<double, double> deviations_;
+  std::map<double, std::string> ids_;
+};
+
+}  // namespace contactcheck

@@ -1,0 +1,152 @@
+#include "reference/tune/tune_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace contactcheck {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string millimetres(double metres) { return fmt::format("{:.3g}", 1e3 * metres); }
+
+bool varies_lattices(const std::vector<Candidate>& candidates) {
+  return std::any_of(candidates.begin(), candidates.end(),
+                     [](const Candidate& c) { return c.lattice != 1.0; });
+}
+
+Row header_of(const std::vector<Candidate>& candidates) {
+  Row row = {"ms/frame", "missed", "spurious", "hover mm", "late"};
+  if (varies_lattices(candidates)) row.insert(row.end(), {"deviation mm", "lattice"});
+  row.push_back("detector");
+  return row;
+}
+
+Row row_of(const Tried& tried, const std::vector<Candidate>& candidates) {
+  const Candidate& candidate = candidates[tried.candidate];
+  const Measurement& m = tried.measurement;
+  const bool failed = !m.failure.empty();
+  Row row = {fmt::format("{:.3g}", m.cost_ms), fmt::format("{}", m.missed),
+             fmt::format("{}", m.spurious), m.hover ? millimetres(*m.hover) : "-",
+             m.late_frames ? fmt::format("{:+}", *m.late_frames) : "-"};
+  if (failed) std::fill(row.begin(), row.end(), "-");
+  if (varies_lattices(candidates))
+    row.insert(row.end(),
+               {failed ? "-" : millimetres(m.deviation), fmt::format("{:g}", candidate.lattice)});
+  row.push_back(candidate.detector + (failed ? " (" + m.failure + ")" : ""));
+  return row;
+}
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    text += "  ";
+    for (std::size_t c = 0; c + 1 < row.size(); ++c) {
+      std::size_t width = 0;
+      for (const Row& other : rows) width = std::max(width, other[c].size());
+      text += fmt::format("{:>{}}  ", row[c], width);
+    }
+    text += row.back() + "\n";
+  }
+  return text;
+}
+
+std::string markdown(const std::vector<Row>& rows) {
+  std::string text;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (const std::string& cell : rows[r]) text += "| " + cell + " ";
+    text += "|\n";
+    if (r > 0) continue;
+    for (std::size_t c = 0; c < rows[r].size(); ++c)
+      text += c + 1 < rows[r].size() ? "| --: " : "| --- ";
+    text += "|\n";
+  }
+  return text;
+}
+
+std::vector<Row> rows_of(const std::vector<Tried>& tried,
+                         const std::vector<Candidate>& candidates) {
+  std::vector<Row> rows = {header_of(candidates)};
+  for (const Tried& each : tried) rows.push_back(row_of(each, candidates));
+  return rows;
+}
+
+std::vector<Tried> front_of(const Tuning& tuning) {
+  std::vector<Tried> front;
+  for (const std::size_t i : tuning.front) front.push_back(tuning.outcome.tried[i]);
+  return front;
+}
+
+std::string limits_in_words(const TuningRequest& request) {
+  const Limits& limits = request.limits;
+  std::string words;
+  const auto add = [&](const std::string& limit) { words += (words.empty() ? "" : ", ") + limit; };
+  if (limits.missed) add(fmt::format("missed at most {}", *limits.missed));
+  if (limits.spurious) add(fmt::format("spurious at most {}", *limits.spurious));
+  if (limits.hover) add(fmt::format("hover at most {} mm", millimetres(*limits.hover)));
+  if (limits.late_frames) add(fmt::format("at most {} frames late or early", *limits.late_frames));
+  if (limits.deviation) add(fmt::format("deviation at most {} mm", millimetres(*limits.deviation)));
+  if (request.budget_ms) add(fmt::format("at most {:g} ms", *request.budget_ms));
+  return words.empty() ? "none" : words;
+}
+
+std::string heading(const Tuning& tuning, const TuningRequest& request) {
+  return fmt::format("{}, question {}, {} frames: {} of {} configurations measured{}", tuning.scene,
+                     name_of(request.space.question), tuning.frames, tuning.outcome.tried.size(),
+                     tuning.candidates.size(),
+                     tuning.outcome.exhausted ? " (as many as were allowed)" : "");
+}
+
+std::string verdict(const Tuning& tuning, const TuningRequest& request) {
+  if (!tuning.chosen)
+    return tuning.confirmed.empty()
+               ? "No configuration meets the limits.\n"
+               : fmt::format("No configuration meets the limits on the {} held-out frames.\n",
+                             tuning.held_out_frames);
+  const Tried& chosen = tuning.confirmed[*tuning.chosen];
+  const Candidate& candidate = tuning.candidates[chosen.candidate];
+  std::string text = fmt::format(
+      "Chosen: {}{}, {:.3g} ms a frame on {} held-out frames.\n", candidate.detector,
+      candidate.lattice == 1.0 ? ""
+                               : fmt::format(" in {:g} times as many cells", candidate.lattice),
+      chosen.measurement.cost_ms, tuning.held_out_frames);
+  if (!tuning.within_budget(request.budget_ms))
+    text += fmt::format("That is more than the {:g} ms that are allowed.\n", *request.budget_ms);
+  return text;
+}
+
+std::string command_of(const Tuning& tuning) {
+  if (!tuning.chosen) return "";
+  return fmt::format("contactcheck run {} --detector {}", tuning.chosen_scene,
+                     tuning.candidates[tuning.confirmed[*tuning.chosen].candidate].detector);
+}
+
+}  // namespace
+
+std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
+  std::string text = heading(tuning, request) + "\nlimits: " + limits_in_words(request) +
+                     "\n\nPareto front of what was measured\n" +
+                     aligned(rows_of(front_of(tuning), tuning.candidates)) + "\n";
+  if (!tuning.confirmed.empty())
+    text += fmt::format("On {} held-out frames\n", tuning.held_out_frames) +
+            aligned(rows_of(tuning.confirmed, tuning.candidates)) + "\n";
+  text += verdict(tuning, request);
+  const std::string command = command_of(tuning);
+  return command.empty() ? text : text + "  " + command + "\n";
+}
+
+std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
+  std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
+                     ".\n\n" + verdict(tuning, request);
+  const std::string command = command_of(tuning);
+  if (!command.empty()) text += "\n    " + command + "\n";
+  text += "\n## Pareto front\n\n" + markdown(rows_of(front_of(tuning), tuning.candidates));
+  if (!tuning.confirmed.empty())
+    text += fmt::format("\n## On {} held-out frames\n\n", tuning.held_out_frames) +
+            markdown(rows_of(tuning.confirmed, tuning.candidates));
+  return text + "\n## Everything that was measured\n\n" +
+         markdown(rows_of(tuning.outcome.tried, tuning.candidates));
+}
+
+}  // namespace contactcheck

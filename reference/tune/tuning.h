@@ -1,0 +1,62 @@
+// From a scene and limits to a configuration: search, front, confirmation on held-out frames.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/tune/frame_split.h"
+#include "reference/tune/measuring.h"
+#include "reference/tune/search.h"
+#include "reference/tune/space.h"
+
+namespace contactcheck {
+
+struct TuningRequest {
+  std::string target;  ///< the scene as the user named it
+  std::filesystem::path scene_file;
+  SpaceRequest space;
+  Limits limits;
+  std::optional<double> budget_ms;  ///< what the chosen one may cost per frame
+  SearchSettings search;
+  bool exhaustive = false;  ///< measure every candidate
+  std::size_t frames = 0;   ///< to choose by; 0: see split_frames
+  RunSettings settings;
+  std::filesystem::path out;  ///< existing; tune.json and tune.md and scenes in other lattices
+  std::filesystem::path executable;
+  KnownDefects known_defects;
+  std::string command;  ///< for the record
+};
+
+/// What the search knows at any moment, for a person who waits.
+struct TuningProgress {
+  std::size_t measured = 0, candidates = 0;
+  std::string best;  ///< name of the cheapest that meets the limits; empty: none yet
+  bool confirming = false;
+};
+
+struct Tuning {
+  std::string scene;
+  std::vector<Candidate> candidates;
+  SearchOutcome outcome;
+  std::vector<std::size_t> front;  ///< indices into outcome.tried, by cost
+  /// The cheapest that met the limits, measured again on the held-out frames, until one holds.
+  std::vector<Tried> confirmed;
+  std::optional<std::size_t> chosen;  ///< index into confirmed; none met the limits there
+  std::size_t frames = 0, held_out_frames = 0;
+  /// What `run` takes: the scene as it was named, or a file in `out`; empty: none chosen.
+  std::string chosen_scene;
+
+  bool within_budget(const std::optional<double>& budget_ms) const;
+};
+
+Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
+            const std::function<void(const TuningProgress&)>& progress);
+
+/// tune.json (schema contactcheck-tune/1, reference/tune/README.md).
+nlohmann::ordered_json to_json(const Tuning& tuning, const TuningRequest& request);
+
+}  // namespace contactcheck

@@ -1,0 +1,117 @@
+// The search against measuring everything.
+#include "reference/tune/search.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/reference/tune/grids.h"
+
+namespace contactcheck {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+Limits nothing_missed() {
+  Limits limits;
+  limits.missed = 0;
+  return limits;
+}
+
+TEST(Search, FindsWhatMeasuringEverythingFindsWithAFifthOfTheMeasurements) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const test::Grid grid = test::random_grid(seed);
+    const Measure measure = grid.measure();
+    const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, measure);
+    ASSERT_TRUE(found.best) << seed;
+    EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed())) << seed;
+    EXPECT_LE(found.tried.size(), grid.candidates.size() / 5) << seed;
+    EXPECT_FALSE(found.exhausted);
+  }
+}
+
+TEST(Search, MeasuresNothingTwice) {
+  const test::Grid grid = test::random_grid(7);
+  std::vector<int> measured(grid.candidates.size());
+  const Measure measure = [&](const std::vector<std::size_t>& batch) {
+    for (const std::size_t i : batch) ++measured[i];
+    return grid.measure()(batch);
+  };
+  search(grid.candidates, nothing_missed(), {}, measure);
+  EXPECT_LE(*std::max_element(measured.begin(), measured.end()), 1);
+}
+
+TEST(Search, EndsWithoutAnAnswerWhereNothingMeetsTheLimits) {
+  test::Grid grid = test::random_grid(1);
+  for (Measurement& m : grid.truth) m.missed = 1;
+  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  EXPECT_FALSE(found.best);
+  EXPECT_LT(found.tried.size(), grid.candidates.size()) << "it sees that there is no hope";
+}
+
+TEST(Search, StopsAtTheMostThatMayBeMeasuredAndSaysSo) {
+  const test::Grid grid = test::random_grid(2);
+  SearchSettings settings;
+  settings.most = 6;
+  const SearchOutcome found = search(grid.candidates, nothing_missed(), settings, grid.measure());
+  EXPECT_THAT(found.tried, SizeIs(6));
+  EXPECT_TRUE(found.exhausted);
+}
+
+TEST(Search, PassesOverWhatFails) {
+  test::Grid grid = test::random_grid(3);
+  const std::size_t best = *grid.best(nothing_missed());
+  grid.truth[best] = {};
+  grid.truth[best].failure = "error: crashed";
+  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed()));
+}
+
+TEST(Search, AllFailing) {
+  test::Grid grid = test::random_grid(3);
+  for (Measurement& m : grid.truth) m.failure = "refused: NaN";
+  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  EXPECT_FALSE(found.best);
+  EXPECT_THAT(pareto_front(found.tried), IsEmpty());
+}
+
+Tried tried(double cost, std::uint64_t missed, double hover) {
+  Tried out;
+  out.measurement.cost_ms = cost;
+  out.measurement.missed = missed;
+  out.measurement.hover = hover;
+  return out;
+}
+
+TEST(ParetoFront, HoldsWhatNothingBeatsInEverything) {
+  const std::vector<Tried> all = {tried(3.0, 0, 0.0), tried(1.0, 9, 0.1), tried(2.0, 9, 0.1),
+                                  tried(2.0, 0, 0.2), tried(4.0, 0, 0.0)};
+  EXPECT_THAT(pareto_front(all), ElementsAre(1, 3, 0));
+}
+
+TEST(Limits, EachOfThemCounts) {
+  Measurement m;
+  m.missed = 2;
+  m.spurious = 3;
+  m.hover = 0.004;
+  m.late_frames = -2;
+  m.deviation = 0.01;
+  EXPECT_TRUE(Limits{}.met_by(m));
+  Limits exact{2, 3, 0.004, 0.01, 2};
+  EXPECT_TRUE(exact.met_by(m));
+  const auto one_less = [&](auto change) {
+    Limits less = exact;
+    change(less);
+    return less.met_by(m);
+  };
+  EXPECT_FALSE(one_less([](Limits& l) { l.missed = 1; }));
+  EXPECT_FALSE(one_less([](Limits& l) { l.spurious = 2; }));
+  EXPECT_FALSE(one_less([](Limits& l) { l.hover = 0.003; }));
+  EXPECT_FALSE(one_less([](Limits& l) { l.deviation = 0.009; }));
+  EXPECT_FALSE(one_less([](Limits& l) { l.late_frames = 1; }));
+  m.failure = "error: crashed";
+  EXPECT_FALSE(Limits{}.met_by(m));
+}
+
+}  // namespace
+}  // namespace contactcheck

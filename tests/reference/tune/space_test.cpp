@@ -1,0 +1,87 @@
+#include "reference/tune/space.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::UnorderedElementsAre;
+
+DetectorCatalog core_catalog() {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  return catalog;
+}
+
+std::vector<std::string> names(const std::vector<Candidate>& candidates) {
+  std::vector<std::string> out;
+  for (const Candidate& c : candidates) out.push_back(c.detector);
+  return out;
+}
+
+TEST(Space, VariesChoicesAndNumbers) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb"};
+  const auto candidates = make_space(core_catalog(), request);
+  EXPECT_THAT(names(candidates),
+              UnorderedElementsAre("ffd-aabb", "ffd-aabb:cell=0.5", "ffd-aabb:cell=2",
+                                   "ffd-aabb:bounds=safe", "ffd-aabb:bounds=safe,cell=0.5",
+                                   "ffd-aabb:bounds=safe,cell=2"));
+  for (const Candidate& c : candidates) EXPECT_EQ(c.usual, c.detector == "ffd-aabb");
+}
+
+TEST(Space, LeavesWhatTheNameSetsAndWhatIsTheMachines) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:cell=3", "ffd-lazy"};
+  for (const std::string& name : names(make_space(core_catalog(), request))) {
+    EXPECT_THAT(name, Not(HasSubstr("isa=")));
+    EXPECT_THAT(name, Not(HasSubstr("threads=")));
+    if (name.starts_with("ffd-aabb")) {
+      EXPECT_THAT(name, HasSubstr("cell=3"));
+    }
+  }
+}
+
+TEST(Space, TakesEveryDetectorThatAnswers) {
+  SpaceRequest request;
+  request.question = Question::kCells;
+  std::set<std::string> ids;
+  for (const Candidate& c : make_space(core_catalog(), request))
+    ids.insert(c.choices.front().value);
+  EXPECT_THAT(ids, UnorderedElementsAre("ffd-grid", "ffd-aabb", "ffd-aabb-sphere",
+                                        "ffd-aabb-sphere2", "ffd-aabb-sphereN"));
+}
+
+TEST(Space, MultipliesByLattices) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb"};
+  request.lattices = {1.0, 0.5};
+  const auto candidates = make_space(core_catalog(), request);
+  EXPECT_EQ(candidates.size(), 12u);
+  EXPECT_THAT(candidates[1].choices, Contains(Choice{"lattice", "0.5"}));
+  EXPECT_FALSE(candidates[1].usual);
+}
+
+TEST(Space, RefusesWhatDoesNotAnswer) {
+  SpaceRequest request;
+  request.question = Question::kTriangles;
+  request.detectors = {"ffd-aabb"};
+  try {
+    make_space(core_catalog(), request);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "detector \"ffd-aabb\" does not answer the question \"triangles\"");
+  }
+  request.detectors = {"no-such"};
+  EXPECT_THROW(make_space(core_catalog(), request), InputError);
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Checks results.json files: validate_results.py RESULTS...
+"""Checks results.json files: validate_results.py [--described] RESULTS...
 
 First against fixtures/results.schema.json, then what a schema cannot state: sums, rates, lengths
-and references. Prints one line per error (file, place, what). Exit code: 0 all valid, 1 any error,
-2 bad usage or a file that cannot be read as JSON.
+and references. Fields may be added to results; with --described one that the schema does not
+describe is an error. Prints one line per error (file, place, what). Exit code: 0 all valid, 1 any
+error, 2 bad usage or a file that cannot be read as JSON.
 """
 
 import json
@@ -51,6 +52,18 @@ def load(path):
         raise UnreadableFile(f"{path}: {error}") from error
 
 
+def closed(schema):
+    """The schema that takes no field of an object but those that it describes."""
+    if isinstance(schema, list):
+        return [closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    out = {key: closed(part) for key, part in schema.items()}
+    if out.get("type") == "object" and "properties" in out:
+        out.setdefault("additionalProperties", False)
+    return out
+
+
 def schema_errors(results, schema):
     """(place, message) of every violation, in the order of places."""
     validator = Draft202012Validator(schema)
@@ -86,8 +99,12 @@ def per_frame_errors(place, run):
         values = per_frame.get(name)
         if values is not None and len(values) not in (0, run["frames"]):
             yield f"{place}/{name}", f"has {len(values)} entries for {run['frames']} frames"
-    level = run["levels"].get(per_frame.get("level"))
+    finest = per_frame.get("level", "")
+    if not finest:
+        return
+    level = run["levels"].get(finest)
     if level is None:
+        yield f"{place}/level", f"{finest} is not among the levels"
         return
     for name in ("truth", "missed", "spurious"):
         if sum(per_frame[name]) != level[name]:
@@ -107,6 +124,28 @@ def geometry_errors(place, geometry):
             yield f"{place}/{stem}_max", f"is null though {geometry[count]} were judged"
         elif max(values[0], values[1]) > values[2] * (1 + RATE_TOLERANCE):
             yield f"{place}/{stem}_max", "is below the mean or the 95th percentile"
+
+
+def not_judged_errors(place, run):
+    for name in run.get("not_judged", {}):
+        if name in run["levels"]:
+            yield f"{place}/{name}", "is among the levels, so it was judged"
+
+
+def time_errors(place, run):
+    """Of the detector's own question and of the others, each of which stands once."""
+    others = enumerate(run.get("time_ms_other_questions", []))
+    seen = set()
+    for name, times in [("time_ms", run["time_ms"]),
+                        *((f"time_ms_other_questions/{i}", times) for i, times in others)]:
+        timed = times.get("timed_frames", 0)
+        if timed > run["frames"]:
+            yield f"{place}/{name}/timed_frames", f"exceeds the run's {run['frames']} frames"
+        if times.get("timed_contact_frames", 0) > timed:
+            yield f"{place}/{name}/timed_contact_frames", f"exceeds the {timed} timed frames"
+        if times.get("question") in seen:
+            yield f"{place}/{name}/question", f"{times['question']} is timed twice"
+        seen.add(times.get("question"))
 
 
 def informative_errors(place, run):
@@ -174,8 +213,8 @@ def run_errors(place, run):
         yield from closed_loop_errors(f"{place}/closed_loop", run["closed_loop"])
     if "step_ms" in run:
         yield from step_errors(f"{place}/step_ms", run["step_ms"])
-    if run["time_ms"].get("timed_frames", 0) > run["frames"]:
-        yield f"{place}/time_ms/timed_frames", f"exceeds the run's {run['frames']} frames"
+    yield from not_judged_errors(f"{place}/not_judged", run)
+    yield from time_errors(place, run)
 
 
 def goal_errors(place, goal):
@@ -260,13 +299,16 @@ def one_line(text):
     return text if len(text) <= LONGEST_MESSAGE else text[:LONGEST_MESSAGE] + " ..."
 
 
-def main(paths):
+def main(words):
+    paths = [word for word in words if word != "--described"]
     if not paths or paths[0] in ("-h", "--help"):
         print(__doc__.strip())
         return 0 if paths else 2
     any_error = False
     try:
         schema = load(SCHEMA_FILE)
+        if "--described" in words:
+            schema = closed(schema)
         for path in paths:
             for place, message in errors_of(load(path), schema):
                 any_error = True

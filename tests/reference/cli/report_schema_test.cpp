@@ -49,7 +49,8 @@ TEST(ReportOfValidResults, TheExampleOfTheSchemaIsWritten) {
   const Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
   ASSERT_TRUE(is_valid(example));
   const auto files = report_texts(example, "no-folder", {"md"});
-  EXPECT_THAT(files.at("report.md"), testing::HasSubstr("| ffd-aabb-sphere2 | cell | 10 | 0.9 "));
+  EXPECT_THAT(files.at("report.md"),
+              testing::HasSubstr("| ffd-aabb-sphere2 | 1 | cell | 10 | 0.90000 | 1 | 1 |"));
   EXPECT_THAT(files.at("report.md"), testing::HasSubstr("bullet-vf:margin=0.001"));
 }
 

@@ -17,7 +17,7 @@ std::string level_field(const Json& run, const char* level, const char* field) {
 
 std::string scale_finding(const Json& results) {
   std::string rows;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     const auto id = scene.at("id").get<std::string>();
     const Json scaled = find_run(results, id, "bullet-vf"),
                plain = find_run(results, id, "bullet-vf:scale=1");
@@ -45,7 +45,7 @@ std::string scale_finding(const Json& results) {
 
 std::string inside_finding(const Json& results) {
   std::string rows;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     const auto id = scene.at("id").get<std::string>();
     const Json run = find_run(results, id, "bullet-vf");
     if (run.is_null() || !run.at("levels").contains("vertex")) continue;
@@ -69,7 +69,7 @@ std::string inside_finding(const Json& results) {
 
 std::string cluster_finding(const Json& results) {
   std::string rows;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     const auto id = scene.at("id").get<std::string>();
     for (const char* detector : {"bullet-cl", "bullet-cl:k=256"}) {
       const Json run = find_run(results, id, detector);

@@ -22,7 +22,7 @@ std::string verdict(const Json& grid, const Json& aabb) {
 
 std::string hover_claim(const Json& results) {
   std::string rows;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     const Json grid = find_run(results, scene.at("id").get<std::string>(), "ffd-grid");
     const Json aabb = find_run(results, scene.at("id").get<std::string>(), "ffd-aabb");
     if (grid.is_null() || aabb.is_null()) continue;
@@ -49,7 +49,7 @@ std::string errors_at(const Json& run, const char* level) {
 std::string speed_rows(const Json& results, const char* detector, const char* question,
                        const char* level) {
   std::string rows;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     const Json run = find_run(results, scene.at("id").get<std::string>(), detector);
     if (run.is_null()) continue;
     std::string line =

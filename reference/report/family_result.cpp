@@ -1,7 +1,6 @@
 #include "reference/report/family_result.h"
 
 #include "reference/report/format.h"
-#include "reference/report/run_row.h"
 
 namespace contactcheck {
 using Json = nlohmann::ordered_json;
@@ -44,7 +43,7 @@ std::optional<double> FamilyResult::milliseconds() const {
 
 std::vector<FamilyResult> family_results(const Json& results) {
   std::vector<FamilyResult> out;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     if (!scene.contains("family")) continue;
     for (const Json& run : results.at("runs"))
       if (run.at("scene") == scene.at("id")) out.push_back({scene, run});

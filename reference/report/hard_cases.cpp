@@ -149,7 +149,7 @@ std::string hard_cases_markdown(const Json& results) {
       table_head(hard_columns()) + rows + "\n### Where they go wrong\n\n";
   std::string tables;
   const std::vector<FamilyResult> all = family_results(results);
-  for (const Json& scene : scenes_of(results))
+  for (const Json& scene : results.at("scenes"))
     if (scene.contains("family")) tables += family_table(scene, all);
   return out + (tables.empty() ? "Nowhere.\n\n" : tables);
 }

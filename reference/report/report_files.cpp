@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/markdown.h"
-#include "reference/report/run_row.h"
 #include "reference/report/stability_plot.h"
 
 namespace contactcheck {
@@ -11,7 +10,7 @@ namespace contactcheck {
 std::map<std::string, std::string> report_files(const nlohmann::ordered_json& results) {
   std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
   const std::vector<FamilyResult> families = family_results(results);
-  for (const auto& scene : scenes_of(results)) {
+  for (const auto& scene : results.at("scenes")) {
     if (!scene.contains("family")) continue;
     const std::string plot = stability_plot(scene, families);
     if (!plot.empty()) files[stability_plot_file(scene)] = plot;

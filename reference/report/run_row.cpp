@@ -132,12 +132,6 @@ std::string semantics_text(const Json& s) {
   return text;
 }
 
-const nlohmann::ordered_json& scenes_of(const Json& results) {
-  static const Json none = Json::array();
-  const auto scenes = results.find("scenes");
-  return scenes == results.end() ? none : *scenes;
-}
-
 std::string finest_level(const Json& run) { return run.at("per_frame").value("level", ""); }
 
 std::vector<nlohmann::ordered_json> runs_of_scene(const Json& results, const std::string& scene) {

@@ -37,8 +37,6 @@ std::string options_text(const nlohmann::ordered_json& options);
 /// precision, depth.
 std::string semantics_text(const nlohmann::ordered_json& semantics);
 
-/// What is said of the scenes; none where nothing is. Lives as long as the results.
-const nlohmann::ordered_json& scenes_of(const nlohmann::ordered_json& results);
 /// The finest level that a run which is `ok` was judged at; "" without one.
 std::string finest_level(const nlohmann::ordered_json& run);
 /// The runs of one scene, in file order.

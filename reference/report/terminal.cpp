@@ -95,14 +95,14 @@ std::string legend() {
 
 std::string terminal_tables(const Json& results, bool color) {
   std::string out;
-  for (const Json& scene : scenes_of(results)) {
+  for (const Json& scene : results.at("scenes")) {
     if (scene.contains("family")) continue;
     std::vector<Line> lines;
     for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
       lines.push_back(result_cells(run));
     out += scene_head(scene, color) + table(result_columns(), lines, color);
   }
-  if (scenes_of(results).size() > 1)
+  if (results.at("scenes").size() > 1)
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
            table(summary_columns(), summary_lines(results), color);

@@ -140,7 +140,7 @@ std::string container(std::vector<Candidate>& scenes) {
 
 std::string view_bytes(const Json& results, const fs::path& folder, std::size_t limit) {
   std::vector<Candidate> scenes;
-  for (const Json& scene : results.value("scenes", Json::array())) {
+  for (const Json& scene : results.at("scenes")) {
     const std::string recording = recording_of(results, scene);
     if (!recording.empty()) scenes.push_back(candidate(folder, recording, scene, limit));
   }

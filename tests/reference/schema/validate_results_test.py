@@ -145,6 +145,7 @@ MUTATIONS = [
     ("scenes/1/pairs/per_kind/point/pairs", 575, "pairs adds up to 1151, not 1152"),
     ("scenes/1/pairs/per_kind/point/touching", 577, "exceeds the 576 pairs"),
     ("scenes/1/pairs/per_kind/point/touching", -1, "less than the minimum"),
+    ("scenes", REMOVED, "'scenes' is a required property"),
     ("scenes/0/bodies", REMOVED, "'bodies' is a required property"),
     ("scenes/0/truth/edge", 3, "is not one of"),
     ("scenes/0/truth/cell", -1, "is not valid"),

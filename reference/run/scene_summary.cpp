@@ -82,7 +82,8 @@ Json bodies_json(const Scene& scene) {
 
 }  // namespace
 
-nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
+nlohmann::ordered_json scene_summary(const JudgedScene& judged,
+                                     const std::vector<double>& separations) {
   const Scene& scene = *judged.scene;
   const std::vector<bool>& contact = judged.contact_frames;
   Json out = {{"id", scene.id},
@@ -94,6 +95,7 @@ nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
               {"truth", truth_json(judged)},
               {"truth_hash", hex(truth_hash(judged))},
               {"bodies", bodies_json(scene)}};
+  if (!separations.empty()) out["separation"] = separations;
   if (scene.family) out["family"] = family_json(judged);
   if (judged.pairs) out["pairs"] = pairs_json(scene.pairs->spec(), *judged.pairs);
   if (scene.simulation)

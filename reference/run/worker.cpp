@@ -21,6 +21,7 @@
 #include "reference/run/samples_json.h"
 #include "reference/run/scene_summary.h"
 #include "reference/run/schedule.h"
+#include "reference/run/separation.h"
 #include "reference/run/surroundings.h"
 #include "reference/run/timing.h"
 #include "reference/scene/any_scene.h"
@@ -67,6 +68,7 @@ class Worker {
       refuse_all();
     } else if (judges()) {
       if (!job_.recording_file.empty()) record();
+      separations_ = separations(judged_, progress_);
       judge_detectors();
       if (job_.settings.closed_loop && scene_.simulation) simulate_with_detectors();
       plan_timing();
@@ -335,7 +337,7 @@ class Worker {
                       {"disagreements", cases}});
       if (lists_contacts()) runs.back()["contacts"] = detector_contacts(entry.result);
     }
-    Json answer = {{"scene", scene_summary(judged_)},
+    Json answer = {{"scene", scene_summary(judged_, separations_)},
                    {"contact_frames", judged_.contact_frames},
                    {"order", job_.order},
                    {"prefixes", job_.prefixes},
@@ -353,6 +355,7 @@ class Worker {
   Surroundings surroundings_;
   Scene scene_;
   JudgedScene judged_;
+  std::vector<double> separations_;
   std::vector<Entry> entries_;
   std::size_t cases_ = 0;
 };

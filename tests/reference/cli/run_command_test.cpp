@@ -119,6 +119,18 @@ TEST_F(RunCommand, CasesThatAreNoMomentsHaveNoContactsToShow) {
   EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre());
 }
 
+// Episodes, distances and times belong to motions.
+TEST_F(RunCommand, SeparationIsZeroInContactFramesAlone) {
+  const json results =
+      run("out", {scene_, "hard-boxes-gap", "--no-timing", "--detector", "ffd-grid"});
+  const json& scene = results.at("scenes").at(0);
+  const auto separation = scene.at("separation").get<std::vector<double>>();
+  ASSERT_EQ(separation.size(), 5u);
+  EXPECT_EQ(std::count(separation.begin(), separation.end(), 0.0), scene.at("contact_frames"));
+  EXPECT_NEAR(separation.front(), 0.3, 1e-8) << "the boxes are 0.3 m apart along x at first";
+  EXPECT_FALSE(results.at("scenes").at(1).contains("separation"));
+}
+
 TEST_F(RunCommand, RandomPairsAloneAreOneSceneThatNamesCountAndSeed) {
   const json results =
       run("out", {"--pairs", "700", "--seed", "5", "--no-timing", "--detector", "ffd-lazy",

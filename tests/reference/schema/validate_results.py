@@ -109,6 +109,26 @@ def geometry_errors(place, geometry):
             yield f"{place}/{stem}_max", "is below the mean or the 95th percentile"
 
 
+def histogram_errors(place, run):
+    """Every error counts once, in bins that do not overlap."""
+    geometry = run["geometry"]
+    # Distances are those of claimed pairs of triangles, and not of scenes that grade no lengths.
+    graded = geometry["spurious_distance_max"] is not None
+    spurious = run["levels"].get("triangle", {}).get("spurious") if graded else None
+    for name, whole in (("depth_error_histogram", geometry.get("depth_judged")),
+                        ("normal_error_deg_histogram", geometry.get("normal_judged")),
+                        ("spurious_distance_histogram", spurious)):
+        bins = geometry.get(name)
+        if bins is None or whole is None:
+            continue
+        edges = [edge for one in bins for edge in (one["from"], one["below"])]
+        if edges != sorted(edges) or any(one["from"] == one["below"] for one in bins):
+            yield f"{place}/{name}", "has bins out of order"
+        total = sum(one["count"] for one in bins)
+        if total != whole:
+            yield f"{place}/{name}", f"adds up to {total}, not {whole}"
+
+
 def informative_errors(place, run):
     claimed = run["semantics"].get("levels")
     if claimed is None:
@@ -168,6 +188,7 @@ def run_errors(place, run):
             yield from level_errors(f"{place}/{levels}/{name}", level)
     yield from informative_errors(place, run)
     yield from geometry_errors(f"{place}/geometry", run["geometry"])
+    yield from histogram_errors(f"{place}/geometry", run)
     yield from per_frame_errors(f"{place}/per_frame", run)
     yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
     if "closed_loop" in run:
@@ -220,6 +241,19 @@ def contacts_errors(place, scene):
         yield place, f"is {scene['contacts']}, not contacts/{scene['id']}.json"
 
 
+def separation_errors(place, scene):
+    """One distance per frame, 0 in contact frames alone."""
+    distances = scene.get("separation")
+    if distances is None:
+        return
+    if "family" in scene or "pairs" in scene:
+        yield place, "frames that are cases have no separation"
+    elif len(distances) != scene["frames"]:
+        yield place, f"has {len(distances)} entries for {scene['frames']} frames"
+    elif distances.count(0) != scene["contact_frames"]:
+        yield place, f"is 0 in {distances.count(0)} of {scene['contact_frames']} contact frames"
+
+
 def consistency_errors(results):
     """What a schema cannot state. Expects results that satisfy the schema."""
     runs = {}
@@ -236,6 +270,7 @@ def consistency_errors(results):
         if "pairs" in scene:
             yield from pairs_errors(f"/scenes/{number}/pairs", scene["pairs"])
         yield from contacts_errors(f"/scenes/{number}/contacts", scene)
+        yield from separation_errors(f"/scenes/{number}/separation", scene)
     scenes = {scene for scene, _ in runs}
     for number, scene in enumerate(results.get("resumed", [])):
         if scene not in scenes:

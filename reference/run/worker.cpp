@@ -316,10 +316,8 @@ class Worker {
     return written_cases(wrong);
   }
 
-  // Of frames that are cases there is no picture to be made; a refused scene has no truth.
-  bool lists_contacts() const {
-    return judges() && scene_.follows_time() && judged_.refused.empty();
-  }
+  // Random pairs are far too many for pictures; a refused scene has no truth.
+  bool lists_contacts() const { return judges() && !scene_.pairs && judged_.refused.empty(); }
 
   void write_answer() {
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kScene);

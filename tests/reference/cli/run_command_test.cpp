@@ -112,11 +112,16 @@ TEST_F(RunCommand, ContactsOneByOneAddUpToTheCountsOfTheResults) {
   EXPECT_GT(differences, 0u) << "a scene in which nobody errs shows nothing";
 }
 
-TEST_F(RunCommand, CasesThatAreNoMomentsHaveNoContactsToShow) {
+TEST_F(RunCommand, FamiliesHaveContactsToShowAndRandomPairsNone) {
   const json results =
       run("out", {"hard-boxes-gap", "--pairs", "600", "--no-timing", "--detector", "ffd-grid"});
-  for (const json& scene : results.at("scenes")) EXPECT_FALSE(scene.contains("contacts"));
-  EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre());
+  EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre("hard-boxes-gap.json"));
+  const json contacts =
+      json::parse(text_of(scratch_.folder() / "out" / "contacts" / "hard-boxes-gap.json"));
+  EXPECT_EQ(counts_by_frame(contacts.at("detectors").at(0), "spurious"),
+            results.at("runs").at(0).at("per_frame").at("spurious"));
+  for (const json& scene : results.at("scenes"))
+    EXPECT_EQ(scene.contains("contacts"), !scene.contains("pairs")) << scene.at("id");
 }
 
 // Episodes, distances and times belong to motions.

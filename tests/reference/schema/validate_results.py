@@ -235,8 +235,8 @@ def contradicts_the_oracle(results, disagreement):
 def contacts_errors(place, scene):
     if "contacts" not in scene:
         return
-    if "family" in scene or "pairs" in scene:
-        yield place, "frames that are cases have no file of contacts"
+    if "pairs" in scene:
+        yield place, "random pairs have no file of contacts"
     elif scene["contacts"] != f"contacts/{scene['id']}.json":
         yield place, f"is {scene['contacts']}, not contacts/{scene['id']}.json"
 

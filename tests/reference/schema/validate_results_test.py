@@ -147,7 +147,7 @@ MUTATIONS = [
     ("scenes/0/truth/cell", -1, "is not valid"),
     ("scenes/0/family/values/1", 1e-9, "is not of type 'string'"),
     ("scenes/0/family/true_pairs", REMOVED, "'true_pairs' is a required property"),
-    ("scenes/0/contacts", "contacts/hello.json", "frames that are cases have no file"),
+    ("scenes/1/contacts", "contacts/random-pairs.json", "random pairs have no file"),
     ("scenes/2/contacts", "contacts/hello.json", "not contacts/touch.json"),
     ("scenes/2/contacts", "", "'' "),
     ("scenes/0/simulation/every", 0, "less than the minimum"),

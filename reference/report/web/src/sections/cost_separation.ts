@@ -41,11 +41,14 @@ class Span {
   readonly low: number;
   readonly high: number;
   private readonly powers: number;
+  private readonly margin: number;
 
   constructor(all: ApartCost[]) {
-    const distances = all.map((cost) => cost.apart);
-    this.low = Math.min(...distances) / 1.1;
-    this.high = Math.max(...distances) * 1.1;
+    const distances = all.map((cost) => cost.apart), low = Math.min(...distances), high = Math.max(...distances);
+    // Distances that hardly differ have the whole width, too.
+    this.margin = high > 1.0001 * low ? (high / low) ** 0.05 : 1.1;
+    this.low = low / this.margin;
+    this.high = high * this.margin;
     this.powers = Math.log10(this.high / this.low);
   }
   /** A place in the strip: 0 is its left edge, 1 its right one, 1.3 the smallest distance. */
@@ -60,7 +63,7 @@ class Span {
     const first = Math.ceil(Math.log10(this.low)), last = Math.floor(Math.log10(this.high));
     if (last - first >= 1)
       return Array.from({length: last - first + 1}, (_, i) => Number(`1e${first + i}`));
-    return [...new Set([this.low * 1.1, this.high / 1.1].map((mm) => Number(mm.toPrecision(3))))];
+    return [...new Set([this.low * this.margin, this.high / this.margin].map((mm) => Number(mm.toPrecision(4))))];
   }
 }
 

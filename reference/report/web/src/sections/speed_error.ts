@@ -93,7 +93,7 @@ function draw(width: number, all: Point[], choice: Choice): Node {
     x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true,
         ticks: width < 600 ? 4 : 8,
         tickFormat: (ms: number) => String(ms)},
-    y: {...kErrorAxis, domain: [0, top], label: `↑ ${kAxis[choice.measure]}`,
+    y: {...kErrorAxis, ticks: kErrorAxis.ticks.filter((tick) => tick <= top), domain: [0, top], label: `↑ ${kAxis[choice.measure]}`,
         grid: true,
         insetBottom: 12,
         tickFormat: (share: number) => `${100 * share} %`},

@@ -14,6 +14,7 @@
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
+#include "reference/report/speed_error_section.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck {
@@ -158,8 +159,9 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out = "# contactcheck report\n\n" + machine_section(results) + resumed_line(results) +
-                    summary_section(results) + goals_section(results) +
+  std::string out = "# contactcheck report\n\n" + machine_section(results) +
+                    resumed_line(results) + summary_section(results) +
+                    speed_error_markdown(results) + goals_section(results) +
                     hard_cases_markdown(results) + known_defects_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;

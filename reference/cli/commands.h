@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/run/shard.h"
 #include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
@@ -21,6 +22,7 @@ struct RunArguments {
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
+  std::optional<Shard> shard;     ///< run this part alone
   bool timing = true, quiet = false, resume = false;
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
@@ -95,6 +97,8 @@ int gate_command(const GateArguments& arguments);
 int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
 /// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
 int ab_command(const AbArguments& arguments);
+/// Puts the results of all shards of a run together, with their reports.
+int merge_command(const std::vector<std::string>& results, const std::filesystem::path& out);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

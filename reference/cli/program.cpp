@@ -64,6 +64,7 @@ struct Choices {
   std::vector<std::string> formats = all_report_formats();
   std::string report_out = "out";
   std::vector<std::string> families;
+  std::vector<std::string> shard_files;
   std::uint64_t pairs = 0, pair_seed = PairSpec{}.seed;
   ReduceArguments reduce;
   GateArguments gate;
@@ -156,6 +157,11 @@ void add_run(CLI::App& app, Choices& c) {
   run->add_flag("--resume", c.run.resume,
                 "take over the scenes that an interrupted run with the same settings has finished "
                 "in --out");
+  run->add_option_function<std::string>(
+         "--shard", [&c](const std::string& text) { c.run.shard = parse_shard(text); },
+         "run the K-th of N parts of the work alone: scenes are dealt out whole, in turns; "
+         "merge puts the results of all parts together")
+      ->type_name("K/N");
   run->add_flag("--quiet", c.run.quiet, "no progress, no tables");
   run->add_flag("--json-lines", c.run.json_lines,
                 "for machines: what happens, as one JSON object a line, and nothing else, on "
@@ -168,7 +174,24 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run references --resume\n"
+      "  contactcheck run references --shard 2/3 --out part2\n"
       "  contactcheck run default --json-lines --quiet | my-dashboard");
+}
+
+void add_merge(CLI::App& app, Choices& c) {
+  CLI::App* merge = app.add_subcommand(
+      "merge", "put the results of all shards of a run together (run --shard K/N)");
+  merge->add_option("results", c.shard_files, "the results.json of every shard")->required();
+  merge->add_option("--out", c.report_out,
+                    "folder for results.json, reports, cases, contacts, recordings (default out)");
+  merge->footer(
+      "The results are those of the run in one piece, times aside. Shards of other versions,\n"
+      "builds, settings or scenes are refused, and so are a missing, a doubled and a damaged one.\n"
+      "Timed shards must be of one kind of machine.\n"
+      "Example:\n"
+      "  contactcheck run references --shard 1/2 --out part1\n"
+      "  contactcheck run references --shard 2/2 --out part2\n"
+      "  contactcheck merge part1/results.json part2/results.json --out out");
 }
 
 void add_reproduce(CLI::App& app, Choices& c) {
@@ -394,6 +417,7 @@ int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
   if (app.got_subcommand("ab")) return ab_command(c.ab);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   if (app.got_subcommand("gate")) return gate_command(c.gate);
+  if (app.got_subcommand("merge")) return merge_command(c.shard_files, c.report_out);
   if (app.got_subcommand("accept")) return accept_command(c.results_file, c.baseline_file);
   c.run.timing = !c.no_timing;
   if (c.pairs > 0) c.run.pairs = PairSpec{c.pairs, c.pair_seed};
@@ -425,6 +449,7 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
   Choices choices;
   choices.run.command_line = join_command_line(argc, argv);
   add_run(app, choices);
+  add_merge(app, choices);
   add_reproduce(app, choices);
   add_reduce(app, choices);
   add_export(app, choices);

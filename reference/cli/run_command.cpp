@@ -99,12 +99,26 @@ class Watcher {
   std::optional<double> first_share_;
 };
 
+// After all scenes were read: shards of one run know the same scenes.
+void take_shard(const Shard& shard, SuiteRequest& request) {
+  request.shard = ShardOfRun{shard, std::move(request.tasks)};
+  const std::vector<SceneTask>& run = request.shard->run;
+  if (run.size() < shard.of)
+    throw InputError("--shard " + shard.name() + ": this run has " + std::to_string(run.size()) +
+                     (run.size() == 1 ? " scene" : " scenes") +
+                     ", and a scene is run in one piece: at most so many shards are possible");
+  request.tasks.clear();
+  for (std::size_t i = 0; i < run.size(); ++i)
+    if (shard.holds(i)) request.tasks.push_back(run[i]);
+}
+
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
   RunTasks tasks = make_tasks(arguments, catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, request.tasks);
+  if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
   request.settings.frames = arguments.frames;
   request.settings.repeats = arguments.repeats;
@@ -122,6 +136,8 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   return request;
 }
 
+}  // namespace
+
 int exit_code_of(const SuiteOutcome& outcome) {
   if (outcome.oracle_wrong > 0) {
     std::fprintf(stderr,
@@ -132,8 +148,6 @@ int exit_code_of(const SuiteOutcome& outcome) {
   }
   return outcome.unlisted_error ? 3 : 0;
 }
-
-}  // namespace
 
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
                            SuiteOutcome* outcome) {

@@ -47,6 +47,21 @@ std::string resumed_line(const Json& results) {
       scenes);
 }
 
+// Whoever reads a part must not take it for the whole.
+std::string parts_line(const Json& results) {
+  if (results.contains("shard")) {
+    const Json& shard = results.at("shard");
+    return fmt::format(
+        "Shard {} of {}: {} of the {} scenes of `{}`; `contactcheck merge` puts the shards "
+        "together.\n\n",
+        whole_number(shard.at("index")), whole_number(shard.at("of")), results.at("scenes").size(),
+        shard.at("scenes").size(), shard.at("command").get<std::string>());
+  }
+  if (!results.contains("merged")) return "";
+  return fmt::format("Put together from {} shards (`contactcheck merge`).\n\n",
+                     results.at("merged").size());
+}
+
 std::string bodies_table(const Json& scene) {
   std::string out =
       "| body | mesh | vertices | triangles | cells | solid | notes |\n"
@@ -159,7 +174,7 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out = "# contactcheck report\n\n" + machine_section(results) +
+  std::string out = "# contactcheck report\n\n" + machine_section(results) + parts_line(results) +
                     resumed_line(results) + summary_section(results) +
                     speed_error_markdown(results) + goals_section(results) +
                     hard_cases_markdown(results) + known_defects_markdown(results);

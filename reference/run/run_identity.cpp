@@ -31,11 +31,15 @@ std::string content_of(const PairSpec& pairs) {
   return std::to_string(pairs.count) + " random pairs, seed " + std::to_string(pairs.seed);
 }
 
+std::string hash_of_file(const std::filesystem::path& file) {
+  Fnv1a hash;
+  add_file(file, hash);
+  return hex(hash.digest());
+}
+
 RunIdentity::RunIdentity(const SuiteRequest& request) : settings_(request.settings) {
-  Fnv1a program;
-  add_file(request.executable, program);
   common_ = {{"version", CONTACTCHECK_VERSION},
-             {"program", hex(program.digest())},
+             {"program", hash_of_file(request.executable)},
              {"libraries", library_versions()},
              {"machine", describe_machine()}};
 }

@@ -18,6 +18,9 @@ std::string content_of(const std::filesystem::path& file, const Scene& scene);
 /// The same of random pairs: their number and their seed; the program makes the rest.
 std::string content_of(const PairSpec& pairs);
 
+/// Of its bytes, as hexadecimal text. @throws InputError when it cannot be read
+std::string hash_of_file(const std::filesystem::path& file);
+
 /// The program (by the bytes of its file: a detector that was rebuilt is another one), the
 /// libraries, the machine, the settings, the detectors and the scene's content.
 class RunIdentity {

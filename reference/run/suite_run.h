@@ -10,6 +10,7 @@
 
 #include "reference/defects/known_defects.h"
 #include "reference/run/job.h"
+#include "reference/run/shard.h"
 #include "reference/scene/suite_file.h"
 
 namespace contactcheck {
@@ -25,6 +26,12 @@ struct SceneTask {
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };
 
+/// Which part of which run.
+struct ShardOfRun {
+  Shard shard;
+  std::vector<SceneTask> run;  ///< all scenes of the run, in order
+};
+
 struct SuiteRequest {
   std::vector<SceneTask> tasks;
   std::vector<SuiteGoal> goals;      ///< canonical names of detectors
@@ -35,6 +42,7 @@ struct SuiteRequest {
   KnownDefects known_defects;        ///< what wrong answers are set beside
   /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
   bool resume = false;
+  std::optional<ShardOfRun> shard = {};  ///< then `tasks` are those that it holds
 };
 
 /// What is going on, for the progress display.

@@ -17,7 +17,8 @@ namespace contactcheck {
 
 struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
-  std::vector<std::string> detectors;  ///< empty: those of the suite
+  std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
+  std::vector<std::string> commands;   ///< detectors that are talked to over pipes
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
@@ -44,7 +45,8 @@ struct ListArguments {
 
 struct ReduceArguments {
   std::string target;    ///< a case file, or what `run` takes as a scene, with "@FRAME" behind it
-  std::string detector;  ///< empty: the case's
+  std::string detector;  ///< name or library; empty: the case's
+  std::string command;   ///< of the detector, one that is talked to over pipes; empty: none
   std::string level, kind;    ///< empty: the case's, or what is found first
   std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
   std::size_t budget = 20000;
@@ -59,7 +61,7 @@ struct GateArguments {
 };
 
 struct AbArguments {
-  std::filesystem::path base, head;    ///< two builds of this program
+  std::filesystem::path base, head;    ///< two builds of this program, or two libraries
   std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t rounds = 7, frames = 0, repeats = 3;
@@ -94,7 +96,7 @@ int gate_command(const GateArguments& arguments);
 /// Writes results as a baseline, and prints what it changes against the one in its place.
 int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
 /// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
-int ab_command(const AbArguments& arguments);
+int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

@@ -3,11 +3,13 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/report_folder.h"
+#include "reference/plugin/examination.h"
 #include "reference/reduce/probe_worker.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
@@ -69,6 +72,9 @@ struct Choices {
   GateArguments gate;
   std::string baseline_file;
   std::string probe_detector;
+  std::vector<std::string> plugins;
+  std::string plugin_kind, plugin_text;
+  std::uint64_t plugin_memory = 0;
   std::string diff_before, diff_after;
   AbArguments ab;
   bool no_timing = false, write_truth = false, write_defects = false;
@@ -125,13 +131,26 @@ void add_pairs(CLI::App& run, Choices& c) {
       ->needs(pairs);
 }
 
+template <typename Commands>
+void add_commands(CLI::App& command, Commands& commands) {
+  command
+      .add_option("--detector-cmd", commands,
+                  "a detector of your own that is a command: it reads frames and writes contacts "
+                  "over pipes (reference/plugin/README.md)")
+      ->allow_extra_args(false)
+      ->type_name("CMD");
+}
+
 void add_run(CLI::App& app, Choices& c) {
   CLI::App* run = app.add_subcommand("run", "run detectors on scenes and judge every answer");
   run->add_option(
       "targets", c.run.targets,
       "suites, scenes or files (.json scene or suite, .ccr recording); default: default");
-  run->add_option("--detector", c.run.detectors, "a detector, repeatable; default: the suite's")
+  run->add_option("--detector", c.run.detectors,
+                  "a detector, repeatable; default: the suite's; with '/' or .so in its name a "
+                  "shared library of your own (reference/plugin/README.md)")
       ->allow_extra_args(false);
+  add_commands(*run, c.run.commands);
   run->add_option("--frames", c.run.frames, "frames per scene, same duration")
       ->check(CLI::Range(1, 100000));
   run->add_option("--repeat", c.run.repeats, "timed repeats per frame (default 5)")
@@ -167,6 +186,8 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
+      "  contactcheck run bunny-touch --detector ./libmine.so:leaf=8 --detector fcl-aabb\n"
+      "  contactcheck run bunny-touch --detector-cmd \"python3 mine.py\" --detector fcl-aabb\n"
       "  contactcheck run references --resume\n"
       "  contactcheck run default --json-lines --quiet | my-dashboard");
 }
@@ -198,7 +219,9 @@ void add_reduce(CLI::App& app, Choices& c) {
                    "a case file of run; or a scene, family or recording (with @FRAME or @VALUE "
                    "behind it, else its first frame with a disagreement) and --detector")
       ->required();
-  reduce->add_option("--detector", c.reduce.detector, "the detector; default: the case's");
+  reduce->add_option("--detector", c.reduce.detector,
+                     "the detector, or a shared library; default: the case's");
+  add_commands(*reduce, c.reduce.command);
   reduce->add_option("--level", c.reduce.level,
                      "a disagreement at this level; default: the case's, or the finest");
   reduce->add_option("--kind", c.reduce.kind, "missed, spurious or error; default: the case's")
@@ -307,9 +330,12 @@ void add_ab_limits(CLI::App& ab, Choices& c) {
 
 void add_ab(CLI::App& app, Choices& c) {
   CLI::App* ab = app.add_subcommand(
-      "ab", "run two builds of this program in turns: is head slower, does it answer otherwise");
-  ab->add_option("base", c.ab.base, "the program as it was")->required();
-  ab->add_option("head", c.ab.head, "the program as it is")->required();
+      "ab",
+      "run two builds, of this program or of your library, in turns: is head slower, does it "
+      "answer otherwise");
+  ab->add_option("base", c.ab.base, "the program as it was, or the shared library of a detector")
+      ->required();
+  ab->add_option("head", c.ab.head, "the program as it is, or the library")->required();
   ab->add_option("targets", c.ab.targets, "suites, scenes or files, as of run; default: default");
   ab->add_option("--detector", c.ab.detectors, "a detector, repeatable; default: the suite's")
       ->allow_extra_args(false);
@@ -327,9 +353,10 @@ void add_ab(CLI::App& app, Choices& c) {
       "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
       "the floor. Its own question counts, with cold caches.\n"
       "Exit code 1 when a detector is slower, or when answers differ.\n"
-      "Example:\n"
+      "Examples:\n"
       "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
-      "bunny-touch");
+      "bunny-touch\n"
+      "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch");
 }
 
 void add_others(CLI::App& app, Choices& c) {
@@ -380,18 +407,31 @@ void add_others(CLI::App& app, Choices& c) {
   CLI::App* probe = app.add_subcommand("probe", "")->group("");
   probe->add_option("detector", c.probe_detector)->required();
   probe->add_option("--channel-fd", c.channel_fd)->required();
+  probe->add_option("--plugin", c.plugins)->allow_extra_args(false);
+  CLI::App* examine = app.add_subcommand("examine", "")->group("");
+  examine->add_option("kind", c.plugin_kind)->required();
+  examine->add_option("--text", c.plugin_text)->required();
+  examine->add_option("--memory-limit", c.plugin_memory)->required();
+  examine->add_option("--answer-fd", c.channel_fd)->required();
 }
 
 int dispatch(CLI::App& app, Choices& c, const DetectorCatalog& catalog) {
-  if (app.got_subcommand("worker")) return run_worker(c.job_file, catalog, c.progress_fd);
-  if (app.got_subcommand("probe")) return run_probe_worker(c.probe_detector, catalog, c.channel_fd);
+  if (app.got_subcommand("worker")) {
+    const std::vector<std::string> plugins = read_job(c.job_file).settings.plugins;
+    return run_worker(c.job_file, with_plugins(catalog, plugins), c.progress_fd);
+  }
+  if (app.got_subcommand("probe"))
+    return run_probe_worker(c.probe_detector, with_plugins(catalog, c.plugins), c.channel_fd);
+  if (app.got_subcommand("examine"))
+    return run_examination({plugin_kind_from_name(c.plugin_kind), c.plugin_text}, c.plugin_memory,
+                           c.channel_fd);
   if (app.got_subcommand("reduce")) return reduce_command(c.reduce, catalog);
   if (app.got_subcommand("list")) return list_command(c.list, catalog);
   if (app.got_subcommand("truth")) return truth_command(c.families, c.write_truth);
   if (app.got_subcommand("export")) return export_command(c.exported, catalog);
   if (app.got_subcommand("defects")) return defects_command(c.results_file, c.write_defects);
   if (app.got_subcommand("diff")) return diff_command(c.diff_before, c.diff_after);
-  if (app.got_subcommand("ab")) return ab_command(c.ab);
+  if (app.got_subcommand("ab")) return ab_command(c.ab, catalog);
   if (app.got_subcommand("report")) return report_command(c.results_file, c.formats, c.report_out);
   if (app.got_subcommand("gate")) return gate_command(c.gate);
   if (app.got_subcommand("accept")) return accept_command(c.results_file, c.baseline_file);
@@ -441,7 +481,9 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
 
 // A worker's streams are its supervisor's to look after.
 bool is_worker(int argc, char** argv) {
-  return argc > 1 && (std::strcmp(argv[1], "worker") == 0 || std::strcmp(argv[1], "probe") == 0);
+  constexpr const char* kHidden[] = {"worker", "probe", "examine"};
+  return argc > 1 && std::any_of(std::begin(kHidden), std::end(kHidden),
+                                 [&](const char* name) { return std::strcmp(argv[1], name) == 0; });
 }
 
 int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {

@@ -10,6 +10,7 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/event_lines.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
@@ -99,21 +100,36 @@ class Watcher {
   std::optional<double> first_share_;
 };
 
+RunSettings settings_of(const RunArguments& arguments) {
+  RunSettings settings;
+  settings.frames = arguments.frames;
+  settings.repeats = arguments.repeats;
+  settings.processes = arguments.processes;
+  settings.timing = arguments.timing;
+  settings.closed_loop = arguments.closed_loop;
+  settings.threads = arguments.threads;
+  settings.call_limit = arguments.call_limit;
+  settings.memory_limit = arguments.memory_limit_mib << 20;
+  return settings;
+}
+
+RunArguments with_names(RunArguments arguments, const std::vector<std::string>& names) {
+  arguments.detectors = names;
+  return arguments;
+}
+
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
-  RunTasks tasks = make_tasks(arguments, catalog);
+  request.settings = settings_of(arguments);
+  const OwnDetectors own =
+      bring_in(arguments.detectors, arguments.commands, request.settings, catalog);
+  request.settings.plugins = own.records();
+  request.plugins = own.in_results();
+  RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, request.tasks);
   check_out(arguments.out);
-  request.settings.frames = arguments.frames;
-  request.settings.repeats = arguments.repeats;
-  request.settings.processes = arguments.processes;
-  request.settings.timing = arguments.timing;
-  request.settings.closed_loop = arguments.closed_loop;
-  request.settings.threads = arguments.threads;
-  request.settings.call_limit = arguments.call_limit;
-  request.settings.memory_limit = arguments.memory_limit_mib << 20;
   request.resume = arguments.resume;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");

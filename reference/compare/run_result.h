@@ -85,6 +85,7 @@ struct PhaseTimes {
   std::optional<double> map;  ///< none for detectors that map what they need themselves
   double update = 0.0, query = 0.0, frame = 0.0;
   std::optional<double> contact_frame;  ///< mean over timed contact frames
+  std::optional<double> self_reported;  ///< update and query, by the detector's own clock
 };
 
 /// Milliseconds per frame: medians over repeats, averaged over the timed frames.

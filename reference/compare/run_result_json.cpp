@@ -43,11 +43,13 @@ Json to_json(const Semantics& s) {
 }
 
 Json to_json(const PhaseTimes& t) {
-  return {{"map", nullable(t.map)},
-          {"update", t.update},
-          {"query", t.query},
-          {"frame", t.frame},
-          {"contact_frame", nullable(t.contact_frame)}};
+  Json out = {{"map", nullable(t.map)},
+              {"update", t.update},
+              {"query", t.query},
+              {"frame", t.frame},
+              {"contact_frame", nullable(t.contact_frame)}};
+  if (t.self_reported) out["self_reported"] = *t.self_reported;
+  return out;
 }
 
 Json to_json(const QuestionTimes& t, double prepare_ms) {

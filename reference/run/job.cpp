@@ -16,6 +16,7 @@ using Json = nlohmann::json;
 RunSettings settings_from(const Json& j) {
   RunSettings s;
   j.at("detectors").get_to(s.detectors);
+  j.at("plugins").get_to(s.plugins);
   j.at("frames").get_to(s.frames);
   j.at("repeats").get_to(s.repeats);
   j.at("processes").get_to(s.processes);
@@ -33,12 +34,19 @@ RunSettings settings_from(const Json& j) {
 }  // namespace
 
 nlohmann::json to_json(const RunSettings& s) {
-  return {{"detectors", s.detectors},     {"frames", s.frames},
-          {"repeats", s.repeats},         {"processes", s.processes},
-          {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
-          {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
-          {"closed_loop", s.closed_loop}, {"threads", s.threads},
-          {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
+  return {{"detectors", s.detectors},
+          {"plugins", s.plugins},
+          {"frames", s.frames},
+          {"repeats", s.repeats},
+          {"processes", s.processes},
+          {"time_budget", s.time_budget},
+          {"fewest_timed_frames", s.fewest_timed_frames},
+          {"sweep_bytes", s.sweep_bytes},
+          {"timing", s.timing},
+          {"closed_loop", s.closed_loop},
+          {"threads", s.threads},
+          {"call_limit", s.call_limit},
+          {"memory_limit", s.memory_limit}};
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {

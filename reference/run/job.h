@@ -16,7 +16,9 @@ namespace contactcheck {
 /// Settings of a run; the same for all its scenes.
 struct RunSettings {
   std::vector<std::string> detectors;  ///< canonical names
-  std::size_t frames = 0;              ///< 0: as the scene says
+  /// Records of the detectors from outside this program that are among them (plugin/plugin.h).
+  std::vector<std::string> plugins;
+  std::size_t frames = 0;  ///< 0: as the scene says
   std::size_t repeats = 5;
   std::size_t processes = 1;  ///< fresh processes whose samples are pooled
   /// Aim for the timed part per detector and question, seconds: slow detectors are timed on fewer

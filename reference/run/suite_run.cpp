@@ -349,6 +349,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
                   {"scenes", scenes},
                   {"runs", runs},
                   {"disagreements", disagreements}};
+  if (!request.plugins.empty()) results["plugins"] = Json::parse(request.plugins);
   add_known_defects(request.known_defects, results, outcome);
   if (!request.goals.empty()) results["goals"] = measure_goals(request.goals, results);
   if (request.resume) results["resumed"] = resumed;

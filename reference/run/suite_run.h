@@ -32,6 +32,7 @@ struct SuiteRequest {
   std::filesystem::path out;         ///< existing, writable
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
   std::string command;               ///< for the record
+  std::string plugins;               ///< JSON for the record, see results.json; empty: none
   KnownDefects known_defects;        ///< what wrong answers are set beside
   /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
   bool resume = false;

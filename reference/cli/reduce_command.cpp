@@ -106,7 +106,7 @@ class ReduceCommand {
         is_case_ ? std::vector<ReductionTask>{read_case(arguments_.target)}
                  : tasks_of_scene(arguments_.target, fixtures_directory());
     for (ReductionTask& task : tasks) {
-      if (!own_.names.empty()) task.detector = own_.names.front();
+      if (!own_.names.empty() && !brings_along(task.detector)) task.detector = own_.names.front();
       if (!arguments_.level.empty()) task.level = arguments_.level;
       if (!arguments_.kind.empty()) task.kind = arguments_.kind;
       require_reducible(task.level);
@@ -115,6 +115,12 @@ class ReduceCommand {
       throw InputError("\"" + arguments_.target +
                        "\" is no case file and names no detector: --detector says which one");
     return tasks;
+  }
+
+  // A plug-in that is given without options is what the case's name, with its options, is about.
+  bool brings_along(const std::string& detector) const {
+    return !own_.plugins.empty() && own_.names.front() == own_.plugins.front().declaration.id &&
+           own_.names.front() == detector.substr(0, detector.find(':'));
   }
 
   // A case keeps the name alone of a detector that came from outside.

@@ -91,6 +91,13 @@ ssize_t write_some(int fd, std::string_view bytes) {
   return write(fd, bytes.data(), bytes.size());
 }
 
+// A shell that waits for one program would hold its output open and translate its end.
+std::string for_shell(const std::string& command) {
+  const bool assigns = command.substr(0, command.find(' ')).find('=') != std::string::npos;
+  const bool simple = command.find_first_of(";&|<>(){}$`\n!") == std::string::npos && !assigns;
+  return simple ? "exec " + command : command;
+}
+
 // Between fork and exec: system calls alone. A library may have changed what is inherited.
 [[noreturn]] void become(const char* command, int input, int output, int errors, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -122,8 +129,9 @@ PipeProcess::PipeProcess(const std::string& command, const PipeLimits& limits)
 
 void PipeProcess::start(const std::string& command, int input, int output) {
   const pid_t parent = getpid();
+  const std::string text = for_shell(command);
   pid_ = fork();
-  if (pid_ == 0) become(command.c_str(), input, output, errors_.fd(), parent);
+  if (pid_ == 0) become(text.c_str(), input, output, errors_.fd(), parent);
   if (pid_ < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
 }
 

@@ -111,7 +111,11 @@ Plugin plugin_from_text(const std::string& json) {
 
 void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
   require_free_id(plugin, catalog);
-  catalog.add(info_of(plugin));
+  try {
+    catalog.add(info_of(plugin));
+  } catch (const InputError& e) {
+    throw InputError(described(plugin.source) + " cannot be used: " + e.what());
+  }
 }
 
 DetectorCatalog with_plugins(const DetectorCatalog& catalog,

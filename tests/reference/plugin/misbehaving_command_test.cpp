@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no-such-triangle", {"frame 2: the answer names triangle 1000000"}},
         Fault{"with-itself", {"frame 2: the answer names body \"right\" in contact with itself"}},
         Fault{"counts-disagree", {"lists of 32 bytes together and says 16"}},
-        Fault{"too-many", {"triangles is 1000000000000", "whole number from 0 to 16777216"}},
+        Fault{"too-many", {"triangles is 1e+12", "whole number from 0 to 16777216"}},
         Fault{"half-a-message", {"frame 2", "ended with exit code 0"}},
         Fault{"nan-depth", {"frame 2: the answer holds a depth or normal"}}),
     test_name);

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"built-in-id", {"\"ffd-lazy\"", "another detector's name"}},
         Fault{"library-id", {"\"fcl-mine\"", "kept for fcl"}},
         Fault{"no-question", {"answers no question"}},
-        Fault{"bad-default", {"option fault is \"nonsense\"", "allowed: none, create-fails"}},
+        Fault{"bad-default", {"option fault is \"nonsense\"", "allowed: none, "}},
         Fault{"crash", {"ended in signal 11"}}, Fault{"exit", {"ended in exit code "}},
         Fault{"hang", {"said nothing for 1.5 s (time limit)"}, "", {"--call-limit", "1.5"}},
         Fault{"memory", {"took more than 300 MiB (memory limit)"}, "", {"--memory-limit", "300"}}),

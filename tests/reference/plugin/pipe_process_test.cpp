@@ -43,7 +43,7 @@ TEST(PipeProcess, ThatWritesInsteadOfReadingIsNoDeadlock) {
 }
 
 TEST(PipeProcess, ThatHasEndedIsAnErrorAndNoSignal) {
-  PipeProcess process("exit 7");
+  PipeProcess process("(exit 7)");
   const std::string much(std::size_t{64} << 20, 'x');
   EXPECT_EQ(complaint([&] { process.send(much); }), "the command ended with exit code 7");
 }

@@ -51,9 +51,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no-semantics", {"semantics is missing"}},
         Fault{"endless-line", {"a line of more than 1024 KiB"}},
         Fault{"eats-memory-at-once",
-              {"more than 300 MiB resident (memory limit)"},
+              {"more than 400 MiB resident (memory limit)"},
               "",
-              {"--memory-limit", "300"}}),
+              {"--memory-limit", "400"}}),
     test_name);
 
 TEST(CommandAtHello, ThatIsNotThereIsRefused) {
@@ -84,7 +84,7 @@ TEST_P(CommandAtWork, GetsARowAndDisturbsNobody) {
 }
 
 const std::vector<std::string> kQuick = {"--no-timing", "--call-limit", "1.5"};
-const std::vector<std::string> kSmall = {"--no-timing", "--memory-limit", "300"};
+const std::vector<std::string> kSmall = {"--no-timing", "--memory-limit", "400"};
 
 INSTANTIATE_TEST_SUITE_P(
     All, CommandAtWork,
@@ -95,8 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"hangs-in-frame", {"frame 2", "no progress for 1.5 s"}, "error", kQuick},
         Fault{"floods", {"frame 2", "a line of more than 1024 KiB"}},
         Fault{"floods-errors", {"frame 2", "more than 64 MiB to standard error"}},
-        Fault{"eats-memory", {"frame 2", "more than 300 MiB resident"}, "error", kSmall},
-        Fault{"eats-memory-in-a-child", {"frame 2", "more than 300 MiB"}, "error", kSmall},
+        Fault{"eats-memory", {"frame 2", "more than 400 MiB resident"}, "error", kSmall},
+        Fault{"eats-memory-in-a-child", {"frame 2", "more than 400 MiB"}, "error", kSmall},
         Fault{"closes-its-output", {"frame 2", "closed its standard output"}},
         Fault{"half-a-line", {"frame 2", "ended with exit code 0"}},
         Fault{"wrong-message", {"message is \"ready\"; it must be \"done\""}},

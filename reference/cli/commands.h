@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/arrange/mesh_scene.h"
 #include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
@@ -20,7 +21,9 @@ struct RunArguments {
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
-  std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
+  std::optional<PairSpec> pairs;     ///< a scene of so many random pairs, beside the targets
+  MeshSceneRequest meshes;           ///< a scene of these, beside the targets; no mesh: none
+  std::filesystem::path save_scene;  ///< where that scene is kept as a file; empty: nowhere
   bool timing = true, quiet = false, resume = false;
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;

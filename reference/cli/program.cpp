@@ -14,6 +14,7 @@
 
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/mesh_options.h"
 #include "reference/cli/report_folder.h"
 #include "reference/reduce/probe_worker.h"
 #include "reference/run/interrupts.h"
@@ -150,6 +151,7 @@ void add_run(CLI::App& app, Choices& c) {
                   "every such detector runs with each")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  add_mesh_options(*run, c.run);
   add_pairs(*run, c);
   add_limits(*run, c.run.call_limit, c.run.memory_limit_mib, "60");
   run->add_flag("--no-timing", c.no_timing, "judge only");
@@ -165,6 +167,7 @@ void add_run(CLI::App& app, Choices& c) {
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
+      "  contactcheck run --mesh a.obj --mesh b.obj --motion approach --save-scene mine.json\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run references --resume\n"

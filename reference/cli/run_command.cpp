@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
@@ -35,10 +36,11 @@ void read_scene(std::size_t frames, SceneTask& task) {
     task.frames = RandomPairs(*task.pairs).frames();
     return;
   }
-  const Scene scene = load_any_scene(task.file, frames);
+  const Scene scene =
+      task.text ? load_scene_text(*task.text, frames) : load_any_scene(task.file, frames);
   task.id = scene.id;
   task.frames = scene.frames;
-  task.content = content_of(task.file, scene);
+  task.content = task.text ? content_of(*task.text, scene) : content_of(task.file, scene);
 }
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
@@ -99,6 +101,16 @@ class Watcher {
   std::optional<double> first_share_;
 };
 
+// Somebody may have worked on a file that is there.
+void save_scene(const fs::path& file, const std::vector<SceneTask>& tasks) {
+  if (file.empty()) return;
+  if (fs::exists(file))
+    throw InputError("--save-scene: \"" + file.string() +
+                     "\" is there already and is not written over");
+  for (const SceneTask& task : tasks)
+    if (task.text) write_file_atomically(file, task.text->text);
+}
+
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
   RunTasks tasks = make_tasks(arguments, catalog);
@@ -106,6 +118,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, request.tasks);
   check_out(arguments.out);
+  save_scene(arguments.save_scene, request.tasks);
   request.settings.frames = arguments.frames;
   request.settings.repeats = arguments.repeats;
   request.settings.processes = arguments.processes;

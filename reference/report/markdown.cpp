@@ -10,10 +10,12 @@
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/lattice_fits.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
+#include "reference/report/separation_table.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck {
@@ -126,10 +128,10 @@ std::string scene_section(const Json& results, const Json& scene) {
   return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", id,
                      scene.at("title").get<std::string>(), whole_number(scene.at("frames")),
                      whole_number(scene.at("contact_frames")), format_number(scene.at("size"))) +
-         bodies_table(scene) + truth_line(scene) + pairs_markdown(scene) + result_table(runs) +
-         levels_table(runs) + graded_table(runs) + stages_table(runs) + times_table(runs) +
-         counters_table(runs) + speedups_table(runs) + notes_list(runs) +
-         disagreements_list(results, id);
+         bodies_table(scene) + truth_line(scene) + fits_markdown(scene) + pairs_markdown(scene) +
+         result_table(runs) + separation_tables(scene, runs) + levels_table(runs) +
+         graded_table(runs) + stages_table(runs) + times_table(runs) + counters_table(runs) +
+         speedups_table(runs) + notes_list(runs) + disagreements_list(results, id);
 }
 
 // What each detector claims, from its first run that is `ok`.

@@ -50,6 +50,9 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"prefixes", job.prefixes},
             {"answer_file", job.answer_file.string()},
             {"recording_file", job.recording_file.string()}};
+  if (job.text)
+    j["text"] = {
+        {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
   if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
   write_file_atomically(file, j.dump());
 }
@@ -61,6 +64,10 @@ Job read_job(const std::filesystem::path& file) {
   if (j.contains("pairs"))
     job.pairs = PairSpec{j.at("pairs").at("count").get<std::uint64_t>(),
                          j.at("pairs").at("seed").get<std::uint64_t>()};
+  if (j.contains("text"))
+    job.text = SceneText{j.at("text").at("text").get<std::string>(),
+                         j.at("text").at("name").get<std::string>(),
+                         j.at("text").at("folder").get<std::string>()};
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
   j.at("process").get_to(job.process);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/scene/random_pairs.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck {
 
@@ -38,6 +39,7 @@ nlohmann::json to_json(const RunSettings& settings);
 struct Job {
   std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
   std::optional<PairSpec> pairs;     ///< random pairs in place of a file
+  std::optional<SceneText> text;     ///< a scene's text in place of a file
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   std::size_t process = 0;          ///< 0 judges and times, others only time

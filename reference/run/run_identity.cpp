@@ -18,12 +18,19 @@ void add_file(const std::filesystem::path& file, Fnv1a& hash) {
 }  // namespace
 
 std::string content_of(const std::filesystem::path& file, const Scene& scene) {
+  return content_of(SceneText{read_text_file(file), "", ""}, scene);
+}
+
+std::string content_of(const SceneText& text, const Scene& scene) {
   Fnv1a hash;
-  add_file(file, hash);
+  hash.bytes(text.text.data(), text.text.size());
   for (const Body& body : scene.bodies) {
     const std::uint64_t mesh = content_hash(body.shape->mesh);
     hash.bytes(&mesh, sizeof mesh);
   }
+  for (const auto& frame : scene.recorded)
+    for (const std::vector<Vec3>& nodes : frame)
+      hash.bytes(nodes.data(), sizeof(Vec3) * nodes.size());
   return hex(hash.digest());
 }
 

@@ -11,9 +11,12 @@
 
 namespace contactcheck {
 
-/// Hash of a scene's file and of the meshes that it names, as hexadecimal text. `scene` is what
-/// `file` was read as. @throws InputError when the file cannot be read again
+/// Hash of a scene's file and of the meshes and recordings that it names, as hexadecimal text.
+/// `scene` is what `file` was read as. @throws InputError when the file cannot be read again
 std::string content_of(const std::filesystem::path& file, const Scene& scene);
+
+/// The same of a scene that lies in no file.
+std::string content_of(const SceneText& text, const Scene& scene);
 
 /// The same of random pairs: their number and their seed; the program makes the rest.
 std::string content_of(const PairSpec& pairs);

@@ -51,8 +51,10 @@ class SceneRunner {
               ProgressCallback on_progress)
       : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
     // The worker's working directory is for libraries to change.
-    if (!task.pairs) job_.scene_file = fs::absolute(task.file);
+    if (!task.file.empty()) job_.scene_file = fs::absolute(task.file);
     job_.pairs = task.pairs;
+    job_.text = task.text;
+    if (job_.text) job_.text->folder = fs::absolute(task.text->folder);
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }

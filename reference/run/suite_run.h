@@ -21,6 +21,7 @@ struct SceneTask {
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
   std::optional<PairSpec> pairs = {};  ///< random pairs in place of a file
+  std::optional<SceneText> text = {};  ///< a scene's text in place of a file
   std::size_t frames = 0;              ///< that will be judged
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
 };

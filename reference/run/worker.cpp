@@ -8,6 +8,7 @@
 #include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "reference/arrange/sweep_poses.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
@@ -60,6 +61,11 @@ class Worker {
           progress_.enter(SharedProgress::kNoDetector, step, Phase::kScene);
         },
         scene_);
+    place_sweep(
+        [this](std::size_t orientation) {
+          progress_.enter(SharedProgress::kNoDetector, orientation, Phase::kScene);
+        },
+        scene_);
     for (std::uint32_t i = 0; i < job_.settings.detectors.size(); ++i)
       if (std::find(job_.skip.begin(), job_.skip.end(), i) == job_.skip.end()) add_entry(i);
     judged_ = judge_scene(scene_, judges(), progress_);
@@ -82,6 +88,7 @@ class Worker {
  private:
   Scene load() const {
     if (job_.pairs) return make_pairs_scene(*job_.pairs);
+    if (job_.text) return load_scene_text(*job_.text, job_.settings.frames);
     return load_any_scene(job_.scene_file, job_.settings.frames);
   }
 

@@ -214,10 +214,22 @@ def contradicts_the_oracle(results, disagreement):
 def contacts_errors(place, scene):
     if "contacts" not in scene:
         return
-    if "family" in scene or "pairs" in scene:
+    if "family" in scene or "pairs" in scene or "sweep" in scene:
         yield place, "frames that are cases have no file of contacts"
     elif scene["contacts"] != f"contacts/{scene['id']}.json":
         yield place, f"is {scene['contacts']}, not contacts/{scene['id']}.json"
+
+
+def frames_errors(place, scene):
+    """A sweep has a frame per pose, a fit an error per frame."""
+    frames, sweep = scene["frames"], scene.get("sweep")
+    if sweep and len(sweep["separations"]) * sweep["orientations"] != frames:
+        yield f"{place}/sweep", f"has other poses than the scene's {frames} frames"
+    for number, fit in enumerate(scene.get("fits", [])):
+        if len(fit["rms"]) != frames or len(fit["max"]) != frames:
+            yield f"{place}/fits/{number}", f"has no error for each of {frames} frames"
+        elif any(rms > most * (1 + 1e-12) for rms, most in zip(fit["rms"], fit["max"])):
+            yield f"{place}/fits/{number}/rms", "exceeds the largest distance"
 
 
 def consistency_errors(results):
@@ -235,6 +247,7 @@ def consistency_errors(results):
     for number, scene in enumerate(results.get("scenes", [])):
         if "pairs" in scene:
             yield from pairs_errors(f"/scenes/{number}/pairs", scene["pairs"])
+        yield from frames_errors(f"/scenes/{number}", scene)
         yield from contacts_errors(f"/scenes/{number}/contacts", scene)
     scenes = {scene for scene, _ in runs}
     for number, scene in enumerate(results.get("resumed", [])):

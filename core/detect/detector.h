@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,6 +69,9 @@ class Detector {
   /// What the last updated frame took, counted in the detector's own units, always the same names
   /// in the same order; since its update, so asking once more adds to it. Untimed.
   virtual std::vector<Count> counts() { return {}; }
+  /// What the detector itself says its last update() or query() took, nanoseconds; none: it says
+  /// nothing. Of one that is reached over a pipe it is the part without the way there. Untimed.
+  virtual std::optional<double> reported_ns() const { return std::nullopt; }
   /// What a reader must know about the answer to the last updated frame: limits that were reached,
   /// triangles that the library cannot see. One sentence each, the same words for the same fact in
   /// every frame, without numbers that change from frame to frame. Untimed.

@@ -37,10 +37,11 @@ AbSetting setting_of(const AbArguments& arguments) {
 
 }  // namespace
 
-int ab_command(const AbArguments& arguments) {
+int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const fs::path summary = arguments.github ? required_summary_file() : "";
+  const std::vector<AbSide> sides = ab_sides(arguments, catalog);
   check_out(arguments.out);
-  const std::vector<AbRound> rounds = run_rounds(arguments, [&](std::size_t round) {
+  const std::vector<AbRound> rounds = run_rounds(sides, arguments, [&](std::size_t round) {
     if (!arguments.quiet) std::fprintf(stderr, "round %zu of %zu\n", round + 1, arguments.rounds);
   });
   const AbSetting setting = setting_of(arguments);

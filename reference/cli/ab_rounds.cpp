@@ -1,7 +1,6 @@
 #include "reference/cli/ab_rounds.h"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
@@ -22,14 +21,11 @@ constexpr auto kPollInterval = std::chrono::milliseconds(20);
 /// One of the two builds.
 class Build {
  public:
-  Build(const char* name, const fs::path& program, const AbArguments& arguments)
-      : name_(name), program_(fs::absolute(program)), out_(fs::absolute(arguments.out) / name) {
-    if (!fs::is_regular_file(program_) || access(program_.c_str(), X_OK) != 0)
-      throw InputError(std::string(name) + " \"" + program.string() +
-                       "\" is not a program that can be run");
+  Build(const AbSide& side, const AbArguments& arguments)
+      : name_(side.name), program_(side.program), out_(fs::absolute(arguments.out) / side.name) {
     words_ = {"run", "--quiet", "--repeat", std::to_string(arguments.repeats)};
     if (arguments.frames > 0) add("--frames", std::to_string(arguments.frames));
-    for (const std::string& detector : arguments.detectors) add("--detector", detector);
+    for (const std::string& detector : side.detectors) add("--detector", detector);
     add("--out", out_.string());
     words_.insert(words_.end(), arguments.targets.begin(), arguments.targets.end());
   }
@@ -64,20 +60,20 @@ class Build {
     const bool done = WIFEXITED(status) && (WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 3);
     if (done) return;
     const std::string words = printable_line(process.error_text());
-    throw InputError(std::string(name_) + " \"" + program_.string() + "\" ended in " +
-                     describe_status(status) + (words.empty() ? "" : ": " + words));
+    throw InputError(name_ + " \"" + program_.string() + "\" ended in " + describe_status(status) +
+                     (words.empty() ? "" : ": " + words));
   }
 
-  const char* name_;
+  std::string name_;
   fs::path program_, out_;
   std::vector<std::string> words_;
 };
 
 }  // namespace
 
-std::vector<AbRound> run_rounds(const AbArguments& arguments,
+std::vector<AbRound> run_rounds(const std::vector<AbSide>& sides, const AbArguments& arguments,
                                 const std::function<void(std::size_t)>& on_round) {
-  const Build base("base", arguments.base, arguments), head("head", arguments.head, arguments);
+  const Build base(sides.at(0), arguments), head(sides.at(1), arguments);
   std::vector<AbRound> rounds(arguments.rounds);
   for (std::size_t r = 0; r < rounds.size(); ++r) {
     on_round(r);

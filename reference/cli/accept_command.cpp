@@ -38,6 +38,9 @@ int accept_command(const fs::path& results_file, const fs::path& file) {
   const ResultsFile results(results_file);
   results.require_schema();
   const std::optional<ResultsFile> before = baseline_in_place(file);
+  if (results.read([](const Json& json) { return json.contains("shard"); }))
+    throw InputError(results_file.string() +
+                     ": is a shard of a run; a baseline is made of the merged results");
   const Json baseline = results.read([](const Json& json) { return baseline_of(json); });
   if (baseline.at("runs").empty())
     throw InputError(results_file.string() +

@@ -18,10 +18,28 @@ std::string seconds_in_range(const std::string& text) {
 
 // In the order of --help.
 constexpr void (*kSubcommands[])(CommandLine&) = {
-    add_run, add_reproduce, add_tune,   add_reduce, add_export, add_gate,    add_accept,
-    add_ab,  add_list,      add_report, add_diff,   add_truth,  add_defects, add_workers};
+    add_run, add_merge, add_reproduce, add_tune, add_reduce, add_export,  add_gate,   add_accept,
+    add_ab,  add_list,  add_report,    add_diff, add_truth,  add_defects, add_workers};
+
+template <typename Commands>
+void add_command_option(CLI::App& command, Commands& commands) {
+  command
+      .add_option("--detector-cmd", commands,
+                  "a detector of your own that is a command: it reads frames and writes contacts "
+                  "over pipes (reference/plugin/README.md)")
+      ->allow_extra_args(false)
+      ->type_name("CMD");
+}
 
 }  // namespace
+
+void add_commands(CLI::App& command, std::string& detector) {
+  add_command_option(command, detector);
+}
+
+void add_commands(CLI::App& command, std::vector<std::string>& detectors) {
+  add_command_option(command, detectors);
+}
 
 void describe_program(CommandLine& line) {
   line.app.name("contactcheck");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/detect/registry.h"
 
@@ -25,6 +26,7 @@ struct CommandLine {
 void describe_program(CommandLine& line);
 
 void add_run(CommandLine& line);
+void add_merge(CommandLine& line);
 void add_reproduce(CommandLine& line);
 void add_reduce(CommandLine& line);
 void add_export(CommandLine& line);
@@ -42,6 +44,10 @@ void add_workers(CommandLine& line);
 
 /// The subcommand `command` does `what`.
 void choose(CLI::App& command, CommandLine& line, std::function<int()> what);
+
+/// --detector-cmd: detectors that are talked to over pipes; one string or a list of them.
+void add_commands(CLI::App& command, std::string& detector);
+void add_commands(CLI::App& command, std::vector<std::string>& detectors);
 
 /// --call-limit and --memory-limit: what ends a detector that goes astray.
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,

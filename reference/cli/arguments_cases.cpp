@@ -15,7 +15,9 @@ void add_reduce(CommandLine& line) {
                    "a case file of run; or a scene, family or recording (with @FRAME or @VALUE "
                    "behind it, else its first frame with a disagreement) and --detector")
       ->required();
-  reduce->add_option("--detector", arguments->detector, "the detector; default: the case's");
+  reduce->add_option("--detector", arguments->detector,
+                     "the detector, or a shared library; default: the case's");
+  add_commands(*reduce, arguments->command);
   reduce->add_option("--level", arguments->level,
                      "a disagreement at this level; default: the case's, or the finest");
   reduce->add_option("--kind", arguments->kind, "missed, spurious or error; default: the case's")

@@ -45,9 +45,13 @@ void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
 void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
-      "ab", "run two builds of this program in turns: is head slower, does it answer otherwise");
-  ab->add_option("base", arguments->base, "the program as it was")->required();
-  ab->add_option("head", arguments->head, "the program as it is")->required();
+      "ab",
+      "run two builds, of this program or of your library, in turns: is head slower, does it "
+      "answer otherwise");
+  ab->add_option("base", arguments->base,
+                 "the program as it was, or the shared library of a detector")
+      ->required();
+  ab->add_option("head", arguments->head, "the program as it is, or the library")->required();
   ab->add_option("targets", arguments->targets,
                  "suites, scenes or files, as of run; default: default");
   ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
@@ -66,10 +70,11 @@ void add_ab(CommandLine& line) {
       "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
       "the floor. Its own question counts, with cold caches.\n"
       "Exit code 1 when a detector is slower, or when answers differ.\n"
-      "Example:\n"
+      "Examples:\n"
       "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
-      "bunny-touch");
-  choose(*ab, line, [arguments] { return ab_command(*arguments); });
+      "bunny-touch\n"
+      "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch");
+  choose(*ab, line, [arguments, &line] { return ab_command(*arguments, line.catalog); });
 }
 
 void add_diff(CommandLine& line) {

@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/mesh_options.h"
 
 namespace contactcheck {
 namespace {
@@ -43,6 +44,15 @@ void add_pairs(CLI::App& run, RunWords& words) {
       ->needs(pairs);
 }
 
+// `arguments` must outlive the command.
+void add_shard(CLI::App& run, RunArguments& arguments) {
+  run.add_option_function<std::string>(
+         "--shard", [&arguments](const std::string& text) { arguments.shard = parse_shard(text); },
+         "run the K-th of N parts of the work alone: scenes are dealt out whole, in turns; merge "
+         "puts the results of all parts together")
+      ->type_name("K/N");
+}
+
 }  // namespace
 
 void add_run(CommandLine& line) {
@@ -53,8 +63,11 @@ void add_run(CommandLine& line) {
   run->add_option(
       "targets", arguments.targets,
       "suites, scenes or files (.json scene or suite, .ccr recording); default: default");
-  run->add_option("--detector", arguments.detectors, "a detector, repeatable; default: the suite's")
+  run->add_option("--detector", arguments.detectors,
+                  "a detector, repeatable; default: the suite's; with '/' or .so in its name a "
+                  "shared library of your own (reference/plugin/README.md)")
       ->allow_extra_args(false);
+  add_commands(*run, arguments.commands);
   run->add_option("--frames", arguments.frames, "frames per scene, same duration")
       ->check(CLI::Range(1, 100000));
   run->add_option("--repeat", arguments.repeats, "timed repeats per frame (default 5)")
@@ -73,12 +86,14 @@ void add_run(CommandLine& line) {
                   "every such detector runs with each")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  add_mesh_options(*run, arguments);
   add_pairs(*run, *words);
   add_limits(*run, arguments.call_limit, arguments.memory_limit_mib, "60");
   run->add_flag("--no-timing", words->no_timing, "judge only");
   run->add_flag("--resume", arguments.resume,
                 "take over the scenes that an interrupted run with the same settings has finished "
                 "in --out");
+  add_shard(*run, arguments);
   run->add_flag("--quiet", arguments.quiet, "no progress, no tables");
   run->add_flag("--json-lines", arguments.json_lines,
                 "for machines: what happens, as one JSON object a line, and nothing else, on "
@@ -88,9 +103,13 @@ void add_run(CommandLine& line) {
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
+      "  contactcheck run --mesh a.obj --mesh b.obj --motion approach --save-scene mine.json\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
+      "  contactcheck run bunny-touch --detector ./libmine.so:leaf=8 --detector fcl-aabb\n"
+      "  contactcheck run bunny-touch --detector-cmd \"python3 mine.py\" --detector fcl-aabb\n"
       "  contactcheck run references --resume\n"
+      "  contactcheck run references --shard 2/3 --out part2\n"
       "  contactcheck run default --json-lines --quiet | my-dashboard");
   choose(*run, line, [words, &line] { return run_command(words->arguments(), line.catalog); });
 }

@@ -63,8 +63,10 @@ void add_space(CLI::App& tune, TuneArguments& arguments) {
       ->check(CLI::IsMember({"body", "cells", "triangles"}));
   tune.add_option("--detector", arguments.detectors,
                   "a detector to try, repeatable; its options are varied, but for those that the "
-                  "name sets; default: all that answer the question")
+                  "name sets; default: all that answer the question; with '/' or .so in its name "
+                  "a shared library of your own (reference/plugin/README.md)")
       ->allow_extra_args(false);
+  add_commands(tune, arguments.commands);
   tune.add_option("--lattice", arguments.lattices,
                   "try lattices of so many times the scene's cells too, repeatable: a coarser "
                   "model is another surface, see --max-deviation")
@@ -89,9 +91,11 @@ void add_tune(CommandLine& line) {
       ->check(CLI::Range(4, 100000));
   tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
       ->check(CLI::Range(1, 1000));
-  tune->add_option("--most", arguments->most, "configurations measured at most (default: no limit)")
-      ->check(CLI::Range(1, 1000000));
-  tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration");
+  CLI::Option* most = tune->add_option("--most", arguments->most,
+                                       "configurations measured at most (default: no limit)")
+                          ->check(CLI::Range(1, 1000000));
+  tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
+      ->excludes(most);
   add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");
   tune->add_option("--out", arguments->out, "folder for tune.json and tune.md (default out)");
   tune->add_flag("--quiet", arguments->quiet, "no progress, no tables");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "reference/cli/arguments.h"
+#include "reference/plugin/examination.h"
 #include "reference/reduce/probe_worker.h"
 #include "reference/run/worker.h"
 
@@ -15,6 +16,13 @@ struct WorkerWords {
 
 struct ProbeWords {
   std::string detector;
+  std::vector<std::string> plugins;
+  int fd = -1;
+};
+
+struct ExamineWords {
+  std::string kind, text;
+  std::uint64_t memory_limit = 0;
   int fd = -1;
 };
 
@@ -23,7 +31,10 @@ void add_worker(CommandLine& line) {
   CLI::App* worker = line.app.add_subcommand("worker", "")->group("");
   worker->add_option("job", words->job)->required();
   worker->add_option("--progress-fd", words->fd);
-  choose(*worker, line, [words, &line] { return run_worker(words->job, line.catalog, words->fd); });
+  choose(*worker, line, [words, &line] {
+    const std::vector<std::string> plugins = read_job(words->job).settings.plugins;
+    return run_worker(words->job, with_plugins(line.catalog, plugins), words->fd);
+  });
 }
 
 void add_probe(CommandLine& line) {
@@ -31,8 +42,23 @@ void add_probe(CommandLine& line) {
   CLI::App* probe = line.app.add_subcommand("probe", "")->group("");
   probe->add_option("detector", words->detector)->required();
   probe->add_option("--channel-fd", words->fd)->required();
-  choose(*probe, line,
-         [words, &line] { return run_probe_worker(words->detector, line.catalog, words->fd); });
+  probe->add_option("--plugin", words->plugins)->allow_extra_args(false);
+  choose(*probe, line, [words, &line] {
+    return run_probe_worker(words->detector, with_plugins(line.catalog, words->plugins), words->fd);
+  });
+}
+
+void add_examine(CommandLine& line) {
+  const auto words = std::make_shared<ExamineWords>();
+  CLI::App* examine = line.app.add_subcommand("examine", "")->group("");
+  examine->add_option("kind", words->kind)->required();
+  examine->add_option("--text", words->text)->required();
+  examine->add_option("--memory-limit", words->memory_limit)->required();
+  examine->add_option("--answer-fd", words->fd)->required();
+  choose(*examine, line, [words] {
+    return run_examination({plugin_kind_from_name(words->kind), words->text}, words->memory_limit,
+                           words->fd);
+  });
 }
 
 }  // namespace
@@ -40,6 +66,7 @@ void add_probe(CommandLine& line) {
 void add_workers(CommandLine& line) {
   add_worker(line);
   add_probe(line);
+  add_examine(line);
 }
 
 }  // namespace contactcheck

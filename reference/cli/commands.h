@@ -11,16 +11,22 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/arrange/mesh_scene.h"
+#include "reference/run/shard.h"
 #include "reference/scene/random_pairs.h"
 
 namespace contactcheck {
 
 struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
-  std::vector<std::string> detectors;  ///< empty: those of the suite
+  std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
+  std::vector<std::string> commands;   ///< detectors that are talked to over pipes
   std::size_t frames = 0, repeats = 5, processes = 1;
   std::filesystem::path out = "out";
-  std::optional<PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
+  std::optional<PairSpec> pairs;     ///< a scene of so many random pairs, beside the targets
+  std::optional<Shard> shard;        ///< run this part alone
+  MeshSceneRequest meshes;           ///< a scene of these, beside the targets; no mesh: none
+  std::filesystem::path save_scene;  ///< where that scene is kept as a file; empty: nowhere
   bool timing = true, quiet = false, resume = false;
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
@@ -44,7 +50,8 @@ struct ListArguments {
 
 struct ReduceArguments {
   std::string target;    ///< a case file, or what `run` takes as a scene, with "@FRAME" behind it
-  std::string detector;  ///< empty: the case's
+  std::string detector;  ///< name or library; empty: the case's
+  std::string command;   ///< of the detector, one that is talked to over pipes; empty: none
   std::string level, kind;    ///< empty: the case's, or what is found first
   std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
   std::size_t budget = 20000;
@@ -59,7 +66,7 @@ struct GateArguments {
 };
 
 struct AbArguments {
-  std::filesystem::path base, head;    ///< two builds of this program
+  std::filesystem::path base, head;    ///< two builds of this program, or two libraries
   std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t rounds = 7, frames = 0, repeats = 3;
@@ -72,7 +79,8 @@ struct AbArguments {
 struct TuneArguments {
   std::string target;
   std::string question = "body";
-  std::vector<std::string> detectors;  ///< empty: all that answer
+  std::vector<std::string> detectors;  ///< names or libraries; empty: all that answer
+  std::vector<std::string> commands;   ///< detectors that are talked to over pipes
   std::vector<double> lattices;        ///< beside the scene's own
   std::optional<std::uint64_t> max_missed, max_spurious;
   std::optional<double> max_hover, max_deviation;  ///< metres
@@ -113,7 +121,9 @@ int gate_command(const GateArguments& arguments);
 /// Writes results as a baseline, and prints what it changes against the one in its place.
 int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
 /// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
-int ab_command(const AbArguments& arguments);
+int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog);
+/// Puts the results of all shards of a run together, with their reports.
+int merge_command(const std::vector<std::string>& results, const std::filesystem::path& out);
 /// `formats`: of "csv", "html" and "md".
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);

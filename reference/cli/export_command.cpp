@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/types/check.h"
+#include "reference/arrange/sweep_poses.h"
 #include "reference/certify/scene_export.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
@@ -90,6 +91,7 @@ int export_command(const ExportArguments& arguments, const DetectorCatalog& cata
     Scene scene = load_any_scene(file, arguments.frames);
     record_simulation(
         catalog, [&](std::size_t) { look(); }, scene);
+    place_sweep([&](std::size_t) { look(); }, scene);
     print_summary(arguments.out / scene.id,
                   export_whole(scene, arguments.every, arguments.out, look));
   }

@@ -3,11 +3,13 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -79,7 +81,9 @@ int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
 
 // A worker's streams are its supervisor's to look after.
 bool is_worker(int argc, char** argv) {
-  return argc > 1 && (std::strcmp(argv[1], "worker") == 0 || std::strcmp(argv[1], "probe") == 0);
+  constexpr const char* kHidden[] = {"worker", "probe", "examine"};
+  return argc > 1 && std::any_of(std::begin(kHidden), std::end(kHidden),
+                                 [&](const char* name) { return std::strcmp(argv[1], name) == 0; });
 }
 
 int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {

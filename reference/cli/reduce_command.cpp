@@ -9,6 +9,7 @@
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/reduce/minimal_case.h"
 #include "reference/reduce/printed_test.h"
 #include "reference/reduce/probe.h"
@@ -60,10 +61,25 @@ Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
   return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
 }
 
+// Of the command line: a case file that named a program to be started would be no mere data.
+OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
+  RunSettings settings;
+  settings.call_limit = arguments.call_limit;
+  settings.memory_limit = arguments.memory_limit_mib << 20;
+  std::vector<std::string> detectors, commands;
+  if (!arguments.detector.empty()) detectors.push_back(arguments.detector);
+  if (!arguments.command.empty()) commands.push_back(arguments.command);
+  OwnDetectors own = bring_in(detectors, commands, settings, catalog);
+  if (own.names.size() > 1)
+    throw InputError("--detector " + arguments.detector + " and --detector-cmd \"" +
+                     arguments.command + "\" are two detectors; reduce takes one");
+  return own;
+}
+
 class ReduceCommand {
  public:
   ReduceCommand(const ReduceArguments& arguments, const DetectorCatalog& catalog)
-      : arguments_(arguments), catalog_(catalog) {}
+      : arguments_(arguments), own_(own_detector(arguments, catalog)) {}
 
   int run() {
     check_words();
@@ -90,7 +106,7 @@ class ReduceCommand {
         is_case_ ? std::vector<ReductionTask>{read_case(arguments_.target)}
                  : tasks_of_scene(arguments_.target, fixtures_directory());
     for (ReductionTask& task : tasks) {
-      if (!arguments_.detector.empty()) task.detector = arguments_.detector;
+      if (!own_.names.empty() && !brings_along(task.detector)) task.detector = own_.names.front();
       if (!arguments_.level.empty()) task.level = arguments_.level;
       if (!arguments_.kind.empty()) task.kind = arguments_.kind;
       require_reducible(task.level);
@@ -101,14 +117,31 @@ class ReduceCommand {
     return tasks;
   }
 
+  // A plug-in that is given without options is what the case's name, with its options, is about.
+  bool brings_along(const std::string& detector) const {
+    return !own_.plugins.empty() && own_.names.front() == own_.plugins.front().declaration.id &&
+           own_.names.front() == detector.substr(0, detector.find(':'));
+  }
+
+  // A case keeps the name alone of a detector that came from outside.
+  void require_known(const std::string& detector) const {
+    const std::string id = detector.substr(0, detector.find(':'));
+    if (!is_case_ || own_.catalog.find(id) != nullptr) return;
+    throw InputError("case \"" + arguments_.target + "\" is of the detector \"" + id +
+                     "\", which this program does not have; one from outside is brought along by "
+                     "--detector FILE.so or --detector-cmd CMD");
+  }
+
   void make_probe(const ReductionTask& task) {
-    const DetectorSpec spec = catalog_.parse(task.detector);
-    const DetectorInfo* info = catalog_.find(spec.id);
+    require_known(task.detector);
+    const DetectorSpec spec = own_.catalog.parse(task.detector);
+    const DetectorInfo* info = own_.catalog.find(spec.id);
     if (!info->absent_because.empty())
       throw InputError("detector \"" + spec.name + "\" is absent: " + info->absent_because);
     ProbeSettings settings;
     settings.executable = fs::read_symlink("/proc/self/exe");
     settings.detector = detector_ = spec.name;
+    settings.plugins = own_.records();
     settings.call_limit = arguments_.call_limit;
     settings.memory_limit = arguments_.memory_limit_mib << 20;
     probe_.emplace(settings);
@@ -301,7 +334,7 @@ class ReduceCommand {
   }
 
   const ReduceArguments& arguments_;
-  const DetectorCatalog& catalog_;
+  OwnDetectors own_;
   bool is_case_ = false;
   std::string detector_;
   std::optional<Probe> probe_;

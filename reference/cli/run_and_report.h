@@ -19,4 +19,7 @@ struct ReportedRun {
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
                            SuiteOutcome* outcome);
 
+/// Says on standard error when it is the oracle that is wrong.
+int exit_code_of(const SuiteOutcome& outcome);
+
 }  // namespace contactcheck

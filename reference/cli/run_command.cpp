@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/event_lines.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
@@ -35,10 +37,11 @@ void read_scene(std::size_t frames, SceneTask& task) {
     task.frames = RandomPairs(*task.pairs).frames();
     return;
   }
-  const Scene scene = load_any_scene(task.file, frames);
+  const Scene scene =
+      task.text ? load_scene_text(*task.text, frames) : load_any_scene(task.file, frames);
   task.id = scene.id;
   task.frames = scene.frames;
-  task.content = content_of(task.file, scene);
+  task.content = task.text ? content_of(*task.text, scene) : content_of(task.file, scene);
 }
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
@@ -99,21 +102,65 @@ class Watcher {
   std::optional<double> first_share_;
 };
 
+// After all scenes were read: shards of one run know the same scenes.
+void take_shard(const Shard& shard, SuiteRequest& request) {
+  request.shard = ShardOfRun{shard, std::move(request.tasks)};
+  const std::vector<SceneTask>& run = request.shard->run;
+  if (run.size() < shard.of)
+    throw InputError("--shard " + shard.name() + ": this run has " + std::to_string(run.size()) +
+                     (run.size() == 1 ? " scene" : " scenes") +
+                     ", and a scene is run in one piece: at most so many shards are possible");
+  request.tasks.clear();
+  for (std::size_t i = 0; i < run.size(); ++i)
+    if (shard.holds(i)) request.tasks.push_back(run[i]);
+}
+
+RunSettings settings_of(const RunArguments& arguments) {
+  RunSettings settings;
+  settings.frames = arguments.frames;
+  settings.repeats = arguments.repeats;
+  settings.processes = arguments.processes;
+  settings.timing = arguments.timing;
+  settings.closed_loop = arguments.closed_loop;
+  settings.threads = arguments.threads;
+  settings.call_limit = arguments.call_limit;
+  settings.memory_limit = arguments.memory_limit_mib << 20;
+  return settings;
+}
+
+RunArguments with_names(RunArguments arguments, const std::vector<std::string>& names) {
+  arguments.detectors = names;
+  return arguments;
+}
+
+// Somebody may have worked on a file that is there.
+void save_scene(const fs::path& file, const std::vector<SceneTask>& tasks) {
+  if (file.empty()) return;
+  for (const SceneTask& task : tasks) {
+    if (!task.text) continue;
+    if (!fs::exists(file)) {
+      write_file_atomically(file, task.text->text);
+    } else if (read_text_file(file) != task.text->text) {
+      throw InputError("--save-scene: \"" + file.string() +
+                       "\" is there already and is not written over");
+    }
+  }
+}
+
 SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
   SuiteRequest request;
-  RunTasks tasks = make_tasks(arguments, catalog);
+  request.settings = settings_of(arguments);
+  const OwnDetectors own =
+      bring_in(arguments.detectors, arguments.commands, request.settings, catalog);
+  request.settings.plugins = own.records();
+  request.plugins = own.in_results();
+  RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, request.tasks);
+  if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
-  request.settings.frames = arguments.frames;
-  request.settings.repeats = arguments.repeats;
-  request.settings.processes = arguments.processes;
-  request.settings.timing = arguments.timing;
-  request.settings.closed_loop = arguments.closed_loop;
-  request.settings.threads = arguments.threads;
-  request.settings.call_limit = arguments.call_limit;
-  request.settings.memory_limit = arguments.memory_limit_mib << 20;
+  save_scene(arguments.save_scene, request.shard ? request.shard->run : request.tasks);
   request.resume = arguments.resume;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
@@ -121,6 +168,8 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.known_defects = read_known_defects(known_defects_file());
   return request;
 }
+
+}  // namespace
 
 int exit_code_of(const SuiteOutcome& outcome) {
   if (outcome.oracle_wrong > 0) {
@@ -132,8 +181,6 @@ int exit_code_of(const SuiteOutcome& outcome) {
   }
   return outcome.unlisted_error ? 3 : 0;
 }
-
-}  // namespace
 
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
                            SuiteOutcome* outcome) {

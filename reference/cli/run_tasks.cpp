@@ -79,7 +79,9 @@ class TaskMaker {
 
   RunTasks make() {
     Names targets = arguments_.targets;
-    if (targets.empty() && !arguments_.pairs) targets.push_back("default");
+    const bool meshes = !arguments_.meshes.meshes.empty();
+    if (targets.empty() && !arguments_.pairs && !meshes) targets.push_back("default");
+    if (meshes) add_meshes();
     for (const std::string& name : targets) {
       const Target target = find_target(name, fixtures_);
       if (target.kind == TargetKind::kSuite) {
@@ -118,6 +120,17 @@ class TaskMaker {
     for (const SceneTask& task : tasks_.scenes)
       if (task.file == file) return;
     tasks_.scenes.push_back({"", file, resolved, {}});
+  }
+
+  // Paths in the text are relative to where it will lie, so that it can be kept as it is.
+  void add_meshes() {
+    const Names& given = arguments_.detectors;
+    const fs::path& kept = arguments_.save_scene;
+    SceneTask task;
+    task.detectors = names_.resolved(given.empty() ? detectors_of("default") : given);
+    task.text = mesh_scene(arguments_.meshes,
+                           kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path());
+    tasks_.scenes.push_back(std::move(task));
   }
 
   void add_pairs(const PairSpec& pairs) {

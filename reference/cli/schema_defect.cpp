@@ -111,6 +111,11 @@ class Checker {
     for (const Json& key : schema.value("required", Json::array()))
       if (!value.contains(key.get<std::string>()))
         return member_path(path, key.get<std::string>()) + " is missing";
+    const Json companions = schema.value("dependentRequired", Json::object());
+    for (const auto& [key, others] : companions.items())
+      for (const Json& other : others)
+        if (value.contains(key) && !value.contains(other.get<std::string>()))
+          return member_path(path, other.get<std::string>()) + " is missing beside " + key;
     const Json properties = schema.value("properties", Json::object());
     for (const auto& [key, member] : value.items()) {
       std::string found;

@@ -8,7 +8,7 @@ namespace contactcheck {
 
 /// "runs[2].levels.body.truth is -1; it must be at least 0", or "" when there is nothing to say.
 /// Knows the keywords of JSON Schema that fixtures/results.schema.json uses, but for
-/// dependentRequired and uniqueItems; whatever else a schema asks for is not checked.
+/// uniqueItems; whatever else a schema asks for is not checked.
 std::string schema_defect(const nlohmann::ordered_json& schema,
                           const nlohmann::ordered_json& document);
 

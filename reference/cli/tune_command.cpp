@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/scene/catalogue.h"
 #include "reference/tune/tune_text.h"
 
@@ -38,22 +40,35 @@ Limits limits_of(const TuneArguments& arguments) {
   return limits;
 }
 
-TuningRequest make_request(const TuneArguments& arguments) {
+RunSettings settings_of(const TuneArguments& arguments) {
+  RunSettings settings;
+  settings.repeats = arguments.repeats;
+  settings.call_limit = arguments.call_limit;
+  settings.memory_limit = arguments.memory_limit_mib << 20;
+  return settings;
+}
+
+TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& own) {
   TuningRequest request;
   request.target = arguments.target;
   request.scene_file = scene_file(arguments.target);
   request.space.question = question_named(arguments.question);
-  request.space.detectors = arguments.detectors;
+  request.space.detectors = own.names;
+  std::vector<double>& lattices = request.space.lattices;  // the scene's own is there
   for (const double lattice : arguments.lattices)
-    if (lattice != 1.0) request.space.lattices.push_back(lattice);
+    if (std::find(lattices.begin(), lattices.end(), lattice) == lattices.end())
+      lattices.push_back(lattice);
+  for (const Plugin& plugin : own.plugins)
+    (plugin.source.kind == PluginKind::kLibrary ? request.libraries
+                                                : request.commands)[plugin.declaration.id] =
+        plugin.source.text;
   request.limits = limits_of(arguments);
   request.budget_ms = arguments.budget_ms;
   request.search.most = arguments.most;
   request.exhaustive = arguments.exhaustive;
   request.frames = arguments.frames;
-  request.settings.repeats = arguments.repeats;
-  request.settings.call_limit = arguments.call_limit;
-  request.settings.memory_limit = arguments.memory_limit_mib << 20;
+  request.settings = settings_of(arguments);
+  request.settings.plugins = own.records();
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.known_defects = read_known_defects(known_defects_file());
@@ -77,9 +92,11 @@ void show(const TuningProgress& progress) {
 }  // namespace
 
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog) {
-  const TuningRequest request = make_request(arguments);
+  const OwnDetectors own =
+      bring_in(arguments.detectors, arguments.commands, settings_of(arguments), catalog);
+  const TuningRequest request = make_request(arguments, own);
   check_out(arguments.out);
-  const Tuning tuning = tune(request, catalog, [&](const TuningProgress& progress) {
+  const Tuning tuning = tune(request, own.catalog, [&](const TuningProgress& progress) {
     if (!arguments.quiet) show(progress);
   });
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);

@@ -25,6 +25,11 @@ std::size_t end_of_group(const Contacts& contacts, std::size_t first, Key key) {
 }
 
 bool shallower(const VertexContact& x, const VertexContact& y) { return x.depth < y.depth; }
+std::vector<HistogramBin> bins_of(Histogram histogram, const std::vector<double>& errors) {
+  for (double error : errors) histogram.add(error);
+  return histogram.bins();
+}
+
 bool less_deep(const PieceContact& x, const PieceContact& y) { return x.depth < y.depth; }
 
 }  // namespace
@@ -69,9 +74,11 @@ void GradedJudge::add_spurious(const Truth& truth, const ContactSet& reported,
   std::set_difference(reported.triangles.begin(), reported.triangles.end(),
                       truth.surface.triangles.begin(), truth.surface.triangles.end(),
                       std::back_inserter(spurious));
-  for (const ElementPair& pair : spurious)
-    spurious_distance_ =
-        std::max(spurious_distance_.value_or(0.0), geometry.triangle_distance(pair));
+  for (const ElementPair& pair : spurious) {
+    const double distance = geometry.triangle_distance(pair);
+    spurious_distance_ = std::max(spurious_distance_.value_or(0.0), distance);
+    spurious_distances_.add(distance);
+  }
 }
 
 void GradedJudge::add_way_out(const WayOut& truth, double depth, const Vec3& normal) {
@@ -127,8 +134,11 @@ GradedErrors GradedJudge::errors() {
   }
   if (semantics_.claims(Level::kTriangle))
     out.spurious_distance_max = spurious_distance_.value_or(0.0);
+  out.spurious_distances = spurious_distances_.bins();
   out.depth = spread_of(depth_errors_);
+  out.depth.histogram = bins_of(Histogram::of_lengths(), depth_errors_);
   out.normal_deg = spread_of(normal_errors_);
+  out.normal_deg.histogram = bins_of(Histogram::of_angles(), normal_errors_);
   return out;
 }
 

@@ -59,6 +59,7 @@ class GradedJudge {
   double size_;
   double contour_ = 0.0, missed_ = 0.0;
   std::optional<double> last_covered_, spurious_distance_;
+  Histogram spurious_distances_ = Histogram::of_lengths();
   std::vector<double> depth_errors_, normal_errors_;
 };
 

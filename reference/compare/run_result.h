@@ -11,6 +11,7 @@
 #include "core/types/contact_set.h"
 #include "core/types/count.h"
 #include "core/types/semantics.h"
+#include "reference/compare/histogram.h"
 
 namespace contactcheck {
 
@@ -55,6 +56,7 @@ struct FrameDifferences {
 struct ErrorSpread {
   std::size_t judged = 0;
   std::optional<double> max, mean, p95;
+  std::vector<HistogramBin> histogram = {};
 };
 
 /// Graded errors: pair counts depend on tessellation, these do not.
@@ -62,6 +64,7 @@ struct GradedErrors {
   std::optional<double> missed_length;            ///< metres of contour, summed over frames
   std::optional<double> covered_length_fraction;  ///< of the contour of all frames
   std::optional<double> spurious_distance_max;    ///< metres; of spurious triangle pairs
+  std::vector<HistogramBin> spurious_distances;   ///< metres, all of them
   ErrorSpread depth;                              ///< metres, |reported - true|
   ErrorSpread normal_deg;                         ///< degrees, to the nearest of the true ways out
 };
@@ -85,6 +88,7 @@ struct PhaseTimes {
   std::optional<double> map;  ///< none for detectors that map what they need themselves
   double update = 0.0, query = 0.0, frame = 0.0;
   std::optional<double> contact_frame;  ///< mean over timed contact frames
+  std::optional<double> self_reported;  ///< update and query, by the detector's own clock
 };
 
 /// Milliseconds per frame: medians over repeats, averaged over the timed frames.

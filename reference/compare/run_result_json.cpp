@@ -43,11 +43,13 @@ Json to_json(const Semantics& s) {
 }
 
 Json to_json(const PhaseTimes& t) {
-  return {{"map", nullable(t.map)},
-          {"update", t.update},
-          {"query", t.query},
-          {"frame", t.frame},
-          {"contact_frame", nullable(t.contact_frame)}};
+  Json out = {{"map", nullable(t.map)},
+              {"update", t.update},
+              {"query", t.query},
+              {"frame", t.frame},
+              {"contact_frame", nullable(t.contact_frame)}};
+  if (t.self_reported) out["self_reported"] = *t.self_reported;
+  return out;
 }
 
 Json to_json(const QuestionTimes& t, double prepare_ms) {
@@ -76,6 +78,13 @@ Json episode_json(const Episode& e) {
           {"late_frames", nullable(e.late_frames)}};
 }
 
+Json histogram_json(const std::vector<HistogramBin>& bins) {
+  Json out = Json::array();
+  for (const HistogramBin& bin : bins)
+    out.push_back({{"from", bin.from}, {"below", bin.below}, {"count", bin.count}});
+  return out;
+}
+
 Json geometry_json(const RunResult& run) {
   Json episodes = Json::array();
   for (const Episode& e : run.episodes) episodes.push_back(episode_json(e));
@@ -83,15 +92,18 @@ Json geometry_json(const RunResult& run) {
   return {{"missed_length", nullable(g.missed_length)},
           {"covered_length_fraction", nullable(g.covered_length_fraction)},
           {"spurious_distance_max", nullable(g.spurious_distance_max)},
+          {"spurious_distance_histogram", histogram_json(g.spurious_distances)},
           {"depth_kind", name_of(run.semantics.depth)},
           {"depth_judged", g.depth.judged},
           {"depth_error_max", nullable(g.depth.max)},
           {"depth_error_mean", nullable(g.depth.mean)},
           {"depth_error_p95", nullable(g.depth.p95)},
+          {"depth_error_histogram", histogram_json(g.depth.histogram)},
           {"normal_judged", g.normal_deg.judged},
           {"normal_error_deg_max", nullable(g.normal_deg.max)},
           {"normal_error_deg_mean", nullable(g.normal_deg.mean)},
           {"normal_error_deg_p95", nullable(g.normal_deg.p95)},
+          {"normal_error_deg_histogram", histogram_json(g.normal_deg.histogram)},
           {"hover_gap_max", nullable(run.hover_gap_max())},
           {"late_frames", nullable(run.late_frames_worst())},
           {"episodes", episodes}};

@@ -88,6 +88,15 @@ std::vector<std::size_t> only_contact(const std::vector<std::size_t>& frames,
   return out;
 }
 
+// A detector that says nothing once has said nothing.
+bool all_reported(const ProcessSamples& processes, Mode mode) {
+  for (const QuestionSamples& process : processes)
+    for (const auto& [frame, samples] : process.frames)
+      for (const PhaseSample& repeat : samples.*mode)
+        if (!repeat.reported) return false;
+  return true;
+}
+
 PhaseTimes phase_times(const ProcessSamples& processes, const std::vector<std::size_t>& frames,
                        const std::vector<std::size_t>& contact, Mode mode) {
   const Draw all = everything(processes);
@@ -103,6 +112,8 @@ PhaseTimes phase_times(const ProcessSamples& processes, const std::vector<std::s
   out.frame = mean(frames, [](const PhaseSample& s) { return s.total(); });
   if (!contact.empty())
     out.contact_frame = mean(contact, [](const PhaseSample& s) { return s.total(); });
+  if (all_reported(processes, mode))
+    out.self_reported = mean(frames, [](const PhaseSample& s) { return *s.reported; });
   return out;
 }
 

@@ -14,6 +14,7 @@ namespace contactcheck {
 /// Nanoseconds of one repeat of one frame.
 struct PhaseSample {
   double map = 0.0, update = 0.0, query = 0.0;
+  std::optional<double> reported = std::nullopt;  ///< of update and query, by the detector itself
   double total() const { return map + update + query; }
 };
 

@@ -10,7 +10,10 @@ using Json = nlohmann::ordered_json;
 
 Json lean(Json row) {
   if (row.contains("recording")) row["recording"] = "";
-  if (row.contains("geometry")) row["geometry"].erase("episodes");
+  if (row.contains("geometry"))
+    for (const char* key : {"episodes", "depth_error_histogram", "normal_error_deg_histogram",
+                            "spurious_distance_histogram"})
+      row["geometry"].erase(key);
   if (!row.contains("per_frame")) return row;
   for (const char* key : {"covered_length_fraction", "frame_ms"})
     if (row["per_frame"].contains(key)) row["per_frame"][key] = Json::array();
@@ -67,7 +70,9 @@ void add_members(const char* kind, const Json& before, const Json& now,
 Json baseline_of(const Json& results) {
   Json out = results;
   out["disagreements"] = Json::array();
-  out.erase("resumed");
+  for (const char* how_it_ran : {"resumed", "shard", "merged"}) out.erase(how_it_ran);
+  if (out.contains("scenes"))
+    for (Json& scene : out["scenes"]) scene.erase("separation");
   out["runs"] = Json::array();
   for (const Json& row : results.at("runs")) out["runs"].push_back(lean(row));
   return out;

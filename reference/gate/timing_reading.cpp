@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -94,20 +95,47 @@ Check judge_speedup(const Rule& rule, const Json& row) {
                 "speedup " + interval_text(*ratio) + " " + where_text(rule), row);
 }
 
+// Of the reference, in the question; nothing where the results have no times of it.
+std::optional<std::size_t> timed_frames_of_reference(const Rule& rule, const RowIndex& results,
+                                                     const Json& row) {
+  const Json* const reference = results.row(row.at("scene").get<std::string>(), rule.reference);
+  if (reference == nullptr || !reference->contains("time_ms")) return std::nullopt;
+  if (!reference->at("time_ms").contains("question")) return std::nullopt;
+  const Json* const times = times_of(rule, *reference);
+  if (times == nullptr) return std::nullopt;
+  return times->at("timed_frames").get<std::size_t>();
+}
+
+// A ratio is over the frames that both sides were timed on: where the reference had time for fewer,
+// it is another ratio.
+std::string other_timed_frames(const Rule& rule, const RowIndex& now, const RowIndex& before,
+                               const Json& row, const Json& old) {
+  const Json *times = times_of(rule, row), *old_times = times_of(rule, old);
+  if (times == nullptr || old_times == nullptr) return "";
+  const auto timed = times->at("timed_frames").get<std::size_t>(),
+             timed_then = old_times->at("timed_frames").get<std::size_t>();
+  if (timed != timed_then)
+    return fmt::format("{} frames are timed here and {} in the baseline", timed, timed_then);
+  const auto here = timed_frames_of_reference(rule, now, row),
+             there = timed_frames_of_reference(rule, before, old);
+  if (!here || !there || std::min(*here, timed) == std::min(*there, timed)) return "";
+  return fmt::format("{} frames of {} are timed here and {} in the baseline", *here, rule.reference,
+                     *there);
+}
+
 // Not the same frames or not the same reference: another ratio.
-std::string other_measurement(const Rule& rule, const Json& row, const Json& old) {
+std::string other_measurement(const Rule& rule, const RowIndex& now, const RowIndex& before,
+                              const Json& row, const Json& old) {
   for (const char* key : {"frames", "contact_frames"})
     if (row.at(key) != old.at(key))
       return fmt::format("{} is {} here and {} in the baseline", key, row.at(key).dump(),
                          old.at(key).dump());
-  const Json *times = times_of(rule, row), *old_times = times_of(rule, old);
-  if (times != nullptr && old_times != nullptr &&
-      times->at("timed_frames") != old_times->at("timed_frames"))
-    return fmt::format("{} frames are timed here and {} in the baseline",
-                       times->at("timed_frames").dump(), old_times->at("timed_frames").dump());
+  const std::string found = other_timed_frames(rule, now, before, row, old);
+  if (!found.empty()) return found;
   std::string ignored;
-  const Json *speedup = speedup_in(rule, row, ignored), *before = speedup_in(rule, old, ignored);
-  return speedup->at("reference_options") == before->at("reference_options")
+  const Json* const speedup = speedup_in(rule, row, ignored);
+  const Json* const speedup_then = speedup_in(rule, old, ignored);
+  return speedup->at("reference_options") == speedup_then->at("reference_options")
              ? ""
              : "the reference has other options in the baseline";
 }
@@ -125,7 +153,7 @@ Check judge_slowdown(const Rule& rule, const RowIndex& now, const RowIndex* befo
   if (!ratio) return cannot_judge(rule, reason);
   const auto known = ratio_in(rule, *old, reason);
   if (!known) return cannot_judge(rule, "in the baseline: " + reason);
-  reason = other_measurement(rule, row, *old);
+  reason = other_measurement(rule, now, *before, row, *old);
   if (!reason.empty()) return cannot_judge(rule, reason);
   if (!is_above_zero(*ratio) || !is_above_zero(*known))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");

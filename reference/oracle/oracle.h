@@ -47,6 +47,9 @@ class Oracle {
   Truth judge(const Frame& frame, const WantedTruth& wanted);
   /// Distance between two surfaces (triangle against triangle), of the vertices of `frame`.
   DistanceInterval distance(const Frame& frame, BodyPair pair);
+  /// The smallest distance between the surfaces of any two bodies: the contract of distance(), the
+  /// scale being that of all bodies. @pre at least two bodies
+  DistanceInterval separation(const Frame& frame);
   /// Every vertex nearer than `margin` (strictly) to a triangle of another body: exact, canonical.
   /// Vertices without a triangle count too; a degenerate triangle is the segment or point that it
   /// is. A margin of 0 gives nothing.

@@ -20,14 +20,17 @@ constexpr double kSecondsToLeave = 5.0;
 // As for the workers of a run (supervisor.cpp).
 constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;
 
+std::vector<std::string> words_of(const ProbeSettings& settings) {
+  std::vector<std::string> words = {"probe", settings.detector, "--channel-fd",
+                                    std::to_string(WorkerProcess::kInheritedFd)};
+  for (const std::string& plugin : settings.plugins) words.push_back("--plugin=" + plugin);
+  return words;
+}
+
 }  // namespace
 
 Probe::Connection::Connection(const ProbeSettings& settings, Channel theirs, Channel own)
-    : channel(std::move(own)),
-      process(
-          settings.executable,
-          {"probe", settings.detector, "--channel-fd", std::to_string(WorkerProcess::kInheritedFd)},
-          theirs.fd()) {}
+    : channel(std::move(own)), process(settings.executable, words_of(settings), theirs.fd()) {}
 
 void Probe::connect() {
   auto [theirs, own] = Channel::pair();

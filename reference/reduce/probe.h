@@ -21,6 +21,7 @@ namespace contactcheck {
 struct ProbeSettings {
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `probe`
   std::string detector;              ///< canonical name
+  std::vector<std::string> plugins;  ///< as RunSettings::plugins
   double call_limit = 10.0;          ///< seconds that a detector may take for one frame
   std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
 };

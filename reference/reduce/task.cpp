@@ -7,6 +7,7 @@
 #include "core/deform/lattice.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "reference/arrange/sweep_poses.h"
 #include "reference/scene/amount.h"
 #include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
@@ -251,9 +252,10 @@ std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::pat
     throw InputError("\"" + named.target +
                      "\" is a suite; reduce takes a case, a scene, a family "
                      "of hard cases or a recording");
-  const Scene scene = load_any_scene(target.file);
+  Scene scene = load_any_scene(target.file);
   if (scene.simulation)
     throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
+  place_sweep([](std::size_t) {}, scene);
   std::vector<ReductionTask> tasks;
   if (named.which) return {task_of_frame(scene, frame_named(scene, *named.which))};
   for (std::size_t f = 0; f < scene.frames; ++f) tasks.push_back(task_of_frame(scene, f));

@@ -67,6 +67,44 @@ std::string inside_finding(const Json& results) {
       rows);
 }
 
+// Of the normals judged, those that point into the half of directions away from the way out; "-"
+// where the results hold no histogram.
+std::string turned_normals(const Json& geometry) {
+  if (!geometry.contains("normal_error_deg_histogram")) return "-";
+  std::int64_t turned = 0;
+  for (const Json& bin : geometry.at("normal_error_deg_histogram"))
+    if (bin.at("from").get<double>() >= 90.0) turned += whole_number(bin.at("count"));
+  return std::to_string(turned);
+}
+
+std::string normal_finding(const Json& results) {
+  std::string rows;
+  for (const Json& scene : results.at("scenes")) {
+    const auto id = scene.at("id").get<std::string>();
+    const Json run = find_run(results, id, "bullet-vf");
+    if (run.is_null()) continue;
+    const Json& geometry = run.at("geometry");
+    const Json largest = geometry.value("normal_error_deg_max", Json(nullptr));
+    if (largest.is_null() || largest.get<double>() < 90.0) continue;
+    rows += table_line({id, format_count(geometry.value("normal_judged", Json(nullptr))),
+                        turned_normals(geometry),
+                        format_number(geometry.value("normal_error_deg_mean", Json(nullptr))),
+                        format_number(largest)});
+  }
+  return titled_table(
+      "### Bullet's vertex-face normals turn with the side of the vertex\n\n"
+      "Its normal points from the face to the vertex, on whichever side of the face the vertex is. "
+      "Normals are judged for vertices that are truly inside the other body: there it points "
+      "further in, about 180 degrees off the way out. That is Bullet's own convention and no "
+      "rounding, and a solver that follows it pushes such a vertex further in.",
+      {{"scene", true, ""},
+       {"normals judged", false, ""},
+       {"of them 90 degrees off or more", false, ""},
+       {"mean, degrees", false, ""},
+       {"largest, degrees", false, ""}},
+      rows);
+}
+
 std::string cluster_finding(const Json& results) {
   std::string rows;
   for (const Json& scene : results.at("scenes")) {
@@ -94,7 +132,8 @@ std::string cluster_finding(const Json& results) {
 }  // namespace
 
 std::string bullet_findings(const Json& results) {
-  return scale_finding(results) + inside_finding(results) + cluster_finding(results);
+  return scale_finding(results) + inside_finding(results) + normal_finding(results) +
+         cluster_finding(results);
 }
 
 }  // namespace contactcheck

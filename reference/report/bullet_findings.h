@@ -7,8 +7,8 @@
 namespace contactcheck {
 
 /// Markdown: what its units hide at scale 1, how few of the vertices inside its proximity query
-/// reports, and where the hulls of its clusters touch though the surfaces do not. Each part only
-/// where the results hold its detectors.
+/// reports, how many of its normals point the wrong way, and where the hulls of its clusters touch
+/// though the surfaces do not. Each part only where the results hold its detectors.
 std::string bullet_findings(const nlohmann::ordered_json& results);
 
 }  // namespace contactcheck

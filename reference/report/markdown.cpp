@@ -10,10 +10,13 @@
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/lattice_fits.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
+#include "reference/report/separation_table.h"
+#include "reference/report/speed_error_section.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck {
@@ -44,6 +47,21 @@ std::string resumed_line(const Json& results) {
       "Taken over from an earlier run that was interrupted (`--resume`), with the times measured "
       "then: {}.\n\n",
       scenes);
+}
+
+// Whoever reads a part must not take it for the whole.
+std::string parts_line(const Json& results) {
+  if (results.contains("shard")) {
+    const Json& shard = results.at("shard");
+    return fmt::format(
+        "Shard {} of {}: {} of the {} scenes of `{}`; `contactcheck merge` puts the shards "
+        "together.\n\n",
+        whole_number(shard.at("index")), whole_number(shard.at("of")), results.at("scenes").size(),
+        shard.at("scenes").size(), shard.at("command").get<std::string>());
+  }
+  if (!results.contains("merged")) return "";
+  return fmt::format("Put together from {} shards (`contactcheck merge`).\n\n",
+                     results.at("merged").size());
 }
 
 std::string bodies_table(const Json& scene) {
@@ -126,10 +144,10 @@ std::string scene_section(const Json& results, const Json& scene) {
   return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", id,
                      scene.at("title").get<std::string>(), whole_number(scene.at("frames")),
                      whole_number(scene.at("contact_frames")), format_number(scene.at("size"))) +
-         bodies_table(scene) + truth_line(scene) + pairs_markdown(scene) + result_table(runs) +
-         levels_table(runs) + graded_table(runs) + stages_table(runs) + times_table(runs) +
-         counters_table(runs) + speedups_table(runs) + notes_list(runs) +
-         disagreements_list(results, id);
+         bodies_table(scene) + truth_line(scene) + fits_markdown(scene) + pairs_markdown(scene) +
+         result_table(runs) + separation_tables(scene, runs) + levels_table(runs) +
+         graded_table(runs) + stages_table(runs) + times_table(runs) + counters_table(runs) +
+         speedups_table(runs) + notes_list(runs) + disagreements_list(results, id);
 }
 
 // What each detector claims, from its first run that is `ok`.
@@ -158,8 +176,9 @@ std::string legend() {
 }  // namespace
 
 std::string markdown_report(const Json& results) {
-  std::string out = "# contactcheck report\n\n" + machine_section(results) + resumed_line(results) +
-                    summary_section(results) + goals_section(results) +
+  std::string out = "# contactcheck report\n\n" + machine_section(results) + parts_line(results) +
+                    resumed_line(results) + summary_section(results) +
+                    speed_error_markdown(results) + goals_section(results) +
                     hard_cases_markdown(results) + known_defects_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;

@@ -3,12 +3,16 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/markdown.h"
+#include "reference/report/speed_error_plot.h"
+#include "reference/report/speed_error_section.h"
 #include "reference/report/stability_plot.h"
 
 namespace contactcheck {
 
 std::map<std::string, std::string> report_files(const nlohmann::ordered_json& results) {
   std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
+  const std::string picture = speed_error_picture(results);
+  if (!picture.empty()) files[kSpeedErrorFile] = picture;
   const std::vector<FamilyResult> families = family_results(results);
   for (const auto& scene : results.at("scenes")) {
     if (!scene.contains("family")) continue;

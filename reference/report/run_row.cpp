@@ -56,7 +56,7 @@ std::vector<std::string> result_cells(const Json& run) {
     cells[2] = run.at("message").get<std::string>();
     return cells;
   }
-  const auto level = run.at("per_frame").at("level").get<std::string>();
+  const std::string level = finest_level(run);
   const Json counts = at_or_null(run.at("levels"), level.c_str());
   const auto count = [&](const char* key) {
     return counts.is_null() ? std::string("-") : format_count(counts.at(key));
@@ -98,7 +98,7 @@ nlohmann::ordered_json speedup_of(const Json& run, const std::string& question,
 }
 
 std::string compared_question(const Json& run) {
-  const Json& questions = run.at("semantics").at("questions");
+  const Json questions = at_or_null(run.at("semantics"), "questions");
   return std::find(questions.begin(), questions.end(), "triangles") != questions.end() ? "triangles"
                                                                                        : "body";
 }
@@ -106,7 +106,8 @@ std::string compared_question(const Json& run) {
 std::string options_text(const Json& options) {
   std::string text;
   for (const auto& [name, value] : options.items())
-    text += (text.empty() ? "" : ", ") + name + "=" + value.get<std::string>();
+    text += (text.empty() ? "" : ", ") + name + "=" +
+            (value.is_string() ? value.get<std::string>() : value.dump());
   return text.empty() ? "-" : text;
 }
 
@@ -130,6 +131,8 @@ std::string semantics_text(const Json& s) {
   if (!s.value("means", "").empty()) text += "; " + s.value("means", "");
   return text;
 }
+
+std::string finest_level(const Json& run) { return run.at("per_frame").value("level", ""); }
 
 std::vector<nlohmann::ordered_json> runs_of_scene(const Json& results, const std::string& scene) {
   std::vector<Json> out;

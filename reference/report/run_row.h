@@ -37,6 +37,8 @@ std::string options_text(const nlohmann::ordered_json& options);
 /// precision, depth.
 std::string semantics_text(const nlohmann::ordered_json& semantics);
 
+/// The finest level that a run which is `ok` was judged at; "" without one.
+std::string finest_level(const nlohmann::ordered_json& run);
 /// The runs of one scene, in file order.
 std::vector<nlohmann::ordered_json> runs_of_scene(const nlohmann::ordered_json& results,
                                                   const std::string& scene);

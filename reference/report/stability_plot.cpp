@@ -20,10 +20,9 @@ constexpr double kFaintest = 0.3;  // one wrong contact of many must still be se
 
 // Blue and orange are told apart by every kind of eye.
 constexpr const char* kColours =
-    "text{font:12px system-ui,sans-serif}.ink{fill:#1f2328}.title{fill:#1f2328;font-weight:600}\n"
     ".missed{fill:#0b62c4}.spurious{fill:#d9730d}.right{fill:#e6eaee}.error{fill:#1f2328}\n"
     ".unknown{fill:none;stroke:#8c959f;stroke-dasharray:2 2}.cross{stroke:#fff;stroke-width:2}\n"
-    "@media(prefers-color-scheme:dark){.ink,.title{fill:#e6edf3}.right{fill:#2d333b}\n"
+    "@media(prefers-color-scheme:dark){.right{fill:#2d333b}\n"
     ".missed{fill:#58a6ff}.spurious{fill:#f0883e}.error{fill:#e6edf3}.cross{stroke:#0d1117}}\n";
 
 double share(std::int64_t part, std::int64_t whole) {

@@ -95,7 +95,7 @@ std::vector<std::string> cells_of(const Sums& s) {
 Sums& line_of(const Json& run, std::vector<Sums>& all) {
   const auto name = run.at("detector").get<std::string>();
   const bool ok = run.at("status") == "ok";
-  const std::string level = ok ? run.at("per_frame").at("level").get<std::string>() : "";
+  const std::string level = ok ? finest_level(run) : "";
   for (Sums& s : all) {
     if (s.detector != name || (ok && s.scenes > 0 && s.level != level)) continue;
     if (ok) s.level = level;

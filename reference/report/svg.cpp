@@ -17,6 +17,11 @@ const char* anchor_name(Svg::Anchor anchor) {
   return "";
 }
 
+constexpr const char* kPaper =
+    "text{font:12px system-ui,sans-serif}.ink{fill:#1f2328}.title{fill:#1f2328;font-weight:600}\n"
+    ".paper{fill:#fff}\n"
+    "@media(prefers-color-scheme:dark){.ink,.title{fill:#e6edf3}.paper{fill:#0d1117}}\n";
+
 }  // namespace
 
 std::string xml_text(const std::string& text) {
@@ -65,6 +70,11 @@ void Svg::line(double x1, double y1, double x2, double y2, const std::string& cs
                   x1, y1, x2, y2, css_class);
 }
 
+void Svg::path(double x, double y, const std::string& outline, const std::string& css_class) {
+  body_ += fmt::format("<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" class=\"{}\"/>\n", x,
+                       y, outline, css_class);
+}
+
 void Svg::begin_group(const std::string& words) {
   body_ += "<g><title>" + xml_text(words) + "</title>\n";
 }
@@ -74,9 +84,9 @@ void Svg::end_group() { body_ += "</g>\n"; }
 std::string Svg::document(const std::string& title, const std::string& css) const {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-      "viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\">\n<title>{2}</title>\n<style>\n{3}</style>\n"
-      "{4}</svg>\n",
-      width_, height_, xml_text(title), css, body_);
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>\n{5}</svg>\n",
+      width_, height_, xml_text(title), kPaper, css, body_);
 }
 
 }  // namespace contactcheck

@@ -6,7 +6,9 @@
 namespace contactcheck {
 
 /// Coordinates in pixels, y downwards. Colours come from classes, so that one picture reads well on
-/// a light page and on a dark one.
+/// a light page and on a dark one: it lies on paper of its own, which is dark where the reader
+/// wants that, whatever page is around it. The classes `ink` (words), `title` and `paper` are
+/// there.
 class Svg {
  public:
   Svg(double width, double height) : width_(width), height_(height) {}
@@ -19,12 +21,15 @@ class Svg {
   void text(double x, double y, const std::string& words, Anchor anchor = Anchor::kStart,
             const std::string& css_class = "ink", double turned = 0.0);
   void line(double x1, double y1, double x2, double y2, const std::string& css_class);
+  /// `outline`: commands of SVG's attribute d, about (x, y).
+  void path(double x, double y, const std::string& outline, const std::string& css_class);
   /// What is drawn between these two is one thing with words of its own, which a browser shows
   /// under the pointer and reads aloud.
   void begin_group(const std::string& words);
   void end_group();
 
-  /// The whole document. `css`: rules for the classes used. `title`: what the picture shows.
+  /// The whole document. `css`: rules for the further classes used. `title`: what the picture
+  /// shows.
   std::string document(const std::string& title, const std::string& css) const;
 
  private:

@@ -71,7 +71,7 @@ class AccuracyPass {
   void make_judges() {
     const Semantics& semantics = result_.semantics;
     levels_ = judged_levels(scene_.bodies, semantics, scene_.levels, &result_.not_judged);
-    judge_.emplace(scene_.bodies, semantics, levels_, scene_.follows_time() ? kListedPairs : 0);
+    judge_.emplace(scene_.bodies, semantics, levels_, scene_.pairs ? 0 : kListedPairs);
     graded_.emplace(scene_.bodies, semantics, scene_.size());
     losses_.emplace(scene_.bodies);
     if (semantics.precision != Precision::kSingle) return;

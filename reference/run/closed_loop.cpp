@@ -98,6 +98,7 @@ ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
   ClosedLoop out;
   SimulatedMotion motion;
   try {
+    progress.enter(position, 0, Phase::kPrepare);  // a detector may hang while it is made
     motion = simulate(scene, *make(), [&](std::size_t step) {
       progress.enter(position, step / scene.simulation->every, Phase::kUpdate);
     });
@@ -114,6 +115,7 @@ ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
   measure_penetration(tools, out);
   out.tunnelling_events = TunnellingWatch(judged).count();
   RunResult result;
+  progress.enter(position, 0, Phase::kPrepare);
   const std::unique_ptr<Detector> again = make();
   run_accuracy(tools, position, *again, progress, result);
   out.levels = result.levels;

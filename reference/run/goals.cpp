@@ -82,7 +82,9 @@ Json measured(const SuiteGoal& goal, const Json& results) {
   throw NotMeasured("");
 }
 
-Json described(const SuiteGoal& goal) {
+}  // namespace
+
+Json to_json(const SuiteGoal& goal) {
   Json out = {
       {"goal", goal.name}, {"scene", goal.scene}, {"detector", goal.detector}, {"part", goal.part}};
   if (goal.kind == SuiteGoal::Kind::kOver) out["over"] = goal.other;
@@ -93,12 +95,30 @@ Json described(const SuiteGoal& goal) {
   return out;
 }
 
-}  // namespace
+SuiteGoal goal_from(const Json& json) {
+  SuiteGoal goal;
+  json.at("goal").get_to(goal.name);
+  json.at("scene").get_to(goal.scene);
+  json.at("detector").get_to(goal.detector);
+  json.at("part").get_to(goal.part);
+  if (json.contains("over")) {
+    goal.kind = SuiteGoal::Kind::kOver;
+    json.at("over").get_to(goal.other);
+  } else if (json.contains("over_scene")) {
+    goal.kind = SuiteGoal::Kind::kOverScene;
+    json.at("over_scene").get_to(goal.other);
+  } else {
+    goal.kind = SuiteGoal::Kind::kPerPair;
+  }
+  if (json.contains("at_least")) goal.at_least = json.at("at_least").get<double>();
+  if (json.contains("at_most")) goal.at_most = json.at("at_most").get<double>();
+  return goal;
+}
 
 Json measure_goals(const std::vector<SuiteGoal>& goals, const Json& results) {
   Json out = Json::array();
   for (const SuiteGoal& goal : goals) {
-    Json entry = described(goal);
+    Json entry = to_json(goal);
     try {
       entry.update(measured(goal, results));
       const auto value = entry.at("measured").get<double>();

@@ -14,4 +14,9 @@ namespace contactcheck {
 nlohmann::ordered_json measure_goals(const std::vector<SuiteGoal>& goals,
                                      const nlohmann::ordered_json& results);
 
+/// The goal itself, nothing measured; and back. @throws nlohmann::json::exception when a field is
+/// missing
+nlohmann::ordered_json to_json(const SuiteGoal& goal);
+SuiteGoal goal_from(const nlohmann::ordered_json& json);
+
 }  // namespace contactcheck

@@ -16,6 +16,7 @@ using Json = nlohmann::json;
 RunSettings settings_from(const Json& j) {
   RunSettings s;
   j.at("detectors").get_to(s.detectors);
+  j.at("plugins").get_to(s.plugins);
   j.at("frames").get_to(s.frames);
   j.at("repeats").get_to(s.repeats);
   j.at("processes").get_to(s.processes);
@@ -33,12 +34,19 @@ RunSettings settings_from(const Json& j) {
 }  // namespace
 
 nlohmann::json to_json(const RunSettings& s) {
-  return {{"detectors", s.detectors},     {"frames", s.frames},
-          {"repeats", s.repeats},         {"processes", s.processes},
-          {"time_budget", s.time_budget}, {"fewest_timed_frames", s.fewest_timed_frames},
-          {"sweep_bytes", s.sweep_bytes}, {"timing", s.timing},
-          {"closed_loop", s.closed_loop}, {"threads", s.threads},
-          {"call_limit", s.call_limit},   {"memory_limit", s.memory_limit}};
+  return {{"detectors", s.detectors},
+          {"plugins", s.plugins},
+          {"frames", s.frames},
+          {"repeats", s.repeats},
+          {"processes", s.processes},
+          {"time_budget", s.time_budget},
+          {"fewest_timed_frames", s.fewest_timed_frames},
+          {"sweep_bytes", s.sweep_bytes},
+          {"timing", s.timing},
+          {"closed_loop", s.closed_loop},
+          {"threads", s.threads},
+          {"call_limit", s.call_limit},
+          {"memory_limit", s.memory_limit}};
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {
@@ -50,6 +58,9 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"prefixes", job.prefixes},
             {"answer_file", job.answer_file.string()},
             {"recording_file", job.recording_file.string()}};
+  if (job.text)
+    j["text"] = {
+        {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
   if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
   write_file_atomically(file, j.dump());
 }
@@ -61,6 +72,10 @@ Job read_job(const std::filesystem::path& file) {
   if (j.contains("pairs"))
     job.pairs = PairSpec{j.at("pairs").at("count").get<std::uint64_t>(),
                          j.at("pairs").at("seed").get<std::uint64_t>()};
+  if (j.contains("text"))
+    job.text = SceneText{j.at("text").at("text").get<std::string>(),
+                         j.at("text").at("name").get<std::string>(),
+                         j.at("text").at("folder").get<std::string>()};
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
   j.at("process").get_to(job.process);

@@ -10,13 +10,16 @@
 #include <vector>
 
 #include "reference/scene/random_pairs.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck {
 
 /// Settings of a run; the same for all its scenes.
 struct RunSettings {
   std::vector<std::string> detectors;  ///< canonical names
-  std::size_t frames = 0;              ///< 0: as the scene says
+  /// Records of the detectors from outside this program that are among them (plugin/plugin.h).
+  std::vector<std::string> plugins;
+  std::size_t frames = 0;  ///< 0: as the scene says
   std::size_t repeats = 5;
   std::size_t processes = 1;  ///< fresh processes whose samples are pooled
   /// Aim for the timed part per detector and question, seconds: slow detectors are timed on fewer
@@ -38,6 +41,7 @@ nlohmann::json to_json(const RunSettings& settings);
 struct Job {
   std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
   std::optional<PairSpec> pairs;     ///< random pairs in place of a file
+  std::optional<SceneText> text;     ///< a scene's text in place of a file
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   std::size_t process = 0;          ///< 0 judges and times, others only time

@@ -18,12 +18,19 @@ void add_file(const std::filesystem::path& file, Fnv1a& hash) {
 }  // namespace
 
 std::string content_of(const std::filesystem::path& file, const Scene& scene) {
+  return content_of(SceneText{read_text_file(file), "", ""}, scene);
+}
+
+std::string content_of(const SceneText& text, const Scene& scene) {
   Fnv1a hash;
-  add_file(file, hash);
+  hash.bytes(text.text.data(), text.text.size());
   for (const Body& body : scene.bodies) {
     const std::uint64_t mesh = content_hash(body.shape->mesh);
     hash.bytes(&mesh, sizeof mesh);
   }
+  for (const auto& frame : scene.recorded)
+    for (const std::vector<Vec3>& nodes : frame)
+      hash.bytes(nodes.data(), sizeof(Vec3) * nodes.size());
   return hex(hash.digest());
 }
 
@@ -31,11 +38,15 @@ std::string content_of(const PairSpec& pairs) {
   return std::to_string(pairs.count) + " random pairs, seed " + std::to_string(pairs.seed);
 }
 
+std::string hash_of_file(const std::filesystem::path& file) {
+  Fnv1a hash;
+  add_file(file, hash);
+  return hex(hash.digest());
+}
+
 RunIdentity::RunIdentity(const SuiteRequest& request) : settings_(request.settings) {
-  Fnv1a program;
-  add_file(request.executable, program);
   common_ = {{"version", CONTACTCHECK_VERSION},
-             {"program", hex(program.digest())},
+             {"program", hash_of_file(request.executable)},
              {"libraries", library_versions()},
              {"machine", describe_machine()}};
 }

@@ -11,12 +11,18 @@
 
 namespace contactcheck {
 
-/// Hash of a scene's file and of the meshes that it names, as hexadecimal text. `scene` is what
-/// `file` was read as. @throws InputError when the file cannot be read again
+/// Hash of a scene's file and of the meshes and recordings that it names, as hexadecimal text.
+/// `scene` is what `file` was read as. @throws InputError when the file cannot be read again
 std::string content_of(const std::filesystem::path& file, const Scene& scene);
+
+/// The same of a scene that lies in no file.
+std::string content_of(const SceneText& text, const Scene& scene);
 
 /// The same of random pairs: their number and their seed; the program makes the rest.
 std::string content_of(const PairSpec& pairs);
+
+/// Of its bytes, as hexadecimal text. @throws InputError when it cannot be read
+std::string hash_of_file(const std::filesystem::path& file);
 
 /// The program (by the bytes of its file: a detector that was rebuilt is another one), the
 /// libraries, the machine, the settings, the detectors and the scene's content.

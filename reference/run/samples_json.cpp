@@ -8,14 +8,19 @@ using Json = nlohmann::ordered_json;
 
 Json repeats_to_json(const std::vector<PhaseSample>& repeats) {
   Json out = Json::array();
-  for (const PhaseSample& s : repeats) out.push_back({s.map, s.update, s.query});
+  for (const PhaseSample& s : repeats) {
+    out.push_back({s.map, s.update, s.query});
+    if (s.reported) out.back().push_back(*s.reported);
+  }
   return out;
 }
 
 std::vector<PhaseSample> repeats_from_json(const Json& json) {
   std::vector<PhaseSample> out;
-  for (const Json& s : json)
+  for (const Json& s : json) {
     out.push_back({s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()});
+    if (s.size() > 3) out.back().reported = s.at(3).get<double>();
+  }
   return out;
 }
 

@@ -80,9 +80,17 @@ Json bodies_json(const Scene& scene) {
   return bodies;
 }
 
+Json fits_json(const Scene& scene) {
+  Json fits = Json::array();
+  for (const FitError& fit : scene.fits)
+    fits.push_back({{"body", scene.bodies[fit.body].name}, {"rms", fit.rms}, {"max", fit.max}});
+  return fits;
+}
+
 }  // namespace
 
-nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
+nlohmann::ordered_json scene_summary(const JudgedScene& judged,
+                                     const std::vector<double>& separations) {
   const Scene& scene = *judged.scene;
   const std::vector<bool>& contact = judged.contact_frames;
   Json out = {{"id", scene.id},
@@ -94,7 +102,14 @@ nlohmann::ordered_json scene_summary(const JudgedScene& judged) {
               {"truth", truth_json(judged)},
               {"truth_hash", hex(truth_hash(judged))},
               {"bodies", bodies_json(scene)}};
+  if (!separations.empty()) out["separation"] = separations;
   if (scene.family) out["family"] = family_json(judged);
+  if (scene.sweep)
+    out["sweep"] = {{"separations", scene.sweep->separations},
+                    {"orientations", scene.sweep->orientations},
+                    {"seed", scene.sweep->seed},
+                    {"tolerance", kSweepTolerance * scene.size()}};
+  if (!scene.fits.empty()) out["fits"] = fits_json(scene);
   if (judged.pairs) out["pairs"] = pairs_json(scene.pairs->spec(), *judged.pairs);
   if (scene.simulation)
     out["simulation"] = {{"driver", scene.simulation->driver},

@@ -8,7 +8,9 @@
 namespace contactcheck {
 
 /// Bodies, frames, what is really there at every level that the scene asks for, and the
-/// contact_hash of a detector that finds exactly the true pairs of triangles.
-nlohmann::ordered_json scene_summary(const JudgedScene& judged);
+/// contact_hash of a detector that finds exactly the true pairs of triangles; `separations` per
+/// frame, where there are any (separation.h).
+nlohmann::ordered_json scene_summary(const JudgedScene& judged,
+                                     const std::vector<double>& separations = {});
 
 }  // namespace contactcheck

@@ -7,20 +7,19 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
-#include "reference/defects/comparison.h"
 #include "reference/run/contacts_json.h"
-#include "reference/run/goals.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
 #include "reference/run/partial_results.h"
 #include "reference/run/printable.h"
 #include "reference/run/run_identity.h"
 #include "reference/run/samples_json.h"
+#include "reference/run/shard_record.h"
+#include "reference/run/suite_output.h"
 #include "reference/run/supervisor.h"
 #include "reference/run/worker.h"
 
@@ -51,8 +50,10 @@ class SceneRunner {
               ProgressCallback on_progress)
       : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
     // The worker's working directory is for libraries to change.
-    if (!task.pairs) job_.scene_file = fs::absolute(task.file);
+    if (!task.file.empty()) job_.scene_file = fs::absolute(task.file);
     job_.pairs = task.pairs;
+    job_.text = task.text;
+    if (job_.text) job_.text->folder = fs::absolute(task.text->folder);
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }
@@ -274,27 +275,21 @@ class SceneRunner {
   std::map<std::uint32_t, WorkerOutcome> broken_;
 };
 
-// Where nothing could have shown a defect, there is nothing to say about them.
-void add_known_defects(const KnownDefects& known, Json& results, SuiteOutcome* outcome) {
-  const DefectComparison comparison =
-      compare_defects(known, sightings_of(results), versions_in(results));
-  outcome->unlisted_error = any_unlisted_error(comparison);
-  const Json& scenes = results.at("scenes");
-  const bool families = std::any_of(scenes.begin(), scenes.end(),
-                                    [](const Json& scene) { return scene.contains("family"); });
-  if (families || outcome->unlisted_error) results["known_defects"] = to_json(known, comparison);
-}
-
-void append(Json from, Json& to) {
-  for (Json& item : from) to.push_back(std::move(item));
-}
-
-std::uint64_t oracle_errors(const Json& scenes) {
-  std::uint64_t sum = 0;
-  for (const Json& scene : scenes)
-    if (scene.contains("pairs"))
-      sum += scene.at("pairs").at("rational").at("oracle_wrong").get<std::uint64_t>();
-  return sum;
+// What a run says that has no scene.
+SuiteRecord record_of(const SuiteRequest& request, const Json& resumed) {
+  SuiteRecord record{{{"schema", "contactcheck-results/1"},
+                      {"version", CONTACTCHECK_VERSION},
+                      {"command", request.command},
+                      {"machine", describe_machine()},
+                      {"libraries", library_versions()}},
+                     Json::object(),
+                     request.goals,
+                     request.known_defects,
+                     request.shard.has_value()};
+  if (!request.plugins.empty()) record.head["plugins"] = Json::parse(request.plugins);
+  if (request.resume) record.tail["resumed"] = resumed;
+  if (request.shard) record.tail["shard"] = shard_record(request);
+  return record;
 }
 
 }  // namespace
@@ -307,8 +302,8 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
   const PartialResults partial(request.out, scratch.path());
   if (!request.resume) partial.clear();
   const RunIdentity identity(request);
-  Json runs = Json::array(), disagreements = Json::array(), scenes = Json::array(),
-       resumed = Json::array();
+  SuiteOutput output(request.out, scratch.path());
+  Json resumed = Json::array();
   SuiteProgress progress;
   progress.scenes = request.tasks.size();
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
@@ -332,32 +327,10 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
       finished = SceneRunner(request, task, scratch.path(), report).run();
       partial.keep(task.id, identity.of(task), *finished);
     }
-    if (!finished->contacts.empty())
-      write_file_atomically(scratch.path() / contacts_path(task.id), finished->contacts);
     listener.scene_end({task.id, resumed_now, finished->runs});
-    scenes.push_back(std::move(finished->scene));
-    append(std::move(finished->runs), runs);
-    append(std::move(finished->disagreements), disagreements);
+    output.add(std::move(*finished));
   }
-  const std::vector<fs::path> cases = number_cases(disagreements);
-  outcome->oracle_wrong = oracle_errors(scenes);
-  Json results = {{"schema", "contactcheck-results/1"},
-                  {"version", CONTACTCHECK_VERSION},
-                  {"command", request.command},
-                  {"machine", describe_machine()},
-                  {"libraries", library_versions()},
-                  {"scenes", scenes},
-                  {"runs", runs},
-                  {"disagreements", disagreements}};
-  add_known_defects(request.known_defects, results, outcome);
-  if (!request.goals.empty()) results["goals"] = measure_goals(request.goals, results);
-  if (request.resume) results["resumed"] = resumed;
-  // All is on disk before anything of an earlier run goes: from here on there are only renames.
-  write_file_atomically(scratch.path() / "results.json", results.dump(1) + "\n");
-  remove_old_cases(request.out);
-  move_cases(request.out, cases);
-  move_contacts(request.out, scratch.path(), scenes);
-  rename_file(scratch.path() / "results.json", request.out / "results.json");
+  Json results = output.write(record_of(request, resumed), outcome);
   partial.clear();
   return results;
 }

@@ -10,6 +10,7 @@
 
 #include "reference/defects/known_defects.h"
 #include "reference/run/job.h"
+#include "reference/run/shard.h"
 #include "reference/scene/suite_file.h"
 
 namespace contactcheck {
@@ -21,8 +22,15 @@ struct SceneTask {
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
   std::optional<PairSpec> pairs = {};  ///< random pairs in place of a file
+  std::optional<SceneText> text = {};  ///< a scene's text in place of a file
   std::size_t frames = 0;              ///< that will be judged
   std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
+};
+
+/// Which part of which run.
+struct ShardOfRun {
+  Shard shard;
+  std::vector<SceneTask> run;  ///< all scenes of the run, in order
 };
 
 struct SuiteRequest {
@@ -32,9 +40,11 @@ struct SuiteRequest {
   std::filesystem::path out;         ///< existing, writable
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
   std::string command;               ///< for the record
+  std::string plugins;               ///< JSON for the record, see results.json; empty: none
   KnownDefects known_defects;        ///< what wrong answers are set beside
   /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
   bool resume = false;
+  std::optional<ShardOfRun> shard = {};  ///< then `tasks` are those that it holds
 };
 
 /// What is going on, for the progress display.

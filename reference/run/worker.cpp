@@ -8,6 +8,7 @@
 #include "core/deform/atomic_file.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "reference/arrange/sweep_poses.h"
 #include "reference/compare/run_result_json.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/case_file.h"
@@ -21,6 +22,7 @@
 #include "reference/run/samples_json.h"
 #include "reference/run/scene_summary.h"
 #include "reference/run/schedule.h"
+#include "reference/run/separation.h"
 #include "reference/run/surroundings.h"
 #include "reference/run/timing.h"
 #include "reference/scene/any_scene.h"
@@ -60,6 +62,11 @@ class Worker {
           progress_.enter(SharedProgress::kNoDetector, step, Phase::kScene);
         },
         scene_);
+    place_sweep(
+        [this](std::size_t orientation) {
+          progress_.enter(SharedProgress::kNoDetector, orientation, Phase::kScene);
+        },
+        scene_);
     for (std::uint32_t i = 0; i < job_.settings.detectors.size(); ++i)
       if (std::find(job_.skip.begin(), job_.skip.end(), i) == job_.skip.end()) add_entry(i);
     judged_ = judge_scene(scene_, judges(), progress_);
@@ -67,6 +74,7 @@ class Worker {
       refuse_all();
     } else if (judges()) {
       if (!job_.recording_file.empty()) record();
+      separations_ = separations(judged_, progress_);
       judge_detectors();
       if (job_.settings.closed_loop && scene_.simulation) simulate_with_detectors();
       plan_timing();
@@ -82,6 +90,7 @@ class Worker {
  private:
   Scene load() const {
     if (job_.pairs) return make_pairs_scene(*job_.pairs);
+    if (job_.text) return load_scene_text(*job_.text, job_.settings.frames);
     return load_any_scene(job_.scene_file, job_.settings.frames);
   }
 
@@ -184,9 +193,15 @@ class Worker {
 
   void time_whole_steps() {
     std::vector<LockstepEntry> lockstep;
-    for (const Entry& entry : entries_)
-      if (drives(entry))
-        lockstep.push_back({entry.position, catalog_.make(entry.spec), StepTimes{}, ""});
+    for (Entry& entry : entries_) {
+      if (!drives(entry)) continue;
+      std::unique_ptr<Detector> made;
+      guarded(entry, [&] {
+        progress_.enter(entry.position, 0, Phase::kPrepare);
+        made = catalog_.make(entry.spec);
+      });
+      if (made) lockstep.push_back({entry.position, std::move(made), StepTimes{}, ""});
+    }
     const DetectorSpec driver = catalog_.parse(scene_.simulation->driver);
     LockstepSettings settings;
     settings.repeats = job_.settings.repeats;
@@ -314,10 +329,8 @@ class Worker {
     return written_cases(wrong);
   }
 
-  // Of frames that are cases there is no picture to be made; a refused scene has no truth.
-  bool lists_contacts() const {
-    return judges() && scene_.follows_time() && judged_.refused.empty();
-  }
+  // Random pairs are far too many for pictures; a refused scene has no truth.
+  bool lists_contacts() const { return judges() && !scene_.pairs && judged_.refused.empty(); }
 
   void write_answer() {
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
@@ -335,7 +348,7 @@ class Worker {
                       {"disagreements", cases}});
       if (lists_contacts()) runs.back()["contacts"] = detector_contacts(entry.result);
     }
-    Json answer = {{"scene", scene_summary(judged_)},
+    Json answer = {{"scene", scene_summary(judged_, separations_)},
                    {"contact_frames", judged_.contact_frames},
                    {"order", job_.order},
                    {"prefixes", job_.prefixes},
@@ -353,6 +366,7 @@ class Worker {
   Surroundings surroundings_;
   Scene scene_;
   JudgedScene judged_;
+  std::vector<double> separations_;
   std::vector<Entry> entries_;
   std::size_t cases_ = 0;
 };

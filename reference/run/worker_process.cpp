@@ -73,9 +73,16 @@ std::uint64_t MemoryFile::size() const {
   return fstat(fd_, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
-std::string MemoryFile::text(std::size_t longest) const {
+std::string MemoryFile::text(std::size_t longest) const { return text_from(0, longest); }
+
+std::string MemoryFile::last_text(std::size_t longest) const {
+  const std::uint64_t all = size();
+  return text_from(all > longest ? all - longest : 0, longest);
+}
+
+std::string MemoryFile::text_from(std::uint64_t begin, std::size_t longest) const {
   std::string out(longest, '\0');
-  const ssize_t size = pread(fd_, out.data(), out.size(), 0);
+  const ssize_t size = pread(fd_, out.data(), out.size(), static_cast<off_t>(begin));
   out.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
   return out;
 }

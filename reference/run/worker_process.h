@@ -24,8 +24,12 @@ class MemoryFile {
   std::uint64_t size() const;
   /// Its first bytes, `longest` at most.
   std::string text(std::size_t longest) const;
+  /// Its last bytes, `longest` at most.
+  std::string last_text(std::size_t longest) const;
 
  private:
+  std::string text_from(std::uint64_t begin, std::size_t longest) const;
+
   int fd_;
 };
 

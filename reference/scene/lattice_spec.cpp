@@ -10,13 +10,28 @@ namespace {
 constexpr std::size_t kMostCellsPerAxis = 128;
 constexpr std::size_t kMostKept = 10'000;
 constexpr double kPadding = 0.02;
+constexpr double kSmoothing = 1e-6;
+constexpr NumberRange kSmoothingRange = {1e-12, false, 1.0, false};
+
+// Said aloud in the file, because it changes what all detectors are given.
+void parse_fit(const JsonField& field, LatticeSpec& spec) {
+  const JsonField fit = field.at("fit");
+  if (!fit.is(JsonValue::Kind::kBool) || !fit.value().boolean)
+    fit.refuse("true: beside a recording a lattice is fitted to it");
+  spec.fit = true;
+  spec.smoothing =
+      field.has("smoothing") ? field.at("smoothing").number(kSmoothingRange) : kSmoothing;
+}
 
 }  // namespace
 
-LatticeSpec parse_lattice_spec(const JsonField& field) {
+LatticeSpec parse_lattice_spec(const JsonField& field, bool recorded) {
   LatticeSpec spec;
   if (field.is(JsonValue::Kind::kNull)) return spec;
-  field.only_keys({"cells", "kept", "padding"});
+  std::vector<std::string> keys = {"cells", "kept", "padding"};
+  if (recorded) keys.insert(keys.end(), {"fit", "smoothing"});
+  field.only_keys(keys);
+  if (recorded) parse_fit(field, spec);
   if (field.exactly_one_of({"cells", "kept"}) == "cells") {
     spec.kind = LatticeSpec::Kind::kCells;
     const JsonField cells = field.at("cells");

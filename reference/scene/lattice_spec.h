@@ -19,11 +19,14 @@ struct LatticeSpec {
   std::array<std::size_t, 3> cells = {};  ///< kCells: per axis
   std::size_t kept = 0;                   ///< kKept: wanted number of kept cells
   double padding = 0.0;                   ///< fraction of the largest side, on each side
+  bool fit = false;                       ///< to a recording
+  double smoothing = 0.0;                 ///< of the fit (lattice_fit.h)
 
   bool operator==(const LatticeSpec&) const = default;
 };
 
-LatticeSpec parse_lattice_spec(const JsonField& field);
+/// `recorded`: beside a recording, to which every lattice is fitted and has to say so.
+LatticeSpec parse_lattice_spec(const JsonField& field, bool recorded = false);
 
 /// @throws InputError when the mesh has a fatal defect
 std::shared_ptr<const BodyShape> build_shape(TriangleMesh mesh, const LatticeSpec& spec);

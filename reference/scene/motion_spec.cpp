@@ -13,6 +13,7 @@ namespace {
 // Far outside any real motion; keeps sums and products finite.
 constexpr NumberRange kTime = {0.0, false, 1e9, false};     // seconds
 constexpr NumberRange kLength = {-1e6, false, 1e6, false};  // metres
+constexpr NumberRange kPlace = {-1e7, false, 1e7, false};   // metres: apart from the largest body
 constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
 constexpr NumberRange kTaperAmount = {-100.0, false, 100.0, false};
 constexpr NumberRange kStretchAmount = {-1.0, true, 100.0, false};
@@ -67,14 +68,14 @@ bool all_numbers(const JsonValue& value) {
 // [x, y, z], or keys [[time, [x, y, z]], ...].
 std::array<Curve, 3> parse_position(const JsonField& field, bool smooth) {
   if (!field.is(JsonValue::Kind::kArray)) field.refuse("[x, y, z] or an array of keys");
-  if (all_numbers(field.value())) return constant_curves(field.vector(kLength));
+  if (all_numbers(field.value())) return constant_curves(field.vector(kPlace));
   std::array<Curve, 3> curves;
   for (Curve& curve : curves) curve.smooth = smooth;
   const std::vector<JsonField> keys = field.items(1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto [time_field, value] = key_parts(keys[i]);
     const double time = key_time(time_field, i, i > 0 ? curves[0].keys.back().time : 0.0);
-    const Vec3 position = value.vector(kLength);
+    const Vec3 position = value.vector(kPlace);
     for (int k = 0; k < 3; ++k) curves[k].keys.push_back({time, position[k]});
   }
   return curves;

@@ -22,7 +22,7 @@ bool Scene::judges(Level level) const {
 }
 
 std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
-  CONTACTCHECK_INVARIANT(scripted() || (simulation && time == 0.0),
+  CONTACTCHECK_INVARIANT(scripted() || ((simulation || sweep) && time == 0.0),
                          "a recording has frames, a simulation a start: neither has times");
   std::vector<std::vector<Vec3>> nodes;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -38,7 +38,7 @@ std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
   CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
   if (scripted()) return nodes_at(time_of(frame));
   if (pairs) return pairs->nodes(frame);
-  CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run");
+  CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run, a sweep placed");
   return recorded[frame];
 }
 

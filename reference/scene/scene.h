@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,6 +42,22 @@ struct CaseFamily {
   std::string stresses;             ///< what it is hard for
 };
 
+/// Poses of two bodies at given separations, over many orientations. Frames are ordered by
+/// separation, then orientation; reference/arrange (place_sweep) says what a separation is.
+struct SweepSpec {
+  std::vector<double> separations;  ///< of the scene's size, ascending; below 0: depths
+  std::size_t orientations = 64;
+  std::uint64_t seed = 1;
+};
+/// Of the scene's size: how far a separation may be from what it says.
+inline constexpr double kSweepTolerance = 1e-6;
+
+/// How far a lattice that was fitted to a recording is from it.
+struct FitError {
+  std::size_t body = 0;
+  std::vector<double> rms, max;  ///< per frame: of the distances of all vertices, metres
+};
+
 class RandomPairs;
 struct PairSpec;
 
@@ -53,22 +70,25 @@ struct Scene {
   double time_step = 0.0;       ///< seconds
   std::vector<Level> levels;    ///< to be judged; nothing else is computed
   std::vector<Motion> motions;  ///< per body; empty for a recording; simulated: the pose at time 0
-  /// Recorded nodes [frame][body]; empty for a scripted scene. Of a simulated scene, reference/run
-  /// (simulate) fills it before any frame is asked for.
+  /// Recorded nodes [frame][body]; empty for a scripted scene. A scene with recorded bodies has
+  /// them of all its bodies. Of a simulated scene, reference/run (simulate) fills it before any
+  /// frame is asked for; of a sweep reference/arrange does.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
   std::optional<SimulationSpec> simulation;  ///< simulated scenes only
+  std::optional<SweepSpec> sweep;            ///< sweeps only
+  std::vector<FitError> fits;                ///< bodies with a lattice fitted to a recording
   std::optional<CaseFamily> family;          ///< families of hard cases only; `recorded` has them
   std::shared_ptr<const RandomPairs> pairs;  ///< random pairs only: makes the frames
 
   /// Positions follow from the time alone.
-  bool scripted() const { return recorded.empty() && !simulation && !pairs; }
+  bool scripted() const { return recorded.empty() && !simulation && !sweep && !pairs; }
   /// Random pairs differ in scale from frame to frame: their lengths and distances do not add up.
   bool grades_lengths() const { return !pairs; }
-  /// Frames of families and random pairs are cases, not moments: there is no first contact.
-  bool follows_time() const { return !family && !pairs; }
+  /// Frames of families, sweeps and random pairs are cases, not moments: there is no first contact.
+  bool follows_time() const { return !family && !sweep && !pairs; }
   bool judges(Level level) const;
   double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
-  /// Lattice nodes of every body. @pre scripted(), or simulated and time 0: the start
+  /// Lattice nodes of every body. @pre scripted(), or simulated or a sweep and time 0: the start
   std::vector<std::vector<Vec3>> nodes_at(double time) const;
   /// Lattice nodes of every body at a frame, scripted, recorded or made. @pre a simulation has been
   /// run
@@ -82,6 +102,14 @@ struct Scene {
 /// family of hard cases has its own frames.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
+
+/// The text of a scene that lies in no file. Paths in it are relative to `folder`.
+struct SceneText {
+  std::string text;
+  std::string name;  ///< of the text, in messages: "scene file \"touch.json\""
+  std::filesystem::path folder;
+};
+Scene load_scene_text(const SceneText& document, std::size_t wanted_frames = 0);
 
 /// The scene `random-pairs` (random_pairs.h), judged at the levels body, cell and triangle.
 Scene make_pairs_scene(const PairSpec& spec);

@@ -14,8 +14,10 @@
 #include "reference/scene/lattice_spec.h"
 #include "reference/scene/mesh_spec.h"
 #include "reference/scene/motion_spec.h"
+#include "reference/scene/recorded_bodies.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulation_spec.h"
+#include "reference/scene/sweep_spec.h"
 
 namespace contactcheck {
 namespace {
@@ -61,8 +63,8 @@ class Workshop {
   std::deque<std::pair<MeshSpec, LoadedMesh>> loaded_;
 };
 
-void parse_times(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
-  const std::size_t frames = root.at("frames").whole(1, kMostFrames);
+void parse_times(const JsonField& root, std::size_t frames, std::size_t wanted_frames,
+                 Scene& scene) {
   const std::string key = root.exactly_one_of({"duration", "time_step"});
   const double value = root.at(key).number(kSeconds);
   const double duration = key == "duration" ? value : value * static_cast<double>(frames);
@@ -111,9 +113,11 @@ void add_copies(const JsonField& field, const std::string& name, const Workshop:
 }
 
 void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
-                Scene& scene) {
-  field.only_keys({"name", "copies", "mesh", "lattice", "motion", "material", "velocity"});
+                RecordedBodies& recorded, Scene& scene) {
+  field.only_keys(
+      {"name", "copies", "mesh", "lattice", "motion", "recording", "material", "velocity"});
   const std::string name = parse_body_name(field.at("name"), scene.bodies);
+  if (field.has("recording")) return recorded.add(field, name, folder, scene);
   const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
   const LatticeSpec lattice =
       field.has("lattice") ? parse_lattice_spec(field.at("lattice")) : LatticeSpec{};
@@ -123,34 +127,96 @@ void parse_body(const JsonField& field, const std::filesystem::path& folder, Wor
   add_body(field, name, made, mesh, std::move(motion), scene);
 }
 
+void parse_sweep_frames(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
+  for (const char* key : {"frames", "duration", "time_step", "simulation"})
+    if (root.has(key))
+      root.at(key).fail("is not allowed beside \"sweep\", which says what frames there are");
+  scene.sweep = parse_sweep(root.at("sweep"));
+  if (wanted_frames > 0)
+    throw InputError("--frames: scene " + in_quotes(scene.id) +
+                     " is a sweep, has a frame for every pose and cannot be given others");
+  scene.frames = scene.sweep->separations.size() * scene.sweep->orientations;
+  scene.time_step = 1.0;
+}
+
+// Two that have no motion of their own.
+void require_sweep_bodies(const JsonField& root, const Scene& scene) {
+  const std::vector<JsonField> bodies = root.at("bodies").items();
+  for (const JsonField& body : bodies)
+    for (const char* key : {"motion", "recording", "copies"})
+      if (body.has(key))
+        body.at(key).fail("is not allowed in a sweep, which moves the second body");
+  if (bodies.size() != 2)
+    root.at("bodies").refuse("an array of two, of which the sweep moves the second");
+  for (std::size_t b = 0; b < 2; ++b)
+    if (!(bounding_box(scene.bodies[b].shape->mesh.vertices).extent().maxCoeff() > 0.0))
+      bodies[b].at("mesh").fail("is a point, for which there is no separation");
+}
+
+// Before bodies are read: their recordings say how many frames there are.
+bool any_recording(const JsonField& root) {
+  const std::vector<JsonField> bodies = root.at("bodies").items(1);
+  return std::any_of(bodies.begin(), bodies.end(), [](const JsonField& body) {
+    return body.is(JsonValue::Kind::kObject) && body.has("recording");
+  });
+}
+
+// As many as are asked for, or as every recording has.
+std::size_t recorded_frames(const JsonField& root, std::size_t wanted_frames,
+                            const RecordedBodies& recorded, const Scene& scene) {
+  if (wanted_frames > 0)
+    throw InputError("--frames: scene " + in_quotes(scene.id) +
+                     " has recorded frames and cannot be given others");
+  if (!root.has("frames")) return recorded.available(kMostFrames).frames;
+  const std::size_t frames = root.at("frames").whole(1, kMostFrames);
+  const auto [available, body] = recorded.available(frames);
+  if (available < frames)
+    root.at("frames").refuse("at most " + std::to_string(available) +
+                             ", as many as the recording of body " +
+                             in_quotes(scene.bodies[body].name) + " has");
+  return frames;
+}
+
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
-  const std::string document = "scene file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
-  const JsonField root(value, document);
+Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
+  const JsonValue value = parse_json(document.text, document.name);
+  const JsonField root(value, document.name);
   if (root.has("parameter")) {
     if (wanted_frames > 0)
-      throw InputError("--frames: the family of cases " + in_quotes(file.string()) +
+      throw InputError("--frames: the family of cases in the " + document.name +
                        " has its own frames and cannot be given others");
-    return parse_family(root, file.parent_path());
+    return parse_family(root, document.folder);
   }
-  root.only_keys(
-      {"id", "title", "frames", "duration", "time_step", "simulation", "levels", "bodies"});
+  root.only_keys({"id", "title", "frames", "duration", "time_step", "simulation", "sweep", "levels",
+                  "bodies"});
   Scene scene;
   scene.id = parse_id(root.at("id"));
   scene.title = root.has("title") ? root.at("title").text() : scene.id;
-  if (root.has("simulation")) {
+  if (root.has("sweep")) {
+    parse_sweep_frames(root, wanted_frames, scene);
+  } else if (root.has("simulation")) {
     parse_simulated_times(root, wanted_frames, scene);
-  } else {
-    parse_times(root, wanted_frames, scene);
+  } else if (!any_recording(root)) {
+    parse_times(root, root.at("frames").whole(1, kMostFrames), wanted_frames, scene);
   }
   scene.levels = parse_levels(root.at("levels"));
   Workshop workshop;
+  RecordedBodies recorded;
   for (const JsonField& body : root.at("bodies").items(1)) {
-    parse_body(body, file.parent_path(), workshop, scene);
+    parse_body(body, document.folder, workshop, recorded, scene);
   }
+  if (scene.sweep) require_sweep_bodies(root, scene);
+  if (recorded.empty()) return scene;
+  parse_times(root, recorded_frames(root, wanted_frames, recorded, scene), 0, scene);
+  recorded.fill(scene);
   return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
+  return load_scene_text({read_file_bytes(file, "scene file"),
+                          "scene file " + in_quotes(file.string()), file.parent_path()},
+                         wanted_frames);
 }
 
 }  // namespace contactcheck

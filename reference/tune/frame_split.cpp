@@ -28,7 +28,10 @@ FrameSplit split_frames(const fs::path& file, std::size_t frames, const fs::path
     throw InputError("scene " + scene.id + " is simulated: `contactcheck run " + scene.id +
                      "` records its frames; tune for the recording");
   if (!scene.follows_time())
-    throw InputError("scene " + scene.id + " is a family of cases, of which none can be held out");
+    throw InputError("scene " + scene.id + ": its frames are cases, of which none can be held out");
+  if (frames > 0 && !scene.scripted())
+    throw InputError("--frames: scene " + scene.id +
+                     " has recorded frames; tune takes every other one of them");
   const std::size_t count = frames > 0 ? frames : std::min(scene.frames, kUsualFrames);
   if (count < kFewestFrames || scene.frames < kFewestFrames)
     throw InputError("scene " + scene.id +

@@ -1,5 +1,7 @@
 #include "reference/tune/lattice_variant.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -48,7 +50,7 @@ fs::path write_lattice_variant(const fs::path& file, double factor, const fs::pa
   Json scene = Json::parse(read_file_bytes(file, "scene file"), nullptr, false);
   if (!scene.is_object() || !scene.contains("bodies") || !scene.contains("id"))
     throw InputError(document + " is no scene whose lattices could be others");
-  const std::string percent = std::to_string(std::lround(100.0 * factor));
+  const std::string percent = fmt::format("{:g}", 100.0 * factor);
   const std::string id = scene["id"].get<std::string>() + "-lattice-" + percent;
   scene["id"] = id;
   for (Json& body : scene["bodies"]) {

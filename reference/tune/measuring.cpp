@@ -103,7 +103,8 @@ SceneTask Measuring::task_of(double lattice, const std::vector<std::size_t>& bat
   if (!anchor_.empty()) add(anchor_);
   for (const std::size_t i : batch)
     if (candidates_[i].lattice == lattice) add(candidates_[i].detector);
-  task.references = anchor_.empty() ? task.detectors : std::vector<std::string>{anchor_};
+  // As long as none has answered, any of them may become what costs are taken against.
+  task.references = anchor_ms_ > 0.0 ? std::vector<std::string>{anchor_} : task.detectors;
   task.frames = load_any_scene(task.file, request_.settings.frames).frames;
   return task;
 }

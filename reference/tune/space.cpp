@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "core/types/check.h"
 
@@ -34,6 +35,14 @@ std::vector<std::string> values_of(const OptionInfo& option) {
 
 bool is_the_machines(const OptionInfo& option) {
   return option.name == "isa" || option.name == "threads";
+}
+
+// The options that a name sets, to their defaults or not. @pre the catalogue has parsed it
+std::set<std::string> given_in(const std::string& name) {
+  std::set<std::string> given;
+  for (std::size_t at = name.find(':'); at != std::string::npos; at = name.find(',', at + 1))
+    given.insert(name.substr(at + 1, name.find('=', at) - at - 1));
+  return given;
 }
 
 bool answers(const DetectorCatalog& catalog, const DetectorSpec& spec, Question question) {
@@ -69,6 +78,7 @@ class Space {
                          name_of(request_.question) + "\"");
       return;
     }
+    given_ = given_in(name);
     vary(info, spec, 0);
   }
 
@@ -76,8 +86,7 @@ class Space {
   void vary(const DetectorInfo& info, const DetectorSpec& spec, std::size_t option) {
     if (option == info.options.size()) return add_lattices(info, spec);
     const OptionInfo& o = info.options[option];
-    if (is_the_machines(o) || spec.options.at(o.name) != o.default_value)
-      return vary(info, spec, option + 1);
+    if (is_the_machines(o) || given_.contains(o.name)) return vary(info, spec, option + 1);
     for (const std::string& value : values_of(o)) {
       DetectorSpec varied = spec;
       varied.options[o.name] = value;
@@ -107,6 +116,7 @@ class Space {
 
   const DetectorCatalog& catalog_;
   const SpaceRequest& request_;
+  std::set<std::string> given_;  ///< of the name that is varied
   std::vector<Candidate> candidates_;
 };
 

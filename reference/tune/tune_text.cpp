@@ -116,10 +116,16 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request) {
   return text;
 }
 
-std::string command_of(const Tuning& tuning) {
+std::string command_of(const Tuning& tuning, const TuningRequest& request) {
   if (!tuning.chosen) return "";
-  return fmt::format("contactcheck run {} --detector {}", tuning.chosen_scene,
-                     tuning.candidates[tuning.confirmed[*tuning.chosen].candidate].detector);
+  const std::string& name = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate].detector;
+  const std::string id = name.substr(0, name.find(':'));
+  std::string words = "contactcheck run " + tuning.chosen_scene;
+  if (const auto own = request.commands.find(id); own != request.commands.end())
+    words += " --detector-cmd \"" + own->second + "\"";
+  const auto library = request.libraries.find(id);
+  return words + " --detector " +
+         (library == request.libraries.end() ? name : library->second + name.substr(id.size()));
 }
 
 }  // namespace
@@ -132,14 +138,14 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
     text += fmt::format("On {} held-out frames\n", tuning.held_out_frames) +
             aligned(rows_of(tuning.confirmed, tuning.candidates)) + "\n";
   text += verdict(tuning, request);
-  const std::string command = command_of(tuning);
+  const std::string command = command_of(tuning, request);
   return command.empty() ? text : text + "  " + command + "\n";
 }
 
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
   std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
                      ".\n\n" + verdict(tuning, request);
-  const std::string command = command_of(tuning);
+  const std::string command = command_of(tuning, request);
   if (!command.empty()) text += "\n    " + command + "\n";
   text += "\n## Pareto front\n\n" + markdown(rows_of(front_of(tuning), tuning.candidates));
   if (!tuning.confirmed.empty())

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -29,6 +30,8 @@ struct TuningRequest {
   std::filesystem::path executable;
   KnownDefects known_defects;
   std::string command;  ///< for the record
+  /// Of detectors from outside, by id: the library's file, or the command.
+  std::map<std::string, std::string> libraries, commands;
 };
 
 /// What the search knows at any moment, for a person who waits.

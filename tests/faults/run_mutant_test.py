@@ -36,6 +36,14 @@ class Driver(unittest.TestCase):
         self.assertEqual(code, run_mutant.SURVIVED, text)
         self.assertIn("survived", text)
 
+    def test_detector_that_is_slower_alone_survives(self):
+        patches = sorted((run_mutant.MUTANTS.parent / "slow").glob("*.patch"))
+        self.assertTrue(patches)
+        for patch in patches:
+            with self.subTest(patch=patch.name):
+                code, text = self.exit_code_and_text(patch.read_text(encoding="utf-8"))
+                self.assertEqual(code, run_mutant.SURVIVED, text)
+
     def test_change_of_lines_that_are_not_there_does_not_apply(self):
         hunk = HEAD + "@@ -1,1 +1,1 @@\n-no such line\n+another\n"
         code, text = self.exit_code_and_text(ABOUT + hunk)

@@ -21,7 +21,10 @@ struct Surroundings {
   Scratch folder;
   Environment no_data{"CONTACTCHECK_DATA", folder.folder().string()};
 
-  Surroundings() { folder.write("tetrahedron.off", kMesh); }
+  Surroundings() {
+    for (const char* name : {"tetrahedron.off", "frame_1.off", "frame_2.off"})
+      folder.write(name, kMesh);
+  }
 };
 
 const Scratch& scratch() {
@@ -38,7 +41,8 @@ bool small_number(const std::string& key, double value) {
 }
 
 bool own_file(const std::string& key, const std::string& text) {
-  return key != "file" || (text.find('/') == std::string::npos && text != "scene.json");
+  const bool path = key == "file" || key == "frames" || key == "cache";
+  return !path || (text.find('/') == std::string::npos && text != "scene.json");
 }
 
 bool harmless(const JsonValue& value, const std::string& key = "") {
@@ -59,11 +63,20 @@ bool harmless_text(const std::string& text) {
   }
 }
 
-void check_nodes(const Scene& scene, double time) {
-  const auto nodes = scene.nodes_at(time);
+void check_nodes(const Scene& scene, const std::vector<std::vector<Vec3>>& nodes) {
   require(nodes.size() == scene.bodies.size(), "there are nodes for every body");
   for (std::size_t b = 0; b < nodes.size(); ++b)
     require(nodes[b].size() == scene.bodies[b].shape->node_count(), "every node has a position");
+}
+
+void check_nodes(const Scene& scene, double time) { check_nodes(scene, scene.nodes_at(time)); }
+
+void check_recorded(const Scene& scene) {
+  require(scene.recorded.size() == scene.frames, "every frame is recorded");
+  for (const auto& nodes : scene.recorded) check_nodes(scene, nodes);
+  for (const FitError& fit : scene.fits)
+    require(fit.rms.size() == scene.frames && fit.max.size() == scene.frames,
+            "a fit has an error for every frame");
 }
 
 void check_promises(const Scene& scene) {
@@ -73,6 +86,7 @@ void check_promises(const Scene& scene) {
   require(scene.motions.size() == scene.bodies.size(), "every body has a motion");
   for (const Body& body : scene.bodies)
     require(!body.shape->topology.fatal, "no body has a fatal defect");
+  if (!scene.recorded.empty()) return check_recorded(scene);
   check_nodes(scene, 0.0);
   if (!scene.scripted()) return;
   check_nodes(scene, scene.time_of(scene.frames / 2));

@@ -51,6 +51,30 @@ BadCommand run_with(const std::string& name, const Words& words, const Words& na
 }
 
 INSTANTIATE_TEST_SUITE_P(
+    Shard, BadFlag,
+    testing::Values(run_with("Empty", {"--shard", ""}, {"--shard \"\"", "2/3"}),
+                    run_with("OneNumber", {"--shard", "2"}, {"--shard \"2\"", "K/N"}),
+                    run_with("Zero", {"--shard", "0/2"}, {"--shard \"0/2\""}),
+                    run_with("BeyondTheLast", {"--shard", "3/2"}, {"--shard \"3/2\""}),
+                    run_with("Negative", {"--shard=-1/2"}, {"--shard \"-1/2\""}),
+                    run_with("Words", {"--shard", "one/two"}, {"--shard \"one/two\""}),
+                    run_with("NotANumber", {"--shard", "nan/nan"}, {"--shard \"nan/nan\""}),
+                    run_with("Twice", {"--shard", "1/1", "--shard", "1/1"}, {"--shard"}),
+                    run_with("WithoutAValue", {"--shard"}, {"--shard"}),
+                    run_with("MoreThanScenes", {"--shard", "2/2"},
+                             {"--shard 2/2", "this run has 1 scene,"}),
+                    BadCommand{"OfReproduce", {"reproduce", "--shard", "1/1"}, {"--shard"}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
+    Merge, BadFlag,
+    testing::Values(BadCommand{"WithoutResults", {"merge"}, {"results"}},
+                    BadCommand{"NoFile", {"merge", "DIR/none.json"}, {"DIR/none.json"}},
+                    BadCommand{"Folder", {"merge", "DIR"}, {"DIR"}},
+                    BadCommand{"AScene", {"merge", "DIR/tiny.json"}, {"DIR/tiny.json", "schema"}}),
+    named);
+
+INSTANTIATE_TEST_SUITE_P(
     Frames, BadFlag,
     testing::Values(run_with("Fraction", {"--frames", "1.5"}, {"--frames", "1.5"}),
                     run_with("Exponent", {"--frames", "1e3"}, {"--frames", "1e3"}),

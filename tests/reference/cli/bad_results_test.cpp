@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
     Fields, BadResultsField,
     testing::Values(
         BadField{"NoRuns", "/runs", kRemoved, {"runs is missing"}},
-        BadField{"NoScenes", "/scenes", kRemoved, {"'scenes'"}},
+        BadField{"NoScenes", "/scenes", kRemoved, {"scenes is missing"}},
         BadField{"NoMachine", "/machine", kRemoved, {"machine is missing"}},
         BadField{"NoDisagreements", "/disagreements", kRemoved, {"disagreements is missing"}},
         BadField{"RunsAsNumber", "/runs", 5, {"runs is 5; it must be of type array"}},

@@ -74,8 +74,9 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 }
 
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command : {"", "run", "reproduce", "reduce", "export", "list", "report",
-                                    "truth", "defects", "diff", "gate", "accept", "ab", "tune"}) {
+  for (const std::string command :
+       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects", "diff",
+        "gate", "accept", "ab", "tune", "merge"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);
@@ -88,9 +89,9 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
 
 TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
-  for (const char* flag :
-       {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet", "--no-timing",
-        "--closed-loop", "--call-limit SECONDS", "--memory-limit MIB", "--json-lines"})
+  for (const char* flag : {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet",
+                           "--no-timing", "--closed-loop", "--call-limit SECONDS",
+                           "--memory-limit MIB", "--json-lines", "--shard K/N"})
     EXPECT_THAT(help.out, HasSubstr(flag));
 }
 

@@ -33,6 +33,28 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
 }
 
+TEST(ReportCommand, DrawsSpeedAgainstErrorAsTheRunDoes) {
+  const test::Scratch scratch;
+  const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
+  const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
+  ASSERT_EQ(contactcheck_program({"run", scene, "--detector", "fcl-aabb", "--detector", "ffd-aabb",
+                                  "--quiet", "--repeat", "1", "--out", out})
+                .exit_code,
+            0);
+  ASSERT_EQ(contactcheck_program({"report", out / "results.json", "--format", "md", "--out", again})
+                .exit_code,
+            0);
+  const fs::path picture = fs::path("plots") / "speed_error.svg";
+  EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-aabb: "));
+  EXPECT_EQ(text_of(again / picture), text_of(out / picture));
+  const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
+                                        {"-c",
+                                         "import sys, xml.dom.minidom as dom\n"
+                                         "print(dom.parse(sys.argv[1]).documentElement.tagName)",
+                                         (out / picture).string()});
+  EXPECT_EQ(xml.out, "svg\n") << xml.err;
+}
+
 // What the page holds for its 3D view, packed.
 std::string view_in(const fs::path& page) {
   const std::string text = text_of(page), before = R"(id="contactcheck-view" type="text/plain">)";

@@ -45,7 +45,8 @@ class ClosedLoopCommand : public testing::Test {
     last_ = contactcheck_program(arguments);
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const Outcome valid = test::run_program(
-        CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, (out() / "results.json").string()});
+        CONTACTCHECK_PYTHON,
+        {"-B", CONTACTCHECK_VALIDATOR, "--described", (out() / "results.json").string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return json::parse(text_of(out() / "results.json"));
   }

@@ -60,8 +60,8 @@ class RunCommand : public testing::Test {
     last_ = contactcheck_program(arguments);
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const fs::path file = scratch_.folder() / name / "results.json";
-    const Outcome valid =
-        test::run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, file.string()});
+    const Outcome valid = test::run_program(
+        CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, "--described", file.string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return json::parse(text_of(file));
   }
@@ -112,11 +112,32 @@ TEST_F(RunCommand, ContactsOneByOneAddUpToTheCountsOfTheResults) {
   EXPECT_GT(differences, 0u) << "a scene in which nobody errs shows nothing";
 }
 
-TEST_F(RunCommand, CasesThatAreNoMomentsHaveNoContactsToShow) {
+TEST_F(RunCommand, FamiliesHaveContactsToShowAndRandomPairsNone) {
   const json results =
       run("out", {"hard-boxes-gap", "--pairs", "600", "--no-timing", "--detector", "ffd-grid"});
-  for (const json& scene : results.at("scenes")) EXPECT_FALSE(scene.contains("contacts"));
-  EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre());
+  EXPECT_THAT(names_in(scratch_.folder() / "out" / "contacts"), ElementsAre("hard-boxes-gap.json"));
+  const json contacts =
+      json::parse(text_of(scratch_.folder() / "out" / "contacts" / "hard-boxes-gap.json"));
+  std::vector<json> spurious;
+  for (const json& frame : contacts.at("detectors").at(0).at("frames"))
+    spurious.push_back(frame.at("spurious"));
+  EXPECT_GT(sum_of(spurious), 0u);
+  EXPECT_EQ(sum_of(spurious),
+            results.at("runs").at(0).at("levels").at("cell").at("spurious").get<std::size_t>());
+  for (const json& scene : results.at("scenes"))
+    EXPECT_EQ(scene.contains("contacts"), !scene.contains("pairs")) << scene.at("id");
+}
+
+// Episodes, distances and times belong to motions.
+TEST_F(RunCommand, SeparationIsZeroInContactFramesAlone) {
+  const json results =
+      run("out", {scene_, "hard-boxes-gap", "--no-timing", "--detector", "ffd-grid"});
+  const json& scene = results.at("scenes").at(0);
+  const auto separation = scene.at("separation").get<std::vector<double>>();
+  ASSERT_EQ(separation.size(), 5u);
+  EXPECT_EQ(std::count(separation.begin(), separation.end(), 0.0), scene.at("contact_frames"));
+  EXPECT_NEAR(separation.front(), 0.3, 1e-8) << "the boxes are 0.3 m apart along x at first";
+  EXPECT_FALSE(results.at("scenes").at(1).contains("separation"));
 }
 
 TEST_F(RunCommand, RandomPairsAloneAreOneSceneThatNamesCountAndSeed) {

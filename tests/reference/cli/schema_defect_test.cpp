@@ -63,6 +63,12 @@ TEST(SchemaDefect, WhatAConditionAsksFor) {
   EXPECT_EQ(schema_defect(schema(), results), "runs[0].contact_hash is missing");
 }
 
+TEST(SchemaDefect, MemberThatAnotherOneAsksFor) {
+  Json results = read(CONTACTCHECK_EXAMPLE_RESULTS);
+  results["goals"][0].erase("high");
+  EXPECT_EQ(schema_defect(schema(), results), "goals[0].high is missing beside low");
+}
+
 TEST(SchemaDefect, AlternativesSayWhatTheFirstSays) {
   EXPECT_EQ(defect_with("/runs/0/geometry/missed_length", "long"),
             "runs[0].geometry.missed_length is \"long\"; it must be of type number");

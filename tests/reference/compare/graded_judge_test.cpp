@@ -12,6 +12,7 @@ namespace {
 
 using test::FrameData;
 using testing::DoubleNear;
+using testing::ElementsAre;
 using testing::Optional;
 
 constexpr double kClose = 1e-9;
@@ -62,6 +63,10 @@ ContactSet contact(double depth, const Vec3& normal) {
   answer.triangles = {{0, 1, 0, 0}};
   answer.piece_contacts = {{{0, 1, 0, 0}, depth, normal}};
   return answer;
+}
+
+MATCHER_P2(IsBin, from, below, "holds one error") {
+  return arg.from == from && arg.below == below && arg.count == 1;
 }
 
 TEST(SpreadOf, IsMaxMeanAndNearestRank) {
@@ -142,6 +147,16 @@ TEST(GradedJudge, DepthAndNormalOfPiecesAreHeldAgainstTheShortestWayApart) {
   EXPECT_EQ(bad.depth.judged, 2u);
   EXPECT_THAT(bad.depth.max, Optional(DoubleNear(0.375, kClose)));
   EXPECT_THAT(bad.normal_deg.max, Optional(DoubleNear(45.0, 1e-6)));
+}
+
+TEST(GradedJudge, EveryErrorCountsInItsHistogram) {
+  Graded graded(crossing(), of_triangles());
+  graded.of(truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 2).normalized()));
+  // The second frame's truth is empty: there the pair, whose triangles cross, is spurious, too.
+  const GradedErrors errors = graded.of(Truth{}, {}, contact(0.25, Vec3::UnitZ()));
+  EXPECT_THAT(errors.depth.histogram, ElementsAre(IsBin(0.1, 0.2), IsBin(0.2, 0.5)));
+  EXPECT_THAT(errors.normal_deg.histogram, ElementsAre(IsBin(0.0, 5.0), IsBin(25.0, 30.0)));
+  EXPECT_THAT(errors.spurious_distances, ElementsAre(IsBin(0.0, 1e-12)));
 }
 
 TEST(GradedJudge, OfSeveralContactsOfAPairTheDeepestCounts) {

@@ -26,7 +26,7 @@ RunResult hand_built() {
   run.not_judged[Level::kContainment] = "not judged: open";
   run.graded.missed_length = 0.125;
   run.graded.covered_length_fraction = 0.75;
-  run.graded.depth = {4, 0.5, 0.25, 0.375};
+  run.graded.depth = {4, 0.5, 0.25, 0.375, {{0.125, 0.25, 3}, {0.5, 1.0, 1}}};
   Episode episode;
   episode.bodies = {0, 1};
   episode.first_true = 1;
@@ -133,15 +133,29 @@ TEST(RunResultJson, IsThisText) {
   "missed_length": 0.125,
   "covered_length_fraction": 0.75,
   "spurious_distance_max": null,
+  "spurious_distance_histogram": [],
   "depth_kind": "none",
   "depth_judged": 4,
   "depth_error_max": 0.5,
   "depth_error_mean": 0.25,
   "depth_error_p95": 0.375,
+  "depth_error_histogram": [
+   {
+    "from": 0.125,
+    "below": 0.25,
+    "count": 3
+   },
+   {
+    "from": 0.5,
+    "below": 1.0,
+    "count": 1
+   }
+  ],
   "normal_judged": 0,
   "normal_error_deg_max": null,
   "normal_error_deg_mean": null,
   "normal_error_deg_p95": null,
+  "normal_error_deg_histogram": [],
   "hover_gap_max": 0.25,
   "late_frames": -1,
   "episodes": [

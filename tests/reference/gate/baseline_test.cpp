@@ -29,6 +29,16 @@ TEST(Baseline, KeepsWhatAGateComparesAndPointsAtNoFile) {
   EXPECT_EQ(row_of(baseline, "touch", "lost"), sample_results().at("runs")[5]);
 }
 
+TEST(Baseline, LeavesOutWhatOnlyChartsShow) {
+  Json results = sample_results();
+  results["scenes"][0]["separation"] = {0.5, 0.0};
+  Json& geometry = results["runs"][0]["geometry"];
+  for (const char* key :
+       {"depth_error_histogram", "normal_error_deg_histogram", "spurious_distance_histogram"})
+    geometry[key] = Json::array({{{"from", 0.0}, {"below", 1.0}, {"count", 1}}});
+  EXPECT_EQ(baseline_of(results), baseline_of(sample_results()));
+}
+
 TEST(Baseline, IsWrittenWithALinePerRow) {
   const Json baseline = baseline_of(sample_results());
   const std::string text = baseline_text(baseline);

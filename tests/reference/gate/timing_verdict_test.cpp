@@ -199,5 +199,21 @@ TEST(Slowdown, OfAnotherMeasurementCannotBeJudged) {
   }
 }
 
+// The reference, which is slow, had time for fewer frames in one of the two runs.
+TEST(Slowdown, OverOtherFramesOfTheReferenceCannotBeJudged) {
+  const auto with_reference_timed = [](Json results, int frames) {
+    row_of(results, "touch", "ref")["time_ms"]["timed_frames"] = frames;
+    return results;
+  };
+  const Json baseline = with_reference_timed(sample_results(), 6);
+  const Check check =
+      check_of("exact", slowdown("1.1"), with_reference_timed(slower(1.3), 7), &baseline);
+  EXPECT_EQ(check.verdict, Verdict::kCannotJudge);
+  EXPECT_EQ(check.reason, "7 frames of ref are timed here and 6 in the baseline");
+  EXPECT_EQ(
+      check_of("exact", slowdown("1.1"), with_reference_timed(slower(1.3), 6), &baseline).verdict,
+      Verdict::kFail);
+}
+
 }  // namespace
 }  // namespace contactcheck

@@ -33,6 +33,19 @@ Sums over scenes; speed-ups are the smallest and the largest of any scene.
 | embree | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - |
 | ffd-grid | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - |
 
+## Speed against error
+
+![Every detector as a point: time per frame against share of errors](plots/speed_error.svg)
+
+Over scene hello. A time is that of mapping, update and query with cold caches, the mean over all frames. An error is the share of contacts missed or of reports spurious, whichever is worse, at the finest level that a detector claims. On the front: no other that answers the same question is faster without being worse.
+
+| detector | question timed | ms/frame | level | truth | missed | reported | spurious | error | on the front |
+|---|---|--:|---|--:|--:|--:|--:|--:|---|
+| fcl-aabb | triangles | 2.00 | triangle | 200000 | 0 | 200000 | 0 | 0 | yes |
+| ffd-aabb-sphere2+tri | triangles | 0.500 | triangle | 200000 | 1 | 200001 | 2 | 0.00001 | yes |
+
+Not in the chart: fcl-obbrss, embree, ffd-grid (ended well in 0 of 1 scenes).
+
 ## What the results say
 
 ### ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`

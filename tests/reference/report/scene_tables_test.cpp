@@ -122,6 +122,17 @@ TEST(BulletFindings, CountTheVerticesInsideThatAreReported) {
               HasSubstr("| hello | 2.00 | 40 | 4 | 5 |"));
 }
 
+TEST(BulletFindings, SayWhyNormalsAreTurned) {
+  Json run = near_run();
+  EXPECT_THAT(bullet_findings(results_of({run})), HasSubstr("| hello | 3 | - | 90.0 | 180 |"));
+  run["geometry"]["normal_error_deg_histogram"] = {
+      {{"from", 0.0}, {"below", 5.0}, {"count", 1}},
+      {{"from", 175.0}, {"below", 180.0}, {"count", 2}}};
+  EXPECT_THAT(bullet_findings(results_of({run})), HasSubstr("| hello | 3 | 2 | 90.0 | 180 |"));
+  run["geometry"]["normal_error_deg_max"] = 12.0;
+  EXPECT_THAT(bullet_findings(results_of({run})), Not(HasSubstr("normals turn")));
+}
+
 TEST(BulletFindings, NameTheFalseContactsOfClusters) {
   EXPECT_THAT(bullet_findings(results_of({renamed(near_run(), "bullet-cl:k=256")})),
               HasSubstr("| hello | bullet-cl:k=256 | 10 | 0 | 0 |"));

@@ -66,7 +66,8 @@ TEST(StabilityPlot, TakesNoMarkupFromResults) {
 
 TEST(ReportFiles, AreTheReportAndItsPictures) {
   EXPECT_THAT(report_files(hard_results()),
-              UnorderedElementsAre(Key("report.md"), Key("plots/one.svg"), Key("plots/two.svg")));
+              UnorderedElementsAre(Key("report.md"), Key("plots/one.svg"), Key("plots/two.svg"),
+                                   Key("plots/speed_error.svg")));
   EXPECT_THAT(report_files(hard_results()).at("report.md"), HasSubstr("](plots/one.svg)"));
 }
 

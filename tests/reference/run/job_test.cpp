@@ -19,6 +19,7 @@ using testing::HasSubstr;
 Job full_job() {
   Job job;
   job.scene_file = "/a folder/scene \"x\".json";
+  job.text = SceneText{"{\"id\": \"x\"}", "the scene \"x\"", "/a folder"};
   job.settings.detectors = {"fcl-aabb", "ffd-aabb:bounds=safe"};
   job.settings.frames = 7;
   job.settings.repeats = 9;
@@ -46,6 +47,10 @@ TEST(Job, ReadsBackAsItWasWritten) {
   write_job(scratch.folder() / "job", out);
   const Job in = read_job(scratch.folder() / "job");
   EXPECT_EQ(in.scene_file, out.scene_file);
+  ASSERT_TRUE(in.text);
+  EXPECT_EQ(in.text->text, out.text->text);
+  EXPECT_EQ(in.text->name, out.text->name);
+  EXPECT_EQ(in.text->folder, out.text->folder);
   EXPECT_EQ(in.settings.detectors, out.settings.detectors);
   EXPECT_EQ(in.settings.frames, 7u);
   EXPECT_EQ(in.settings.repeats, 9u);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Checks results.json files: validate_results.py RESULTS...
+"""Checks results.json files: validate_results.py [--described] RESULTS...
 
 First against fixtures/results.schema.json, then what a schema cannot state: sums, rates, lengths
-and references. Prints one line per error (file, place, what). Exit code: 0 all valid, 1 any error,
-2 bad usage or a file that cannot be read as JSON.
+and references. Fields may be added to results; with --described one that the schema does not
+describe is an error. Prints one line per error (file, place, what). Exit code: 0 all valid, 1 any
+error, 2 bad usage or a file that cannot be read as JSON.
 """
 
 import json
@@ -51,6 +52,18 @@ def load(path):
         raise UnreadableFile(f"{path}: {error}") from error
 
 
+def closed(schema):
+    """The schema that takes no field of an object but those that it describes."""
+    if isinstance(schema, list):
+        return [closed(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    out = {key: closed(part) for key, part in schema.items()}
+    if out.get("type") == "object" and "properties" in out:
+        out.setdefault("additionalProperties", False)
+    return out
+
+
 def schema_errors(results, schema):
     """(place, message) of every violation, in the order of places."""
     validator = Draft202012Validator(schema)
@@ -86,8 +99,12 @@ def per_frame_errors(place, run):
         values = per_frame.get(name)
         if values is not None and len(values) not in (0, run["frames"]):
             yield f"{place}/{name}", f"has {len(values)} entries for {run['frames']} frames"
-    level = run["levels"].get(per_frame.get("level"))
+    finest = per_frame.get("level", "")
+    if not finest:
+        return
+    level = run["levels"].get(finest)
     if level is None:
+        yield f"{place}/level", f"{finest} is not among the levels"
         return
     for name in ("truth", "missed", "spurious"):
         if sum(per_frame[name]) != level[name]:
@@ -107,6 +124,48 @@ def geometry_errors(place, geometry):
             yield f"{place}/{stem}_max", f"is null though {geometry[count]} were judged"
         elif max(values[0], values[1]) > values[2] * (1 + RATE_TOLERANCE):
             yield f"{place}/{stem}_max", "is below the mean or the 95th percentile"
+
+
+def not_judged_errors(place, run):
+    for name in run.get("not_judged", {}):
+        if name in run["levels"]:
+            yield f"{place}/{name}", "is among the levels, so it was judged"
+
+
+def time_errors(place, run):
+    """Of the detector's own question and of the others, each of which stands once."""
+    others = enumerate(run.get("time_ms_other_questions", []))
+    seen = set()
+    for name, times in [("time_ms", run["time_ms"]),
+                        *((f"time_ms_other_questions/{i}", times) for i, times in others)]:
+        timed = times.get("timed_frames", 0)
+        if timed > run["frames"]:
+            yield f"{place}/{name}/timed_frames", f"exceeds the run's {run['frames']} frames"
+        if times.get("timed_contact_frames", 0) > timed:
+            yield f"{place}/{name}/timed_contact_frames", f"exceeds the {timed} timed frames"
+        if times.get("question") in seen:
+            yield f"{place}/{name}/question", f"{times['question']} is timed twice"
+        seen.add(times.get("question"))
+
+
+def histogram_errors(place, run):
+    """Every error counts once, in bins that do not overlap."""
+    geometry = run["geometry"]
+    # Distances are those of claimed pairs of triangles, and not of scenes that grade no lengths.
+    graded = geometry["spurious_distance_max"] is not None
+    spurious = run["levels"].get("triangle", {}).get("spurious") if graded else None
+    for name, whole in (("depth_error_histogram", geometry.get("depth_judged")),
+                        ("normal_error_deg_histogram", geometry.get("normal_judged")),
+                        ("spurious_distance_histogram", spurious)):
+        bins = geometry.get(name)
+        if bins is None or whole is None:
+            continue
+        edges = [edge for one in bins for edge in (one["from"], one["below"])]
+        if edges != sorted(edges) or any(one["from"] == one["below"] for one in bins):
+            yield f"{place}/{name}", "has bins out of order"
+        total = sum(one["count"] for one in bins)
+        if total != whole:
+            yield f"{place}/{name}", f"adds up to {total}, not {whole}"
 
 
 def informative_errors(place, run):
@@ -168,14 +227,15 @@ def run_errors(place, run):
             yield from level_errors(f"{place}/{levels}/{name}", level)
     yield from informative_errors(place, run)
     yield from geometry_errors(f"{place}/geometry", run["geometry"])
+    yield from histogram_errors(f"{place}/geometry", run)
     yield from per_frame_errors(f"{place}/per_frame", run)
     yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
     if "closed_loop" in run:
         yield from closed_loop_errors(f"{place}/closed_loop", run["closed_loop"])
     if "step_ms" in run:
         yield from step_errors(f"{place}/step_ms", run["step_ms"])
-    if run["time_ms"].get("timed_frames", 0) > run["frames"]:
-        yield f"{place}/time_ms/timed_frames", f"exceeds the run's {run['frames']} frames"
+    yield from not_judged_errors(f"{place}/not_judged", run)
+    yield from time_errors(place, run)
 
 
 def goal_errors(place, goal):
@@ -214,10 +274,35 @@ def contradicts_the_oracle(results, disagreement):
 def contacts_errors(place, scene):
     if "contacts" not in scene:
         return
-    if "family" in scene or "pairs" in scene:
-        yield place, "frames that are cases have no file of contacts"
+    if "pairs" in scene:
+        yield place, "random pairs have no file of contacts"
     elif scene["contacts"] != f"contacts/{scene['id']}.json":
         yield place, f"is {scene['contacts']}, not contacts/{scene['id']}.json"
+
+
+def separation_errors(place, scene):
+    """One distance per frame, 0 in contact frames alone."""
+    distances = scene.get("separation")
+    if distances is None:
+        return
+    if "family" in scene or "pairs" in scene:
+        yield place, "frames that are cases have no separation"
+    elif len(distances) != scene["frames"]:
+        yield place, f"has {len(distances)} entries for {scene['frames']} frames"
+    elif distances.count(0) != scene["contact_frames"]:
+        yield place, f"is 0 in {distances.count(0)} of {scene['contact_frames']} contact frames"
+
+
+def frames_errors(place, scene):
+    """A sweep has a frame per pose, a fit an error per frame."""
+    frames, sweep = scene["frames"], scene.get("sweep")
+    if sweep and len(sweep["separations"]) * sweep["orientations"] != frames:
+        yield f"{place}/sweep", f"has other poses than the scene's {frames} frames"
+    for number, fit in enumerate(scene.get("fits", [])):
+        if len(fit["rms"]) != frames or len(fit["max"]) != frames:
+            yield f"{place}/fits/{number}", f"has no error for each of {frames} frames"
+        elif any(rms > most * (1 + 1e-12) for rms, most in zip(fit["rms"], fit["max"])):
+            yield f"{place}/fits/{number}/rms", "exceeds the largest distance"
 
 
 def consistency_errors(results):
@@ -235,7 +320,9 @@ def consistency_errors(results):
     for number, scene in enumerate(results.get("scenes", [])):
         if "pairs" in scene:
             yield from pairs_errors(f"/scenes/{number}/pairs", scene["pairs"])
+        yield from frames_errors(f"/scenes/{number}", scene)
         yield from contacts_errors(f"/scenes/{number}/contacts", scene)
+        yield from separation_errors(f"/scenes/{number}/separation", scene)
     scenes = {scene for scene, _ in runs}
     for number, scene in enumerate(results.get("resumed", [])):
         if scene not in scenes:
@@ -260,13 +347,16 @@ def one_line(text):
     return text if len(text) <= LONGEST_MESSAGE else text[:LONGEST_MESSAGE] + " ..."
 
 
-def main(paths):
+def main(words):
+    paths = [word for word in words if word != "--described"]
     if not paths or paths[0] in ("-h", "--help"):
         print(__doc__.strip())
         return 0 if paths else 2
     any_error = False
     try:
         schema = load(SCHEMA_FILE)
+        if "--described" in words:
+            schema = closed(schema)
         for path in paths:
             for place, message in errors_of(load(path), schema):
                 any_error = True

@@ -42,6 +42,11 @@ MUTATIONS = [
     ("runs/0/per_frame/missed/1", None, "is not of type 'integer'"),
     ("runs/0/per_frame/missed/1", 2, "adds up to 2, not 1"),
     ("runs/0/per_frame/truth", [4, 6], "has 2 entries for 3 frames"),
+    ("runs/0/per_frame/level", "cells", "is not valid"),
+    ("runs/0/per_frame/level", "triangle", "triangle is not among the levels"),
+    ("runs/0/not_judged/cell", "open", "is among the levels"),
+    ("runs/0/not_judged/vertex", "", "'' "),
+    ("runs/0/not_judged/edge", "open", "is not one of"),
     ("runs/0/levels", REMOVED, "'levels' is a required property"),
     ("runs/0/levels/triangles", {}, "is not one of"),
     ("runs/0/levels/body/recall", 1.5, "greater than the maximum"),
@@ -56,6 +61,8 @@ MUTATIONS = [
     ("runs/1/levels/near/margin", REMOVED, "'margin' is a required property"),
     ("runs/1/levels_rounded/near/truth", 1, "is not truth 1"),
     ("runs/0/geometry/late_frames", 0.5, "is not of type"),
+    ("runs/0/geometry/episodes/0/late_frames", REMOVED, "'late_frames' is a required property"),
+    ("runs/0/geometry/episodes/0/hover_gap", -0.002, "is not valid"),
     ("runs/0/geometry/depth_kind", "deep", "is not one of"),
     ("runs/0/geometry/covered_length_fraction", 1.01, "greater than the maximum"),
     ("runs/0/geometry/hover_gap_max", REMOVED, "'hover_gap_max' is a required property"),
@@ -68,6 +75,11 @@ MUTATIONS = [
     ("runs/0/time_ms/cold/update", None, "is not of type 'number'"),
     ("runs/0/time_ms/cold/map", REMOVED, "'map' is a required property"),
     ("runs/0/time_ms/timed_frames", 4, "exceeds the run's 3 frames"),
+    ("runs/0/time_ms/timed_contact_frames", 3, "exceeds the 2 timed frames"),
+    ("runs/0/time_ms_other_questions/0/question", REMOVED, "'question' is a required property"),
+    ("runs/0/time_ms_other_questions/0/question", "cells", "cells is timed twice"),
+    ("runs/0/time_ms_other_questions/0/timed_frames", 4, "exceeds the run's 3 frames"),
+    ("runs/0/time_ms_other_questions/0/cold/update", -1, "less than the minimum"),
     ("runs/0/speedup", REMOVED, "'speedup' is a required property"),
     ("runs/0/speedup/pairs", {}, "is not one of"),
     ("runs/0/speedup/body/fcl-aabb/cold/low", REMOVED, "'low' is a required property"),
@@ -89,6 +101,8 @@ MUTATIONS = [
     ("runs/1/geometry/depth_error_max", None, "is null though 9 were judged"),
     ("runs/1/geometry/depth_error_max", 0.0001, "below the mean or the 95th percentile"),
     ("runs/1/geometry/normal_error_deg_mean", 181, "greater than the maximum"),
+    ("runs/0/semantics/exact", "no", "is not of type 'boolean'"),
+    ("runs/1/float_environment/0", "", "'' "),
     ("runs/1/notes/0", 7, "is not of type 'string'"),
     ("runs/0/closed_loop/error", REMOVED, "'error' is a required property"),
     ("runs/0/closed_loop/error", "diverged", "exactly when error is empty"),
@@ -114,6 +128,17 @@ MUTATIONS = [
     ("runs/2/message", "", "'' "),
     ("runs/3/message", REMOVED, "'message' is a required property"),
     ("runs/3/status", "ok", "is a required property"),
+    ("runs/1/geometry/depth_error_histogram/0/count", 7, "adds up to 8, not 9"),
+    ("runs/1/geometry/depth_error_histogram/0/count", 0, "less than the minimum"),
+    ("runs/1/geometry/depth_error_histogram/0/below", REMOVED, "is a required property"),
+    ("runs/1/geometry/depth_error_histogram/0/from", 0.0005, "has bins out of order"),
+    ("runs/1/geometry/depth_error_histogram/1/from", 0.0001, "has bins out of order"),
+    ("runs/0/geometry/depth_error_histogram", [{"from": 0, "below": 1, "count": 1}],
+     "adds up to 1, not 0"),
+    ("scenes/2/separation/0", -0.5, "less than the minimum"),
+    ("scenes/2/separation", [0.125], "has 1 entries for 2 frames"),
+    ("scenes/2/separation", [0.125, 0.25], "is 0 in 0 of 1 contact frames"),
+    ("scenes/0/separation", [0.125, 0, 0], "have no separation"),
     ("disagreements", REMOVED, "'disagreements' is a required property"),
     ("disagreements/0/level", "edge", "is not one of"),
     ("disagreements/0/kind", "wrong", "is not one of"),
@@ -131,15 +156,22 @@ MUTATIONS = [
     ("scenes/1/pairs/per_kind/point/pairs", 575, "pairs adds up to 1151, not 1152"),
     ("scenes/1/pairs/per_kind/point/touching", 577, "exceeds the 576 pairs"),
     ("scenes/1/pairs/per_kind/point/touching", -1, "less than the minimum"),
+    ("scenes", REMOVED, "'scenes' is a required property"),
     ("scenes/0/bodies", REMOVED, "'bodies' is a required property"),
     ("scenes/0/truth/edge", 3, "is not one of"),
     ("scenes/0/truth/cell", -1, "is not valid"),
     ("scenes/0/family/values/1", 1e-9, "is not of type 'string'"),
     ("scenes/0/family/true_pairs", REMOVED, "'true_pairs' is a required property"),
-    ("scenes/0/contacts", "contacts/hello.json", "frames that are cases have no file"),
+    ("scenes/1/contacts", "contacts/random-pairs.json", "random pairs have no file"),
     ("scenes/2/contacts", "contacts/hello.json", "not contacts/touch.json"),
     ("scenes/2/contacts", "", "'' "),
+    ("scenes/2/fits/0/rms", [0], "has no error for each of 2 frames"),
+    ("scenes/2/fits/0/max/1", 0.0005, "exceeds the largest distance"),
+    ("scenes/2/fits/0/max/0", -1, "less than the minimum"),
+    ("scenes/3/sweep/orientations", 3, "has other poses than the scene's 4 frames"),
+    ("scenes/3/sweep/tolerance", REMOVED, "'tolerance' is a required property"),
     ("scenes/0/simulation/every", 0, "less than the minimum"),
+    ("goals/0/high", REMOVED, "is a dependency of"),
     ("known_defects/unlisted", REMOVED, "'unlisted' is a required property"),
     ("known_defects/not_shown/0/kind", "late", "is not one of"),
     ("known_defects/defects/0/shown", -1, "less than the minimum"),
@@ -203,6 +235,18 @@ class Program(unittest.TestCase):
     def test_valid_file_exits_0_without_a_word(self):
         done = run_program(EXAMPLE)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_fields_that_no_schema_describes_are_found_where_that_is_asked(self):
+        self.assertEqual(run_program("--described", EXAMPLE).stdout, "")
+        results = mutated(validate_results.load(EXAMPLE), "runs/0/geometry/depth", 1)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "results.json"
+            file.write_text(json.dumps(results), encoding="utf-8")
+            self.assertEqual(run_program(file).returncode, 0)
+            done = run_program("--described", file)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"{file}: /runs/0/geometry: ", done.stdout)
+        self.assertIn("'depth'", done.stdout)
 
     def test_errors_are_one_line_each_and_exit_1(self):
         results = mutated(validate_results.load(EXAMPLE), "runs/0/levels/body/recall", 1.5)

@@ -49,6 +49,12 @@ TEST(Space, LeavesWhatTheNameSetsAndWhatIsTheMachines) {
   }
 }
 
+TEST(Space, LeavesWhatTheNameSetsToItsDefault) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:cell=1,bounds=paper"};
+  EXPECT_THAT(names(make_space(core_catalog(), request)), UnorderedElementsAre("ffd-aabb"));
+}
+
 TEST(Space, TakesEveryDetectorThatAnswers) {
   SpaceRequest request;
   request.question = Question::kCells;

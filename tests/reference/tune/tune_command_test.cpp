@@ -86,6 +86,21 @@ TEST_F(TuneCommand, TriesOtherLattices) {
   EXPECT_GT(json["measured"][1]["deviation_max"], 1e-4);
 }
 
+TEST_F(TuneCommand, KeepsLatticesApartThatDifferByLessThanAPercent) {
+  const Outcome tuned =
+      tune({"--detector", "ffd-aabb+tri:cell=3,bounds=paper", "--lattice", "0.041", "--lattice",
+            "0.044", "--lattice", "0.044", "--exhaustive", "--max-missed", "1000"});
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+  ASSERT_EQ(result()["measured"].size(), 3u);
+}
+
+TEST_F(TuneCommand, NamesACommandThatRunsADetectorFromOutside) {
+  const std::string own = std::string("python3 -B ") + CONTACTCHECK_PIPE_EXAMPLE;
+  const Outcome tuned = tune({"--detector-cmd", own, "--question", "triangles", "--frames", "4"});
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+  EXPECT_THAT(tuned.out, HasSubstr("--detector-cmd \"" + own + "\" --detector python-sweep"));
+}
+
 TEST_F(TuneCommand, TakesARecordingEveryOtherFrameOfWhichIsHeldOut) {
   ASSERT_EQ(contactcheck_program(
                 {"run", scene_, "--detector", "ffd-lazy", "--no-timing", "--quiet", "--out", out_})
@@ -96,6 +111,7 @@ TEST_F(TuneCommand, TakesARecordingEveryOtherFrameOfWhichIsHeldOut) {
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   EXPECT_EQ(result()["frames"], 5);
   EXPECT_EQ(result()["held_out_frames"], 4);
+  EXPECT_THAT(tune({"--frames", "4"}).err, HasSubstr("has recorded frames"));
 }
 
 TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
@@ -106,6 +122,7 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
       {{"--lattice", "0"}, "\"0\" is not a number from 0.01 to 100"},
       {{"--question", "contacts"}, "contacts"},
       {{"--frames", "3"}, "3"},
+      {{"--most", "1", "--exhaustive"}, "--exhaustive"},
       {{"--detector", "no-such"}, "unknown detector \"no-such\""},
       {{"--detector", "ffd-aabb", "--question", "triangles"}, "does not answer the question"}};
   for (const auto& [words, sentence] : bad) {
@@ -119,7 +136,7 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
   scene_ = "paper-rabbit";
   EXPECT_THAT(tune({}).err, HasSubstr("is simulated"));
   scene_ = "hard-vertex-face";
-  EXPECT_THAT(tune({}).err, HasSubstr("is a family of cases"));
+  EXPECT_THAT(tune({}).err, HasSubstr("its frames are cases"));
 }
 
 }  // namespace

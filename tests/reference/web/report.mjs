@@ -1,7 +1,7 @@
 // Reports made by the built program from hand-built results, and opened in the browser.
 // Environment: CONTACTCHECK_PROGRAM, and that of browser.mjs.
 import {execFileSync} from "node:child_process";
-import {copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join, resolve} from "node:path";
 import {after, before} from "node:test";
@@ -13,16 +13,18 @@ const program = process.env.CONTACTCHECK_PROGRAM ?? resolve(here, "../../../buil
 
 /**
  * A browser and the report of `results` (a file of this folder), for all tests of a file.
- * `beside`: JSON files to lie beside the results, by name.
+ * `beside`: JSON files to lie beside the results, by name. `change`: of the results, in place.
  * @returns open(options), as openReport; shared(), a page for tests that only read; requests() and
  * errors() of all that was opened; markdown(), the report of the same results in Markdown
  */
-export function useReport(results, {beside = {}, args} = {}) {
+export function useReport(results, {beside = {}, change, args} = {}) {
   const folder = mkdtempSync(join(tmpdir(), "contactcheck-web-"));
   const opened = [];
   let browser, shared;
   before(async () => {
-    copyFileSync(resolve(here, results), join(folder, "results.json"));
+    const read = JSON.parse(readFileSync(resolve(here, results), "utf8"));
+    change?.(read);
+    writeFileSync(join(folder, "results.json"), JSON.stringify(read));
     for (const [name, json] of Object.entries(beside)) writeFileSync(join(folder, name),
         JSON.stringify(json));
     execFileSync(program, ["report", join(folder, "results.json"), "--format", "html", "--out", folder]);

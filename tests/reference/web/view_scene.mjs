@@ -49,10 +49,20 @@ function sceneHeader(arrays) {
   };
 }
 
+// The same once more as a family of hard cases: frames are cases.
+const kFamily = {parameter: "height of the tent, m", values: ["one", "a quarter below", "a half"], origin: "by hand",
+                 stresses: "views", true_pairs: [0, 2, 0]};
+const kFamilyRun = {
+  scene: "cases", detector: "half-blind", status: "ok", message: "", frames: 3, contact_frames: 1, semantics: {}, options: {},
+  per_frame: {level: "triangle", truth: [0, 2, 0], missed: [0, 1, 0], spurious: [0, 0, 1]},
+  levels: {triangle: {truth: 2, reported: 2, hit: 1, missed: 1, spurious: 1, recall: 0.5, spurious_rate: 0.5}},
+  geometry: {}, stages: [], time_ms: {prepare: 1}, memory_bytes: 0, contact_hash: "0x0",
+};
+
 function container() {
-  const arrays = new Arrays();
+  const arrays = new Arrays(), seeded = sceneHeader(arrays);
   const header = {schema: "contactcheck-view/1", left_out: [{scene: "lost", why: '"recordings/lost.ccr" cannot be read.'}],
-                  scenes: [sceneHeader(arrays)]};
+                  scenes: [seeded, {...seeded, id: "cases"}]};
   let text = JSON.stringify(header);
   text = text.padEnd(Math.ceil(text.length / 4) * 4);
   const size = Buffer.alloc(4);
@@ -66,8 +76,10 @@ const packed = (bytes) => deflateSync(bytes).toString("base64");
 export function reportOf(template) {
   const results = {
     schema: "contactcheck-results/1", version: "0", command: "by hand", machine: {}, libraries: {},
-    scenes: [{id: "seeded", title: "A tent comes down through a square", frames: 3, contact_frames: 1, bodies: []}],
-    runs: [], disagreements: [],
+    scenes: [
+      {id: "seeded", title: "A tent comes down through a square", frames: 3, contact_frames: 1, bodies: []},
+      {id: "cases", title: "A tent at three heights", frames: 3, contact_frames: 1, truth: {}, bodies: [], family: kFamily}],
+    runs: [kFamilyRun], disagreements: [],
   };
   return template.replace("@results@", packed(Buffer.from(JSON.stringify(results))))
     .replace("@view@", packed(container())).replace("@reproduction@", "");

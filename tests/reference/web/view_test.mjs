@@ -121,6 +121,19 @@ async function isLedByOthers(page) {
   assert.equal((await state(page)).pair, null);
 }
 
+async function showsHardCases(page) {
+  const family = page.locator("#family-cases");
+  await family.locator("summary").click();
+  await family.getByRole("button", {name: "show"}).click();
+  const {scene, frame, pair} = await state(page);
+  assert.deepEqual({scene, frame, pair}, {scene: "cases", frame: 1, pair: kMissed.pair}, "where it goes wrong first");
+  assert.equal(await page.locator(".view-frame").textContent(), "case 1 of 0 to 2, value a quarter below");
+  assert.match(await page.locator(".view-message").textContent(), /half-blind, case 1, missed/);
+  await family.locator("svg title", {hasText: "at a half"}).locator("..").locator("rect").first().click();
+  assert.equal((await state(page)).frame, 2, "a click on a case");
+  await page.evaluate((target) => window.contactcheckView.show(target), {scene: "seeded", detector: "half-blind", frame: 1});
+}
+
 async function switchesLayers(page) {
   await setFrame(page, 1);
   for (const layer of ["lattice", "boxes", "spheres1", "spheres2", "bodies", "missed"]) {
@@ -171,7 +184,7 @@ async function saysThatWebGlIsMissing(page) {
 }
 
 const kChecks = [
-  [kWebGl, {viewport: kWide}, [drawsTheScene, slidesThroughFrames, leadsToTheMissedPair, isLedByOthers, switchesLayers, drawsOnDemandAlone, plays]],
+  [kWebGl, {viewport: kWide}, [drawsTheScene, slidesThroughFrames, leadsToTheMissedPair, isLedByOthers, showsHardCases, switchesLayers, drawsOnDemandAlone, plays]],
   [kWebGl, {viewport: kWide, colorScheme: "dark"}, [isDark, leadsToTheMissedPair]],
   [kWebGl, {viewport: kNarrow}, [fitsANarrowWindow]],
   [["--disable-gpu", "--disable-3d-apis"], {viewport: kWide}, [saysThatWebGlIsMissing]],

@@ -41,6 +41,11 @@ const kGrouped = new Intl.NumberFormat("en-US");
 /** 12,345,678 */
 export const grouped = (value: number): string => kGrouped.format(value);
 
+const kCompact = new Intl.NumberFormat("en-US", {notation: "compact"});
+
+/** 10K, 12M: for axes where there is little room. */
+export const compact = (value: number): string => kCompact.format(value);
+
 export const millimetres = (value: Maybe): string => number(missing(value) ? null : 1e3 * value);
 
 export function rate(value: Maybe): string {

@@ -24,11 +24,15 @@ import {words} from "./sections/words";
 import {mountView} from "./view/view";
 import {provideView} from "./view_slot";
 
-// The answers first, the numbers that they come from below.
+// The charts that answer first, then the numbers that they come from; the list of words ends the page.
 const kSections: Section[] = [
-  words, speedError, levels, view, summary, stages, times, cost, graded, goals, hard, defects, pairs, claims,
-  paper, scenes, detectors, machine,
+  speedError, levels, view, cost, graded, times, stages, summary, goals, hard, defects, pairs, claims, paper,
+  scenes, detectors, machine, words,
 ];
+
+/** Of a run of hard cases alone, these are the answer. */
+const ordered = (report: Report): Section[] =>
+  report.scenes.length > 0 ? kSections : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
 
 function navigation(sections: Section[]): HTMLElement {
   const links = sections.map(({id, short, title}) => h("li", {}, h("a", {href: `#${id}`}, short ?? title)));
@@ -56,7 +60,7 @@ function openTarget(): void {
 }
 
 function show(report: Report, place: HTMLElement): void {
-  const filled = kSections.map((section) => ({section, content: contentOf(section, report)}))
+  const filled = ordered(report).map((section) => ({section, content: contentOf(section, report)}))
     .filter(({content}) => content.some((child) => child));
   place.replaceChildren(header(report), navigation(filled.map(({section}) => section)),
                         ...filled.map(({section, content}) => sectionElement(section, content)));

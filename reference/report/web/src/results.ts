@@ -36,6 +36,8 @@ export interface Scene {
   contact_frames: number;
   truth: Record<string, number | string>;
   bodies: Body[];
+  /** Per frame, metres; 0 where surfaces touch. */
+  separation?: number[];
   family?: Family;
   pairs?: RandomPairs;
   simulation?: {driver: string; step: number; every: number};
@@ -130,17 +132,28 @@ export interface Geometry {
   missed_length: number | null;
   covered_length_fraction: number | null;
   spurious_distance_max: number | null;
+  spurious_distance_histogram?: Bin[];
   depth_kind?: string;
   depth_judged?: number;
   depth_error_mean?: number | null;
   depth_error_p95?: number | null;
   depth_error_max: number | null;
+  depth_error_histogram?: Bin[];
   normal_judged?: number;
   normal_error_deg_mean?: number | null;
   normal_error_deg_p95?: number | null;
   normal_error_deg_max: number | null;
+  normal_error_deg_histogram?: Bin[];
   hover_gap_max: number | null;
   late_frames: number | null;
+  episodes?: {hover_gap: number | null}[];
+}
+
+/** Errors from `from` on and below `below`. */
+export interface Bin {
+  from: number;
+  below: number;
+  count: number;
 }
 
 export interface Stage {

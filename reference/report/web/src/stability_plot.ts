@@ -45,16 +45,19 @@ function failedSquare(result: FamilyResult, frame: number, x: number, y: number)
                "stroke-width": 2}));
 }
 
-/** @pre `rows` are of one family, and there is at least one */
-export function stabilityPlot(rows: FamilyResult[]): SVGElement {
+/** `onClick`: on a square. @pre `rows` are of one family, and there is at least one */
+export function stabilityPlot(rows: FamilyResult[], onClick: (detector: string, frame: number) => void): SVGElement {
   const {family, title} = rows[0].scene, values = family!.values;
   const left = 8 + kLetter * longest(rows.map((row) => row.run.detector));
   const below = rows.length * kStep, foot = 14 + 0.9 * kLetter * longest(values);
   const width = left + values.length * kStep + 8, height = below + foot;
   const squares = rows.flatMap((row, r) => [
     s("text", {x: left - 8, y: r * kStep + 15, "text-anchor": "end"}, row.run.detector),
-    ...row.frames().map((frame) => (row.failed ? failedSquare : judgedSquare)(row, frame,
-        left + frame * kStep, r * kStep)),
+    ...row.frames().map((frame) => {
+      const square = (row.failed ? failedSquare : judgedSquare)(row, frame, left + frame * kStep, r * kStep);
+      square.addEventListener("click", () => onClick(row.run.detector, frame));
+      return square;
+    }),
   ]);
   const names = values.map((value, i) => {
     const x = left + i * kStep + 15, y = below + 10;

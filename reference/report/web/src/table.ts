@@ -1,5 +1,6 @@
 // Tables in a box of their own, which scrolls where the window is narrow. Headings sort.
 import {h, type Child} from "./dom";
+import {meaningOf} from "./glossary";
 
 export interface Column {
   title: string;
@@ -64,7 +65,8 @@ function sortBy(body: HTMLElement, heads: HTMLElement[], index: number, rows: Ro
 function headLine(columns: Column[], sort: (heads: HTMLElement[], index: number) => void): HTMLElement {
   const heads: HTMLElement[] = columns.map((column, i) => {
     const button = h("button", {type: "button", click: () => sort(heads, i)}, column.title);
-    return h("th", {scope: "col", class: column.left ? "left" : null}, button);
+    return h("th", {scope: "col", class: column.left ? "left" : null, title: column.meaning ?? meaningOf(column.title)},
+             button);
   });
   return h("tr", {}, ...heads);
 }

@@ -12,6 +12,8 @@ export interface ViewTarget {
 }
 
 export interface View {
+  /** Whether it holds the scene: some are left out. */
+  has(scene: string): boolean;
   show(target: ViewTarget): void;
 }
 
@@ -25,14 +27,18 @@ export function provideView(mount: MountView): void {
 }
 
 export const canHaveView = (): boolean => provided !== null;
-export const hasView = (): boolean => view !== null;
+/** Whether a scene can be shown, once the page stands. */
+export const canShow = (scene: string): boolean => view?.has(scene) ?? false;
 
 /** @pre canHaveView(); `place` is in the document */
 export function mountInto(place: HTMLElement, results: Results, bytes: ArrayBuffer): void {
   view = provided!(place, results, bytes);
 }
 
-/** Goes to the 3D view, which shows that contact. @pre hasView() */
+/**
+ * Goes to the 3D view, which shows that contact: the pair, or the first of that kind in the frame.
+ * @pre canShow(target.scene)
+ */
 export function showInView(target: ViewTarget): void {
   view!.show(target);
   document.getElementById("view")?.scrollIntoView({block: "start"});

@@ -2,7 +2,7 @@
 import {h, p, type Child} from "../dom";
 import {count, errorRate, millimetres, number, rate, ratio} from "../format";
 import type {Report} from "../report";
-import type {Level, Run, Scene} from "../results";
+import type {Geometry, Level, Run, Scene} from "../results";
 import type {Section} from "../section";
 import {left, right, table, type Column, type Row} from "../table";
 
@@ -10,8 +10,8 @@ const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
 
 const touching = (scene: Scene): boolean => scene.contact_frames > 0;
 
-function claim(title: string, text: string, columns: Column[], rows: Row[]): Child[] {
-  return rows.length > 0 ? [h("h3", {}, title), p(text), table(columns, rows, title)] : [];
+function claim(title: string, text: string, columns: Column[], rows: Row[], id?: string): Child[] {
+  return rows.length > 0 ? [h("h3", {id}, title), p(text), table(columns, rows, title)] : [];
 }
 
 function allScenes(report: Report): Scene[] {
@@ -89,6 +89,31 @@ function insideFinding(report: Report): Child[] {
         right("reported, not inside")], rows);
 }
 
+// Of the normals judged, those that point away from the way out; older results do not tell.
+function turnedNormals({normal_error_deg_histogram: bins}: Geometry): string {
+  return bins ? count(bins.reduce((sum, bin) => (bin.from >= 90 ? sum + bin.count : sum), 0)) : "-";
+}
+
+/** The place of the finding below, where the results have it. */
+export const kTurnedNormals = "turned-normals";
+
+export const hasTurnedNormals = (report: Report): boolean => normalFinding(report).length > 0;
+
+function normalFinding(report: Report): Child[] {
+  const rows = allScenes(report).flatMap((scene) => {
+    const geometry = report.okRun(scene.id, "bullet-vf")?.geometry;
+    if (!geometry || (geometry.normal_error_deg_max ?? 0) < 90) return [];
+    return [[scene.id, count(geometry.normal_judged), turnedNormals(geometry), number(geometry.normal_error_deg_mean),
+             number(geometry.normal_error_deg_max)]];
+  });
+  return claim("Bullet's vertex-face normals turn with the side of the vertex",
+    "Its normal points from the face to the vertex, on whichever side of the face the vertex is. Normals are judged for vertices that are truly "
+    + "inside the other body: there it points further in, about 180 degrees off the way out. That is Bullet's own convention and no rounding, and a "
+    + "solver that follows it pushes such a vertex further in.",
+    [left("scene"), right("normals judged"), right("of them 90 degrees off or more"), right("mean, degrees"),
+        right("largest, degrees")], rows, kTurnedNormals);
+}
+
 function clusterFinding(report: Report): Child[] {
   const rows = allScenes(report).flatMap((scene) => ["bullet-cl", "bullet-cl:k=256"].flatMap((detector) => {
     const run = report.okRun(scene.id, detector);
@@ -107,6 +132,6 @@ export const claims: Section = {
   build: (report) => [
     ...hoverClaim(report), ...speedClaim(report, "ffd-aabb-sphere2+tri", "triangles", "triangle"),
     ...speedClaim(report, "ffd-aabb-sphere2", "body", "body"), ...scaleFinding(report),
-        ...insideFinding(report), ...clusterFinding(report),
+        ...insideFinding(report), ...normalFinding(report), ...clusterFinding(report),
   ],
 };

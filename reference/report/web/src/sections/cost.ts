@@ -1,47 +1,27 @@
-// What a frame costs: against the number of triangles, and frame by frame.
+// What a frame costs: against the number of triangles, the distance of the bodies, and frame by frame.
 import * as Plot from "@observablehq/plot";
-import {chart, legend, type Chart} from "../chart";
+import {chart, type Chart} from "../chart";
 import {checkboxes, controlBar, radios, select} from "../controls";
-import {h, p} from "../dom";
-import {grouped, number} from "../format";
-import {kLineStyles} from "../groups";
-import {flawlessDetectors, winners} from "../headline";
+import {h, p, type Child} from "../dom";
+import {compact, grouped, number} from "../format";
+import {term} from "../glossary";
 import {trianglesOf, type Report} from "../report";
-import type {Run, Scene} from "../results";
+import type {Scene} from "../results";
 import type {Section} from "../section";
-import {stroke} from "../swatch";
+import {firstChoice, frameCosts, kMost, lineLegend, linesOf, plainNumber, timed, timedDetectors, type FrameCost,
+    type Lines} from "./cost_lines";
+import {drawSeparation, hasSeparation} from "./cost_separation";
 
 type Part = "cold" | "hot";
 
-const kMost = kLineStyles.length;
-
-interface Lines {
-  detectors: string[];
-  style: (detector: string) => (typeof kLineStyles)[number];
+/** What the controls of the section choose. */
+interface State {
+  lines: Lines;
+  part: Part;
+  scene: Scene;
 }
 
-const linesOf = (detectors: string[]): Lines =>
-  ({detectors, style: (name) => kLineStyles[detectors.indexOf(name) % kMost]});
-
-const lineLegend = ({detectors, style}: Lines): HTMLElement =>
-  legend(detectors.map((name) => ({text: name, swatch: stroke(style(name).colour, style(name).dash)})));
-
-const timed = (run: Run | null): run is Run => run?.time_ms.cold !== undefined;
-
-function timedDetectors(report: Report): string[] {
-  return report.detectors.filter((name) => report.scenes.some((scene) => timed(report.okRun(scene.id,
-      name))));
-}
-
-/** The fastest without error, the usual references, then others in file order. */
-function firstChoice(report: Report, all: string[]): string[] {
-  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort((a,
-      b) => b[1].length - a[1].length);
-  const wanted = [...wins.map(([name]) => name), "fcl-aabb", "fcl-obbrss", "embree", "ffd-aabb-sphere2",
-      ...all];
-  return [...new Set(wanted)].filter((name) => all.includes(name)).slice(0, 5).sort((a,
-      b) => all.indexOf(a) - all.indexOf(b));
-}
+const kSeparationTitle = "Milliseconds per frame against the distance of the bodies";
 
 // Against triangles ------------------------------------------------------------------------------
 
@@ -77,8 +57,6 @@ function series(all: Cost[]): Cost[][] {
   return [...groups.values()].filter((group) => group.length > 1);
 }
 
-const plainNumber = (value: number): string => (value >= 1000 ? grouped(value) : String(value));
-
 function drawCosts(width: number, all: Cost[], lines: Lines): Node {
   const xy = {x: "triangles", y: "ms"} as const, sizes = all.map((cost) => cost.triangles);
   const title = (d: Cost): string =>
@@ -88,7 +66,7 @@ function drawCosts(width: number, all: Cost[], lines: Lines): Node {
         marginBottom: 40,
     x: {type: "log", domain: [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2],
         label: "triangles of all bodies →", grid: true,
-        tickFormat: plainNumber, ticks: width < 600 ? 3 : 6},
+        tickFormat: width < 600 ? compact : plainNumber, ticks: width < 600 ? 3 : 6},
     y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
     marks: [
       ...series(all).map((group) => Plot.line(group, {...xy, stroke: lines.style(group[0].detector).colour,
@@ -101,19 +79,6 @@ function drawCosts(width: number, all: Cost[], lines: Lines): Node {
 }
 
 // Frame by frame ---------------------------------------------------------------------------------
-
-interface FrameCost {
-  detector: string;
-  frame: number;
-  ms: number;
-}
-
-function frameCosts(report: Report, scene: Scene, detectors: string[]): FrameCost[] {
-  return detectors.flatMap((detector) => {
-    const values = report.okRun(scene.id, detector)?.per_frame.frame_ms ?? [];
-    return values.flatMap((ms, frame) => (ms !== null && ms > 0 ? [{detector, frame, ms}] : []));
-  });
-}
 
 const frameAxis = (width: number, scene: Scene) =>
   ({label: "frame →", domain: [0, Math.max(1, scene.frames - 1)], ticks: Math.min(scene.frames, width / 80)});
@@ -173,6 +138,31 @@ function truthOf(report: Report, scene: Scene): number[] {
   return truths.reduce((best, truth) => (sum(truth) > sum(best) ? truth : best), [] as number[]);
 }
 
+function charts(report: Report, state: State): Chart[] {
+  const withDistances = report.scenes.some(hasSeparation);
+  return [
+    chart("Milliseconds per frame against the number of triangles", (width) => drawCosts(width,
+        costs(report, state.lines.detectors, state.part), state.lines)),
+    chart("Milliseconds of each frame", (width) => drawFrames(width, state.scene, frameCosts(report, state.scene,
+        state.lines.detectors), state.lines)),
+    chart("True, missed and spurious contacts of each frame", (width) => drawContacts(width, state.scene,
+        truthOf(report, state.scene), frameErrors(report, state.scene, state.lines.detectors), state.lines)),
+    ...(withDistances ? [chart(kSeparationTitle, (width) => hasSeparation(state.scene)
+        ? drawSeparation(width, report, state.scene, state.lines)
+        : p("The results hold no distances of this scene."))] : []),
+  ];
+}
+
+function separationPart(separation: Chart | undefined): Child[] {
+  if (!separation) return [];
+  return [
+    h("h4", {}, "Against the distance of the bodies"),
+    p("Each point is a frame, cold; the smallest distance between the surfaces of any two bodies is the oracle's. Lines go through "
+      + "medians of frames that are about equally far. Frames in which surfaces touch stand to the left: median, and the range."),
+    separation.element,
+  ];
+}
+
 export const cost: Section = {
   id: "cost",
   title: "What a frame costs",
@@ -180,36 +170,31 @@ export const cost: Section = {
   build(report) {
     const all = timedDetectors(report);
     if (all.length === 0 || report.scenes.length === 0) return [];
-    let lines = linesOf(firstChoice(report, all)), part: Part = "cold", scene = report.scenes[0];
-    const legends = h("div");
-    const charts: Chart[] = [
-      chart("Milliseconds per frame against the number of triangles", (width) => drawCosts(width,
-          costs(report, lines.detectors, part), lines)),
-      chart("Milliseconds of each frame", (width) => drawFrames(width, scene, frameCosts(report, scene,
-          lines.detectors), lines)),
-      chart("True, missed and spurious contacts of each frame", (width) =>
-        drawContacts(width, scene, truthOf(report, scene), frameErrors(report, scene, lines.detectors),
-            lines)),
-    ];
-    const redraw = (): void => {
-      legends.replaceChildren(lineLegend(lines));
-      charts.forEach((one) => one.redraw());
+    const state: State = {lines: linesOf(firstChoice(report, all)), part: "cold", scene: report.scenes[0]};
+    const legends = h("div"), [triangles, frames, contacts, separation] = charts(report, state);
+    const redraw = (change: Partial<State>): void => {
+      Object.assign(state, change);
+      legends.replaceChildren(lineLegend(state.lines));
+      [triangles, frames, contacts, separation].forEach((one) => one?.redraw());
     };
-    redraw();
+    redraw({});
     return [
-      p(`Up to ${kMost} detectors, each with its own colour, dashes and shape. A line joins the sizes of one scene; `
-        + "the suite scaling has scenes of 1, 4 and 16 times the triangles."),
+      p(`Up to ${kMost} detectors, each with its own colour, dashes and shape. Caches are `, term("cold"), " unless said."),
       controlBar(
-        radios("Caches (by triangles)", [["cold", "cold"], ["hot", "hot"]], part,
-            (value) => { part = value as Part; redraw(); }),
-        checkboxes("Choose detectors", all, lines.detectors, kMost,
-            (names) => { lines = linesOf(names); redraw(); })),
-      legends, h("h3", {}, "Against the number of triangles"), charts[0].element,
-      h("h3", {}, "Frame by frame"),
-      p("Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs."),
+        radios("Caches (by triangles)", [["cold", "cold"], ["hot", "hot"]], state.part,
+            (value) => redraw({part: value as Part})),
+        checkboxes("Choose detectors", all, state.lines.detectors, kMost,
+            (names) => redraw({lines: linesOf(names)}))),
+      legends, h("h3", {}, "Against the number of triangles"),
+      p("A line joins the sizes of one scene; the suite scaling has scenes of 1, 4 and 16 times the triangles."),
+      triangles.element,
+      h("h3", {}, "In one scene"),
       controlBar(select("Scene", report.scenes.map((s, i) => [String(i), s.id]), "0",
-          (value) => { scene = report.scenes[Number(value)]; redraw(); })),
-      charts[1].element, charts[2].element,
+          (value) => redraw({scene: report.scenes[Number(value)]}))),
+      ...separationPart(separation),
+      h("h4", {}, "Frame by frame"),
+      p("Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs."),
+      frames.element, contacts.element,
     ];
   },
 };

@@ -21,7 +21,7 @@ export function semanticsText(s: Semantics): string {
 export const detectors: Section = {
   id: "detectors",
   title: "What each detector claims",
-  short: "Claims",
+  short: "Detectors",
   build(report) {
     const rows = report.detectors.flatMap((detector) => {
       const run = report.results.runs.find((r) => r.detector === detector && isOk(r));

@@ -6,9 +6,11 @@ import {number} from "../format";
 import type {Report} from "../report";
 import type {Scene} from "../results";
 import type {Section} from "../section";
+import {showCell} from "../showing";
 import {stabilityPlot} from "../stability_plot";
 import {square} from "../swatch";
 import {left, right, table, type Cell, type Row} from "../table";
+import {canShow, showInView} from "../view_slot";
 import {heat} from "./levels";
 
 function sumCells(detector: string, all: FamilyResult[]): Row {
@@ -69,17 +71,25 @@ function matrix(report: Report, results: Map<Scene, FamilyResult[]>): Child[] {
                 "Cases that each detector gets wrong, by family")];
 }
 
+// To where it goes wrong first, or to the case without an answer.
+function shownCase({scene, run}: FamilyResult, frame: number | undefined, missed: number): Cell[] {
+  if (!canShow(scene.id)) return [];
+  if (frame === undefined) return [{text: "-"}];
+  return [showCell({scene: scene.id, detector: run.detector, frame, kind: missed > 0 ? "missed" : "spurious"})];
+}
+
 function wrongRow(result: FamilyResult): Row {
   const detector = result.run.detector;
   if (result.failed) {
     const frame = result.run.failed_frame;
     return [detector, frame === undefined ? "-" : result.value(frame), {text: result.run.message,
-        class: "wrap"}, "-", "-", "-"];
+        class: "wrap"}, "-", "-", "-", ...shownCase(result, frame, 0)];
   }
   const first = result.frames().find((frame) => result.wrongAt(frame))!;
   return [detector, result.value(first),
           `${result.at("missed", first)} missed, ${result.at("spurious", first)} spurious of ${result.at("truth", first)} true`,
-          `${result.wrong} of ${result.cases}`, String(result.sum("missed")), String(result.sum("spurious"))];
+          `${result.wrong} of ${result.cases}`, String(result.sum("missed")), String(result.sum("spurious")),
+          ...shownCase(result, first, result.at("missed", first))];
 }
 
 function familyDetails(scene: Scene, wrong: FamilyResult[]): HTMLElement {
@@ -88,10 +98,11 @@ function familyDetails(scene: Scene, wrong: FamilyResult[]): HTMLElement {
   return unfolding(h("span", {}, h("strong", {}, scene.id), aside), () => [
     p(`Parameter: ${parameter}, ${values.length} values from ${values[0]} on. Hard for: ${stresses}. From: ${origin}.`),
     h("div", {class: "scroll", role: "region", tabindex: 0, "aria-label": `Case by case, ${scene.id}`},
-      h("figure", {class: "chart"}, stabilityPlot(wrong))),
+      h("figure", {class: "chart"}, stabilityPlot(wrong, (detector, frame) => canShow(scene.id)
+          && showInView({scene: scene.id, detector, frame})))),
     h("p", {class: "note"}, parameter),
     table([left("detector"), left("first wrong at"), left("there"), right("cases wrong"), right("missed"),
-        right("spurious")],
+        right("spurious"), ...(canShow(scene.id) ? [left("in 3D")] : [])],
           wrong.map(wrongRow), `Who goes wrong in ${scene.id}`),
   ], {class: "block", id: `family-${scene.id}`});
 }

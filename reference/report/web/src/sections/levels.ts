@@ -2,6 +2,7 @@
 import {controlBar, radios, select} from "../controls";
 import {h, p} from "../dom";
 import {errorRate, grouped, rate} from "../format";
+import {term} from "../glossary";
 import {finestLevel, judgedLevels, kFinest, levelOf, type Report} from "../report";
 import type {Run} from "../results";
 import type {Section} from "../section";
@@ -69,9 +70,9 @@ export const levels: Section = {
     update({});
     const names = judgedLevels(report.results.runs).map((name): [string, string] => [name, name]);
     return [
-      p("Recall is the share of true contacts that was found: 1 is perfect, and any other number has a colour. ",
-        "The spurious rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing ",
-        "reported. An empty cell: the detector does not claim this level there."),
+      p(term("recall", "Recall"), " is the share of true contacts that was found: 1 is perfect, and any other number has a colour. "
+        + "The ", term("spurious"), " rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing "
+        + "reported. An empty cell: the detector does not claim this ", term("level"), " there."),
       controlBar(
         select("Level", [[kFinest, "each detector's finest"], ...names], choice.level,
             (level) => update({level})),

@@ -2,10 +2,11 @@
 import {code, h, p, unfolding, type Child} from "../dom";
 import {count, errorRate, millimetres, number, optionsText, rate, ratio} from "../format";
 import {comparedQuestion, finestLevel, isOk, type Report} from "../report";
-import type {Disagreement, Geometry, Level, Run, Scene} from "../results";
+import type {Geometry, Level, Run, Scene} from "../results";
 import type {Section} from "../section";
-import {left, right, titledTable, type Cell, type Row} from "../table";
-import {hasView, showInView} from "../view_slot";
+import {showCell} from "../showing";
+import {left, right, titledTable, type Row} from "../table";
+import {canShow} from "../view_slot";
 import {pairsContent} from "./pairs";
 
 const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
@@ -145,20 +146,13 @@ function notes(runs: Run[]): Child[] {
       {}, text)))] : [];
 }
 
-function showCell(d: Disagreement): Cell {
-  const {scene, detector, frame, level, kind} = d;
-  const button = h("button", {type: "button", class: "show", click: () => showInView({scene, detector, frame,
-      level, kind})}, "show");
-  return {text: "show", node: button};
-}
-
 function disagreements(report: Report, scene: Scene): Child[] {
   const own = report.results.disagreements.filter((d) => d.scene === scene.id);
   const rows = own.map((d) => [d.detector, d.kind, d.level, String(d.frame), {text: d.case,
-      node: code(d.case)}, ...(hasView() ? [showCell(d)] : [])]);
+      node: code(d.case)}, ...(canShow(scene.id) ? [showCell(d)] : [])]);
   return titledTable("Disagreements with the truth (first of each kind)", [left("detector"), left("kind"),
       left("level"), right("frame"), left("case"),
-    ...(hasView() ? [left("in 3D")] : [])], rows);
+    ...(canShow(scene.id) ? [left("in 3D")] : [])], rows);
 }
 
 function sceneContent(report: Report, scene: Scene): Child[] {

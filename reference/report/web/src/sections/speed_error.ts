@@ -4,6 +4,7 @@ import {chart, legend} from "../chart";
 import {controlBar, radios, select, type Option} from "../controls";
 import {h, p, unfolding, type Child} from "../dom";
 import {errorRate, grouped, number, optionsText} from "../format";
+import {term} from "../glossary";
 import {groupOf, groupsOf} from "../groups";
 import {points, type Choice, type LeftOut, type Measure, type Point} from "../pareto";
 import {judgedLevels, kFinest, type Report} from "../report";
@@ -52,6 +53,23 @@ function isEnd(point: Point, front: Point[]): boolean {
   return point === own[0] || point === own[own.length - 1];
 }
 
+/** A share's place on the axis of errors, from 0 at the bottom to 1 at the top. */
+const height = (error: number, top: number): number =>
+  Math.log1p(error / kErrorAxis.constant) / Math.log1p(top / kErrorAxis.constant);
+
+/** Of the points named, those whose names would lie on the name of one further left; they go below. */
+function below(ends: Point[], [low, high]: [number, number], width: number, top: number): Set<Point> {
+  const out = new Set<Point>(), letters = 7, lines = 0.06;
+  const across = (point: Point): number => (width * Math.log(point.ms / low)) / Math.log(high / low);
+  ends.forEach((point, i) => {
+    const near = ends.slice(0, i).filter((other) => !out.has(other)
+        && across(point) - across(other) < letters * Math.max(other.detector.length, point.detector.length)
+        && Math.abs(height(point.error, top) - height(other.error, top)) < lines);
+    if (near.length > 0) out.add(point);
+  });
+  return out;
+}
+
 // Names at the edges grow inwards.
 type Anchor = "start" | "middle" | "end";
 
@@ -66,7 +84,8 @@ function draw(width: number, all: Point[], choice: Choice): Node {
   const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5,
       Math.max(...times) * 1.5];
   const highest = Math.max(0.01, ...all.map((point) => point.error));
-  const ends = front.filter((point) => isEnd(point, front));
+  const ends = front.filter((point) => isEnd(point, front)), top = Math.min(1, 1.6 * highest);
+  const low = below(ends, span, width, top);
   const xy = {x: "ms", y: "error"} as const;
   return Plot.plot({
     width, height: Math.min(460, 260 + width / 4), marginLeft: 52, marginRight: 24, marginTop: 40,
@@ -74,7 +93,7 @@ function draw(width: number, all: Point[], choice: Choice): Node {
     x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true,
         ticks: width < 600 ? 4 : 8,
         tickFormat: (ms: number) => String(ms)},
-    y: {...kErrorAxis, domain: [0, Math.min(1, 1.6 * highest)], label: `↑ ${kAxis[choice.measure]}`,
+    y: {...kErrorAxis, ticks: kErrorAxis.ticks.filter((tick) => tick <= top), domain: [0, top], label: `↑ ${kAxis[choice.measure]}`,
         grid: true,
         insetBottom: 12,
         tickFormat: (share: number) => `${100 * share} %`},
@@ -85,10 +104,10 @@ function draw(width: number, all: Point[], choice: Choice): Node {
                         strokeDasharray: "5 3", strokeWidth: 1.5, className: "fronts"}),
       Plot.dot(all, {...xy, r: 5.5, fill: (d: Point) => groupOf(d.detector).colour, stroke: "var(--surface)",
                      symbol: (d: Point) => shapeOf(d.question), ariaLabel: sentenceOf, className: "points"}),
-      ...(["start", "middle", "end"] as const).map((textAnchor) => Plot.text(
-        ends.filter((point) => anchorOf(point.ms, span) === textAnchor),
-        {...xy, text: "detector", dy: -13, textAnchor, fill: "currentColor", stroke: "var(--surface)",
-            strokeWidth: 4})),
+      ...(["start", "middle", "end"] as const).flatMap((textAnchor) => [false, true].map((under) => Plot.text(
+        ends.filter((point) => anchorOf(point.ms, span) === textAnchor && low.has(point) === under),
+        {...xy, text: "detector", dy: under ? 15 : -13, textAnchor, fill: "currentColor", stroke: "var(--surface)",
+            strokeWidth: 4, className: "names"}))),
       Plot.tip(all, Plot.pointer({...xy, title: sentenceOf, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -160,8 +179,8 @@ export const speedError: Section = {
     update({});
     return [
       p("Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it "
-        + "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same "
-        + "question is both faster and better than a detector there. Times of different questions (shapes) do not compare."),
+        + "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same ", term("question"),
+        " is both faster and better than a detector there. Times of different questions (shapes) do not compare."),
       controlBar(
         select("Scenes", options, first, (value) => update({scenes: chosenScenes(report, value)})),
         select("Level", levelOptions(report), choice.level, (level) => update({level})),

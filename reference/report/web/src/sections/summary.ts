@@ -1,6 +1,7 @@
 // One line per detector: the sums over scenes, as the other reports have them.
 import {p} from "../dom";
 import {millimetres, number, plural, rate} from "../format";
+import {term} from "../glossary";
 import type {Section} from "../section";
 import {share, speedupRange, summaryLines, type SummaryLine} from "../sums";
 import {left, right, table} from "../table";
@@ -26,9 +27,10 @@ export const summary: Section = {
       ...kReferences.map((reference) => rangeText(line, reference)),
     ]);
     return [
-      p(`Sums over ${plural(report.results.scenes.length, "scene")}, at the finest level that a detector claims. `
+      p(`Sums over ${plural(report.results.scenes.length, "scene")}, at the finest `, term("level"), " that a detector claims. "
         + "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the "
-        + "detector named divided by the time of this one in the same question, cold, the smallest and the largest of any scene. "
+        + "detector named divided by the time of this one in the same ", term("question"), ", ", term("cold"),
+        ", the smallest and the largest of any scene. "
         + "A click on a heading sorts."),
       table([left("detector"), right("scenes"), left("level"), right("truth"), right("recall"),
           right("missed"),

@@ -2,6 +2,7 @@
 import {h, s} from "../dom";
 import type {DetectorContacts, SceneHeader} from "./types";
 
+const kCaseStep = 700;      // ms: each case is a picture of its own
 const kShortestStep = 40;  // ms: no faster than a software renderer draws
 
 const kStripHeight = 22;
@@ -13,6 +14,7 @@ export class FrameBar {
   private readonly text = h("output", {class: "view-frame"});
   private readonly play = h("button", {type: "button", "aria-label": "Play", click: () => this.toggle()}, "▶");
   private scene: SceneHeader | null = null;
+  private cases: string[] | undefined;
   private timer: number | undefined;
 
   constructor(private readonly onFrame: (frame: number) => void) {
@@ -24,8 +26,10 @@ export class FrameBar {
                      h("div", {class: "view-slider"}, this.strip, this.slider), this.text);
   }
 
-  fill(scene: SceneHeader, detector: DetectorContacts | undefined): void {
+  /** `cases`: the value of each frame, where frames are cases and no moments. */
+  fill(scene: SceneHeader, detector: DetectorContacts | undefined, cases?: string[]): void {
     this.scene = scene;
+    this.cases = cases;
     this.slider.max = String(scene.frames - 1);
     this.play.disabled = scene.frames < 2;
     this.strip.setAttribute("viewBox", `0 0 ${Math.max(1, scene.frames)} ${kStripHeight}`);
@@ -35,9 +39,10 @@ export class FrameBar {
   set frame(frame: number) {
     this.slider.value = String(frame);
     const {frames, time_step} = this.scene!;
-    const words = `frame ${frame} of 0 to ${frames - 1}`;
+    const value = this.cases?.[frame];
+    const words = `${this.cases ? "case" : "frame"} ${frame} of 0 to ${frames - 1}${value === undefined ? "" : `, value ${value}`}`;
     this.slider.setAttribute("aria-valuetext", words);
-    this.text.textContent = time_step > 0 ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
+    this.text.textContent = time_step > 0 && !this.cases ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
   }
 
   stop(): void {
@@ -55,9 +60,9 @@ export class FrameBar {
   }
 
   private step(): void {
-    const {frames, time_step} = this.scene!;
+    const {frames, time_step} = this.scene!, pause = this.cases ? kCaseStep : Math.max(kShortestStep, 1000 * time_step);
     this.onFrame((Number(this.slider.value) + 1) % frames);
-    this.timer = window.setTimeout(() => this.step(), Math.max(kShortestStep, 1000 * time_step));
+    this.timer = window.setTimeout(() => this.step(), pause);
   }
 
   // True contacts below, missed and spurious ones above; heights by the largest count of the scene.

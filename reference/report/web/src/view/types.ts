@@ -82,7 +82,12 @@ export interface ViewState {
 }
 
 export interface View {
-  /** Goes to a frame of a scene, and to a pair where one is given: the camera looks at its centroid. */
+  /** Whether it holds the scene: some are left out. */
+  has(scene: string): boolean;
+  /**
+   * Goes to a frame of a scene, and to a pair where one is given, or the first of a kind: the camera
+   * looks at its centroid.
+   */
   show(target: ViewTarget): void;
   /** What can be shown of a scene, in the order of detectors, missed before spurious, frames. */
   missedPairs(scene: string, detector?: string): ListedPair[];

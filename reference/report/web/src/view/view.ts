@@ -38,12 +38,15 @@ class SceneViewer implements View {
   private bounds: Bounds;
   private marks: ReturnType<typeof makeMarks>[] = [];
   private detector = "";
+  /** The values of the parameters of families, whose frames are cases. */
+  private readonly cases: Map<string, string[]>;
   private pairs: ListedPair[] = [];
   private chosen: ListedPair | null = null;
   private started = false;
 
   constructor(private readonly place: HTMLElement, results: Results, private readonly container: Container) {
     const title = (scene: string): string => results.scenes.find(({id}) => id === scene)?.title ?? scene;
+    this.cases = new Map(results.scenes.flatMap(({id, family}) => (family ? [[id, family.values] as const] : [])));
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
       detector: (name) => this.show({scene: this.model.header.id, frame: this.model.frame, detector: name}),
@@ -69,10 +72,14 @@ class SceneViewer implements View {
     this.started = true;
     this.choose(target.detector ?? (fresh ? mostInteresting(this.model.header) : this.detector));
     this.model.frame = Math.min(Math.max(0, target.frame), this.model.header.frames - 1);
-    this.chosen = target.pair ? this.find(target, target.pair) : null;
+    this.chosen = this.find(target);
     if (this.chosen) this.lookAtPair(this.chosen);
     else if (fresh) this.lookAtScene(kOverview);
     this.refresh();
+  }
+
+  has(scene: string): boolean {
+    return this.container.scenes.some(({id}) => id === scene);
   }
 
   missedPairs(scene: string, detector?: string): ListedPair[] {
@@ -120,7 +127,7 @@ class SceneViewer implements View {
     this.detector = detector;
     const {header} = this.model;
     this.panel.show(header, detector);
-    this.frames.fill(header, this.model.detector(detector));
+    this.frames.fill(header, this.model.detector(detector), this.cases.get(header.id));
     this.pairs = detector === "" ? [] : listedPairs(header, detector);
     this.table.element.hidden = this.pairs.length === 0;
     this.table.fill(header, this.pairs, `Missed and spurious pairs of ${detector}`);
@@ -138,9 +145,10 @@ class SceneViewer implements View {
     this.refresh();
   }
 
-  private find(target: ViewTarget, pair: Pair): ListedPair | null {
-    return this.pairs.find((listed) => listed.frame === target.frame && same(listed.pair, pair) &&
-                                       (!target.kind || listed.kind === target.kind)) ?? null;
+  private find({frame, kind, pair}: ViewTarget): ListedPair | null {
+    if (!pair && !kind) return null;
+    return this.pairs.find((listed) => listed.frame === frame && (!pair || same(listed.pair, pair)) &&
+                                       (!kind || listed.kind === kind)) ?? null;
   }
 
   private lookAtScene(direction: Vector3): void {
@@ -207,19 +215,20 @@ class SceneViewer implements View {
   }
 
   private words(): string {
-    const {frame, header} = this.model;
+    const {frame, header} = this.model, place = this.cases.has(header.id) ? "case" : "frame";
+    const start = `${place[0].toUpperCase()}${place.slice(1)} ${frame}`;
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
-      return `${this.detector}, frame ${frame}, ${this.chosen.kind}: ${one} and ${other}.`;
+      return `${this.detector}, ${place} ${frame}, ${this.chosen.kind}: ${one} and ${other}.`;
     }
     if (header.detectors.length === 0 && header.truth.length === 0)
-      return `Frame ${frame}. The results list no contacts of this scene one by one.`;
+      return `${start}. The results list no contacts of this scene one by one.`;
     const truth = header.truth.find((entry) => entry.frame === frame)?.count ?? 0;
     const found = this.model.detector(this.detector)?.frames.find((entry) => entry.frame === frame);
     const differs = this.detector === "" ? "" :
       `; ${this.detector} misses ${found?.missed.count ?? 0} and makes up ${found?.spurious.count ?? 0}`;
     const listed = found ? [found.missed, found.spurious].some(({count, pairs}) => count > pairs.length / 4) : false;
-    return `Frame ${frame}: ${truth} pairs of triangles touch${differs}${listed ? " (the first of them are drawn)" : ""}.`;
+    return `${start}: ${truth} ${truth === 1 ? "pair of triangles touches" : "pairs of triangles touch"}${differs}${listed ? " (the first of them are drawn)" : ""}.`;
   }
 
   private repaint(): void {

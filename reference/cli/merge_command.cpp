@@ -1,0 +1,61 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/types/check.h"
+#include "reference/cli/command_checks.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/report_folder.h"
+#include "reference/cli/results_file.h"
+#include "reference/cli/run_and_report.h"
+#include "reference/run/shard_merge.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+ShardResults read_shard(const fs::path& file) {
+  const ResultsFile results(file);
+  results.require_schema();
+  return {file, results.read([](const Json& json) { return json; })};
+}
+
+// Goals and known defects are this program's own words.
+void require_own_version(const ShardResults& shard) {
+  const auto version = shard.results.at("version").get<std::string>();
+  if (version != CONTACTCHECK_VERSION)
+    throw InputError(shard.file.string() + ": was written by contactcheck " + version +
+                     ", and this is " CONTACTCHECK_VERSION
+                     ": the program that ran the shards merges them");
+}
+
+// The merged results would take a shard's place, cases and all.
+void require_other_folder(const ShardResults& shard, const fs::path& out) {
+  std::error_code none;  // without the folder they are not the same
+  if (fs::equivalent(shard.folder().empty() ? "." : shard.folder(), out, none))
+    throw InputError("--out " + out.string() + ": is the folder of shard " + shard.shard().name());
+}
+
+}  // namespace
+
+int merge_command(const std::vector<std::string>& files, const fs::path& out) {
+  std::vector<ShardResults> given;
+  for (const std::string& file : files) given.push_back(read_shard(file));
+  const std::vector<ShardResults> shards = checked_shards(std::move(given));
+  for (const ShardResults& shard : shards) {
+    require_own_version(shard);
+    require_other_folder(shard, out);
+  }
+  check_out(out);
+  SuiteOutcome outcome;
+  const Json results =
+      merge_shards(shards, out, read_known_defects(known_defects_file()), &outcome);
+  const auto reports = report_texts(results, out, all_report_formats());
+  write_report(out, reports);
+  std::printf("merged %zu shards, %zu scenes\n%s  %s\n", shards.size(), results.at("scenes").size(),
+              (out / "results.json").c_str(), report_paths(out, reports).c_str());
+  return exit_code_of(outcome);
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,84 @@
+#include "reference/cli/own_detectors.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "reference/plugin/examination.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BringIn {
+ public:
+  BringIn(const RunSettings& settings, const DetectorCatalog& catalog) : settings_(settings) {
+    own_.catalog = catalog;
+  }
+
+  // Commands come first: their detectors may be named, with options, among the others.
+  OwnDetectors of(const std::vector<std::string>& detectors,
+                  const std::vector<std::string>& commands) {
+    std::vector<std::string> ids;
+    for (const std::string& command : commands)
+      ids.push_back(id_of({PluginKind::kCommand, command}));
+    for (const std::string& detector : detectors)
+      own_.names.push_back(names_library(detector) ? name_in_library(detector) : detector);
+    for (const std::string& id : ids)
+      if (!named(id)) own_.names.push_back(id);
+    return std::move(own_);
+  }
+
+ private:
+  std::string name_in_library(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const fs::path file = fs::absolute(text.substr(0, colon)).lexically_normal();
+    const std::string id = id_of({PluginKind::kLibrary, file.string()});
+    return colon == std::string::npos ? id : id + text.substr(colon);
+  }
+
+  std::string id_of(const PluginSource& source) {
+    for (const Plugin& known : own_.plugins)
+      if (known.source.kind == source.kind && known.source.text == source.text)
+        return known.declaration.id;
+    static const fs::path executable = fs::read_symlink("/proc/self/exe");
+    own_.plugins.push_back(examine_plugin(source, executable, settings_));
+    add_plugin(own_.plugins.back(), own_.catalog);
+    return own_.plugins.back().declaration.id;
+  }
+
+  bool named(const std::string& id) const {
+    return std::any_of(own_.names.begin(), own_.names.end(), [&](const std::string& name) {
+      return name.substr(0, name.find(':')) == id;
+    });
+  }
+
+  const RunSettings& settings_;
+  OwnDetectors own_;
+};
+
+}  // namespace
+
+std::vector<std::string> OwnDetectors::records() const {
+  std::vector<std::string> out;
+  for (const Plugin& plugin : plugins) out.push_back(to_json(plugin).dump());
+  return out;
+}
+
+std::string OwnDetectors::in_results() const {
+  return plugins.empty() ? "" : plugins_in_results(plugins).dump();
+}
+
+bool names_library(const std::string& text) {
+  const std::string file = text.substr(0, text.find(':'));
+  return file.find('/') != std::string::npos || file.ends_with(".so");
+}
+
+OwnDetectors bring_in(const std::vector<std::string>& detectors,
+                      const std::vector<std::string>& commands, const RunSettings& settings,
+                      const DetectorCatalog& catalog) {
+  return BringIn(settings, catalog).of(detectors, commands);
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,248 @@
+/* The C interface of collision detectors that contactcheck loads from a shared library:
+ *
+ *     contactcheck run --detector ./libmine.so
+ *     contactcheck run --detector ./libmine.so:leaf=8
+ *
+ * This header is all that a plug-in needs; it is plain C11 and C++. A plug-in is a shared library
+ * that exports contactcheck_plugin_entry(), which gives a table of functions. README.md beside this
+ * header begins with an example of a dozen lines; tests/examples/c-plugin is a whole detector.
+ *
+ * Rules
+ * - Lengths are metres, times seconds; coordinates are x, y, z, one after the other.
+ * - Every pointer that the host passes is the host's. Bodies (and all they point to) live until
+ *   destroy(); a frame and its arrays until the next update().
+ * - Calls of one detector come one at a time, in the order create, declare, prepare, declare, then
+ *   per frame update and one or several query; frames come in any order and repeat. An answer may
+ *   not depend on frames before it.
+ * - The plug-in runs in a worker process: a crash, a hang or a memory limit ends its own row, no
+ *   other.
+ */
+#ifndef CONTACTCHECK_PLUGIN_H
+#define CONTACTCHECK_PLUGIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Grows with every change of this header; a library of another version is refused. */
+#define CONTACTCHECK_PLUGIN_ABI 1u
+
+/* What a function gives back. With anything but OK it should have put a sentence (UTF-8, ended by
+ * a zero byte) into `message`, which has room for CONTACTCHECK_MESSAGE_SIZE bytes. */
+enum {
+  CONTACTCHECK_OK = 0,
+  CONTACTCHECK_ERROR = 1,  /* the row becomes `error` */
+  CONTACTCHECK_REFUSED = 2 /* the row becomes `refused`: input that it must not answer */
+};
+#define CONTACTCHECK_MESSAGE_SIZE 512u
+
+/* ---- what a detector claims -------------------------------------------------------------- */
+
+/* Levels of contact, as bits. */
+enum {
+  CONTACTCHECK_LEVEL_BODY = 1 << 0,        /* pairs of bodies whose surfaces share a point */
+  CONTACTCHECK_LEVEL_CONTAINMENT = 1 << 1, /* one solid holds another, surfaces apart */
+  CONTACTCHECK_LEVEL_CELL = 1 << 2,        /* pairs of lattice cells, by the triangles in them */
+  CONTACTCHECK_LEVEL_BOX = 1 << 3,         /* pairs of mapped FFD-AABBs; reported as cells */
+  CONTACTCHECK_LEVEL_TRIANGLE = 1 << 4,    /* pairs of triangles that share a point */
+  CONTACTCHECK_LEVEL_VERTEX = 1 << 5,      /* vertices strictly inside another solid */
+  CONTACTCHECK_LEVEL_NEAR = 1 << 6         /* vertices nearer to triangles than the margin */
+};
+
+/* What query() is asked. */
+enum {
+  CONTACTCHECK_ASK_TRIANGLES = 0, /* all pairs of intersecting triangles */
+  CONTACTCHECK_ASK_BODY = 1,      /* pairs of bodies in contact; early-out allowed */
+  CONTACTCHECK_ASK_CELLS = 2,     /* all pairs of colliding cells */
+  CONTACTCHECK_ASK_CONTACTS = 3   /* all contacts, with depth and normal */
+};
+
+enum { CONTACTCHECK_DOUBLE = 0, CONTACTCHECK_SINGLE = 1 };
+enum {
+  CONTACTCHECK_DEPTH_NONE = 0,
+  CONTACTCHECK_DEPTH_VERTEX_SURFACE = 1, /* of a vertex: how far it has to go */
+  CONTACTCHECK_DEPTH_CONVEX_PAIR = 2     /* of two triangles or boxes: how to part them */
+};
+
+/* Claim what is true: what is claimed is judged, what is not is not. The host hands it over zeroed,
+ * but for touching_counts = 1, scale = 1 and needs_vertices = 1. */
+typedef struct contactcheck_semantics {
+  uint32_t levels;         /* bits; claimed, judged and gated */
+  uint32_t informative;    /* bits; shown, no claim */
+  uint32_t question_count; /* 1 to 4 */
+  uint32_t questions[4];   /* all different; the first one is the detector's own */
+  uint32_t solid;          /* 1: a body inside another is in contact with it */
+  uint32_t touching_counts;
+  uint32_t exact;     /* 1: no miss and nothing spurious at the levels claimed, ever */
+  uint32_t precision; /* CONTACTCHECK_DOUBLE or _SINGLE */
+  uint32_t depth_kind;
+  uint32_t whole_cells;    /* its cells are the whole deformed cells, not their FFD-AABBs */
+  uint32_t needs_vertices; /* 0: frames come without vertices, nodes are all it reads */
+  double margin;           /* metres; with LEVEL_NEAR: strictly nearer than this; else 0 */
+  double scale;            /* with _SINGLE it computes with (float)(scale * x); else 1 */
+  const char* means;       /* what it calls contact, where that is something else; or NULL */
+} contactcheck_semantics;
+
+/* An option: a word out of `choices`, or, without choices, a number from `min` to `max`. */
+typedef struct contactcheck_option {
+  const char* name; /* letters, digits, '-', '_', '.' */
+  const char* default_value;
+  const char* help;
+  const char* const* choices; /* ended by NULL; NULL: a number */
+  double min, max;
+  uint32_t integer; /* 1: a whole number */
+  uint32_t reserved;
+} contactcheck_option;
+
+/* An option's value for this detector, checked: numbers in their shortest form. */
+typedef struct contactcheck_setting {
+  const char* name;
+  const char* value;
+} contactcheck_setting;
+
+/* ---- what a detector is given ------------------------------------------------------------ */
+
+/* A free-form-deformation lattice. A vertex lies in its home cell at local coordinates (s, t, u);
+ * it is mapped by blending the cell's eight nodes, first along s, then t, then u, each time as
+ * a * (1 - w) + b * w without fused operations: then the bits are those of `vertices`. */
+typedef struct contactcheck_lattice {
+  uint32_t node_count, cell_count;
+  const double* rest_nodes;    /* 3 per node */
+  const uint32_t* cell_nodes;  /* 8 per cell; bit k of the corner: the high end of axis k */
+  const uint32_t* home_cell;   /* 1 per vertex */
+  const double* local;         /* 3 per vertex, in [0, 1] */
+  const uint32_t* label_begin; /* triangle_count + 1 */
+  const uint32_t* label_cells; /* cells that triangle t met at rest: label_begin[t] to [t + 1] */
+} contactcheck_lattice;
+
+typedef struct contactcheck_body {
+  const char* name;
+  uint32_t vertex_count, triangle_count;
+  const double* vertices;              /* at rest, 3 per vertex */
+  const uint32_t* triangles;           /* 3 per triangle, counter-clockwise from outside */
+  const contactcheck_lattice* lattice; /* NULL: nodes are vertices */
+} contactcheck_body;
+
+typedef struct contactcheck_body_state {
+  const double* nodes;    /* 3 per lattice node; without a lattice 3 per vertex */
+  const double* vertices; /* deformed, 3 per vertex; NULL when needs_vertices is 0 */
+} contactcheck_body_state;
+
+/* All numbers are finite. */
+typedef struct contactcheck_frame {
+  uint64_t index;
+  double time;
+  uint32_t body_count;
+  uint32_t reserved;
+  const contactcheck_body_state* bodies;
+} contactcheck_frame;
+
+/* ---- what a detector answers ------------------------------------------------------------- */
+
+typedef struct contactcheck_body_pair {
+  uint32_t a, b;
+} contactcheck_body_pair;
+
+/* Triangle (or cell) a of body_a with b of body_b, in either order. */
+typedef struct contactcheck_element_pair {
+  uint32_t body_a, body_b, a, b;
+} contactcheck_element_pair;
+
+typedef struct contactcheck_vertex_in_body {
+  uint32_t body, in, vertex;
+  uint32_t reserved;
+} contactcheck_vertex_in_body;
+
+typedef struct contactcheck_near_pair {
+  uint32_t body, other, vertex, triangle; /* a vertex of body, a triangle of other */
+} contactcheck_near_pair;
+
+typedef struct contactcheck_piece_contact {
+  contactcheck_element_pair pieces;
+  double depth;     /* metres, at least 0 */
+  double normal[3]; /* unit; moving piece b by depth * normal parts them */
+} contactcheck_piece_contact;
+
+typedef struct contactcheck_vertex_contact {
+  contactcheck_vertex_in_body where;
+  double depth;
+  double normal[3]; /* unit; moving the vertex by depth * normal takes it out */
+} contactcheck_vertex_contact;
+
+/* Where query() puts its answer: each function appends `count` items, as often as wanted, in any
+ * order; repeats are allowed. Pass `host` on. A pair of elements implies its pair of bodies.
+ * Questions: TRIANGLES wants triangles; BODY bodies; CELLS cells; CONTACTS piece_contacts or
+ * vertex_contacts, by the kind of depth. Vertices and near pairs go with the detector's own
+ * (first) question. */
+typedef struct contactcheck_answer {
+  void* host;
+  void (*bodies)(void* host, const contactcheck_body_pair* items, size_t count);
+  void (*triangles)(void* host, const contactcheck_element_pair* items, size_t count);
+  void (*cells)(void* host, const contactcheck_element_pair* items, size_t count);
+  void (*vertices)(void* host, const contactcheck_vertex_in_body* items, size_t count);
+  void (*near_pairs)(void* host, const contactcheck_near_pair* items, size_t count);
+  void (*piece_contacts)(void* host, const contactcheck_piece_contact* items, size_t count);
+  void (*vertex_contacts)(void* host, const contactcheck_vertex_contact* items, size_t count);
+} contactcheck_answer;
+
+/* ---- the table --------------------------------------------------------------------------- */
+
+/* Sizes of all structures above and of the table, in this order; CONTACTCHECK_STRUCT_SIZES fills
+ * them in, and the host refuses a library whose compiler laid them out otherwise. */
+#define CONTACTCHECK_STRUCT_COUNT 15
+#define CONTACTCHECK_STRUCT_SIZES                                                                \
+  {                                                                                              \
+    (uint32_t)sizeof(contactcheck_plugin), (uint32_t)sizeof(contactcheck_semantics),             \
+        (uint32_t)sizeof(contactcheck_option), (uint32_t)sizeof(contactcheck_setting),           \
+        (uint32_t)sizeof(contactcheck_lattice), (uint32_t)sizeof(contactcheck_body),             \
+        (uint32_t)sizeof(contactcheck_body_state), (uint32_t)sizeof(contactcheck_frame),         \
+        (uint32_t)sizeof(contactcheck_body_pair), (uint32_t)sizeof(contactcheck_element_pair),   \
+        (uint32_t)sizeof(contactcheck_vertex_in_body), (uint32_t)sizeof(contactcheck_near_pair), \
+        (uint32_t)sizeof(contactcheck_piece_contact),                                            \
+        (uint32_t)sizeof(contactcheck_vertex_contact), (uint32_t)sizeof(contactcheck_answer)     \
+  }
+
+typedef struct contactcheck_plugin {
+  uint32_t abi_version; /* CONTACTCHECK_PLUGIN_ABI */
+  uint32_t struct_sizes[CONTACTCHECK_STRUCT_COUNT];
+  const char* id;      /* letters, digits, '-', '_', '.', 64 at most; no name of a built-in one */
+  const char* summary; /* one line; or NULL */
+  const char* version; /* one line, for results.json; or NULL */
+  const contactcheck_option* options; /* NULL with option_count 0 */
+  uint32_t option_count;
+  uint32_t reserved;
+
+  /* Makes a detector with a value for every option, in the order of `options`. *detector is passed
+   * to all other functions; several detectors may be alive at once. */
+  int32_t (*create)(const contactcheck_setting* settings, uint32_t count, void** detector,
+                    char* message);
+  /* Of what create() made, exactly once; not called where that failed or gave NULL. */
+  void (*destroy)(void* detector);
+  /* Says what is claimed; asked after create(), and again after prepare(): a scale, and a margin
+   * with it, may be taken from the bodies. */
+  int32_t (*declare)(void* detector, contactcheck_semantics* semantics, char* message);
+  int32_t (*prepare)(void* detector, const contactcheck_body* bodies, uint32_t count,
+                     char* message);
+  int32_t (*update)(void* detector, const contactcheck_frame* frame, char* message);
+  /* Answers a question that was declared, about the frame of the last update. */
+  int32_t (*query)(void* detector, uint32_t question, const contactcheck_answer* answer,
+                   char* message);
+} contactcheck_plugin;
+
+#if defined(_WIN32)
+#define CONTACTCHECK_PLUGIN_EXPORT __declspec(dllexport)
+#else
+#define CONTACTCHECK_PLUGIN_EXPORT __attribute__((visibility("default")))
+#endif
+
+/* The one symbol of a plug-in. The table must stay as it is as long as the library is loaded. */
+CONTACTCHECK_PLUGIN_EXPORT const contactcheck_plugin* contactcheck_plugin_entry(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,174 @@
+#include "reference/plugin/declaration.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reference/scene/id_check.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLongestText = 200;  // bytes of a summary or a sentence
+constexpr std::size_t kMostOptions = 64, kMostChoices = 64;
+constexpr Level kLevels[] = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
+                             Level::kTriangle, Level::kVertex,      Level::kNear};
+constexpr Question kQuestions[] = {Question::kTriangles, Question::kBody, Question::kCells,
+                                   Question::kContacts};
+constexpr Precision kPrecisions[] = {Precision::kDouble, Precision::kSingle};
+constexpr DepthKind kDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
+                                     DepthKind::kConvexPair};
+
+template <typename Value, std::size_t N>
+Value named_value(const JsonField& field, const Value (&all)[N]) {
+  std::vector<std::string> names;
+  for (const Value value : all) names.emplace_back(name_of(value));
+  const std::string name = field.one_of(names);
+  for (const Value value : all)
+    if (name == name_of(value)) return value;
+  field.fail("has no value");
+}
+
+template <typename Value, std::size_t N>
+std::vector<Value> named_values(const JsonField& field, const Value (&all)[N]) {
+  std::vector<Value> out;
+  for (const JsonField& item : field.items()) out.push_back(named_value(item, all));
+  return out;
+}
+
+bool truth_value(const JsonField& field) {
+  if (!field.is(JsonValue::Kind::kBool)) field.refuse("true or false");
+  return field.value().boolean;
+}
+
+// It goes into tables and on terminals.
+std::string one_line(const JsonField& field) {
+  const std::string text = field.text();
+  const bool control = std::any_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+  });
+  if (text.size() > kLongestText || control)
+    field.refuse("one line of " + std::to_string(kLongestText) + " bytes at most");
+  return text;
+}
+
+std::string optional_line(const JsonField& object, const char* key) {
+  if (!object.has(key)) return "";
+  const JsonField field = object.at(key);
+  const bool empty = field.is(JsonValue::Kind::kText) && field.value().text.empty();
+  return empty ? "" : one_line(field);
+}
+
+// Names and words of options stand between ':', ',' and '=' in a detector's name.
+OptionInfo read_option(const JsonField& field) {
+  OptionInfo option;
+  option.name = parse_id(field.at("name"));
+  option.default_value = one_line(field.at("default"));
+  option.help = optional_line(field, "help");
+  if (field.has("choices")) {
+    for (const JsonField& choice : field.at("choices").items(1))
+      option.choices.push_back(parse_id(choice));
+    if (option.choices.size() > kMostChoices) field.fail("has too many choices");
+    return option;
+  }
+  option.min = field.at("min").number();
+  option.max = field.at("max").number({option.min});
+  option.integer = field.has("integer") && truth_value(field.at("integer"));
+  return option;
+}
+
+Json option_json(const OptionInfo& option) {
+  Json out = {{"name", option.name}, {"default", option.default_value}, {"help", option.help}};
+  if (option.choices.empty()) {
+    out["min"] = option.min;
+    out["max"] = option.max;
+    out["integer"] = option.integer;
+  } else {
+    out["choices"] = option.choices;
+  }
+  return out;
+}
+
+std::vector<OptionInfo> read_options(const JsonField& field) {
+  std::vector<OptionInfo> options;
+  for (const JsonField& item : field.items()) {
+    options.push_back(read_option(item));
+    for (std::size_t i = 0; i + 1 < options.size(); ++i)
+      if (options[i].name == options.back().name) item.fail("is an option that is there already");
+  }
+  if (options.size() > kMostOptions) field.fail("has too many options");
+  return options;
+}
+
+void read_needs(const JsonField& field, Declaration& out) {
+  out.needs_vertices = out.needs_nodes = false;
+  for (const JsonField& item : field.items())
+    (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
+}
+
+template <typename Value>
+Json names_json(const std::vector<Value>& values) {
+  Json out = Json::array();
+  for (const Value value : values) out.push_back(name_of(value));
+  return out;
+}
+
+// The keys of results.json, and one more.
+Json semantics_json(const Semantics& s) {
+  return {{"levels", names_json(s.levels)},
+          {"informative", names_json(s.informative)},
+          {"questions", names_json(s.questions)},
+          {"body", s.solid ? "solid" : "surface"},
+          {"touching", s.closed ? "closed" : "open"},
+          {"exact", s.exact},
+          {"margin", s.margin},
+          {"precision", name_of(s.precision)},
+          {"scale", s.scale},
+          {"depth_kind", name_of(s.depth)},
+          {"whole_cells", s.whole_cells},
+          {"means", s.means}};
+}
+
+}  // namespace
+
+Semantics read_semantics(const JsonField& field) {
+  Semantics s;
+  s.levels = named_values(field.at("levels"), kLevels);
+  s.questions = named_values(field.at("questions"), kQuestions);
+  if (field.has("informative")) s.informative = named_values(field.at("informative"), kLevels);
+  if (field.has("body")) s.solid = field.at("body").one_of({"surface", "solid"}) == "solid";
+  if (field.has("touching")) s.closed = field.at("touching").one_of({"closed", "open"}) == "closed";
+  if (field.has("exact")) s.exact = truth_value(field.at("exact"));
+  if (field.has("margin")) s.margin = field.at("margin").number();
+  if (field.has("precision")) s.precision = named_value(field.at("precision"), kPrecisions);
+  if (field.has("scale")) s.scale = field.at("scale").number();
+  if (field.has("depth_kind")) s.depth = named_value(field.at("depth_kind"), kDepthKinds);
+  if (field.has("whole_cells")) s.whole_cells = truth_value(field.at("whole_cells"));
+  s.means = optional_line(field, "means");
+  const std::string fault = semantics_fault(s);
+  if (!fault.empty()) field.fail("does not fit together: " + fault);
+  return s;
+}
+
+Declaration read_declaration(const JsonField& field) {
+  Declaration out;
+  out.id = parse_id(field.at("id"));
+  out.summary = optional_line(field, "summary");
+  out.version = optional_line(field, "version");
+  if (field.has("options")) out.options = read_options(field.at("options"));
+  if (field.has("needs")) read_needs(field.at("needs"), out);
+  out.semantics = read_semantics(field.at("semantics"));
+  return out;
+}
+
+nlohmann::ordered_json to_json(const Declaration& d) {
+  Json options = Json::array(), needs = Json::array();
+  for (const OptionInfo& option : d.options) options.push_back(option_json(option));
+  if (d.needs_vertices) needs.push_back("vertices");
+  if (d.needs_nodes) needs.push_back("nodes");
+  return {{"id", d.id},         {"summary", d.summary}, {"version", d.version},
+          {"options", options}, {"needs", needs},       {"semantics", semantics_json(d.semantics)}};
+}
+
+}  // namespace contactcheck

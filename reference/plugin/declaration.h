@@ -1,0 +1,32 @@
+// What a detector from outside says about itself, whichever way it comes in.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/detect/registry.h"
+#include "core/types/semantics.h"
+#include "reference/scene/json_field.h"
+
+namespace contactcheck {
+
+struct Declaration {
+  std::string id, summary, version;
+  std::vector<OptionInfo> options;
+  Semantics semantics;  ///< with the default options, before prepare
+  bool needs_vertices = true, needs_nodes = true;
+};
+
+/// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are
+/// passed over, so that later versions may add some.
+/// @throws InputError: one sentence with the document, the place, the value and what is allowed
+Declaration read_declaration(const JsonField& field);
+Semantics read_semantics(const JsonField& field);
+nlohmann::ordered_json to_json(const Declaration& declaration);
+
+/// What is wrong with it in itself: levels and questions that do not fit together, margins and
+/// scales that cannot be used; "" when nothing is.
+std::string semantics_fault(const Semantics& semantics);
+
+}  // namespace contactcheck

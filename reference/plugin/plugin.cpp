@@ -1,0 +1,142 @@
+#include "reference/plugin/plugin.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/types/check.h"
+#include "core/types/hash.h"
+#include "reference/adapters/register.h"
+#include "reference/compare/run_result_json.h"
+#include "reference/plugin/pipe_detector.h"
+#include "reference/plugin/plugin_library.h"
+#include "reference/run/job.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLibrary = "library";
+constexpr const char* kCommand = "command";
+constexpr const char* kOracle = "oracle";  // under this name results.json lists its errors
+
+void add_file(const fs::path& file, Fnv1a& hash) {
+  const std::string bytes = read_text_file(file);
+  hash.bytes(bytes.data(), bytes.size());
+}
+
+// A script is edited where its command line stays.
+void add_named_files(const std::string& command, Fnv1a& hash) {
+  hash.bytes(command.data(), command.size());
+  std::istringstream words(command);
+  for (std::string word; words >> word;) {
+    std::error_code ignored;
+    if (fs::is_regular_file(word, ignored)) add_file(word, hash);
+  }
+}
+
+// Under the name of another detector, or of a library whose known defects are listed, results would
+// be taken for theirs.
+void require_free_id(const Plugin& plugin, const DetectorCatalog& catalog) {
+  const std::string& id = plugin.declaration.id;
+  const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
+  if (catalog.find(id) != nullptr) throw InputError(claim + "which is another detector's name");
+  if (id == kOracle || library_of(id) != "contactcheck")
+    throw InputError(claim + "a name that is kept for " +
+                     (id == kOracle ? "the oracle" : library_of(id)));
+}
+
+DetectorInfo info_of(const Plugin& plugin) {
+  DetectorInfo info;
+  info.id = plugin.declaration.id;
+  info.summary = plugin.declaration.summary;
+  info.options = plugin.declaration.options;
+  const std::string text = plugin.source.text;
+  if (plugin.source.kind == PluginKind::kLibrary) {
+    info.make = [text](const Options& options) {
+      return make_library_detector(PluginLibrary(text), options);
+    };
+  } else {
+    info.make = [text, id = info.id, memory_limit = plugin.memory_limit](const Options& options) {
+      return make_pipe_detector(text, id, options, memory_limit);
+    };
+  }
+  return info;
+}
+
+}  // namespace
+
+const char* name_of(PluginKind kind) { return kind == PluginKind::kLibrary ? kLibrary : kCommand; }
+
+PluginKind plugin_kind_from_name(const std::string& name) {
+  for (const PluginKind kind : {PluginKind::kLibrary, PluginKind::kCommand})
+    if (name == name_of(kind)) return kind;
+  throw InputError("\"" + name + "\" is no kind of plug-in");
+}
+
+std::string described(const PluginSource& source) {
+  return std::string(name_of(source.kind)) + " \"" + source.text + "\"";
+}
+
+std::string content_of(const PluginSource& source) {
+  Fnv1a hash;
+  if (source.kind == PluginKind::kLibrary) {
+    add_file(source.text, hash);
+  } else {
+    add_named_files(source.text, hash);
+  }
+  return hex(hash.digest());
+}
+
+nlohmann::ordered_json to_json(const Plugin& plugin) {
+  return {{"kind", name_of(plugin.source.kind)},
+          {"source", plugin.source.text},
+          {"content", plugin.content},
+          {"memory_limit", plugin.memory_limit},
+          {"declaration", to_json(plugin.declaration)}};
+}
+
+Plugin plugin_from_text(const std::string& json) {
+  const std::string document = "record of a detector";
+  const JsonValue value = parse_json(json, document);
+  const JsonField field(value, document);
+  Plugin plugin;
+  plugin.source = {plugin_kind_from_name(field.at("kind").text()), field.at("source").text()};
+  plugin.content = field.at("content").text();
+  plugin.memory_limit = field.at("memory_limit").whole(0, std::size_t{1} << 52);
+  plugin.declaration = read_declaration(field.at("declaration"));
+  return plugin;
+}
+
+void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
+  require_free_id(plugin, catalog);
+  try {
+    catalog.add(info_of(plugin));
+  } catch (const InputError& e) {
+    throw InputError(described(plugin.source) + " cannot be used: " + e.what());
+  }
+}
+
+DetectorCatalog with_plugins(const DetectorCatalog& catalog,
+                             const std::vector<std::string>& records) {
+  DetectorCatalog out = catalog;
+  for (const std::string& record : records) add_plugin(plugin_from_text(record), out);
+  return out;
+}
+
+nlohmann::ordered_json plugins_in_results(const std::vector<Plugin>& plugins) {
+  auto out = nlohmann::ordered_json::array();
+  for (const Plugin& plugin : plugins) {
+    const bool library = plugin.source.kind == PluginKind::kLibrary;
+    const std::string& text = plugin.source.text;
+    out.push_back({{"detector", plugin.declaration.id},
+                   {"kind", name_of(plugin.source.kind)},
+                   {"source", library ? fs::path(text).filename().string() : text},
+                   {"content", plugin.content},
+                   {"version", plugin.declaration.version}});
+  }
+  return out;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,39 @@
+// A detector in a shared library that speaks the C interface of contactcheck_plugin.h.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "core/detect/registry.h"
+#include "reference/plugin/contactcheck_plugin.h"
+#include "reference/plugin/declaration.h"
+
+namespace contactcheck {
+
+/// A library that is loaded, of the right version and layout. It stays loaded: what it has started
+/// may still run. @pre this process may die of it
+class PluginLibrary {
+ public:
+  /// @throws InputError: the file, and why it cannot be used
+  explicit PluginLibrary(const std::filesystem::path& file);
+
+  const contactcheck_plugin& table() const { return *table_; }
+  const std::string& name() const { return name_; }
+  /// Makes a detector with its default options to ask what it claims.
+  /// @throws InputError when it fails, or what it says cannot be said
+  Declaration declare() const;
+
+ private:
+  std::vector<OptionInfo> options() const;
+
+  std::string name_;  ///< library "PATH"
+  const contactcheck_plugin* table_ = nullptr;
+};
+
+/// Makes the library's detector. `options` has a value for each that it declares.
+/// @throws InputError, std::runtime_error when it fails
+std::unique_ptr<Detector> make_library_detector(const PluginLibrary& library,
+                                                const Options& options);
+
+}  // namespace contactcheck

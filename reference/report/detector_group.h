@@ -1,0 +1,21 @@
+// Detectors of one family have one colour and one name in legends.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace contactcheck {
+
+struct DetectorGroup {
+  const char* name;
+  const char* light;  ///< colour on white, #rrggbb
+  const char* dark;   ///< on black
+};
+
+inline constexpr std::size_t kDetectorGroups = 9;
+/// The last one is of detectors that no other is for. Names and colours are those of the HTML
+/// report (web/src/groups.ts, web/src/style/colours.css).
+const DetectorGroup& detector_group(std::size_t index);
+std::size_t group_of(const std::string& detector);
+
+}  // namespace contactcheck

@@ -1,0 +1,182 @@
+#include "reference/report/speed_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "reference/report/format.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+using Runs = std::vector<const Json*>;
+
+/// Scenes that one chart can be drawn for.
+struct Choice {
+  std::string words;
+  std::vector<std::string> scenes;
+};
+
+std::vector<Choice> choices_of(const Json& results) {
+  std::vector<Choice> choices;
+  Choice all{"", {}}, hard{"", {}};
+  for (const Json& scene : results.at("scenes")) {
+    const auto id = scene.at("id").get<std::string>();
+    (scene.contains("family") ? hard : all).scenes.push_back(id);
+    if (!scene.contains("family")) choices.push_back({"scene " + id, {id}});
+  }
+  all.words = fmt::format("all {} scenes", all.scenes.size());
+  hard.words = fmt::format("all {} families of hard cases", hard.scenes.size());
+  if (!hard.scenes.empty()) choices.insert(choices.begin(), hard);
+  if (all.scenes.size() > 1) choices.insert(choices.begin(), all);
+  return choices;
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// Nothing where there was nothing to find and nothing was reported.
+std::optional<double> worse_share(const SpeedErrorPoint& p) {
+  std::optional<double> worse;
+  if (p.truth > 0) worse = share(p.missed, p.truth);
+  if (p.reported > 0) worse = std::max(worse.value_or(0.0), share(p.spurious, p.reported));
+  return worse;
+}
+
+/// All runs by scene and detector.
+class RunIndex {
+ public:
+  explicit RunIndex(const Json& results) {
+    for (const Json& run : results.at("runs")) {
+      const auto detector = run.at("detector").get<std::string>();
+      if (seen_.insert(detector).second) detectors_.push_back(detector);
+      if (run.at("status") == "ok") ok_[{run.at("scene").get<std::string>(), detector}] = &run;
+    }
+  }
+
+  const std::vector<std::string>& detectors() const { return detectors_; }
+  /// Those that ended well.
+  Runs of(const std::string& detector, const std::vector<std::string>& scenes) const {
+    Runs runs;
+    for (const std::string& scene : scenes)
+      if (const auto it = ok_.find({scene, detector}); it != ok_.end()) runs.push_back(it->second);
+    return runs;
+  }
+
+ private:
+  std::set<std::string> seen_;
+  std::vector<std::string> detectors_;
+  std::map<std::pair<std::string, std::string>, const Json*> ok_;
+};
+
+// Mean over all frames of these runs; nothing where one of them was not timed.
+std::optional<double> mean_frame_ms(const Runs& runs) {
+  double ms = 0.0, frames = 0.0;
+  for (const Json* run : runs) {
+    const Json& times = run->at("time_ms");
+    if (!times.contains("cold")) return {};
+    const auto n = static_cast<double>(whole_number(run->at("frames")));
+    ms += n * times.at("cold").at("frame").get<double>();
+    frames += n;
+  }
+  const double mean = ms / frames;
+  return std::isfinite(mean) && mean > 0.0 ? std::optional(mean) : std::nullopt;
+}
+
+// At the finest level that the detector claims; false where none was judged.
+bool add_counts(const Json& run, SpeedErrorPoint& point) {
+  const std::string level = run.at("per_frame").value("level", "");
+  const Json& levels = run.at("levels");
+  if (!levels.contains(level) || levels.at(level).value("informative", false)) return false;
+  const Json& counts = levels.at(level);
+  point.truth += whole_number(counts.at("truth"));
+  point.reported += whole_number(counts.at("reported"));
+  point.missed += whole_number(counts.at("missed"));
+  point.spurious += whole_number(counts.at("spurious"));
+  return true;
+}
+
+// In alphabetical order.
+std::string levels_of(const Runs& runs) {
+  std::set<std::string> levels;
+  for (const Json* run : runs) levels.insert(run->at("per_frame").value("level", ""));
+  std::string text;
+  for (const std::string& level : levels) text += (text.empty() ? "" : ", ") + level;
+  return text;
+}
+
+/// A point, or why there is none.
+struct Attempt {
+  std::optional<SpeedErrorPoint> point;
+  std::string why;
+};
+
+Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scenes) {
+  if (runs.size() < scenes)
+    return {{}, fmt::format("ended well in {} of {} scenes", runs.size(), scenes)};
+  const auto ms = mean_frame_ms(runs);
+  if (!ms) return {{}, "not timed"};
+  SpeedErrorPoint point;
+  bool judged = false;
+  for (const Json* run : runs) judged = add_counts(*run, point) || judged;
+  const auto error = worse_share(point);
+  if (!judged || !error) return {{}, "nothing to judge"};
+  point.detector = detector;
+  point.question = runs.front()->at("time_ms").at("question").get<std::string>();
+  point.level = levels_of(runs);
+  point.ms = *ms;
+  point.error = *error;
+  return {std::move(point), ""};
+}
+
+SpeedError chart_of(const Choice& choice, const RunIndex& index) {
+  SpeedError out{choice.words, {}, {}};
+  for (const std::string& detector : index.detectors()) {
+    Attempt attempt = point_of(detector, index.of(detector, choice.scenes), choice.scenes.size());
+    if (attempt.point) {
+      out.points.push_back(std::move(*attempt.point));
+    } else {
+      out.left_out.push_back({detector, attempt.why});
+    }
+  }
+  mark_front(out.points);
+  return out;
+}
+
+}  // namespace
+
+void mark_front(std::vector<SpeedErrorPoint>& points) {
+  std::vector<SpeedErrorPoint*> order;
+  for (SpeedErrorPoint& point : points) order.push_back(&point);
+  std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+    return std::pair(a->ms, a->error) < std::pair(b->ms, b->error);
+  });
+  std::map<std::string, double> least;  // error so far, by question
+  for (SpeedErrorPoint* point : order) {
+    const auto [it, first] = least.try_emplace(point->question, point->error);
+    point->on_front = first || point->error < it->second;
+    it->second = std::min(it->second, point->error);
+  }
+}
+
+// A point needs every scene: the first choice that at most half of the detectors fall out of,
+// compared with the best.
+SpeedError speed_error(const Json& results) {
+  const RunIndex index(results);
+  std::vector<SpeedError> charts;
+  for (const Choice& choice : choices_of(results)) charts.push_back(chart_of(choice, index));
+  std::size_t best = 0;
+  for (const SpeedError& chart : charts) best = std::max(best, chart.points.size());
+  for (SpeedError& chart : charts)
+    if (2 * chart.points.size() >= best) return std::move(chart);
+  return {};
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,45 @@
+// What every detector costs and how often it errs: the points of the chart of speed against error.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace contactcheck {
+
+/// One detector over several scenes.
+struct SpeedErrorPoint {
+  std::string detector;
+  std::string question;  ///< that was timed; times of different questions do not compare
+  /// Of the counts: the finest that the detector claims. "body, triangle" where scenes differ.
+  std::string level;
+  double ms = 0.0;  ///< per frame: map + update + query, cold, the mean over all frames; positive
+  std::int64_t truth = 0, reported = 0, missed = 0, spurious = 0;  ///< sums over scenes
+  /// The larger one of missed / truth and spurious / reported; in [0, 1].
+  double error = 0.0;
+  /// No other point of the same question is faster without being worse.
+  bool on_front = false;
+};
+
+/// A detector without a point. `why`, in words.
+struct LeftOut {
+  std::string detector, why;
+};
+
+struct SpeedError {
+  std::string scenes;  ///< in words: "all 8 scenes"
+  std::vector<SpeedErrorPoint> points;
+  std::vector<LeftOut> left_out;
+};
+
+/// As the HTML report shows it at first (reference/report/web/src/pareto.ts), so that both are the
+/// same picture: all scenes where most detectors ran well in all of them, else all families of hard
+/// cases, else one scene. Detectors are in the order of their first runs.
+/// @throws nlohmann::json::exception when results are not as the schema says
+SpeedError speed_error(const nlohmann::ordered_json& results);
+
+/// Sets `on_front` of every point.
+void mark_front(std::vector<SpeedErrorPoint>& points);
+
+}  // namespace contactcheck

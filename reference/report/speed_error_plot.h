@@ -1,0 +1,19 @@
+// The chart of speed against error as a picture.
+#pragma once
+
+#include <string>
+
+#include "reference/report/speed_error.h"
+
+namespace contactcheck {
+
+/// Where the report expects it, beside report.md. No picture of a family has that name.
+inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
+
+/// An SVG document: time per frame to the right, share of errors upwards, every detector a point
+/// with its name where there is room, the Pareto fronts as dashed steps. Beneath stands which
+/// scenes, which times and which errors; `machine` is what they were measured on. Empty without
+/// points.
+std::string speed_error_plot(const SpeedError& chart, const std::string& machine);
+
+}  // namespace contactcheck

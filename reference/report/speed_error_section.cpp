@@ -1,0 +1,77 @@
+#include "reference/report/speed_error_section.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "reference/report/format.h"
+#include "reference/report/markdown_table.h"
+#include "reference/report/speed_error.h"
+#include "reference/report/speed_error_plot.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> columns = {{"detector", true, ""},  {"question timed", true, ""},
+                                              {"ms/frame", false, ""}, {"level", true, ""},
+                                              {"truth", false, ""},    {"missed", false, ""},
+                                              {"reported", false, ""}, {"spurious", false, ""},
+                                              {"error", false, ""},    {"on the front", true, ""}};
+  return columns;
+}
+
+std::vector<std::string> cells_of(const SpeedErrorPoint& p) {
+  return {p.detector,
+          p.question,
+          format_number(p.ms),
+          p.level,
+          format_count(p.truth),
+          format_count(p.missed),
+          format_count(p.reported),
+          format_count(p.spurious),
+          format_error_rate(p.error),
+          p.on_front ? "yes" : ""};
+}
+
+// "a, b (not timed); c (nothing to judge)"
+std::string left_out_line(const SpeedError& chart) {
+  std::map<std::string, std::string> by_reason;
+  for (const LeftOut& out : chart.left_out) {
+    std::string& names = by_reason[out.why];
+    names += (names.empty() ? "" : ", ") + out.detector;
+  }
+  std::string text;
+  for (const auto& [why, names] : by_reason)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", names, why);
+  return text.empty() ? "" : "Not in the chart: " + text + ".\n\n";
+}
+
+}  // namespace
+
+std::string speed_error_markdown(const Json& results) {
+  const SpeedError chart = speed_error(results);
+  if (chart.points.empty()) return "";
+  std::string rows;
+  for (const SpeedErrorPoint& point : chart.points) rows += table_line(cells_of(point));
+  return fmt::format(
+             "## Speed against error\n\n![Every detector as a point: time per frame against share "
+             "of errors]({})\n\nOver {}. A time is that of mapping, update and query with cold "
+             "caches, the mean over all frames. An error is the share of contacts missed or of "
+             "reports spurious, whichever is worse, at the finest level that a detector claims. "
+             "On the front: no other that answers the same question is faster without being "
+             "worse.\n\n",
+             kSpeedErrorFile, chart.scenes) +
+         table_head(columns()) + rows + "\n" + left_out_line(chart);
+}
+
+std::string speed_error_picture(const Json& results) {
+  const Json& machine = results.at("machine");
+  return speed_error_plot(speed_error(results), machine.at("cpu").get<std::string>() + ", " +
+                                                    machine.at("isa").get<std::string>());
+}
+
+}  // namespace contactcheck

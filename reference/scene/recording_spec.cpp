@@ -1,0 +1,164 @@
+#include "reference/scene/recording_spec.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/types/check.h"
+#include "reference/scene/file_text.h"
+
+namespace contactcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestNumber = 1'000'000'000;
+constexpr NumberRange kScale = {0.0, true, 1e9, false};
+constexpr NumberRange kPlace = {-1e7, false, 1e7, false};  // metres, as positions of motions
+
+// "cloth_%04d.obj": one %d, or %0Nd with N from 1 to 9.
+void parse_pattern(const JsonField& field, const fs::path& folder, RecordingSpec& spec) {
+  const std::string name = field.text();
+  const std::size_t mark = name.find('%');
+  std::size_t at = mark == std::string::npos ? name.size() : mark + 1;
+  if (at + 1 < name.size() && name[at] == '0' && name[at + 1] >= '1' && name[at + 1] <= '9') {
+    spec.digits = static_cast<std::size_t>(name[at + 1] - '0');
+    at += 2;
+  }
+  if (at >= name.size() || name[at] != 'd' || name.find('%', at) != std::string::npos)
+    field.refuse("the name of numbered files with one number in it, as %d or %04d");
+  spec.numbered = true;
+  spec.before_number = (folder / name.substr(0, mark)).string();
+  spec.after_number = name.substr(at + 1);
+}
+
+std::string triangle_text(const Triangle& t) {
+  return "(" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) +
+         ")";
+}
+
+// What tells the frame's topology from that of the mesh; empty when nothing does.
+std::string topology_fault(const TriangleMesh& frame, const TriangleMesh& mesh) {
+  const auto counts = [](const TriangleMesh& m) {
+    return std::to_string(m.vertices.size()) + " vertices and " +
+           std::to_string(m.triangles.size()) + " triangles";
+  };
+  if (frame.vertices.size() != mesh.vertices.size() ||
+      frame.triangles.size() != mesh.triangles.size())
+    return "has " + counts(frame) + ", the body's mesh has " + counts(mesh);
+  const auto [own, other] =
+      std::mismatch(frame.triangles.begin(), frame.triangles.end(), mesh.triangles.begin());
+  if (own == frame.triangles.end()) return "";
+  return "has other triangles than the body's mesh: triangle " +
+         std::to_string(own - frame.triangles.begin()) + " is " + triangle_text(*own) + ", there " +
+         triangle_text(*other);
+}
+
+}  // namespace
+
+std::string RecordingSpec::file_of(std::size_t frame) const {
+  if (!numbered) return before_number;
+  std::string number = std::to_string(number_of(frame));
+  if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+  return before_number + number + after_number;
+}
+
+void RecordingSpec::place(std::vector<Vec3>& vertices) const {
+  if (scale != 1.0)
+    for (Vec3& v : vertices) v *= scale;
+  if (translate != Vec3::Zero())
+    for (Vec3& v : vertices) v += translate;
+}
+
+RecordingSpec parse_recording_spec(const JsonField& field, const fs::path& folder) {
+  field.only_keys({"frames", "cache", "first", "step", "scale", "translate"});
+  RecordingSpec spec;
+  if (field.exactly_one_of({"frames", "cache"}) == "frames") {
+    parse_pattern(field.at("frames"), folder, spec);
+  } else {
+    spec.before_number = (folder / field.at("cache").text()).lexically_normal().string();
+  }
+  if (field.has("first")) spec.first = field.at("first").whole(0, kLargestNumber);
+  if (field.has("step")) spec.step = field.at("step").whole(1, kLargestNumber);
+  if (field.has("scale")) spec.scale = field.at("scale").number(kScale);
+  if (field.has("translate")) spec.translate = field.at("translate").vector(kPlace);
+  return spec;
+}
+
+RecordedFrames::RecordedFrames(RecordingSpec spec, const JsonField& field)
+    : spec_(std::move(spec)), field_(field) {
+  if (spec_.numbered) return;
+  try {
+    cache_ = read_point_cache(spec_.before_number);
+  } catch (const InputError& error) {
+    field_.fail("cannot be read: " + without_full_stop(error.what()));
+  }
+}
+
+void RecordedFrames::fail_at(std::size_t frame, const std::string& what) const {
+  field_.fail("frame " + std::to_string(frame) + " (" + in_quotes(spec_.file_of(frame)) +
+              (cache_ ? ", sample " + std::to_string(spec_.number_of(frame)) : "") + ") " + what);
+}
+
+std::size_t RecordedFrames::available(std::size_t most) const {
+  std::size_t count = 0;
+  std::error_code ignored;
+  if (cache_ && spec_.first < cache_->samples()) {
+    count = std::min(most, (cache_->samples() - spec_.first - 1) / spec_.step + 1);
+  } else if (!cache_) {
+    while (count < most && fs::is_regular_file(spec_.file_of(count), ignored)) ++count;
+  }
+  if (count == 0 && cache_)
+    field_.at("first").refuse("below " + std::to_string(cache_->samples()) +
+                              ", the number of samples");
+  if (count == 0) field_.fail("has no frame: there is no file " + in_quotes(spec_.file_of(0)));
+  return count;
+}
+
+LoadedMesh RecordedFrames::first_mesh() const {
+  try {
+    return read_mesh_file(spec_.file_of(0));
+  } catch (const InputError& error) {
+    fail_at(0, "cannot be read: " + without_full_stop(error.what()));
+  }
+}
+
+std::vector<Vec3> RecordedFrames::positions(std::size_t frame, const TriangleMesh& mesh) const {
+  std::vector<Vec3> out = cache_ ? cached_positions(frame, mesh) : numbered_positions(frame, mesh);
+  spec_.place(out);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (!out[i].allFinite()) fail_at(frame, "overflows at vertex " + std::to_string(i));
+  return out;
+}
+
+std::vector<Vec3> RecordedFrames::numbered_positions(std::size_t frame,
+                                                     const TriangleMesh& mesh) const {
+  LoadedMesh loaded;
+  try {
+    loaded = read_mesh_file(spec_.file_of(frame));
+  } catch (const InputError& error) {
+    fail_at(frame, "cannot be read: " + without_full_stop(error.what()));
+  }
+  const std::string fault = topology_fault(loaded.mesh, mesh);
+  if (!fault.empty()) fail_at(frame, fault);
+  return std::move(loaded.mesh.vertices);
+}
+
+std::vector<Vec3> RecordedFrames::cached_positions(std::size_t frame,
+                                                   const TriangleMesh& mesh) const {
+  if (cache_->points() != mesh.vertices.size())
+    field_.at("cache").fail("has " + std::to_string(cache_->points()) +
+                            " points, the body's mesh has " + std::to_string(mesh.vertices.size()) +
+                            " vertices");
+  try {
+    return cache_->sample(spec_.number_of(frame));
+  } catch (const InputError& error) {
+    field_.fail("cannot be used: " + without_full_stop(error.what()));
+  }
+}
+
+std::string RecordedFrames::described() const {
+  const std::string file = spec_.file_of(0);
+  return spec_.numbered ? "recorded frames, " + file + " and on" : "recorded samples of " + file;
+}
+
+}  // namespace contactcheck

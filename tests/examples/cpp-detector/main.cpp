@@ -1,0 +1,10 @@
+// contactcheck with one detector more. Its workers are this program again: main is this call alone.
+#include "reference/adapters/register.h"
+#include "reference/cli/program.h"
+#include "sweep_detector.h"
+
+int main(int argc, char** argv) {
+  contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
+  example::register_sweep(catalog);
+  return contactcheck::contactcheck_main(argc, argv, catalog);
+}

@@ -1,0 +1,12 @@
+// A detector of one's own in C++: it needs contactcheck::core and nothing else.
+#pragma once
+
+#include "core/detect/registry.h"
+
+namespace example {
+
+/// Adds the detector `cpp-sweep`: boxes of triangles swept along an axis, then core's exact test of
+/// two triangles. All intersecting pairs of triangles, no others.
+void register_sweep(contactcheck::DetectorCatalog& catalog);
+
+}  // namespace example

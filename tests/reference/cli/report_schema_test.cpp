@@ -1,0 +1,80 @@
+// Whatever the schema of results accepts, the reports are written of.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "reference/cli/report_folder.h"
+#include "reference/cli/schema_defect.h"
+#include "reference/report/terminal.h"
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Place = Json::json_pointer;
+
+Json read(const char* file) {
+  std::ifstream in(file);
+  return Json::parse(in);
+}
+
+bool is_valid(const Json& results) {
+  static const Json schema = read(CONTACTCHECK_FIXTURES "/results.schema.json");
+  return schema_defect(schema, results).empty();
+}
+
+// Every member of every object, outer ones first.
+void add_members(const Json& value, const Place& place, std::vector<Place>& out) {
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) {
+      out.push_back(place / key);
+      add_members(member, place / key, out);
+    }
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) add_members(value[i], place / i, out);
+}
+
+Json without(Json results, const Place& place) {
+  results[place.parent_pointer()].erase(place.back());
+  return results;
+}
+
+void write_all_reports(const Json& results) {
+  report_texts(results, "no-folder", all_report_formats());
+  terminal_tables(results, false);
+}
+
+TEST(ReportOfValidResults, TheExampleOfTheSchemaIsWritten) {
+  const Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
+  ASSERT_TRUE(is_valid(example));
+  const auto files = report_texts(example, "no-folder", {"md"});
+  EXPECT_THAT(files.at("report.md"),
+              testing::HasSubstr("| ffd-aabb-sphere2 | 1 | cell | 10 | 0.90000 | 1 | 1 |"));
+  EXPECT_THAT(files.at("report.md"), testing::HasSubstr("bullet-vf:margin=0.001"));
+}
+
+TEST(ReportOfValidResults, NoMemberIsMissedThatTheSchemaDoesWithout) {
+  const Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
+  std::vector<Place> places;
+  add_members(example, Place(), places);
+  std::size_t valid = 0;
+  for (const Place& place : places) {
+    const Json results = without(example, place);
+    if (!is_valid(results)) continue;
+    ++valid;
+    EXPECT_NO_THROW(write_all_reports(results)) << "without " << place;
+  }
+  EXPECT_GT(valid, 80u);
+}
+
+TEST(ReportOfValidResults, OptionsMayBeNumbers) {
+  Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
+  example["runs"][1]["options"]["margin"] = 0.001;
+  ASSERT_TRUE(is_valid(example));
+  EXPECT_THAT(report_texts(example, "no-folder", {"md"}).at("report.md"),
+              testing::HasSubstr("margin=0.001"));
+}
+
+}  // namespace
+}  // namespace contactcheck

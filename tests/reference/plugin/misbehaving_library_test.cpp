@@ -1,0 +1,141 @@
+// What a library that misbehaves comes to: a sentence before anything runs, or a row of its own.
+#include <gmock/gmock.h>
+
+#include "tests/reference/plugin/plugin_run.h"
+
+namespace contactcheck {
+namespace {
+
+using test::misbehaving_library;
+using test::PluginRun;
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Fault {
+  std::string name;
+  std::vector<std::string> pieces;  ///< of the sentence
+  std::string status = "error";
+  std::vector<std::string> flags = {"--no-timing"};
+};
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
+std::string test_name(const testing::TestParamInfo<Fault>& test) {
+  std::string name = test.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// ---- when it is loaded: the run is refused --------------------------------------------------
+
+class LibraryAtLoad : public testing::TestWithParam<Fault> {};
+
+TEST_P(LibraryAtLoad, IsRefusedWithOneSentence) {
+  const test::Environment fault("CONTACTCHECK_PLUGIN_FAULT", GetParam().name);
+  const PluginRun run({"--detector", CONTACTCHECK_MISBEHAVING_LIBRARY}, GetParam().flags);
+  std::vector<std::string> pieces = GetParam().pieces;
+  pieces.push_back("library \"" CONTACTCHECK_MISBEHAVING_LIBRARY "\"");
+  test::expect_refusal(run, pieces);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, LibraryAtLoad,
+    testing::Values(
+        Fault{"version", {"version 99", "this program speaks version 1"}},
+        Fault{"size", {"contactcheck_body a size of", "here it has"}},
+        Fault{"no-table", {"contactcheck_plugin_entry() gave no table"}},
+        Fault{"no-function", {"lacks one of its functions"}}, Fault{"no-id", {"has no id"}},
+        Fault{"bad-id", {"id is \"two words\"", "it must be"}},
+        Fault{"built-in-id", {"\"ffd-lazy\"", "another detector's name"}},
+        Fault{"library-id", {"\"fcl-mine\"", "kept for fcl"}},
+        Fault{"no-question", {"answers no question"}},
+        Fault{"bad-default", {"option fault is \"nonsense\"", "allowed: none, "}},
+        Fault{"crash", {"ended in signal 11"}}, Fault{"exit", {"ended in exit code "}},
+        Fault{"hang", {"said nothing for 1.5 s (time limit)"}, "", {"--call-limit", "1.5"}},
+        Fault{"memory", {"took more than 400 MiB (memory limit)"}, "", {"--memory-limit", "400"}}),
+    test_name);
+
+TEST(LibraryAtLoad, OfNoSuchFileIsRefused) {
+  test::expect_refusal(PluginRun({"--detector", "./no-such-library.so"}),
+                       {"cannot read ", "no-such-library.so: No such file"});
+}
+
+TEST(LibraryAtLoad, ThatIsNoLibraryIsRefused) {
+  test::expect_refusal(PluginRun({"--detector", CONTACTCHECK_MISBEHAVING_COMMAND}),
+                       {"cannot be loaded"});
+}
+
+TEST(LibraryAtLoad, ThatIsNoPluginIsRefused) {
+  test::expect_refusal(PluginRun({"--detector", CONTACTCHECK_NO_PLUGIN}),
+                       {"is no detector: it has no function contactcheck_plugin_entry"});
+}
+
+TEST(LibraryAtLoad, UnknownOptionsAndValuesAreRefused) {
+  const std::string library = CONTACTCHECK_MISBEHAVING_LIBRARY;
+  test::expect_refusal(PluginRun({"--detector", library + ":colour=red"}),
+                       {"unknown option \"colour\"", "misbehaving knows fault"});
+  test::expect_refusal(PluginRun({"--detector", misbehaving_library("boredom")}),
+                       {"option fault is \"boredom\"", "allowed: none"});
+}
+
+// ---- while it works: its row says so, and the others' are as they were ----------------------
+
+class LibraryAtWork : public testing::TestWithParam<Fault> {};
+
+TEST_P(LibraryAtWork, GetsARowAndDisturbsNobody) {
+  PluginRun run({"--detector", misbehaving_library(GetParam().name), "--detector", "fcl-aabb"},
+                GetParam().flags);
+  const auto row = run.row("misbehaving:fault=" + GetParam().name);
+  EXPECT_EQ(row.at("status"), GetParam().status) << row.at("message");
+  EXPECT_EQ(run.outcome().exit_code, GetParam().status == "error" ? 3 : 0) << run.outcome().err;
+  for (const std::string& piece : GetParam().pieces)
+    EXPECT_THAT(row.at("message").get<std::string>(), HasSubstr(piece));
+  EXPECT_EQ(run.row("fcl-aabb").at("status"), "ok");
+  EXPECT_EQ(run.row("fcl-aabb").at("levels").at("triangle").at("missed"), 0);
+}
+
+const std::vector<std::string> kQuick = {"--no-timing", "--call-limit", "1.5"};
+const std::vector<std::string> kSmall = {"--no-timing", "--memory-limit", "400"};
+
+INSTANTIATE_TEST_SUITE_P(
+    All, LibraryAtWork,
+    testing::Values(Fault{"create-fails", {"create failed: no licence for this machine"}},
+                    Fault{"unknown-level", {"declares levels that do not exist"}},
+                    Fault{"no-question", {"it answers no question"}},
+                    Fault{"refuses", {"bodies without a licence"}, "refused"},
+                    Fault{"crash", {"frame 2", "signal 11"}},
+                    Fault{"exit", {"frame 2", "exit code "}},
+                    Fault{"hang", {"frame 2", "no progress for 1.5 s"}, "error", kQuick},
+                    Fault{"fails", {"frame 2", "update failed: xxx"}},
+                    Fault{"strange-status", {"frame 2", "update failed"}},
+                    Fault{"memory", {"frame 2", "memory limit"}, "error", kSmall},
+                    Fault{"no-such-body", {"frame 2: the answer names body 7 of 2 bodies"}},
+                    Fault{"no-such-triangle", {"frame 2: the answer names triangle 1000000"}},
+                    Fault{"endless-answer", {"frame 2", "memory limit"}, "error", kSmall},
+                    Fault{"nan-depth", {"frame 2: the answer holds a depth or normal"}},
+                    Fault{"null-items", {"frame 2"}}),
+    test_name);
+
+TEST(LibraryAtWork, LiesAreSpuriousAndSilenceIsMissed) {
+  PluginRun run({"--detector", misbehaving_library("lies"), "--detector",
+                 misbehaving_library("repeats"), "--detector", "fcl-aabb"});
+  EXPECT_EQ(run.outcome().exit_code, 0) << run.outcome().err;
+  const auto truth = run.row("fcl-aabb").at("levels").at("triangle").at("truth");
+  ASSERT_GT(truth.get<int>(), 1);
+  for (const char* name : {"misbehaving:fault=lies", "misbehaving:fault=repeats"}) {
+    const auto level = run.row(name).at("levels").at("triangle");
+    EXPECT_EQ(level.at("reported"), 1) << "a repeat is no second contact";
+    EXPECT_EQ(level.at("missed").get<int>() + level.at("hit").get<int>(), truth);
+    EXPECT_EQ(level.at("spurious").get<int>() + level.at("hit").get<int>(), 1);
+  }
+}
+
+TEST(LibraryAtWork, WhatItPrintsIsANote) {
+  PluginRun run({"--detector", misbehaving_library("prints")});
+  EXPECT_EQ(run.outcome().exit_code, 0) << run.outcome().err;
+  EXPECT_THAT(run.row("misbehaving:fault=prints").at("notes").dump(),
+              HasSubstr("garbage on standard output"));
+  EXPECT_THAT(run.outcome().out, testing::Not(HasSubstr("garbage")));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,0 +1,180 @@
+/* A plug-in that does what its option `fault` says, in frame 2 of query, update or prepare, or in
+ * its declaration. The environment variable CONTACTCHECK_PLUGIN_FAULT chooses what it does when it
+ * is loaded: before there are options. Otherwise it reports no contacts, which is its claim. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "contactcheck_plugin.h"
+
+typedef struct {
+  char fault[32];
+  uint64_t frame;
+} State;
+
+static const char* at_load(void) {
+  const char* const fault = getenv("CONTACTCHECK_PLUGIN_FAULT");
+  return fault == NULL ? "" : fault;
+}
+
+static int is(const State* state, const char* fault) { return strcmp(state->fault, fault) == 0; }
+
+static void die(int number) {
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+static void hang(void) {
+  for (;;) pause();
+}
+
+static int32_t create(const contactcheck_setting* settings, uint32_t count, void** detector,
+                      char* message) {
+  State* const state = calloc(1, sizeof *state);
+  if (count > 0) snprintf(state->fault, sizeof state->fault, "%s", settings[0].value);
+  if (is(state, "create-fails")) {
+    free(state);
+    snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "no licence for this machine");
+    return CONTACTCHECK_ERROR;
+  }
+  *detector = state;
+  return CONTACTCHECK_OK;
+}
+
+static void destroy(void* detector) { free(detector); }
+
+static int32_t declare(void* detector, contactcheck_semantics* s, char* message) {
+  const State* const state = detector;
+  (void)message;
+  s->levels = CONTACTCHECK_LEVEL_BODY | CONTACTCHECK_LEVEL_TRIANGLE;
+  s->question_count = 1;
+  s->questions[0] = CONTACTCHECK_ASK_TRIANGLES;
+  if (is(state, "nan-depth")) {
+    s->questions[s->question_count++] = CONTACTCHECK_ASK_CONTACTS;
+    s->depth_kind = CONTACTCHECK_DEPTH_CONVEX_PAIR;
+  }
+  if (is(state, "unknown-level")) s->levels = 1u << 20;
+  if (is(state, "no-question") || strcmp(at_load(), "no-question") == 0) s->question_count = 0;
+  return CONTACTCHECK_OK;
+}
+
+static int32_t prepare(void* detector, const contactcheck_body* bodies, uint32_t count,
+                       char* message) {
+  (void)bodies;
+  (void)count;
+  if (is(detector, "refuses")) {
+    snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "bodies without a licence");
+    return CONTACTCHECK_REFUSED;
+  }
+  return CONTACTCHECK_OK;
+}
+
+static int32_t update(void* detector, const contactcheck_frame* frame, char* message) {
+  State* const state = detector;
+  state->frame = frame->index;
+  if (frame->index != 2) return CONTACTCHECK_OK;
+  if (is(state, "crash")) die(SIGSEGV);
+  if (is(state, "exit")) exit(0);
+  if (is(state, "hang")) hang();
+  if (is(state, "fails")) {
+    memset(message, 'x', CONTACTCHECK_MESSAGE_SIZE); /* not ended by a zero byte */
+    return CONTACTCHECK_ERROR;
+  }
+  if (is(state, "strange-status")) return 77;
+  if (is(state, "memory"))
+    for (;;) memset(malloc(1 << 24), 1, 1 << 24);
+  return CONTACTCHECK_OK;
+}
+
+static void add_triangles(const contactcheck_answer* answer, uint32_t body, uint32_t triangle,
+                          int count) {
+  const contactcheck_element_pair pair = {0, body, 0, triangle};
+  for (int i = 0; i < count; ++i) answer->triangles(answer->host, &pair, 1);
+}
+
+static int32_t query(void* detector, uint32_t question, const contactcheck_answer* answer,
+                     char* message) {
+  const State* const state = detector;
+  (void)message;
+  if (is(state, "always-lies")) add_triangles(answer, 1, 0, 1);
+  if (state->frame != 2) return CONTACTCHECK_OK;
+  if (is(state, "no-such-body")) add_triangles(answer, 7, 0, 1);
+  if (is(state, "no-such-triangle")) add_triangles(answer, 1, 1000000, 1);
+  if (is(state, "lies")) add_triangles(answer, 1, 0, 1);
+  if (is(state, "repeats")) add_triangles(answer, 1, 0, 100000);
+  if (is(state, "endless-answer"))
+    for (;;) add_triangles(answer, 1, 0, 1);
+  if (is(state, "nan-depth") && question == CONTACTCHECK_ASK_CONTACTS) {
+    const contactcheck_piece_contact contact = {{0, 1, 0, 0}, NAN, {1.0, 0.0, 0.0}};
+    answer->piece_contacts(answer->host, &contact, 1);
+  }
+  if (is(state, "null-items")) answer->triangles(answer->host, NULL, 3);
+  if (is(state, "prints")) puts("garbage on standard output");
+  return CONTACTCHECK_OK;
+}
+
+static const char* const kFaults[] = {"none",
+                                      "always-lies",
+                                      "create-fails",
+                                      "unknown-level",
+                                      "no-question",
+                                      "refuses",
+                                      "crash",
+                                      "exit",
+                                      "hang",
+                                      "fails",
+                                      "strange-status",
+                                      "memory",
+                                      "no-such-body",
+                                      "lies",
+                                      "repeats",
+                                      "endless-answer",
+                                      "nan-depth",
+                                      "null-items",
+                                      "prints",
+                                      "no-such-triangle",
+                                      NULL};
+static const contactcheck_option kOptions[] = {
+    {"fault", "none", "what it does", kFaults, 0.0, 0.0, 0, 0}};
+
+static contactcheck_plugin plugin = {
+    .abi_version = CONTACTCHECK_PLUGIN_ABI,
+    .struct_sizes = CONTACTCHECK_STRUCT_SIZES,
+    .id = "misbehaving",
+    .summary = "misbehaves",
+    .version = "0",
+    .options = kOptions,
+    .option_count = 1,
+    .create = create,
+    .destroy = destroy,
+    .declare = declare,
+    .prepare = prepare,
+    .update = update,
+    .query = query,
+};
+
+const contactcheck_plugin* contactcheck_plugin_entry(void) {
+  const char* const fault = at_load();
+  if (strcmp(fault, "version") == 0) plugin.abi_version = 99;
+  if (strcmp(fault, "size") == 0) plugin.struct_sizes[5] += 8;
+  if (strcmp(fault, "no-table") == 0) return NULL;
+  if (strcmp(fault, "no-function") == 0) plugin.update = NULL;
+  if (strcmp(fault, "built-in-id") == 0) plugin.id = "ffd-lazy";
+  if (strcmp(fault, "library-id") == 0) plugin.id = "fcl-mine";
+  if (strcmp(fault, "bad-id") == 0) plugin.id = "two words";
+  if (strcmp(fault, "no-id") == 0) plugin.id = NULL;
+  if (strcmp(fault, "bad-default") == 0) {
+    static const contactcheck_option bad = {"fault", "nonsense", "", kFaults, 0, 0, 0, 0};
+    plugin.options = &bad;
+  }
+  if (strcmp(fault, "crash") == 0) die(SIGSEGV);
+  if (strcmp(fault, "exit") == 0) exit(0);
+  if (strcmp(fault, "hang") == 0) hang();
+  if (strcmp(fault, "memory") == 0)
+    for (;;) memset(malloc(1 << 24), 1, 1 << 24);
+  return &plugin;
+}

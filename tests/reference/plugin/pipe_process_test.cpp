@@ -1,0 +1,111 @@
+#include "reference/plugin/pipe_process.h"
+
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+
+#include "tests/reference/run/is_dead.h"
+
+namespace contactcheck {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(PipeProcess, EchoesMoreThanAPipeHolds) {
+  PipeProcess process("cat");
+  const std::string block(std::size_t{900} << 10, 'x');
+  for (int i = 0; i < 8; ++i) {
+    process.send(block + "\n");
+    EXPECT_EQ(process.receive_line(), block);
+  }
+  process.send("abc");
+  EXPECT_EQ(process.receive(2), "ab");
+  EXPECT_EQ(process.receive(1), "c");
+}
+
+TEST(PipeProcess, ThatWritesInsteadOfReadingIsNoDeadlock) {
+  PipeProcess process("yes");
+  const std::string much(std::size_t{64} << 20, 'x');
+  EXPECT_EQ(complaint([&] { process.send(much); }),
+            "the command wrote more than 1024 KiB that it was not asked for");
+}
+
+TEST(PipeProcess, ThatHasEndedIsAnErrorAndNoSignal) {
+  PipeProcess process("(exit 7)");
+  const std::string much(std::size_t{64} << 20, 'x');
+  EXPECT_EQ(complaint([&] { process.send(much); }), "the command ended with exit code 7");
+}
+
+TEST(PipeProcess, LastWordsAreTheLastLineOfItsErrors) {
+  PipeProcess process("echo first >&2; echo second >&2; exit 1");
+  EXPECT_EQ(complaint([&] { process.receive_line(); }),
+            "the command ended with exit code 1; its last words: second");
+  EXPECT_EQ(process.first_error_line(), "first");
+}
+
+TEST(PipeProcess, SeesNoDescriptorsButItsThree) {
+  PipeProcess process("ls /proc/self/fd | wc -l");
+  EXPECT_EQ(std::atoi(process.receive_line().c_str()), 4) << "and the one that ls reads";
+}
+
+TEST(PipeProcess, EndsWithWhatItHasStarted) {
+  int child = 0;
+  {
+    PipeProcess process("sleep 300 & echo $!; wait");
+    child = std::atoi(process.receive_line().c_str());
+    ASSERT_GT(child, 0);
+    EXPECT_EQ(kill(child, 0), 0);
+  }
+  EXPECT_TRUE(test::dies(child));
+}
+
+TEST(PipeProcess, MemoryLimitHoldsForAllOfItsProcesses) {
+  PipeLimits limits;
+  limits.memory = 1;
+  PipeProcess process("sleep 300", limits);
+  EXPECT_THAT(complaint([&] { process.receive_line(); }), HasSubstr("memory limit"));
+}
+
+// Interpreters print much before they name the cause.
+TEST(PipeProcess, LastWordsStandBehindMuchElse) {
+  PipeProcess process(
+      "head -c 200000 /dev/zero | tr '\\0' x >&2; echo >&2; echo cause >&2; exit 1");
+  EXPECT_EQ(complaint([&] { process.receive_line(); }),
+            "the command ended with exit code 1; its last words: cause");
+}
+
+TEST(PipeProcess, ThatAnswersAtOnceKeepsItsLimitsToo) {
+  PipeLimits limits;
+  limits.errors = std::uint64_t{1} << 20;
+  PipeProcess process("while read line; do head -c 65536 /dev/zero >&2; echo $line; done", limits);
+  const std::string said = complaint([&] {
+    for (int i = 0; i < 2000; ++i) {
+      process.send("x\n");
+      process.receive_line();
+    }
+  });
+  EXPECT_THAT(said, HasSubstr("more than 1 MiB to standard error"));
+}
+
+TEST(PipeProcess, TakesWhatAShellTakes) {
+  for (const char* command : {"exec cat", " LC_ALL=C cat", "  cat", "command cat"}) {
+    PipeProcess process(command);
+    process.send("word\n");
+    EXPECT_EQ(process.receive_line(), "word") << command;
+  }
+}
+
+}  // namespace
+}  // namespace contactcheck

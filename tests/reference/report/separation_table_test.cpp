@@ -1,0 +1,46 @@
+#include "reference/report/separation_table.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+using testing::Not;
+
+const Json kScene = {{"size", 2.0},
+                     {"sweep", {{"separations", {-0.05, 0.0, 0.5}}, {"orientations", 3}}}};
+
+Json run_of(const char* detector) {
+  return {{"detector", detector},
+          {"status", "ok"},
+          {"per_frame",
+           {{"missed", {1, 2, 3, 0, 4, 0, 0, 0, 0}},
+            {"spurious", {0, 0, 0, 0, 0, 0, 5, 0, 6}},
+            {"frame_ms", {3.0, 1.0, 2.0, nullptr, 0.5, nullptr, nullptr, nullptr, nullptr}}}}};
+}
+
+TEST(SeparationTables, HaveMediansOfTimesAndSumsOfErrorsBySeparation) {
+  const std::string tables = separation_tables(kScene, {run_of("fcl-aabb")});
+  EXPECT_THAT(tables, HasSubstr("3 orientations at each separation, given in % of the size (2"));
+  EXPECT_THAT(tables, HasSubstr("| detector | -5 % | 0 % | 50 % |"));
+  EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 2.00 | 0.500 | - |"));
+  EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 6 / 0 | 4 / 0 | 0 / 11 |"));
+}
+
+TEST(SeparationTables, LeaveOutWhatWasNotTimedOrDidNotRun) {
+  Json untimed = run_of("a"), refused = run_of("b");
+  untimed["per_frame"].erase("frame_ms");
+  refused["status"] = "refused";
+  const std::string tables = separation_tables(kScene, {untimed, refused});
+  EXPECT_THAT(tables, Not(HasSubstr("Time of a frame")));
+  EXPECT_THAT(tables, HasSubstr("| a | 6 / 0 |"));
+  EXPECT_THAT(tables, Not(HasSubstr("| b |")));
+  EXPECT_EQ(separation_tables({{"size", 2.0}}, {run_of("a")}), "");
+}
+
+}  // namespace
+}  // namespace contactcheck

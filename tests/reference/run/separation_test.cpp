@@ -1,0 +1,59 @@
+#include "reference/run/separation.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/run/scene_summary.h"
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+// Two boxes of side 1; the second's centre goes from 1.5 to 0.75 in steps of 0.25.
+Scene boxes() {
+  const auto box =
+      test::make_body("", test::box_mesh(Vec3::Constant(-0.5), Vec3::Constant(0.5), 2), {2, 2, 2})
+          .shape;
+  return test::approach_scene(box, box, {{0.0, 1.5}, {3.0, 0.75}}, 0.0625, 0.0625, 4, 1.0,
+                              {Level::kTriangle});
+}
+
+std::vector<double> separations_of(const Scene& scene) {
+  SharedProgress page;
+  ProgressWriter progress(&page);
+  return separations(judge_scene(scene, true, progress), progress);
+}
+
+TEST(Separations, AreTheGapsAndZeroInContactFrames) {
+  const double close = 1e-8;
+  EXPECT_THAT(separations_of(boxes()),
+              ElementsAre(DoubleNear(0.5, close), DoubleNear(0.25, close), 0.0, 0.0));
+}
+
+TEST(Separations, OfCasesAndOfOneBodyAreNone) {
+  Scene family = boxes();
+  family.family.emplace();
+  EXPECT_TRUE(separations_of(family).empty());
+  Scene alone = boxes();
+  alone.bodies.pop_back();
+  alone.motions.pop_back();
+  alone.origins.pop_back();
+  EXPECT_TRUE(separations_of(alone).empty());
+}
+
+TEST(Separations, StandInTheSummaryWhereThereAreAny) {
+  const Scene scene = boxes();
+  SharedProgress page;
+  ProgressWriter progress(&page);
+  const JudgedScene judged = judge_scene(scene, true, progress);
+  EXPECT_EQ(scene_summary(judged, {0.5, 0.0}).at("separation").size(), 2u);
+  EXPECT_FALSE(scene_summary(judged, {}).contains("separation"));
+}
+
+}  // namespace
+}  // namespace contactcheck

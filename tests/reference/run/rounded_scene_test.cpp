@@ -46,6 +46,20 @@ TEST(RoundedScene, IsInUnitsOfItsScale) {
   EXPECT_EQ(frame.bodies[0].vertices[1], Vec3(64, 0, 64));
 }
 
+// Compilers may leave out a way through float and back: every coordinate must have gone it.
+TEST(RoundedScene, HoldsFloatsAlone) {
+  const Scene scene = plates();
+  const JudgedScene exact = judged(scene);
+  JudgingTools tools(exact);
+  const Frame& frame = tools.rounded(0.1)->frame(1);
+  for (const BodyState& body : frame.bodies)
+    for (const Vec3& vertex : body.vertices)
+      for (int k = 0; k < 3; ++k) {
+        const volatile float stored = static_cast<float>(vertex[k]);
+        EXPECT_EQ(vertex[k], static_cast<double>(stored));
+      }
+}
+
 TEST(RoundedScene, IsNoneBeyondTheRangeOfFloats) {
   Scene scene = plates();
   const JudgedScene exact = judged(scene);

@@ -124,12 +124,12 @@ function legends(all: Point[]): HTMLElement {
 function pointsTable(all: Point[]): HTMLElement {
   const rows = all.map((point) => [
     point.detector, optionsText(point.options), point.question, number(point.ms), point.level,
-    errorRate(point.error), String(point.counts.missed), String(point.counts.spurious),
-    point.onFront ? "yes" : "",
+    String(point.counts.truth), String(point.counts.missed), String(point.counts.reported),
+    String(point.counts.spurious), errorRate(point.error), point.onFront ? "yes" : "",
   ]);
   return table([left("detector"), left("options"), left("question timed"), right("ms per frame"),
-      left("level"),
-                right("error"), right("missed"), right("spurious"), left("on the front")],
+      left("level"), right("truth"), right("missed"), right("reported"), right("spurious"),
+                right("error"), left("on the front")],
                rows, "Points of the chart of speed against error");
 }
 

@@ -8,7 +8,7 @@ namespace contactcheck {
 
 struct DetectorGroup {
   const char* name;
-  const char* light;  ///< colour on white, #rrggbb
+  const char* light;  ///< colour on white, as in CSS
   const char* dark;   ///< on black
 };
 

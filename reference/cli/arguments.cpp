@@ -6,16 +6,6 @@
 namespace contactcheck {
 namespace {
 
-// CLI11's own range (2.1) lets NaN pass.
-std::string seconds_in_range(const std::string& text) {
-  constexpr double kLeast = 0.1, kMost = 1e6;
-  double value = 0.0;
-  const bool number = CLI::detail::lexical_cast(text, value);
-  return number && value >= kLeast && value <= kMost
-             ? ""
-             : "\"" + text + "\" is not a number from 0.1 to 1000000";
-}
-
 // In the order of --help.
 constexpr void (*kSubcommands[])(CommandLine&) = {
     add_run, add_merge, add_reproduce, add_tune, add_reduce, add_export,  add_gate,   add_accept,
@@ -57,13 +47,24 @@ void choose(CLI::App& command, CommandLine& line, std::function<int()> what) {
   command.callback([&line, what = std::move(what)] { line.chosen = what; });
 }
 
+std::function<std::string(const std::string&)> number_in(double least, double most,
+                                                         const std::string& allowed) {
+  return [=](const std::string& text) {
+    double value = 0.0;
+    const bool number = CLI::detail::lexical_cast(text, value);
+    return number && value >= least && value <= most
+               ? std::string()
+               : "\"" + text + "\" is not a number from " + allowed;
+  };
+}
+
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
                 const std::string& default_seconds) {
   command
       .add_option("--call-limit", seconds,
                   "seconds that one call of a detector may take (default " + default_seconds +
                       "); beyond, it has ended in an error")
-      ->check(seconds_in_range)
+      ->check(number_in(0.1, 1e6, "0.1 to 1000000"))
       ->type_name("SECONDS");
   command
       .add_option("--memory-limit", mib,

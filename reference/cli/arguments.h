@@ -49,6 +49,11 @@ void choose(CLI::App& command, CommandLine& line, std::function<int()> what);
 void add_commands(CLI::App& command, std::string& detector);
 void add_commands(CLI::App& command, std::vector<std::string>& detectors);
 
+/// What CLI11 asks of a value: a number from `least` to `most`, else a sentence that says
+/// `allowed`. (CLI11's own checks, 2.1, let NaN pass.)
+std::function<std::string(const std::string&)> number_in(double least, double most,
+                                                         const std::string& allowed);
+
 /// --call-limit and --memory-limit: what ends a detector that goes astray.
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
                 const std::string& default_seconds);

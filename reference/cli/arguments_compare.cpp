@@ -11,28 +11,14 @@ struct DiffFiles {
   std::string before, after;
 };
 
-// CLI11's own checks (2.1) let NaN pass.
-CLI::Validator number_from(double least) {
-  return CLI::Validator(
-      [least](const std::string& text) {
-        double value = 0.0;
-        const bool number = CLI::detail::lexical_cast(text, value);
-        return number && value >= least && value <= 1e9
-                   ? std::string()
-                   : "\"" + text + "\" is not a number from " + (least == 0.0 ? "0" : "1") +
-                         " to 1000000000";
-      },
-      "");
-}
-
 void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
   ab.add_option("--slower-than", arguments.slower_than,
                 "time(head) / time(base) that is allowed (default 1.1)")
-      ->check(number_from(1.0))
+      ->check(number_in(1.0, 1e9, "1 to 1000000000"))
       ->type_name("RATIO");
   ab.add_option("--floor-us", arguments.floor_us,
                 "microseconds a frame that do not matter, whatever the ratio (default 20)")
-      ->check(number_from(0.0))
+      ->check(number_in(0.0, 1e9, "0 to 1000000000"))
       ->type_name("US");
   ab.add_flag("--accuracy-may-change", arguments.accuracy_may_change,
               "name other answers, but do not fail for them");

@@ -9,21 +9,6 @@ namespace {
 
 constexpr std::uint64_t kMostContacts = std::uint64_t{1} << 53;
 
-// CLI11's own range (2.1) lets NaN pass.
-std::string finite_from_zero(const std::string& text) {
-  double value = -1.0;
-  const bool number = CLI::detail::lexical_cast(text, value);
-  return number && value >= 0.0 && value <= 1e9 ? "" : "\"" + text + "\" is not a number from 0 on";
-}
-
-std::string lattice_factor(const std::string& text) {
-  double value = 0.0;
-  const bool number = CLI::detail::lexical_cast(text, value);
-  return number && value >= 0.01 && value <= 100.0
-             ? ""
-             : "\"" + text + "\" is not a number from 0.01 to 100";
-}
-
 void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
   tune.add_option("--max-missed", arguments.max_missed,
                   "contacts that may be missed, over all frames, at the question's level (default "
@@ -36,7 +21,7 @@ void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
       ->type_name("N");
   tune.add_option("--max-hover", arguments.max_hover,
                   "true distance, in metres, at which contact may first be reported (default: any)")
-      ->check(finite_from_zero)
+      ->check(number_in(0.0, 1e9, "0 on"))
       ->type_name("METRES");
   tune.add_option("--max-late", arguments.max_late,
                   "frames that a first report may be late or early (default: any number)")
@@ -46,12 +31,12 @@ void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
           "--max-deviation", arguments.max_deviation,
           "with --lattice: how far a vertex may be from where the scene's own lattice takes "
           "it, in metres (default: any distance)")
-      ->check(finite_from_zero)
+      ->check(number_in(0.0, 1e9, "0 on"))
       ->type_name("METRES");
   tune.add_option("--budget-ms", arguments.budget_ms,
                   "what a frame may cost; exit code 1 when nothing is both accurate and cheap "
                   "enough")
-      ->check(finite_from_zero)
+      ->check(number_in(0.0, 1e9, "0 on"))
       ->type_name("MS");
 }
 
@@ -70,7 +55,7 @@ void add_space(CLI::App& tune, TuneArguments& arguments) {
   tune.add_option("--lattice", arguments.lattices,
                   "try lattices of so many times the scene's cells too, repeatable: a coarser "
                   "model is another surface, see --max-deviation")
-      ->check(lattice_factor)
+      ->check(number_in(0.01, 100.0, "0.01 to 100"))
       ->type_name("FACTOR")
       ->allow_extra_args(false);
 }

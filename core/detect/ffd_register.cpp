@@ -32,6 +32,7 @@ std::vector<OptionInfo> options_of(const Member& member, ElementTest element) {
                                    "hash grid cell, in mean edges of the boxes at rest"));
   options.push_back(
       numeric_option("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"));
+  options.push_back(precision_option());
   if (member.sphere_levels > 1 || member.deep)
     options.push_back(numeric_option("spheres", member.deep ? "4" : "16", 1, 1024, true,
                                      "spheres into which one is split at the next level"));
@@ -66,7 +67,9 @@ void register_ffd_detectors(DetectorCatalog& catalog) {
                      (triangles ? "; exact triangle test" : "; node-against-plane test");
       info.options = options_of(member, element);
       info.make = [member, element](const Options& options) -> std::unique_ptr<Detector> {
-        return std::make_unique<FfdDetector>(config_of(member, element, options));
+        const FfdConfig config = config_of(member, element, options);
+        if (in_single(options)) return std::make_unique<FfdDetectorOf<float>>(config);
+        return std::make_unique<FfdDetector>(config);
       };
       catalog.add(std::move(info));
     }

@@ -32,4 +32,12 @@ inline OptionInfo numeric_option(std::string name, std::string value, double min
   return o;
 }
 
+inline OptionInfo precision_option() {
+  return choice_option("precision", "double", {"double", "single"},
+                       "single: floats about the centre of the frame, rounded once, not exact");
+}
+
+/// @pre the detector has precision_option()
+inline bool in_single(const Options& options) { return options.at("precision") == "single"; }
+
 }  // namespace contactcheck

@@ -125,6 +125,7 @@ std::string semantics_text(const Json& s) {
   if (s.value("margin", 0.0) > 0.0)
     text += "; margin " + format_millimetres(s.at("margin")) + " mm";
   text += "; " + s.value("precision", "double") + " precision";
+  if (s.value("local_origin", false)) text += " about a local origin";
   if (s.value("scale", 1.0) != 1.0) text += ", scale " + format_number(s.at("scale"));
   if (s.value("depth_kind", "none") != std::string("none"))
     text += "; depth " + s.value("depth_kind", "none");

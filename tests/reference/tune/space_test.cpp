@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
@@ -28,7 +29,7 @@ std::vector<std::string> names(const std::vector<Candidate>& candidates) {
 
 TEST(Space, VariesChoicesAndNumbers) {
   SpaceRequest request;
-  request.detectors = {"ffd-aabb"};
+  request.detectors = {"ffd-aabb:precision=double"};
   const auto candidates = make_space(core_catalog(), request);
   EXPECT_THAT(names(candidates),
               UnorderedElementsAre("ffd-aabb", "ffd-aabb:cell=0.5", "ffd-aabb:cell=2",
@@ -49,9 +50,16 @@ TEST(Space, LeavesWhatTheNameSetsAndWhatIsTheMachines) {
   }
 }
 
-TEST(Space, LeavesWhatTheNameSetsToItsDefault) {
+TEST(Space, TriesSinglePrecision) {
   SpaceRequest request;
   request.detectors = {"ffd-aabb:cell=1,bounds=paper"};
+  EXPECT_THAT(names(make_space(core_catalog(), request)),
+              IsSupersetOf({"ffd-aabb", "ffd-aabb:precision=single"}));
+}
+
+TEST(Space, LeavesWhatTheNameSetsToItsDefault) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:cell=1,bounds=paper,precision=double"};
   EXPECT_THAT(names(make_space(core_catalog(), request)), UnorderedElementsAre("ffd-aabb"));
 }
 
@@ -67,7 +75,7 @@ TEST(Space, TakesEveryDetectorThatAnswers) {
 
 TEST(Space, MultipliesByLattices) {
   SpaceRequest request;
-  request.detectors = {"ffd-aabb"};
+  request.detectors = {"ffd-aabb:precision=double"};
   request.lattices = {1.0, 0.5};
   const auto candidates = make_space(core_catalog(), request);
   EXPECT_EQ(candidates.size(), 12u);

@@ -104,6 +104,7 @@ export interface Semantics {
   margin?: number;
   precision?: string;
   scale?: number;
+  local_origin?: boolean;
   means?: string;
   depth_kind?: string;
 }

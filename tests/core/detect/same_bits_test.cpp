@@ -37,13 +37,14 @@ std::vector<Vec3> shaken(const BodyShape& shape, const Vec3& at, Numbers& number
   return nodes;
 }
 
-// Three bodies that come nearer: apart, touching, deep inside.
-Scene fixed_scene() {
+// Three bodies that come nearer: apart, touching, deep inside; and one beside them at `far`.
+Scene fixed_scene(double far = 0.0) {
   Scene scene;
   scene.bodies = {
       test::make_body("left", test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}),
       test::make_body("right", test::sphere_mesh(Vec3::Zero(), 1.1, 3), {5, 4, 3}),
       test::make_body("below", test::box_mesh(Vec3(-2, -1, -0.5), Vec3(2, 1, 0.5), 5), {6, 3, 2})};
+  if (far > 0.0) scene.bodies.push_back(scene.bodies[0]);
   Numbers numbers;
   for (int f = 0; f < 6; ++f) {
     const double gap = 3.0 - 0.375 * f;
@@ -51,6 +52,7 @@ Scene fixed_scene() {
     nodes.push_back(shaken(*scene.bodies[0].shape, Vec3(-0.5 * gap, 0, 0), numbers));
     nodes.push_back(shaken(*scene.bodies[1].shape, Vec3(0.5 * gap, 0.125, 0), numbers));
     nodes.push_back(shaken(*scene.bodies[2].shape, Vec3(0, 0, -0.625 * gap), numbers));
+    if (far > 0.0) nodes.push_back(shaken(*scene.bodies[3].shape, Vec3(far, far, far), numbers));
     scene.frames.push_back(test::make_frame(scene.bodies, std::move(nodes)));
   }
   return scene;
@@ -136,6 +138,17 @@ TEST(SameBits, ContactsInSinglePrecision) {
           << info.id;
     }
   EXPECT_GE(with_choice, 10u);
+}
+
+// The far body leaves floats eight binary digits of a metre: contacts are rounded ones.
+TEST(SameBits, RoundedContacts) {
+  constexpr std::uint64_t kRounded = 11571887441486454298u;
+  const Scene scene = fixed_scene(0x1p16);
+  EXPECT_NE(hash_of_contacts("ffd-lazy", scene), kRounded);
+  for (const char* name : {"ffd-lazy:precision=single", "ffd-lazy:precision=single,bounds=nodes",
+                           "ffd-lazy:precision=single,threads=3", "full-refit:precision=single",
+                           "ffd-aabb+tri:precision=single,bounds=safe"})
+    EXPECT_EQ(hash_of_contacts(name, scene), kRounded) << name;
 }
 
 }  // namespace

@@ -120,6 +120,26 @@ TEST(SingleBounds, OfRefittedBodiesAreTheBoxesOfTheirVertices) {
     }
 }
 
+// Of a face whose nodes agree in one coordinate, rounding takes vertices to both of its sides.
+TEST(SingleBounds, OfTheWholeBodyHoldVerticesOutsideTheHullOfTheNodes) {
+  TriangleSource random(529);
+  const std::vector<double> line = {0, 1, 2};
+  OneBody body(
+      make_shape_on_lines(test::box_mesh(Vec3::Zero(), Vec3::Constant(2), 14), {line, line, line}),
+      false, kSingle);
+  int outside = 0;
+  for (double scale : {0.1, 0.7, 1.0 / 3.0}) {
+    body.begin(deformed_nodes(body.shape(), {0.0, scale}, random));
+    AabbOf<float> hull;
+    for (const Vec3f& node : body.state().single.nodes) hull.extend(node);
+    for (const Vec3f& v : body.single_vertices()) {
+      outside += !hull.contains(v);
+      EXPECT_TRUE(body.state().box.contains(v.cast<double>())) << scale;
+    }
+  }
+  EXPECT_GT(outside, 0);
+}
+
 TEST(SingleBounds, AreRefusedBeyondTheLimit) {
   TriangleSource random(528);
   OneBody body(shapes()[1].shape, false, kSingle);

@@ -23,13 +23,8 @@ OptionInfo threads_option() {
   return numeric_option("threads", "1", 1, 256, true, "contacts do not depend on it");
 }
 
-OptionInfo precision_option() {
-  return choice_option("precision", "double", {"double", "single"},
-                       "single: floats about the scene's middle, all the way; not exact");
-}
-
 Precision precision_of(const Options& options) {
-  return options.at("precision") == "single" ? Precision::kSingle : Precision::kDouble;
+  return in_single(options) ? Precision::kSingle : Precision::kDouble;
 }
 
 std::size_t threads_of(const Options& options) {

@@ -13,7 +13,7 @@ Semantics semantics_of(const FfdConfig& config) {
   if (config.element == ElementTest::kTriangle) {
     s.levels = {Level::kBody, Level::kTriangle};
     s.questions = {Question::kTriangles, Question::kBody};
-    s.exact = config.bounds == BoundsReading::kSafe;
+    s.exact = config.bounds == BoundsReading::kSafe && config.sphere_radius >= 1.0;
   } else {
     s.levels = {Level::kBody, Level::kCell};
     s.questions = {Question::kCells, Question::kBody};

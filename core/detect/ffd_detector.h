@@ -3,9 +3,9 @@
 // Source: Jeon, Hong, Choi, Jeong: Hierarchical Bounding Sphere FFD-AABB Algorithm for Fast
 // Collision Handling of 3D Deformable Objects on Smart Devices, J. Internet Technology 14(5), 2013.
 //
-// Guarantee: with bounds `safe` and the triangle test it reports exactly the intersecting pairs of
-// triangles, for all finite frames. With bounds `paper` it may miss: measuring what, and at which
-// stage, is what this suite is for.
+// Guarantee: with bounds `safe`, the triangle test and spheres not made smaller (`radius` from 1
+// on) it reports exactly the intersecting pairs of triangles, for all finite frames. With bounds
+// `paper` it may miss: measuring what, and at which stage, is what this suite is for.
 //
 // Members that claim the level `box` answer the question `contacts` too: per node inside a box the
 // distance to the nearest of its planes, in metres, and the unit normal (see node_plane_stage.h).

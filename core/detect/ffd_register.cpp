@@ -37,6 +37,10 @@ std::vector<OptionInfo> options_of(const Member& member, ElementTest element) {
                                      "spheres into which one is split at the next level"));
   if (member.deep)
     options.push_back(numeric_option("levels", "3", 1, 8, true, "levels of spheres"));
+  if (member.sphere_levels > 0 || member.deep)
+    options.push_back(numeric_option(
+        "radius", "1", 0.25, 4, false,
+        "factor on the radii of all spheres; below 1 they may not hold what they should", 1.25));
   return options;
 }
 
@@ -51,6 +55,7 @@ FfdConfig config_of(const Member& member, ElementTest element, const Options& op
       member.deep ? static_cast<int>(number_option(options, "levels")) : member.sphere_levels;
   if (options.count("spheres"))
     config.spheres = static_cast<int>(number_option(options, "spheres"));
+  if (options.count("radius")) config.sphere_radius = number_option(options, "radius");
   return config;
 }
 

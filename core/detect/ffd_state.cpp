@@ -79,7 +79,7 @@ void place_spheres(const FfdModel& model, const FfdConfig& config, double error,
           config.bounds == BoundsReading::kPaper
               ? model.rest_radius[level][s]
               : covering_radius(farthest_squared(model, state, rest[s], sphere.center), slack);
-      sphere.radius *= config.faults.sphere_radius;
+      sphere.radius *= config.sphere_radius;
     }
   }
 }

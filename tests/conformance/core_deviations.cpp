@@ -12,6 +12,8 @@ const Names kPaperSpheres = {"ffd-aabb-sphere", "ffd-aabb-sphere2", "ffd-aabb-sp
 const Names kPaperTriangles = {"ffd-aabb-sphere2+tri:bounds=paper"};
 const Names kSafeCells = {"ffd-aabb-sphere2:bounds=safe", "ffd-aabb:bounds=safe"};
 const Names kGrid = {"ffd-grid"};
+const Names kSmallerSpheres = {"ffd-aabb-sphere2+tri:radius=0.8"};
+const Names kOtherSpheres = {"ffd-aabb-sphere2+tri:radius=0.8", "ffd-aabb-sphere2+tri:radius=1.25"};
 
 Names operator+(Names a, const Names& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -31,6 +33,7 @@ const Names kFamily = {"ffd-grid",
 
 const Origin kHash = {"contactcheck", "bounds=paper", "Jeon et al. 2013, hashing of nodes"};
 const Origin kSphere = {"contactcheck", "bounds=paper", "Jeon et al. 2013, \"original radius\""};
+const Origin kSmaller = {"contactcheck", "radius below 1", "the option's own words"};
 const Origin kBox = {"contactcheck", "any bounds", "Jeon et al. 2013, node against plane"};
 const Origin kCell = {"contactcheck", "any bounds", "Jeon et al. 2013, traditional FFD"};
 
@@ -39,13 +42,15 @@ const char* const kNoCommonBucket =
     "between the nodes is not found";
 const char* const kRadiusOfRest =
     "spheres keep the radius of rest when the nodes between them are pulled away";
+const char* const kTooSmall =
+    "spheres a fifth smaller than what they hold do not meet where their corners touch";
 const char* const kBoxesMeet = "boxes that hold surface meet where the surfaces do not";
 const char* const kFlatBoxes =
     "the faces at the rim of a box without thickness have no plane, so it has no end there";
 const char* const kCellsMeet = "a lattice cell is wider than the surface inside it";
 
 std::vector<KnownDeviation> refused() {
-  return {{kFamily + kPaperTriangles + kSafeCells,
+  return {{kFamily + kPaperTriangles + kSafeCells + kOtherSpheres,
            "refused",
            {{"rebuilt-structure", 1}},
            {"contactcheck", "any bounds", "FfdDetector::prepare"},
@@ -152,6 +157,8 @@ std::vector<KnownDeviation> missed_by_spheres() {
       {kPaperSpheres, "cell missed", {{"long-triangles", 6}}, kSphere, kRadiusOfRest},
       {kPaperTriangles, "triangle missed", {{"long-triangles", 6}}, kSphere, kRadiusOfRest},
       {kPaperSpheres, "box missed", {{"long-triangles", 48}}, kSphere, kRadiusOfRest},
+      {kSmallerSpheres, "body missed", {{"touching-vertex-vertex", 1}}, kSmaller, kTooSmall},
+      {kSmallerSpheres, "triangle missed", {{"touching-vertex-vertex", 16}}, kSmaller, kTooSmall},
   };
 }
 

@@ -82,6 +82,7 @@ struct TuneArguments {
   std::vector<std::string> detectors;  ///< names or libraries; empty: all that answer
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
   std::vector<double> lattices;        ///< beside the scene's own
+  std::vector<std::string> deformers;  ///< of a simulated scene; "all" among them: all
   std::optional<std::uint64_t> max_missed, max_spurious;
   std::optional<double> max_hover, max_deviation;  ///< metres
   std::optional<long> max_late;                    ///< frames

@@ -75,6 +75,27 @@ TEST(Space, MultipliesByLattices) {
   EXPECT_FALSE(candidates[1].usual);
 }
 
+TEST(Space, VariesRadiiOfSpheresByAQuarter) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb-sphere:bounds=paper,cell=1"};
+  EXPECT_THAT(names(make_space(core_catalog(), request)),
+              UnorderedElementsAre("ffd-aabb-sphere", "ffd-aabb-sphere:radius=0.8",
+                                   "ffd-aabb-sphere:radius=1.25"));
+}
+
+TEST(Space, MultipliesByDeformersWhoseStepsCost) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:bounds=paper,cell=1"};
+  request.deformers = {{"mass-spring", 0.5}, {"shape-matching", 2.0}};
+  const auto candidates = make_space(core_catalog(), request);
+  ASSERT_EQ(candidates.size(), 2u);
+  EXPECT_TRUE(candidates[0].usual);
+  EXPECT_EQ(candidates[0].deformer, "mass-spring");
+  EXPECT_FALSE(candidates[1].usual);
+  EXPECT_EQ(candidates[1].step_ms, 2.0);
+  EXPECT_THAT(candidates[1].choices, Contains(Choice{"deformer", "shape-matching"}));
+}
+
 TEST(Space, RefusesWhatDoesNotAnswer) {
   SpaceRequest request;
   request.question = Question::kTriangles;

@@ -123,6 +123,8 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
       {{"--question", "contacts"}, "contacts"},
       {{"--frames", "3"}, "3"},
       {{"--most", "1", "--exhaustive"}, "--exhaustive"},
+      {{"--deformer", "jelly"}, "jelly"},
+      {{"--deformer", "all"}, "is not simulated"},
       {{"--detector", "no-such"}, "unknown detector \"no-such\""},
       {{"--detector", "ffd-aabb", "--question", "triangles"}, "does not answer the question"}};
   for (const auto& [words, sentence] : bad) {
@@ -134,7 +136,7 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
   scene_ = "default";
   EXPECT_THAT(tune({}).err, HasSubstr("\"default\" is a suite"));
   scene_ = "paper-rabbit";
-  EXPECT_THAT(tune({}).err, HasSubstr("is simulated"));
+  EXPECT_THAT(tune({"--lattice", "2"}).err, HasSubstr("is simulated"));
   scene_ = "hard-vertex-face";
   EXPECT_THAT(tune({}).err, HasSubstr("its frames are cases"));
 }

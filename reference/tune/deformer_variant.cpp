@@ -1,6 +1,8 @@
 #include "reference/tune/deformer_variant.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/dynamics/equivalent_material.h"
@@ -48,6 +50,15 @@ std::size_t body_named(const Scene& scene, const std::string& name) {
   return static_cast<std::size_t>(body - scene.bodies.begin());
 }
 
+// Every step is stable for shape matching, but one longer than its relaxation time takes a body so
+// far into the ground before it is answered that it does not come out again.
+std::uint32_t substeps_for(const Scene& scene, double relaxation_time) {
+  constexpr double kMost = 1000.0;  // that a scene file may ask for
+  const SimulationSettings& settings = scene.simulation->settings;
+  const double wanted = std::ceil(settings.time_step / relaxation_time);
+  return std::max(settings.substeps, static_cast<std::uint32_t>(std::min(wanted, kMost)));
+}
+
 }  // namespace
 
 std::string deformer_of(const Scene& scene) {
@@ -68,11 +79,18 @@ fs::path write_deformer_variant(const fs::path& file, DeformableModel model,
   const Scene scene = load_scene(file);
   return write_scene_variant(
       file, name_of(model),
-      [&](Json& body, const std::string&) {
-        if (!body.contains("material")) return;
-        const std::size_t b = body_named(scene, body.at("name").get<std::string>());
-        body["material"] = json_of(
-            equivalent_material(*scene.simulation->materials[b], model, *scene.bodies[b].shape));
+      [&](Json& variant, const std::string&) {
+        double shortest_time = std::numeric_limits<double>::infinity();
+        for (Json& body : variant["bodies"]) {
+          if (!body.contains("material")) continue;
+          const std::size_t b = body_named(scene, body.at("name").get<std::string>());
+          const Material material =
+              equivalent_material(*scene.simulation->materials[b], model, *scene.bodies[b].shape);
+          body["material"] = json_of(material);
+          shortest_time = std::min(shortest_time, material.relaxation_time);
+        }
+        if (model == DeformableModel::kShapeMatching)
+          variant["simulation"]["substeps"] = substeps_for(scene, shortest_time);
       },
       folder);
 }

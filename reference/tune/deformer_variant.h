@@ -14,7 +14,8 @@ namespace contactcheck {
 std::string deformer_of(const Scene& scene);
 
 /// Writes the scene of `file`, every material made the equivalent one of `model`
-/// (core/dynamics/equivalent_material.h), into `folder`; the id gets "-MODEL" behind it. Returns
+/// (core/dynamics/equivalent_material.h), into `folder`, shape matching with substeps no longer
+/// than its relaxation time; the id gets "-MODEL" behind it. Returns
 /// the new file. @throws InputError for scenes that cannot be read
 std::filesystem::path write_deformer_variant(const std::filesystem::path& file,
                                              DeformableModel model,

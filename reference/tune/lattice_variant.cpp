@@ -41,7 +41,9 @@ void scale_lattice(Json& body, double factor, const std::string& document) {
 fs::path write_lattice_variant(const fs::path& file, double factor, const fs::path& folder) {
   return write_scene_variant(
       file, fmt::format("lattice-{:g}", 100.0 * factor),
-      [&](Json& body, const std::string& document) { scale_lattice(body, factor, document); },
+      [&](Json& scene, const std::string& document) {
+        for (Json& body : scene["bodies"]) scale_lattice(body, factor, document);
+      },
       folder);
 }
 

@@ -21,17 +21,16 @@ void make_paths_absolute(Json& mesh, const fs::path& folder) {
 }  // namespace
 
 fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
-                             const ChangeBody& change, const fs::path& folder) {
+                             const ChangeScene& change, const fs::path& folder) {
   const std::string document = "scene file " + in_quotes(file.string());
   Json scene = Json::parse(read_file_bytes(file, "scene file"), nullptr, false);
   if (!scene.is_object() || !scene.contains("bodies") || !scene.contains("id"))
     throw InputError(document + " is no scene whose bodies could be others");
   const std::string id = scene["id"].get<std::string>() + "-" + suffix;
   scene["id"] = id;
-  for (Json& body : scene["bodies"]) {
+  for (Json& body : scene["bodies"])
     if (body.contains("mesh")) make_paths_absolute(body["mesh"], file.parent_path());
-    change(body, document);
-  }
+  change(scene, document);
   fs::create_directories(folder);
   const fs::path variant = folder / (id + ".json");
   write_file_atomically(variant, scene.dump(1) + "\n");

@@ -1,4 +1,4 @@
-// A scene file with every body changed in one way.
+// A scene file with something changed.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace contactcheck {
 
-/// One body as the scene file has it; `document` names the file in messages.
-using ChangeBody = std::function<void(nlohmann::ordered_json& body, const std::string& document)>;
+/// The scene as its file has it, with an array "bodies"; `document` names the file in messages.
+using ChangeScene = std::function<void(nlohmann::ordered_json& scene, const std::string& document)>;
 
-/// Writes the scene of `file` with its bodies changed into `folder`; the id gets "-SUFFIX" behind
+/// Writes the scene of `file`, changed, into `folder`; the id gets "-SUFFIX" behind
 /// it. Returns the new file, which may be read from anywhere.
 /// @throws InputError for what is no scene file, and what `change` throws
 std::filesystem::path write_scene_variant(const std::filesystem::path& file,
-                                          const std::string& suffix, const ChangeBody& change,
+                                          const std::string& suffix, const ChangeScene& change,
                                           const std::filesystem::path& folder);
 
 }  // namespace contactcheck

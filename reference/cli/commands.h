@@ -46,6 +46,8 @@ struct ExportArguments {
 /// What to list; nothing chosen: everything, with one line each.
 struct ListArguments {
   bool suites = false, scenes = false, families = false, detectors = false;
+  std::vector<std::string> named;     ///< detectors alone, by name or library
+  std::vector<std::string> commands;  ///< and these, that are talked to over pipes
 };
 
 struct ReduceArguments {

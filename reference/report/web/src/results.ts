@@ -173,6 +173,8 @@ export interface Phases {
   query: number;
   frame: number;
   contact_frame: number | null;
+  /** update and query, by the detector's own clock; absent: it has none */
+  self_reported?: number;
 }
 
 /** A run without timing has `prepare` alone. */

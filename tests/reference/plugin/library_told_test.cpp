@@ -127,6 +127,24 @@ TEST(ListOfOwnDetectors, ShowsWhatALibraryDeclares) {
   EXPECT_THAT(list.out, testing::Not(HasSubstr("\nembree\n")));
 }
 
+// A ':' begins the options, unless the file's own name has it.
+TEST(ListOfOwnDetectors, FindsALibraryWhoseNameHasAColon) {
+  const test::Scratch scratch;
+  const std::filesystem::path folder = scratch.folder() / "lib:1";
+  std::filesystem::create_directory(folder);
+  const std::string file = (folder / "mine:a=1.so").string();
+  std::filesystem::copy_file(CONTACTCHECK_STAGED_LIBRARY, file);
+  for (const std::string options : {"", ":told=owners"}) {
+    const test::Outcome list = test::contactcheck_program({"list", "--detector", file + options});
+    EXPECT_EQ(list.exit_code, 0) << list.err;
+    EXPECT_THAT(list.out, HasSubstr("\nstaged\n"));
+  }
+  const test::Outcome none =
+      test::contactcheck_program({"list", "--detector", file + "x:told=owners"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("lib: No such file"));
+}
+
 TEST(ListOfOwnDetectors, ShowsWhatACommandDeclares) {
   const test::Outcome list =
       test::contactcheck_program({"list", "--detector-cmd", test::misbehaving_command("none")});

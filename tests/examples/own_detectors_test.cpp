@@ -44,6 +44,9 @@ TEST(OwnDetectors, FromOutsideAnswerAsFclDoes) {
 TEST(OwnDetectors, FromOutsideAreNamedInTheResults) {
   PluginRun run({"--detector", c_library() + ":axis=z", "--detector-cmd", python_command()});
   EXPECT_EQ(run.row("c-sweep:axis=z").at("options"), json({{"axis", "z"}}));
+  EXPECT_THAT(run.results().at("command").get<std::string>(),
+              testing::HasSubstr("--detector-cmd '" + python_command() + "'"))
+      << "to be run again as it stands";
   const json plugins = run.results().at("plugins");
   ASSERT_EQ(plugins.size(), 2u);
   EXPECT_EQ(plugins[0].at("detector"), "python-sweep");

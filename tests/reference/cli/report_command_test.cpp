@@ -33,7 +33,7 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
 }
 
-TEST(ReportCommand, DrawsSpeedAgainstErrorAsTheRunDoes) {
+TEST(ReportCommand, DrawsThePicturesOfTheRun) {
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
@@ -44,15 +44,17 @@ TEST(ReportCommand, DrawsSpeedAgainstErrorAsTheRunDoes) {
   ASSERT_EQ(contactcheck_program({"report", out / "results.json", "--format", "md", "--out", again})
                 .exit_code,
             0);
-  const fs::path picture = fs::path("plots") / "speed_error.svg";
-  EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-aabb: "));
-  EXPECT_EQ(text_of(again / picture), text_of(out / picture));
-  const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
-                                        {"-c",
-                                         "import sys, xml.dom.minidom as dom\n"
-                                         "print(dom.parse(sys.argv[1]).documentElement.tagName)",
-                                         (out / picture).string()});
-  EXPECT_EQ(xml.out, "svg\n") << xml.err;
+  for (const char* name : {"speed_error.svg", "who_errs.svg", "stage_losses.svg"}) {
+    const fs::path picture = fs::path("plots") / name;
+    EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-aabb"));
+    EXPECT_EQ(text_of(again / picture), text_of(out / picture));
+    const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
+                                          {"-c",
+                                           "import sys, xml.dom.minidom as dom\n"
+                                           "print(dom.parse(sys.argv[1]).documentElement.tagName)",
+                                           (out / picture).string()});
+    EXPECT_EQ(xml.out, "svg\n") << xml.err;
+  }
 }
 
 // What the page holds for its 3D view, packed.

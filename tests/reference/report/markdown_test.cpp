@@ -46,6 +46,12 @@ Over scene hello. A time is that of mapping, update and query with cold caches, 
 
 Not in the chart: fcl-obbrss, embree, ffd-grid (ended well in 0 of 1 scenes).
 
+## Who errs, and in which stage
+
+![Share of true contacts missed and of reports spurious, a row per detector](plots/who_errs.svg)
+
+![Share of true pairs of triangles lost, stage by stage, a row per detector](plots/stage_losses.svg)
+
 ## What the results say
 
 ### ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`

@@ -14,6 +14,10 @@ export interface Results {
   disagreements: Disagreement[];
   goals?: Goal[];
   resumed?: string[];
+  /** A part of a run: these scenes are only some of `shard.scenes`. */
+  shard?: {index: number; of: number; scenes: string[]; command: string};
+  /** One entry per shard that these results were put together from. */
+  merged?: unknown[];
   known_defects?: KnownDefects;
   /** Not in results.json: the program adds reproduction.json of the same run. */
   reproduction?: Reproduction;

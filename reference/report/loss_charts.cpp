@@ -111,14 +111,15 @@ std::int64_t true_triangle_pairs(const Json& run) {
 std::vector<DetectorLosses> losses_of(const std::vector<const Json*>& runs) {
   std::vector<DetectorLosses> all;
   for (const Json* run : runs) {
-    if (!run->contains("stages") || run->at("stages").empty()) continue;
+    const std::int64_t truth = true_triangle_pairs(*run);
+    if (truth <= 0 || !run->contains("stages") || run->at("stages").empty()) continue;
     DetectorLosses& losses = named(all, &DetectorLosses::detector, detector_of(*run));
-    losses.truth += true_triangle_pairs(*run);
+    losses.truth += truth;
     for (const Json& stage : run->at("stages"))
       named(losses.stages, &StageLoss::stage, stage.at("name").get<std::string>()).missed +=
           whole_number(stage.at("missed"));
   }
-  std::erase_if(all, [](const DetectorLosses& l) { return l.truth <= 0 || !l.any(); });
+  std::erase_if(all, [](const DetectorLosses& losses) { return !losses.any(); });
   return all;
 }
 
@@ -179,7 +180,9 @@ std::string stages_picture(const Json& results) {
   chart.series = series_of(all);
   chart.axis = "share of the true pairs of triangles that was lost";
   for (const DetectorLosses& losses : all) chart.rows.push_back(losses_row(losses, chart.series));
-  chart.foot = {"Who is not here lost none, or has no stages to look into."};
+  chart.foot = {
+      "Who is not here lost none, has no stages to look into, or was not judged at cells or "
+      "triangles."};
   return bar_plot(chart);
 }
 

@@ -88,7 +88,7 @@ class Shards : public testing::Test {
     return Json::parse(text_of(file));
   }
   void expect_same_folders(const std::string& a, const std::string& b) const {
-    for (const char* folder : {"cases", "contacts", "recordings"})
+    for (const char* folder : {"cases", "contacts", "plots", "recordings"})
       expect_same_files(dir(a) / folder, dir(b) / folder);
   }
 
@@ -105,7 +105,7 @@ TEST_F(Shards, MergedAreTheResultsOfTheRunInOnePiece) {
   EXPECT_GT(merged.at("disagreements").size(), 5u) << "there are cases to number";
   expect_same_folders("out", "whole");
   EXPECT_THAT(text_of(dir("out") / "report.md"), HasSubstr("Put together from 3 shards"));
-  EXPECT_EQ(names_in(dir("out")), test::run_files());
+  EXPECT_EQ(names_in(dir("out")), test::run_files({"plots"}));
 }
 
 TEST_F(Shards, AreNoBaseline) {

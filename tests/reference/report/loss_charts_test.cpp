@@ -75,6 +75,13 @@ TEST(StagesPicture, SaysWhichStageLostHowMany) {
               AllOf(HasSubstr(">hash 5, spheres 5 of 400000<"), HasSubstr("2 scenes")));
 }
 
+// Stages cover pairs of triangles: of a run that was judged by bodies alone nobody knows how many.
+TEST(StagesPicture, LeavesOutRunsThatWereNotJudgedThere) {
+  Json results = two_scenes();
+  results["runs"].back()["per_frame"]["level"] = "body";
+  EXPECT_THAT(stages_picture(results), HasSubstr(">hash 1 of 200000<"));
+}
+
 TEST(StagesPicture, IsNoneWhereNoStageLostAny) {
   Json results = sample_results();
   lossy_run(results)["stages"][0]["missed"] = 0;

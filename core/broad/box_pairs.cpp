@@ -3,12 +3,13 @@
 namespace contactcheck {
 namespace {
 
-Aabb shrunk(const Aabb& box, double scale) {
+template <typename T>
+AabbOf<T> shrunk(const AabbOf<T>& box, double scale) {
   if (scale == 1.0) return box;
-  const Vec3 center = box.center();
-  Aabb out;
-  out.lo = center + (box.lo - center) * scale;
-  out.hi = center + (box.hi - center) * scale;
+  const Vec3Of<T> center = box.center();
+  AabbOf<T> out;
+  out.lo = center + (box.lo - center) * static_cast<T>(scale);
+  out.hi = center + (box.hi - center) * static_cast<T>(scale);
   return out;
 }
 
@@ -22,23 +23,25 @@ double buckets_met(const GridKey& lo, const GridKey& hi) {
 
 }  // namespace
 
-void BoxPairFinder::find(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings,
-                         std::vector<Pair>& out) {
+template <typename T>
+void BoxPairFinderOf<T>::find(const Boxes& boxes, const BoxPairSettings& settings,
+                              std::vector<Pair>& out) {
   visited_ = 0;
   hash_boxes(boxes, settings);
-  pairs_in_buckets(boxes, settings.cell_size, out);
+  pairs_in_buckets(boxes, static_cast<T>(settings.cell_size), out);
   pairs_of_oversize(boxes, out);
 }
 
-void BoxPairFinder::hash_boxes(const std::vector<OwnedBox>& boxes,
-                               const BoxPairSettings& settings) {
+template <typename T>
+void BoxPairFinderOf<T>::hash_boxes(const Boxes& boxes, const BoxPairSettings& settings) {
+  const T cell_size = static_cast<T>(settings.cell_size);
   hash_.clear(settings.table_size);
   oversize_.clear();
   is_oversize_.assign(boxes.size(), 0);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    const Aabb box = shrunk(boxes[i].box, settings.fault_bucket_scale);
-    const GridKey lo = grid_key(box.lo, settings.cell_size);
-    const GridKey hi = grid_key(box.hi, settings.cell_size);
+    const AabbOf<T> box = shrunk(boxes[i].box, settings.fault_bucket_scale);
+    const GridKey lo = grid_key<T>(box.lo, cell_size);
+    const GridKey hi = grid_key<T>(box.hi, cell_size);
     if (buckets_met(lo, hi) > settings.largest_buckets_per_box) {
       oversize_.push_back(i);
       is_oversize_[i] = 1;
@@ -51,20 +54,20 @@ void BoxPairFinder::hash_boxes(const std::vector<OwnedBox>& boxes,
   hash_.build();
 }
 
-void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double cell_size,
-                                     std::vector<Pair>& out) {
+template <typename T>
+void BoxPairFinderOf<T>::pairs_in_buckets(const Boxes& boxes, T cell_size, std::vector<Pair>& out) {
   for (std::size_t b = 0; b < hash_.bucket_count(); ++b) {
     const auto entries = hash_.bucket_at(b);
     if (!entries.empty()) visited_ += entries.size() * (entries.size() - 1) / 2;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-      const OwnedBox& first = boxes[entries[i].id];
+      const OwnedBoxOf<T>& first = boxes[entries[i].id];
       for (std::size_t j = i + 1; j < entries.size(); ++j) {
         if (entries[i].key != entries[j].key) continue;
-        const OwnedBox& second = boxes[entries[j].id];
+        const OwnedBoxOf<T>& second = boxes[entries[j].id];
         if (first.body == second.body || !first.box.overlaps(second.box)) continue;
         // floor is monotone: the key of the intersection's lower corner lies in both boxes' ranges.
-        const Vec3 corner = first.box.lo.cwiseMax(second.box.lo);
-        if (grid_key(corner, cell_size) == entries[i].key)
+        const Vec3Of<T> corner = first.box.lo.cwiseMax(second.box.lo);
+        if (grid_key<T>(corner, cell_size) == entries[i].key)
           out.emplace_back(std::min(entries[i].id, entries[j].id),
                            std::max(entries[i].id, entries[j].id));
       }
@@ -72,7 +75,8 @@ void BoxPairFinder::pairs_in_buckets(const std::vector<OwnedBox>& boxes, double 
   }
 }
 
-void BoxPairFinder::pairs_of_oversize(const std::vector<OwnedBox>& boxes, std::vector<Pair>& out) {
+template <typename T>
+void BoxPairFinderOf<T>::pairs_of_oversize(const Boxes& boxes, std::vector<Pair>& out) {
   visited_ += oversize_.size() * boxes.size();
   for (std::uint32_t big : oversize_) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
@@ -82,5 +86,8 @@ void BoxPairFinder::pairs_of_oversize(const std::vector<OwnedBox>& boxes, std::v
     }
   }
 }
+
+template class BoxPairFinderOf<double>;
+template class BoxPairFinderOf<float>;
 
 }  // namespace contactcheck

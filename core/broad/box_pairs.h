@@ -10,11 +10,13 @@
 
 namespace contactcheck {
 
-struct OwnedBox {
-  Aabb box;
+template <typename T>
+struct OwnedBoxOf {
+  AabbOf<T> box;
   std::uint32_t body = 0;
   std::uint32_t cell = 0;
 };
+using OwnedBox = OwnedBoxOf<double>;
 
 struct BoxPairSettings {
   double cell_size = 1.0;               ///< metres, of the hash grid
@@ -25,30 +27,32 @@ struct BoxPairSettings {
   double fault_bucket_scale = 1.0;
 };
 
-/// Complete and without repeats: an AABB is put into every bucket it meets, and a pair is taken
+/// In double or in single precision, whose grid keys are those of floats. Complete and without
+/// repeats: an AABB is put into every bucket it meets, and a pair is taken
 /// only in the bucket of the lower corner of the two boxes' intersection, which both have. Boxes
 /// that meet too many buckets are tested against all others.
-class BoxPairFinder {
+template <typename T>
+class BoxPairFinderOf {
  public:
+  using Boxes = std::vector<OwnedBoxOf<T>>;
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices into `boxes`, first < second
 
   /// Appends every closed overlap of boxes of different bodies.
-  void find(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings,
-            std::vector<Pair>& out);
+  void find(const Boxes& boxes, const BoxPairSettings& settings, std::vector<Pair>& out);
   /// Comparisons of the last find(): of two entries of a bucket, and of an oversize box with each
   /// box.
   std::uint64_t visited() const { return visited_; }
 
  private:
-  void hash_boxes(const std::vector<OwnedBox>& boxes, const BoxPairSettings& settings);
-  void pairs_in_buckets(const std::vector<OwnedBox>& boxes, double cell_size,
-                        std::vector<Pair>& out);
-  void pairs_of_oversize(const std::vector<OwnedBox>& boxes, std::vector<Pair>& out);
+  void hash_boxes(const Boxes& boxes, const BoxPairSettings& settings);
+  void pairs_in_buckets(const Boxes& boxes, T cell_size, std::vector<Pair>& out);
+  void pairs_of_oversize(const Boxes& boxes, std::vector<Pair>& out);
 
   SpatialHash hash_;
   std::vector<std::uint32_t> oversize_;
   std::vector<char> is_oversize_;
   std::uint64_t visited_ = 0;
 };
+using BoxPairFinder = BoxPairFinderOf<double>;
 
 }  // namespace contactcheck

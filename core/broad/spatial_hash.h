@@ -20,15 +20,17 @@ struct GridKey {
   auto operator<=>(const GridKey&) const = default;
 };
 
-inline std::int64_t grid_coordinate(double x, double cell_size) {
-  constexpr double kLimit = 0x1p62;
-  const double q = std::clamp(x / cell_size, -kLimit, kLimit);
+template <typename T>
+std::int64_t grid_coordinate(T x, T cell_size) {
+  constexpr T kLimit = static_cast<T>(0x1p62);
+  const T q = std::clamp(x / cell_size, -kLimit, kLimit);
   // floor() without the library call that it is on plain x86-64; the conversions are exact.
   const auto cut = static_cast<std::int64_t>(q);
-  return cut - (static_cast<double>(cut) > q ? 1 : 0);
+  return cut - (static_cast<T>(cut) > q ? 1 : 0);
 }
 
-inline GridKey grid_key(const Vec3& p, double cell_size) {
+template <typename T>
+GridKey grid_key(const Vec3Of<T>& p, T cell_size) {
   return {grid_coordinate(p.x(), cell_size), grid_coordinate(p.y(), cell_size),
           grid_coordinate(p.z(), cell_size)};
 }

@@ -64,6 +64,13 @@ void sort_by_cell(std::size_t cells, Embedding& out) {
   }
 }
 
+SingleLocal single_local(const Embedding& embedding) {
+  SingleLocal out;
+  for (int k = 0; k < 3; ++k)
+    for (double x : embedding.sorted_local[k]) out[k].push_back(static_cast<float>(x));
+  return out;
+}
+
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
   const Grid grid(lattice.lines);
   const std::vector<std::uint32_t> number = kept_numbers(grid, lattice);

@@ -13,7 +13,7 @@
 
 namespace contactcheck {
 
-/// Doubles that a vector may read beyond the last one; at least the lanes of the widest vector.
+/// Numbers that a vector may read beyond the last one; at least the lanes of the widest vector.
 inline constexpr std::size_t kEmbeddingPadding = 8;
 
 struct Embedding {
@@ -39,6 +39,10 @@ struct Embedding {
 
 /// Rebuilds the cell-sorted arrays from home cells and local coordinates.
 void sort_by_cell(std::size_t cells, Embedding& out);
+
+/// Embedding::sorted_local in single precision: rounded once, with the same padding.
+using SingleLocal = std::array<std::vector<float>, 3>;
+SingleLocal single_local(const Embedding& embedding);
 
 /// @pre the lattice was made for this mesh by make_lattice
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice);

@@ -18,7 +18,9 @@ using GridIndex = std::array<std::uint32_t, 3>;
 
 /// The eight corners of a cell or box. Corner c lies at the high end of axis k when bit k of c is
 /// set.
-using Corners = std::array<Vec3, 8>;
+template <typename T>
+using CornersOf = std::array<Vec3Of<T>, 8>;
+using Corners = CornersOf<double>;
 using CornerIds = std::array<std::uint32_t, 8>;
 
 struct Lattice {

@@ -29,7 +29,7 @@ struct LocalLanes {
 };
 
 template <class D>
-HWY_INLINE hn::Vec<D> map_axis(D d, const double* corners, const LocalLanes<D>& w) {
+HWY_INLINE hn::Vec<D> map_axis(D d, const hn::TFromD<D>* corners, const LocalLanes<D>& w) {
   const auto along_s = [&](int low) HWY_ATTR {
     return blend_lanes(hn::Set(d, corners[low]), hn::Set(d, corners[low + 1]), w.s, w.one_minus_s);
   };
@@ -40,11 +40,12 @@ HWY_INLINE hn::Vec<D> map_axis(D d, const double* corners, const LocalLanes<D>& 
 
 template <class D>
 HWY_INLINE LocalLanes<D> local_lanes(D d, hn::Vec<D> s, hn::Vec<D> t, hn::Vec<D> u) {
-  const auto one = hn::Set(d, 1.0);
+  const auto one = hn::Set(d, hn::TFromD<D>(1));
   return {s, t, u, hn::Sub(one, s), hn::Sub(one, t), hn::Sub(one, u)};
 }
 
-HWY_INLINE void gather_corners(const CornerIds& ids, const Vec3* nodes, double (&corners)[3][8]) {
+template <typename T>
+HWY_INLINE void gather_corners(const CornerIds& ids, const Vec3Of<T>* nodes, T (&corners)[3][8]) {
   for (int c = 0; c < 8; ++c)
     for (int k = 0; k < 3; ++k) corners[k][c] = nodes[ids[c]][k];
 }

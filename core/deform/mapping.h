@@ -1,11 +1,15 @@
 // The one mapping from deformed lattice nodes to deformed vertices: trilinear, IEEE double, a fixed
 // order of operations, nothing fused. Every detector and the oracle judge exactly these doubles.
 //
+// The same operations on floats are for detectors in single precision, which round nodes and local
+// coordinates once and map vertices of their own.
+//
 // Guarantees: local coordinates 0 and 1 reproduce node bits exactly; all batch versions give the
 // bits of map_point on every instruction set (test: Mapping.BatchGivesTheBitsOfThePointVersion).
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/deform/embedding.h"
@@ -15,16 +19,20 @@
 namespace contactcheck {
 
 /// The canonical blend of two values: a * (1 - w) + b * w, in this order.
-inline double blend(double a, double b, double w) { return a * (1.0 - w) + b * w; }
+template <typename T>
+T blend(T a, T b, T w) {
+  return a * (T(1) - w) + b * w;
+}
 
 /// Maps local coordinates by the eight corners of a cell: first along s, then t, then u.
-inline Vec3 map_point(const Corners& c, const Vec3& local) {
-  Vec3 out;
+template <typename T>
+Vec3Of<T> map_point(const CornersOf<T>& c, const Vec3Of<T>& local) {
+  Vec3Of<T> out;
   for (int k = 0; k < 3; ++k) {
-    const double x00 = blend(c[0][k], c[1][k], local.x());
-    const double x10 = blend(c[2][k], c[3][k], local.x());
-    const double x01 = blend(c[4][k], c[5][k], local.x());
-    const double x11 = blend(c[6][k], c[7][k], local.x());
+    const T x00 = blend(c[0][k], c[1][k], local.x());
+    const T x10 = blend(c[2][k], c[3][k], local.x());
+    const T x01 = blend(c[4][k], c[5][k], local.x());
+    const T x11 = blend(c[6][k], c[7][k], local.x());
     out[k] = blend(blend(x00, x10, local.y()), blend(x01, x11, local.y()), local.z());
   }
   return out;
@@ -34,28 +42,38 @@ inline Vec3 map_point(const Corners& c, const Vec3& local) {
 /// the order of the mesh. SIMD with run-time dispatch.
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out);
+/// `local`: single_local(embedding).
+void map_vertices(const Lattice& lattice, const Embedding& embedding, const SingleLocal& local,
+                  std::span<const Vec3f> nodes, std::span<Vec3f> out);
 
 /// A box in local coordinates of a kept cell.
-struct LocalBox {
+template <typename T>
+struct LocalBoxOf {
   std::uint32_t home = 0;
-  Aabb local;
+  AabbOf<T> local;
 };
+using LocalBox = LocalBoxOf<double>;
 
 /// Maps the eight corners of every box, with the bits of map_point. `out`: one per box. SIMD with
 /// run-time dispatch.
 void map_boxes(const Lattice& lattice, std::span<const LocalBox> boxes, std::span<const Vec3> nodes,
                std::span<Corners> out);
+void map_boxes(const Lattice& lattice, std::span<const LocalBoxOf<float>> boxes,
+               std::span<const Vec3f> nodes, std::span<CornersOf<float>> out);
 
 /// Name of the instruction set that map_vertices runs on here: "AVX3", "AVX2", "SSE4", ...
 const char* simd_target();
 
 /// Bound on |computed - exact| per coordinate of map_point, given the largest |coordinate| of the
 /// nodes, for local coordinates in [0, 1] known exactly.
-/// Each blend adds at most 3 rounding steps of 2^-53 relative to its inputs (1 - w, the two
-/// products, their sum: (1 + e)^3 - 1 < 3.1 e); three nested blends: below 10 * 2^-53. The constant
-/// covers the 14 products that may underflow, each by at most 2^-1075.
-inline double mapping_error_bound(double largest_coordinate) {
-  return 10.0 * 0x1p-53 * largest_coordinate + 0x1p-1069;
+/// Each blend adds at most 3 rounding steps of u (2^-53, of floats 2^-24) relative to its inputs (1
+/// - w, the two products, their sum: (1 + u)^3 - 1 < 3.1 u); three nested blends: below 10 u. The
+/// constant covers the 14 products that may underflow, each by at most half the smallest positive
+/// number.
+template <typename T>
+T mapping_error_bound(T largest_coordinate) {
+  using Limits = std::numeric_limits<T>;
+  return T(10) * (Limits::epsilon() / 2) * largest_coordinate + 32 * Limits::denorm_min();
 }
 
 }  // namespace contactcheck

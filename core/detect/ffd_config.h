@@ -16,9 +16,9 @@ enum class ElementTest { kNodePlane, kTriangle };
 enum class BoundsReading { kPaper, kSafe };
 
 /// Faults seeded by tests, to prove that each bound of the safe reading is needed and that the
-/// suite sees it fail: every bound is multiplied by its share. 1 in every real run.
+/// suite sees it fail: the bound is multiplied by its share. 1 in every real run.
+/// (Spheres have FfdConfig::sphere_radius.)
 struct SeededFaults {
-  double sphere_radius = 1.0;
   double cell_box = 1.0;
   double buckets = 1.0;
 };
@@ -28,6 +28,9 @@ struct FfdConfig {
   CellVolume volume = CellVolume::kFfdAabb;
   int sphere_levels = 0;  ///< 0: none, 1: one sphere per body, 2: the paper's proposal, ...
   int spheres = 16;       ///< parts into which a sphere is split at the next level
+  /// Factor on every radius. Below 1 the safe reading's spheres may not hold their triangles, so
+  /// that contacts may be missed; above 1 they only let more through.
+  double sphere_radius = 1.0;
   ElementTest element = ElementTest::kNodePlane;
   BoundsReading bounds = BoundsReading::kPaper;
   double hash_cell = 1.0;        ///< hash grid cell / mean edge of the boxes at rest

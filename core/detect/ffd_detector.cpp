@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "core/types/check.h"
 
 namespace contactcheck {
 namespace {
 
+template <typename T>
 Semantics semantics_of(const FfdConfig& config) {
   Semantics s;
   if (config.element == ElementTest::kTriangle) {
     s.levels = {Level::kBody, Level::kTriangle};
     s.questions = {Question::kTriangles, Question::kBody};
-    s.exact = config.bounds == BoundsReading::kSafe;
+    s.exact = config.bounds == BoundsReading::kSafe && config.sphere_radius >= 1.0 &&
+              std::is_same_v<T, double>;
   } else {
     s.levels = {Level::kBody, Level::kCell};
     s.questions = {Question::kCells, Question::kBody};
@@ -26,32 +30,67 @@ Semantics semantics_of(const FfdConfig& config) {
       s.depth = DepthKind::kConvexPair;
     }
   }
+  if constexpr (std::is_same_v<T, float>) {
+    s.precision = Precision::kSingle;
+    s.local_origin = true;
+  }
   return s;
+}
+
+template <typename T>
+FfdModelOf<T> model_of(const BodyShape& shape, const FfdConfig& config) {
+  if constexpr (std::is_same_v<T, float>) {
+    return rounded_model(make_ffd_model(shape, config));
+  } else {
+    return make_ffd_model(shape, config);
+  }
+}
+
+// Never 0, whatever was rounded: coordinates are divided by it.
+template <typename T>
+T grid_cell(double size) {
+  using Limits = std::numeric_limits<T>;
+  if (size > Limits::max()) return Limits::infinity();
+  return std::max(static_cast<T>(size), Limits::denorm_min());
+}
+
+// The way from the grid about a local origin to the grid about the origin of the world, so that
+// nodes share the buckets that they share in doubles, up to rounding.
+template <typename T>
+Vec3Of<T> grid_shift(const Vec3& origin, double cell) {
+  Vec3Of<T> out = Vec3Of<T>::Zero();
+  if (!(cell > 0.0) || !std::isfinite(grid_cell<T>(cell))) return out;
+  for (int k = 0; k < 3; ++k) out[k] = static_cast<T>(std::fmod(origin[k], cell));
+  return out;
 }
 
 }  // namespace
 
-FfdDetector::FfdDetector(const FfdConfig& config)
-    : config_(config), semantics_(semantics_of(config)) {}
+template <typename T>
+FfdDetectorOf<T>::FfdDetectorOf(const FfdConfig& config)
+    : config_(config), semantics_(semantics_of<T>(config)) {}
 
-void FfdDetector::prepare(const std::vector<Body>& bodies) {
+template <typename T>
+void FfdDetectorOf<T>::prepare(const std::vector<Body>& bodies) {
   models_.clear();
   double edges = 0.0;
   for (const Body& body : bodies) {
     try {
-      models_.push_back(make_ffd_model(*body.shape, config_));
+      models_.push_back(model_of<T>(*body.shape, config_));
     } catch (const RefusedInput& e) {
       throw RefusedInput("body \"" + body.name + "\": " + e.what());
     }
     edges += models_.back().mean_edge;
   }
-  states_.assign(models_.size(), FfdState{});
+  states_.assign(models_.size(), {});
+  numbers_.prepare(bodies, config_.element == ElementTest::kTriangle);
   const double mean = models_.empty() ? 0.0 : edges / static_cast<double>(models_.size());
   // Boxes without extent (all surface in one point per cell) still need a grid.
   hash_cell_size_ = mean > 0.0 ? mean * config_.hash_cell : 1.0;
 }
 
-void FfdDetector::update(const Frame& frame) {
+template <typename T>
+void FfdDetectorOf<T>::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == models_.size(), "one state per prepared body");
   for (std::size_t body = 0; body < models_.size(); ++body) {
     const BodyShape& shape = *models_[body].shape;
@@ -59,25 +98,31 @@ void FfdDetector::update(const Frame& frame) {
     CONTACTCHECK_INVARIANT(state.nodes.size() == shape.node_count(), "one position per node");
     CONTACTCHECK_INVARIANT(!needs_vertices() || state.vertices.size() == shape.mesh.vertices.size(),
                            "one position per vertex");
-    update_state(models_[body], config_, frame.bodies[body], states_[body]);
   }
+  numbers_.update(frame);
+  for (std::size_t body = 0; body < models_.size(); ++body)
+    update_state(models_[body], config_, numbers_.nodes(body), states_[body]);
   if (config_.element == ElementTest::kTriangle) {
-    triangle_.begin_frame(models_, frame);
+    triangle_.begin_frame(models_, numbers_.vertices());
   } else {
     node_plane_.begin_frame(models_);
   }
 }
 
-void FfdDetector::find_candidates() {
+template <typename T>
+void FfdDetectorOf<T>::find_candidates() {
   run_spheres(models_, states_, config_.bounds, config_.sphere_levels, survivors_);
+  const T cell = grid_cell<T>(hash_cell_size_);
   if (safe()) {
-    box_hash_.run(models_, states_, config_, survivors_, hash_cell_size_, cells_);
+    box_hash_.run(models_, states_, config_, survivors_, cell, cells_);
   } else {
-    probe_hash_.run(models_, states_, config_, survivors_, hash_cell_size_, hits_);
+    probe_hash_.run(models_, states_, config_, survivors_, cell,
+                    grid_shift<T>(numbers_.origin(), hash_cell_size_), hits_);
   }
 }
 
-std::vector<ElementPair> FfdDetector::cells_of_hits() const {
+template <typename T>
+std::vector<ElementPair> FfdDetectorOf<T>::cells_of_hits() const {
   std::vector<ElementPair> cells;
   for (const ProbeHit& hit : hits_)
     for_cells_of_probe(models_[hit.body_a], config_.volume, hit.probe, [&](std::uint32_t cell) {
@@ -87,7 +132,8 @@ std::vector<ElementPair> FfdDetector::cells_of_hits() const {
   return cells;
 }
 
-void FfdDetector::test_elements(bool first_only, std::vector<ElementPair>& out) {
+template <typename T>
+void FfdDetectorOf<T>::test_elements(bool first_only, std::vector<ElementPair>& out) {
   if (config_.element == ElementTest::kTriangle) {
     if (!safe()) cells_ = cells_of_hits();
     triangle_.run(models_, cells_, first_only, out);
@@ -98,7 +144,8 @@ void FfdDetector::test_elements(bool first_only, std::vector<ElementPair>& out) 
   }
 }
 
-void FfdDetector::query(Question question, ContactSet& out) {
+template <typename T>
+void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
   find_candidates();
   const bool boolean = question == Question::kBody;
@@ -116,12 +163,13 @@ void FfdDetector::query(Question question, ContactSet& out) {
 }
 
 // Which cells still take part after `levels` sphere levels.
-std::vector<std::vector<char>> FfdDetector::covered_cells(int levels,
-                                                          const SphereSurvivors& s) const {
+template <typename T>
+std::vector<std::vector<char>> FfdDetectorOf<T>::covered_cells(int levels,
+                                                               const SphereSurvivors& s) const {
   FfdConfig config = config_;
   config.sphere_levels = levels;
-  if (safe()) return BoxHashStage::active_cells(models_, config, s);
-  const auto probes = ProbeHashStage::active_probes(models_, states_, config, s);
+  if (safe()) return BoxHashStageOf<T>::active_cells(models_, config, s);
+  const auto probes = ProbeHashStageOf<T>::active_probes(models_, states_, config, s);
   std::vector<std::vector<char>> cells(models_.size());
   for (std::size_t body = 0; body < models_.size(); ++body) {
     cells[body].assign(models_[body].piece_begin.size() - 1, 0);
@@ -133,7 +181,8 @@ std::vector<std::vector<char>> FfdDetector::covered_cells(int levels,
   return cells;
 }
 
-void FfdDetector::trace_spheres(StageTrace& out) {
+template <typename T>
+void FfdDetectorOf<T>::trace_spheres(StageTrace& out) {
   for (int level = 1; level <= config_.sphere_levels; ++level) {
     SphereSurvivors s;
     run_spheres(models_, states_, config_.bounds, level, s);
@@ -158,7 +207,8 @@ void FfdDetector::trace_spheres(StageTrace& out) {
   }
 }
 
-void FfdDetector::trace_hash_and_elements(StageTrace& out) {
+template <typename T>
+void FfdDetectorOf<T>::trace_hash_and_elements(StageTrace& out) {
   find_candidates();
   StageRecord hash;
   hash.name = "hash";
@@ -187,13 +237,17 @@ void FfdDetector::trace_hash_and_elements(StageTrace& out) {
   out.stages.push_back(std::move(element));
 }
 
-StageTrace FfdDetector::trace() {
+template <typename T>
+StageTrace FfdDetectorOf<T>::trace() {
   StageTrace out;
   if (safe())
-    for (const FfdModel& model : models_) out.owner.push_back(model.owner);
+    for (const FfdModelOf<T>& model : models_) out.owner.push_back(model.owner);
   trace_spheres(out);
   trace_hash_and_elements(out);
   return out;
 }
+
+template class FfdDetectorOf<double>;
+template class FfdDetectorOf<float>;
 
 }  // namespace contactcheck

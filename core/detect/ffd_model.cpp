@@ -1,7 +1,10 @@
 #include "core/detect/ffd_model.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/broad/sphere.h"
 #include "core/deform/ffd_aabb.h"
@@ -143,7 +146,24 @@ void measure_spheres(const std::vector<Corners>& corners, FfdModel& model) {
   }
 }
 
+// Infinite beyond the range of floats, where a conversion is not defined.
+float single(double x) {
+  if (x > std::numeric_limits<float>::max()) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(x);
+}
+
 }  // namespace
+
+FfdModelOf<float> rounded_model(FfdModel model) {
+  FfdModelOf<float> out;
+  for (const LocalBox& box : model.piece_boxes)
+    out.piece_boxes.push_back({box.home, {box.local.lo.cast<float>(), box.local.hi.cast<float>()}});
+  for (const std::vector<double>& level : model.rest_radius)
+    std::transform(level.begin(), level.end(), std::back_inserter(out.rest_radius.emplace_back()),
+                   single);
+  static_cast<FfdStructure&>(out) = std::move(model);
+  return out;
+}
 
 FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config) {
   if (!shape.lattice) throw RefusedInput("the FFD-AABB family needs a lattice for every body");

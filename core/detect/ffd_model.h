@@ -46,23 +46,34 @@ struct Rows {
   }
 };
 
-struct FfdModel {
+/// What a model has whatever the precision.
+struct FfdStructure {
   const BodyShape* shape = nullptr;
   std::vector<FfdPiece> pieces;            ///< ascending by cell
-  std::vector<LocalBox> piece_boxes;       ///< the same boxes, for map_boxes
   std::vector<std::uint32_t> piece_begin;  ///< per kept cell, size + 1
   std::vector<std::uint32_t> cells;        ///< cells that have pieces
   Rows triangles;                          ///< per kept cell: labelled (paper) or owned (safe)
   std::vector<std::uint32_t> owner;        ///< per triangle; safe only
   Rows node_cells;                         ///< per lattice node: the kept cells around it
   SphereTree spheres;                      ///< no levels without spheres
-  std::vector<std::vector<double>> rest_radius;  ///< per level and sphere, metres
   double mean_edge = 0.0;  ///< metres, at rest: of the boxes (paper), of owners' AABBs (safe)
 
   std::span<const FfdPiece> pieces_of(std::uint32_t cell) const {
     return std::span(pieces).subspan(piece_begin[cell], piece_begin[cell + 1] - piece_begin[cell]);
   }
 };
+
+/// The numbers that a frame is computed from, in the precision of the detector.
+template <typename T>
+struct FfdModelOf : FfdStructure {
+  std::vector<LocalBoxOf<T>> piece_boxes;   ///< the boxes of the pieces, for map_boxes
+  std::vector<std::vector<T>> rest_radius;  ///< per level and sphere, metres
+};
+using FfdModel = FfdModelOf<double>;
+
+/// The same model with its numbers rounded once. Rounding is monotone: the safe reading's boxes
+/// hold the rounded local coordinates of their vertices as they held the doubles.
+FfdModelOf<float> rounded_model(FfdModel model);
 
 /// @throws RefusedInput when the shape has no lattice
 FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config);

@@ -32,11 +32,16 @@ std::vector<OptionInfo> options_of(const Member& member, ElementTest element) {
                                    "hash grid cell, in mean edges of the boxes at rest"));
   options.push_back(
       numeric_option("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"));
+  options.push_back(precision_option());
   if (member.sphere_levels > 1 || member.deep)
     options.push_back(numeric_option("spheres", member.deep ? "4" : "16", 1, 1024, true,
                                      "spheres into which one is split at the next level"));
   if (member.deep)
     options.push_back(numeric_option("levels", "3", 1, 8, true, "levels of spheres"));
+  if (member.sphere_levels > 0 || member.deep)
+    options.push_back(numeric_option(
+        "radius", "1", 0.25, 4, false,
+        "factor on the radii of all spheres; below 1 they may not hold what they should", 1.25));
   return options;
 }
 
@@ -51,6 +56,7 @@ FfdConfig config_of(const Member& member, ElementTest element, const Options& op
       member.deep ? static_cast<int>(number_option(options, "levels")) : member.sphere_levels;
   if (options.count("spheres"))
     config.spheres = static_cast<int>(number_option(options, "spheres"));
+  if (options.count("radius")) config.sphere_radius = number_option(options, "radius");
   return config;
 }
 
@@ -66,7 +72,9 @@ void register_ffd_detectors(DetectorCatalog& catalog) {
                      (triangles ? "; exact triangle test" : "; node-against-plane test");
       info.options = options_of(member, element);
       info.make = [member, element](const Options& options) -> std::unique_ptr<Detector> {
-        return std::make_unique<FfdDetector>(config_of(member, element, options));
+        const FfdConfig config = config_of(member, element, options);
+        if (in_single(options)) return std::make_unique<FfdDetectorOf<float>>(config);
+        return std::make_unique<FfdDetector>(config);
       };
       catalog.add(std::move(info));
     }

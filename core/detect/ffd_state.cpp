@@ -9,99 +9,113 @@
 namespace contactcheck {
 namespace {
 
-double largest_coordinate(std::span<const Vec3> points) {
-  double largest = 0.0;
-  for (const Vec3& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+template <typename T>
+T largest_coordinate(std::span<const Vec3Of<T>> points) {
+  T largest = 0;
+  for (const Vec3Of<T>& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   return largest;
 }
 
-Aabb scaled(const Aabb& box, double share) {
+template <typename T>
+AabbOf<T> scaled(const AabbOf<T>& box, double share) {
   if (share == 1.0) return box;
-  const Vec3 c = box.center();
-  return {c + (box.lo - c) * share, c + (box.hi - c) * share};
+  const Vec3Of<T> c = box.center();
+  const T factor = static_cast<T>(share);
+  return {c + (box.lo - c) * factor, c + (box.hi - c) * factor};
 }
 
-void find_hulls(const FfdModel& model, FfdState& state) {
+template <typename T>
+void find_hulls(const FfdModelOf<T>& model, FfdStateOf<T>& state) {
   state.hull.resize(model.piece_begin.size() - 1);
   for (std::size_t cell = 0; cell < state.hull.size(); ++cell) {
-    Aabb hull;
+    AabbOf<T> hull;
     for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
-      for (const Vec3& corner : state.corners[p]) hull.extend(corner);
+      for (const Vec3Of<T>& corner : state.corners[p]) hull.extend(corner);
     state.hull[cell] = hull;
   }
 }
 
 // Derivation: header of ffd_model.h. The final addition and subtraction round once more: 1 ulp of
 // the coordinate, covered by the third error unit.
-void bound_cells(const FfdModel& model, const FfdConfig& config, double error, FfdState& state) {
-  state.cell_box.assign(state.hull.size(), Aabb{});
+template <typename T>
+void bound_cells(const FfdModelOf<T>& model, const FfdConfig& config, T error,
+                 FfdStateOf<T>& state) {
+  state.cell_box.assign(state.hull.size(), AabbOf<T>{});
   for (std::uint32_t cell : model.cells) {
-    Aabb box = state.hull[cell];
-    box.lo.array() -= 3.0 * error;
-    box.hi.array() += 3.0 * error;
+    AabbOf<T> box = state.hull[cell];
+    box.lo.array() -= 3 * error;
+    box.hi.array() += 3 * error;
     state.cell_box[cell] = scaled(box, config.faults.cell_box);
   }
 }
 
-Vec3 body_center(const FfdState& state) {
-  Aabb box;
-  for (const Aabb& hull : state.hull) box.extend(hull);
+template <typename T>
+Vec3Of<T> body_center(const FfdStateOf<T>& state) {
+  AabbOf<T> box;
+  for (const AabbOf<T>& hull : state.hull) box.extend(hull);
   return box.center();
 }
 
 // The largest squared distance from `center` to a corner of the sphere's cells. A cell is skipped
 // when the farthest corner of its hull is no farther than what was found: rounding is monotone, so
 // the distances computed for corners inside the hull are no larger, and the result is the same.
-double farthest_squared(const FfdModel& model, const FfdState& state, const SphereNode& sphere,
-                        const Vec3& center) {
-  double largest = 0.0;
+template <typename T>
+T farthest_squared(const FfdModelOf<T>& model, const FfdStateOf<T>& state, const SphereNode& sphere,
+                   const Vec3Of<T>& center) {
+  T largest = 0;
   for (std::uint32_t cell : sphere.cells) {
-    const Aabb& hull = state.hull[cell];
-    const Vec3 reach = (hull.lo - center).cwiseAbs().cwiseMax((hull.hi - center).cwiseAbs());
-    if (reach.squaredNorm() <= largest) continue;
+    const AabbOf<T>& hull = state.hull[cell];
+    const Vec3Of<T> reach = (hull.lo - center).cwiseAbs().cwiseMax((hull.hi - center).cwiseAbs());
+    if (ordered_dot<T>(reach, reach) <= largest) continue;
     for (std::uint32_t p = model.piece_begin[cell]; p < model.piece_begin[cell + 1]; ++p)
-      for (const Vec3& corner : state.corners[p])
-        largest = std::max(largest, (corner - center).squaredNorm());
+      for (const Vec3Of<T>& corner : state.corners[p])
+        largest = std::max(largest, squared_distance<T>(corner, center));
   }
   return largest;
 }
 
-void place_spheres(const FfdModel& model, const FfdConfig& config, double error, FfdState& state) {
-  const double slack = 2.0 * std::sqrt(3.0) * error;
+template <typename T>
+void place_spheres(const FfdModelOf<T>& model, const FfdConfig& config, T error,
+                   FfdStateOf<T>& state) {
+  const T slack = static_cast<T>(2.0 * std::sqrt(3.0)) * error;
   state.spheres.resize(model.spheres.levels.size());
   for (std::size_t level = 0; level < state.spheres.size(); ++level) {
     const std::vector<SphereNode>& rest = model.spheres.levels[level];
     state.spheres[level].resize(rest.size());
     for (std::size_t s = 0; s < rest.size(); ++s) {
-      Sphere& sphere = state.spheres[level][s];
+      SphereOf<T>& sphere = state.spheres[level][s];
       sphere.center = level == 0 ? body_center(state) : state.nodes[rest[s].center_node];
       sphere.radius =
           config.bounds == BoundsReading::kPaper
               ? model.rest_radius[level][s]
               : covering_radius(farthest_squared(model, state, rest[s], sphere.center), slack);
-      sphere.radius *= config.faults.sphere_radius;
+      sphere.radius *= static_cast<T>(config.sphere_radius);
     }
   }
 }
 
-bool holds(const Sphere& sphere, const Vec3& p) {
-  return (p - sphere.center).norm() <= sphere.radius;
+template <typename T>
+bool holds(const SphereOf<T>& sphere, const Vec3Of<T>& p) {
+  return std::sqrt(squared_distance<T>(p, sphere.center)) <= sphere.radius;
 }
 
 }  // namespace
 
-void update_state(const FfdModel& model, const FfdConfig& config, const BodyState& body,
-                  FfdState& state) {
-  state.nodes = body.nodes;
+template <typename T>
+void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
+                  std::span<const Vec3Of<T>> nodes, FfdStateOf<T>& state) {
+  state.nodes = nodes;
   state.corners.resize(model.pieces.size());
-  map_boxes(*model.shape->lattice, model.piece_boxes, body.nodes, state.corners);
-  const double error = mapping_error_bound(largest_coordinate(body.nodes));
+  map_boxes(*model.shape->lattice, std::span(model.piece_boxes), nodes, std::span(state.corners));
+  const T error = mapping_error_bound(largest_coordinate(nodes));
   find_hulls(model, state);
   if (config.bounds == BoundsReading::kSafe) bound_cells(model, config, error, state);
   place_spheres(model, config, error, state);
 }
 
-std::string validate(const FfdModel& model, const FfdState& state, std::span<const Vec3> vertices) {
+template <typename T>
+std::string validate(const FfdModelOf<T>& model, const FfdStateOf<T>& state,
+                     std::type_identity_t<std::span<const Vec3Of<T>>> vertices) {
   const std::vector<Triangle>& triangles = model.shape->mesh.triangles;
   const auto name = [](std::uint32_t t, const std::string& bound) {
     return "triangle " + std::to_string(t) + " leaves its " + bound;
@@ -118,5 +132,13 @@ std::string validate(const FfdModel& model, const FfdState& state, std::span<con
               return name(t, "sphere of level " + std::to_string(level + 1));
   return "";
 }
+
+#define CONTACTCHECK_STATE_OF(T)                                                                 \
+  template void update_state(const FfdModelOf<T>&, const FfdConfig&, std::span<const Vec3Of<T>>, \
+                             FfdStateOf<T>&);                                                    \
+  template std::string validate(const FfdModelOf<T>&, const FfdStateOf<T>&,                      \
+                                std::span<const Vec3Of<T>>)
+CONTACTCHECK_STATE_OF(double);
+CONTACTCHECK_STATE_OF(float);
 
 }  // namespace contactcheck

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/broad/sphere.h"
@@ -14,19 +15,31 @@
 
 namespace contactcheck {
 
-struct FfdState {
-  std::span<const Vec3> nodes;   ///< the frame's; valid until the next update
-  std::vector<Corners> corners;  ///< per piece
-  std::vector<Aabb> hull;        ///< per kept cell: exactly round the corners of its pieces
-  std::vector<Aabb> cell_box;    ///< per kept cell; safe only; empty boxes without pieces
-  std::vector<std::vector<Sphere>> spheres;  ///< per level
+template <typename T>
+struct FfdStateOf {
+  std::span<const Vec3Of<T>> nodes;   ///< the frame's; valid until the next update
+  std::vector<CornersOf<T>> corners;  ///< per piece
+  std::vector<AabbOf<T>> hull;        ///< per kept cell: exactly round the corners of its pieces
+  std::vector<AabbOf<T>> cell_box;    ///< per kept cell; safe only; empty boxes without pieces
+  std::vector<std::vector<SphereOf<T>>> spheres;  ///< per level
 };
+using FfdState = FfdStateOf<double>;
 
-void update_state(const FfdModel& model, const FfdConfig& config, const BodyState& body,
-                  FfdState& state);
+/// Per body.
+template <typename T>
+using FfdModels = std::vector<FfdModelOf<T>>;
+template <typename T>
+using FfdStates = std::vector<FfdStateOf<T>>;
+
+/// `nodes` must outlive the state's use.
+template <typename T>
+void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
+                  std::span<const Vec3Of<T>> nodes, FfdStateOf<T>& state);
 
 /// Checks what the safe reading promises for mapped `vertices`: every triangle's owner box and all
 /// its spheres contain the three vertices. Returns a sentence for the first broken promise, or "".
-std::string validate(const FfdModel& model, const FfdState& state, std::span<const Vec3> vertices);
+template <typename T>
+std::string validate(const FfdModelOf<T>& model, const FfdStateOf<T>& state,
+                     std::type_identity_t<std::span<const Vec3Of<T>>> vertices);
 
 }  // namespace contactcheck

@@ -6,13 +6,13 @@
 namespace contactcheck {
 namespace {
 
-std::uint32_t probe_count(const FfdModel& model, CellVolume volume) {
+std::uint32_t probe_count(const FfdStructure& model, CellVolume volume) {
   return static_cast<std::uint32_t>(volume == CellVolume::kFfdAabb
                                         ? 8 * model.pieces.size()
                                         : model.shape->lattice->nodes.size());
 }
 
-std::uint32_t probe_of_corner(const FfdModel& model, CellVolume volume, std::uint32_t cell,
+std::uint32_t probe_of_corner(const FfdStructure& model, CellVolume volume, std::uint32_t cell,
                               int corner) {
   return volume == CellVolume::kFfdAabb ? 8 * cell + static_cast<std::uint32_t>(corner)
                                         : model.shape->lattice->cell_nodes[cell][corner];
@@ -25,14 +25,15 @@ bool in_any_pair(const SphereSurvivors& survivors, std::uint32_t body) {
 }
 
 // The finest spheres of a body that collide; asks whether a point lies strictly inside one.
+template <typename T>
 class ActiveSpheres {
  public:
-  ActiveSpheres(const std::vector<Sphere>& spheres, const std::vector<char>& active) {
+  ActiveSpheres(const std::vector<SphereOf<T>>& spheres, const std::vector<char>& active) {
     for (std::size_t s = 0; s < active.size(); ++s)
       if (active[s]) balls_.push_back({spheres[s].center, spheres[s].radius * spheres[s].radius});
   }
   /// Begins with the sphere that held the last point: neighbouring points share one.
-  bool hold(const Vec3& p) {
+  bool hold(const Vec3Of<T>& p) {
     if (balls_.empty()) return false;
     if (holds(balls_[last_], p)) return true;
     for (std::size_t s = 0; s < balls_.size(); ++s) {
@@ -45,11 +46,11 @@ class ActiveSpheres {
 
  private:
   struct Ball {
-    Vec3 center;
-    double radius2;
+    Vec3Of<T> center;
+    T radius2;
   };
-  static bool holds(const Ball& ball, const Vec3& p) {
-    return (p - ball.center).squaredNorm() < ball.radius2;
+  static bool holds(const Ball& ball, const Vec3Of<T>& p) {
+    return squared_distance<T>(p, ball.center) < ball.radius2;
   }
 
   std::vector<Ball> balls_;
@@ -57,60 +58,66 @@ class ActiveSpheres {
 };
 
 // Cells under one finest sphere; without a second level, all cells of the body.
-std::span<const std::uint32_t> cells_of_sphere(const FfdModel& model, const FfdConfig& config,
+std::span<const std::uint32_t> cells_of_sphere(const FfdStructure& model, const FfdConfig& config,
                                                std::uint32_t sphere) {
   if (config.sphere_levels < 2) return model.cells;
   return model.spheres.levels[config.sphere_levels - 1][sphere].cells;
 }
 
-Aabb common_part(const Aabb& a, const Aabb& b) {
+template <typename T>
+AabbOf<T> common_part(const AabbOf<T>& a, const AabbOf<T>& b) {
   return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)};
 }
 
 }  // namespace
 
-Vec3 probe_position(const FfdState& state, CellVolume volume, std::uint32_t probe) {
+template <typename T>
+Vec3Of<T> probe_position(const FfdStateOf<T>& state, CellVolume volume, std::uint32_t probe) {
   return volume == CellVolume::kFfdAabb ? state.corners[probe / 8][probe % 8] : state.nodes[probe];
 }
 
-std::vector<std::vector<char>> ProbeHashStage::active_probes(const std::vector<FfdModel>& models,
-                                                             const std::vector<FfdState>& states,
-                                                             const FfdConfig& config,
-                                                             const SphereSurvivors& survivors) {
+template <typename T>
+std::vector<std::vector<char>> ProbeHashStageOf<T>::active_probes(
+    const FfdModels<T>& models, const FfdStates<T>& states, const FfdConfig& config,
+    const SphereSurvivors& survivors) {
   std::vector<std::vector<char>> active;
   find_active_probes(models, states, config, survivors, active);
   return active;
 }
 
-void ProbeHashStage::find_active_probes(const std::vector<FfdModel>& models,
-                                        const std::vector<FfdState>& states,
-                                        const FfdConfig& config, const SphereSurvivors& survivors,
-                                        std::vector<std::vector<char>>& active) {
+template <typename T>
+void ProbeHashStageOf<T>::find_active_probes(const FfdModels<T>& models, const FfdStates<T>& states,
+                                             const FfdConfig& config,
+                                             const SphereSurvivors& survivors,
+                                             std::vector<std::vector<char>>& active) {
   active.resize(models.size());
   for (std::uint32_t body = 0; body < models.size(); ++body) {
     const std::uint32_t probes = probe_count(models[body], config.volume);
     const bool in_pair = in_any_pair(survivors, body);
     active[body].assign(probes, in_pair);
     if (config.sphere_levels < 2 || !in_pair) continue;
-    ActiveSpheres spheres(states[body].spheres[config.sphere_levels - 1],
-                          survivors.sphere_active[body]);
+    ActiveSpheres<T> spheres(states[body].spheres[config.sphere_levels - 1],
+                             survivors.sphere_active[body]);
     for (std::uint32_t p = 0; p < probes; ++p)
       active[body][p] = spheres.hold(probe_position(states[body], config.volume, p));
   }
 }
 
-void ProbeHashStage::find_keys(const std::vector<FfdState>& states, CellVolume volume,
-                               double cell_size) {
+template <typename T>
+void ProbeHashStageOf<T>::find_keys(const FfdStates<T>& states, CellVolume volume, T cell_size,
+                                    const Vec3Of<T>& grid_shift) {
   keys_.resize(active_.size());
   for (std::size_t body = 0; body < active_.size(); ++body) {
     keys_[body].resize(active_[body].size());
     for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe)
       if (active_[body][probe])
-        keys_[body][probe] = grid_key(probe_position(states[body], volume, probe), cell_size);
+        keys_[body][probe] =
+            grid_key<T>(probe_position(states[body], volume, probe) + grid_shift, cell_size);
   }
 }
 
-void ProbeHashStage::hash_boxes(const std::vector<FfdModel>& models, const FfdConfig& config) {
+template <typename T>
+void ProbeHashStageOf<T>::hash_boxes(const FfdModels<T>& models, const FfdConfig& config) {
   hash_.clear(config.table_size);
   boxes_.clear();
   for (std::uint32_t body = 0; body < models.size(); ++body) {
@@ -133,13 +140,15 @@ void ProbeHashStage::hash_boxes(const std::vector<FfdModel>& models, const FfdCo
   hash_.build();
 }
 
-void ProbeHashStage::run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                         const FfdConfig& config, const SphereSurvivors& survivors,
-                         double cell_size, std::vector<ProbeHit>& out) {
+template <typename T>
+void ProbeHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& states,
+                              const FfdConfig& config, const SphereSurvivors& survivors,
+                              T cell_size, const Vec3Of<T>& grid_shift,
+                              std::vector<ProbeHit>& out) {
   out.clear();
   if (survivors.body_pairs.empty()) return;
   find_active_probes(models, states, config, survivors, active_);
-  find_keys(states, config.volume, cell_size);
+  find_keys(states, config.volume, cell_size, grid_shift);
   hash_boxes(models, config);
   for (std::uint32_t body = 0; body < models.size(); ++body) {
     for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe) {
@@ -153,12 +162,13 @@ void ProbeHashStage::run(const std::vector<FfdModel>& models, const std::vector<
   }
 }
 
-std::vector<std::vector<char>> BoxHashStage::active_cells(const std::vector<FfdModel>& models,
-                                                          const FfdConfig& config,
-                                                          const SphereSurvivors& survivors) {
+template <typename T>
+std::vector<std::vector<char>> BoxHashStageOf<T>::active_cells(const FfdModels<T>& models,
+                                                               const FfdConfig& config,
+                                                               const SphereSurvivors& survivors) {
   std::vector<std::vector<char>> active(models.size());
   for (std::uint32_t body = 0; body < models.size(); ++body) {
-    const FfdModel& model = models[body];
+    const FfdModelOf<T>& model = models[body];
     active[body].assign(model.piece_begin.size() - 1, 0);
     if (!in_any_pair(survivors, body)) continue;
     if (config.sphere_levels < 2) {
@@ -175,9 +185,9 @@ std::vector<std::vector<char>> BoxHashStage::active_cells(const std::vector<FfdM
 
 // Where the cells under a sphere can meet those under a sphere it collides with: the common part of
 // the bounds of both.
-void BoxHashStage::find_regions(const std::vector<FfdModel>& models,
-                                const std::vector<FfdState>& states, const FfdConfig& config,
-                                const SphereSurvivors& survivors) {
+template <typename T>
+void BoxHashStageOf<T>::find_regions(const FfdModels<T>& models, const FfdStates<T>& states,
+                                     const FfdConfig& config, const SphereSurvivors& survivors) {
   groups_.resize(models.size());
   for (std::uint32_t body = 0; body < models.size(); ++body) {
     const std::vector<char>& active = survivors.sphere_active[body];
@@ -185,7 +195,7 @@ void BoxHashStage::find_regions(const std::vector<FfdModel>& models,
     for (std::uint32_t s = 0; s < active.size(); ++s) {
       Group& group = groups_[body][s];
       group.regions.clear();
-      group.bounds = group.reach = Aabb{};
+      group.bounds = group.reach = AabbOf<T>{};
       if (!active[s]) continue;
       for (std::uint32_t cell : cells_of_sphere(models[body], config, s))
         group.bounds.extend(states[body].cell_box[cell]);
@@ -194,7 +204,7 @@ void BoxHashStage::find_regions(const std::vector<FfdModel>& models,
   for (const SpherePair& pair : survivors.sphere_pairs) {
     Group &a = groups_[pair.bodies.a][pair.a], &b = groups_[pair.bodies.b][pair.b];
     if (!a.bounds.overlaps(b.bounds)) continue;
-    const Aabb common = common_part(a.bounds, b.bounds);
+    const AabbOf<T> common = common_part(a.bounds, b.bounds);
     for (Group* group : {&a, &b}) {
       group->regions.push_back(common);
       group->reach.extend(common);
@@ -202,14 +212,16 @@ void BoxHashStage::find_regions(const std::vector<FfdModel>& models,
   }
 }
 
-bool BoxHashStage::Group::meets(const Aabb& box) const {
+template <typename T>
+bool BoxHashStageOf<T>::Group::meets(const AabbOf<T>& box) const {
   return reach.overlaps(box) &&
          std::any_of(regions.begin(), regions.end(),
-                     [&](const Aabb& region) { return region.overlaps(box); });
+                     [&](const AabbOf<T>& region) { return region.overlaps(box); });
 }
 
-void BoxHashStage::collect_boxes(const std::vector<FfdModel>& models,
-                                 const std::vector<FfdState>& states, const FfdConfig& config) {
+template <typename T>
+void BoxHashStageOf<T>::collect_boxes(const FfdModels<T>& models, const FfdStates<T>& states,
+                                      const FfdConfig& config) {
   boxes_.clear();
   for (std::uint32_t body = 0; body < models.size(); ++body)
     for (std::uint32_t s = 0; s < groups_[body].size(); ++s) {
@@ -221,9 +233,10 @@ void BoxHashStage::collect_boxes(const std::vector<FfdModel>& models,
     }
 }
 
-void BoxHashStage::run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                       const FfdConfig& config, const SphereSurvivors& survivors, double cell_size,
-                       std::vector<ElementPair>& out) {
+template <typename T>
+void BoxHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& states,
+                            const FfdConfig& config, const SphereSurvivors& survivors, T cell_size,
+                            std::vector<ElementPair>& out) {
   out.clear();
   if (survivors.body_pairs.empty()) return;
   find_regions(models, states, config, survivors);
@@ -235,9 +248,16 @@ void BoxHashStage::run(const std::vector<FfdModel>& models, const std::vector<Ff
   settings.fault_bucket_scale = config.faults.buckets;
   finder_.find(boxes_, settings, pairs_);
   for (const auto& [i, j] : pairs_) {
-    const OwnedBox &a = boxes_[i], &b = boxes_[j];
+    const OwnedBoxOf<T>&a = boxes_[i], &b = boxes_[j];
     if (survivors.active(a.body, b.body)) out.push_back({a.body, b.body, a.cell, b.cell});
   }
 }
+
+template Vec3Of<double> probe_position(const FfdStateOf<double>&, CellVolume, std::uint32_t);
+template Vec3Of<float> probe_position(const FfdStateOf<float>&, CellVolume, std::uint32_t);
+template class ProbeHashStageOf<double>;
+template class ProbeHashStageOf<float>;
+template class BoxHashStageOf<double>;
+template class BoxHashStageOf<float>;
 
 }  // namespace contactcheck

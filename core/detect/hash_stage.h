@@ -19,11 +19,12 @@ struct ProbeHit {
 };
 
 /// Position of a probe in its body's current state.
-Vec3 probe_position(const FfdState& state, CellVolume volume, std::uint32_t probe);
+template <typename T>
+Vec3Of<T> probe_position(const FfdStateOf<T>& state, CellVolume volume, std::uint32_t probe);
 
 /// Calls `visit(cell)` for every cell a probe stands for.
 template <typename Visit>
-void for_cells_of_probe(const FfdModel& model, CellVolume volume, std::uint32_t probe,
+void for_cells_of_probe(const FfdStructure& model, CellVolume volume, std::uint32_t probe,
                         Visit&& visit) {
   if (volume == CellVolume::kFfdAabb) {
     visit(probe / 8);
@@ -35,14 +36,17 @@ void for_cells_of_probe(const FfdModel& model, CellVolume volume, std::uint32_t 
 /// Reading `paper`: a node goes into the one bucket that holds it, a box into the buckets of its
 /// eight nodes; only nodes inside colliding spheres of the finest level (strictly inside, from two
 /// levels on) take part.
-class ProbeHashStage {
+template <typename T>
+class ProbeHashStageOf {
  public:
-  void run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-           const FfdConfig& config, const SphereSurvivors& survivors, double cell_size,
+  /// `grid_shift` is added to every probe before it is hashed: which nodes share a bucket depends
+  /// on where the grid lies.
+  void run(const FfdModels<T>& models, const FfdStates<T>& states, const FfdConfig& config,
+           const SphereSurvivors& survivors, T cell_size, const Vec3Of<T>& grid_shift,
            std::vector<ProbeHit>& out);
   /// Per body: the probes that take part. For the stage trace.
-  static std::vector<std::vector<char>> active_probes(const std::vector<FfdModel>& models,
-                                                      const std::vector<FfdState>& states,
+  static std::vector<std::vector<char>> active_probes(const FfdModels<T>& models,
+                                                      const FfdStates<T>& states,
                                                       const FfdConfig& config,
                                                       const SphereSurvivors& survivors);
 
@@ -50,12 +54,12 @@ class ProbeHashStage {
   struct BoxId {
     std::uint32_t body, cell;
   };
-  static void find_active_probes(const std::vector<FfdModel>& models,
-                                 const std::vector<FfdState>& states, const FfdConfig& config,
-                                 const SphereSurvivors& survivors,
+  static void find_active_probes(const FfdModels<T>& models, const FfdStates<T>& states,
+                                 const FfdConfig& config, const SphereSurvivors& survivors,
                                  std::vector<std::vector<char>>& active);
-  void find_keys(const std::vector<FfdState>& states, CellVolume volume, double cell_size);
-  void hash_boxes(const std::vector<FfdModel>& models, const FfdConfig& config);
+  void find_keys(const FfdStates<T>& states, CellVolume volume, T cell_size,
+                 const Vec3Of<T>& grid_shift);
+  void hash_boxes(const FfdModels<T>& models, const FfdConfig& config);
 
   std::vector<std::vector<char>> active_;   // per body and probe
   std::vector<std::vector<GridKey>> keys_;  // the same; of active probes
@@ -67,32 +71,32 @@ class ProbeHashStage {
 /// pairs of owner cells, of colliding finest spheres, whose AABBs overlap. (An owner outside the
 /// common parts of its sphere's bounds with those of the spheres that this one collides with has no
 /// such pair and is not hashed.)
-class BoxHashStage {
+template <typename T>
+class BoxHashStageOf {
  public:
-  void run(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-           const FfdConfig& config, const SphereSurvivors& survivors, double cell_size,
-           std::vector<ElementPair>& out);
-  static std::vector<std::vector<char>> active_cells(const std::vector<FfdModel>& models,
+  void run(const FfdModels<T>& models, const FfdStates<T>& states, const FfdConfig& config,
+           const SphereSurvivors& survivors, T cell_size, std::vector<ElementPair>& out);
+  static std::vector<std::vector<char>> active_cells(const FfdModels<T>& models,
                                                      const FfdConfig& config,
                                                      const SphereSurvivors& survivors);
 
  private:
   // The cells under one finest sphere, and where they can meet others.
   struct Group {
-    Aabb bounds;
-    Aabb reach;  // bounds of the regions
-    std::vector<Aabb> regions;
-    bool meets(const Aabb& box) const;
+    AabbOf<T> bounds;
+    AabbOf<T> reach;  // bounds of the regions
+    std::vector<AabbOf<T>> regions;
+    bool meets(const AabbOf<T>& box) const;
   };
-  void find_regions(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                    const FfdConfig& config, const SphereSurvivors& survivors);
-  void collect_boxes(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
+  void find_regions(const FfdModels<T>& models, const FfdStates<T>& states, const FfdConfig& config,
+                    const SphereSurvivors& survivors);
+  void collect_boxes(const FfdModels<T>& models, const FfdStates<T>& states,
                      const FfdConfig& config);
 
   std::vector<std::vector<Group>> groups_;  // per body and finest sphere
-  BoxPairFinder finder_;
-  std::vector<OwnedBox> boxes_;
-  std::vector<BoxPairFinder::Pair> pairs_;
+  BoxPairFinderOf<T> finder_;
+  std::vector<OwnedBoxOf<T>> boxes_;
+  std::vector<typename BoxPairFinderOf<T>::Pair> pairs_;
 };
 
 }  // namespace contactcheck

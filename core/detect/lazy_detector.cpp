@@ -3,10 +3,13 @@
 #include <map>
 #include <set>
 
+#include "core/deform/mapping.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"
 #include "core/lazy/candidate_bodies.h"
+#include "core/lazy/single_frame.h"
 #include "core/types/check.h"
+#include "core/types/local_origin.h"
 
 namespace contactcheck {
 namespace {
@@ -25,12 +28,30 @@ bool refits(const BodyShape& shape, BoundSource bounds) {
   return bounds == BoundSource::kCheaper && small_for_its_lattice(shape);
 }
 
+template <class Real>
+std::string broken_promise(const LazyState& state, const std::vector<Vec3Of<Real>>& vertices) {
+  const std::string broken = validate(state, std::span<const Vec3Of<Real>>(vertices));
+  if (!broken.empty()) return broken;
+  for (const Vec3Of<Real>& v : vertices)
+    if (!state.box.contains(v.template cast<double>())) return "a vertex leaves the body's box";
+  return "";
+}
+
+Semantics semantics_in(Precision precision) {
+  Semantics out = exact_triangle_semantics();
+  if (precision == Precision::kDouble) return out;
+  out.precision = precision;
+  out.local_origin = true;
+  out.exact = false;
+  return out;
+}
+
 }  // namespace
 
 LazyDetector::LazyDetector(const LazyConfig& config)
     : config_(config),
       kernels_(lazy_kernels(config.isa)),
-      semantics_(exact_triangle_semantics()),
+      semantics_(semantics_in(config.precision)),
       team_(config.threads),
       tasks_(kernels_, team_) {}
 
@@ -42,15 +63,17 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
     std::shared_ptr<const LatticeTree>& tree = known[body.shape.get()];
     const bool refitted = refits(*body.shape, config_.bounds);
     if (!tree)
-      tree = std::make_shared<const LatticeTree>(
-          make_lattice_tree(*body.shape, refitted ? TreeUse::kVertices : TreeUse::kNodes));
+      tree = std::make_shared<const LatticeTree>(make_lattice_tree(
+          *body.shape, refitted ? TreeUse::kVertices : TreeUse::kNodes, config_.precision));
     trees_.push_back(tree);
     LazyState& state = states_.emplace_back();
     state.shape = body.shape.get();
     state.tree = tree.get();
+    state.precision = config_.precision;
     state.from_vertices = refitted;
   }
   mapped_.assign(bodies.size(), {});
+  single_mapped_.assign(bodies.size(), {});
 }
 
 void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
@@ -67,22 +90,36 @@ void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
   }
 }
 
+// The vertices of a body that is refitted, where they are not given.
+void LazyDetector::map(std::size_t index) {
+  LazyState& state = states_[index];
+  const BodyShape& shape = *state.shape;
+  if (!single()) {
+    mapped_[index].resize(shape.mesh.vertices.size());
+    map_body(shape, state.nodes, mapped_[index]);
+    state.vertices = mapped_[index];
+  } else if (!shape.lattice) {
+    state.single.vertices = state.single.nodes;
+  } else {
+    single_mapped_[index].resize(shape.mesh.vertices.size());
+    map_vertices(*shape.lattice, shape.embedding, state.tree->single_sorted_local,
+                 state.single.nodes, single_mapped_[index]);
+    state.single.vertices = single_mapped_[index];
+  }
+}
+
 // What the tests of a body's pairs start from: all its bounds where it is refitted, else its cells;
 // bounds are then made on demand.
 void LazyDetector::bound(std::size_t index, LazyScratch& scratch) {
   LazyState& state = states_[index];
   if (!state.from_vertices) return find_cells(state);
-  if (state.vertices.empty()) {
-    mapped_[index].resize(state.shape->mesh.vertices.size());
-    map_body(*state.shape, state.nodes, mapped_[index]);
-    state.vertices = mapped_[index];
-  }
+  if (state.vertices.empty() && state.single.vertices.empty()) map(index);
   kernels_.bound_all(state, scratch.arena);
 }
 
 // full-refit is what it says; ffd-lazy leaves out bodies that meet no other.
 void LazyDetector::bound_bodies_that_meet() {
-  std::vector<bool> wanted(states_.size(), needs_vertices());
+  std::vector<bool> wanted(states_.size(), bounds_all());
   for (const BodyPair& pair : candidates_) wanted[pair.a] = wanted[pair.b] = true;
   to_bound_.clear();
   for (std::size_t b = 0; b < wanted.size(); ++b)
@@ -91,18 +128,35 @@ void LazyDetector::bound_bodies_that_meet() {
                  [this](std::size_t i, LazyScratch& scratch) { bound(to_bound_[i], scratch); });
 }
 
+void LazyDetector::begin_in_doubles(const Frame& frame) {
+  for (std::size_t b = 0; b < states_.size(); ++b) begin_body(frame.bodies[b], states_[b]);
+  place(states_);
+}
+
+void LazyDetector::begin_in_single(const Frame& frame) {
+  const Vec3 origin = local_origin(frame);
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    CONTACTCHECK_INVARIANT(frame.bodies[b].nodes.size() == states_[b].shape->node_count(),
+                           "one position per node");
+    begin_frame_in_single(states_[b], frame.bodies[b].nodes, origin);
+  }
+  place_in_single(states_, origin);
+}
+
 void LazyDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
+  candidates_.clear();  // a frame that is refused leaves no pair whose bounds are gone
   for (LazyScratch& scratch : team_.scratch()) {
     scratch.arena.clear();
     scratch.counters = {};
   }
-  std::vector<Aabb> boxes;
-  for (std::size_t b = 0; b < states_.size(); ++b) {
-    begin_body(frame.bodies[b], states_[b]);
-    boxes.push_back(states_[b].box);
+  if (single()) {
+    begin_in_single(frame);
+  } else {
+    begin_in_doubles(frame);
   }
-  place(states_);
+  std::vector<Aabb> boxes;
+  for (const LazyState& state : states_) boxes.push_back(state.box);
   find_candidate_bodies(boxes, candidates_);
   bound_bodies_that_meet();
 }
@@ -150,10 +204,13 @@ LazyCounters LazyDetector::counters() const {
 
 std::vector<Count> LazyDetector::counts() {
   const LazyCounters c = counters();
-  return {{"blocks_bounded", c.blocks_bounded},   {"leaves_mapped", c.leaves_mapped},
-          {"vertices_mapped", c.vertices_mapped}, {"block_pairs", c.block_pairs},
-          {"leaf_pairs", c.leaf_pairs},           {"triangle_tests", c.triangle_tests},
-          {"exact_tests", c.filter_failures}};
+  return {{"blocks_bounded", c.blocks_bounded},
+          {"leaves_mapped", c.leaves_mapped},
+          {"vertices_mapped", c.vertices_mapped},
+          {"block_pairs", c.block_pairs},
+          {"leaf_pairs", c.leaf_pairs},
+          {"triangle_tests", c.triangle_tests},
+          {single() ? "scalar_tests" : "exact_tests", c.filter_failures}};
 }
 
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {
@@ -161,11 +218,9 @@ std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertice
     LazyScratch& scratch = team_.scratch()[0];
     bound(b, scratch);
     if (!states_[b].from_vertices) kernels_.bound_all(states_[b], scratch.arena);
-    const std::string broken = contactcheck::validate(states_[b], vertices[b]);
+    const std::string broken = single() ? broken_promise(states_[b], single_vertices(states_[b]))
+                                        : broken_promise(states_[b], vertices[b]);
     if (!broken.empty()) return "body " + std::to_string(b) + ": " + broken;
-    for (const Vec3& v : vertices[b])
-      if (!states_[b].box.contains(v))
-        return "body " + std::to_string(b) + ": a vertex leaves the body's box";
   }
   return "";
 }
@@ -182,9 +237,11 @@ std::size_t LazyDetector::instance_bytes() const {
   std::size_t bytes = 0;
   for (const LazyState& s : states_)
     bytes += s.near_nodes.size() * sizeof(Float4) + s.cells.size() * sizeof(CellTerms) +
-             s.blocks.bytes() + s.leaves.bytes();
+             s.blocks.bytes() + s.leaves.bytes() + s.single.nodes.size() * sizeof(Vec3f) +
+             s.single.leaves.bytes();
   for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
+  for (const std::vector<Vec3f>& m : single_mapped_) bytes += m.size() * sizeof(Vec3f);
   return bytes;
 }
 

@@ -1,4 +1,5 @@
-// ffd-lazy and full-refit: all intersecting pairs of triangles, exactly, over one tree per shape.
+// ffd-lazy and full-refit: all intersecting pairs of triangles over one tree per shape; in doubles
+// exactly.
 #pragma once
 
 #include <memory>
@@ -21,24 +22,29 @@ struct LazyConfig {
   BoundSource bounds = BoundSource::kCheaper;
   std::string isa = "best";
   std::size_t threads = 1;
+  Precision precision = Precision::kDouble;
 };
 
-/// Exact for all finite doubles: bounds only cull, and contain what they stand for. The contacts do
-/// not depend on the instruction set nor on the number of threads.
+/// In doubles exact for all that are finite: bounds only cull, and contain what they stand for. In
+/// single precision nodes are rounded about the local origin, vertices mapped from those floats,
+/// whatever the source of bounds, and triangles tested in floats (core/lazy/single_frame.h). The
+/// contacts do not depend on the instruction set nor on the number of threads.
 class LazyDetector : public Detector {
  public:
   explicit LazyDetector(const LazyConfig& config);
 
   const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return config_.bounds == BoundSource::kVertices; }
+  /// In single precision it maps vertices of its own.
+  bool needs_vertices() const override { return bounds_all() && !single(); }
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;
   StageTrace trace() override;
   std::vector<Count> counts() override;
 
-  /// Bounds everything in the frame of the last update and checks it against `vertices`, per body;
-  /// "" or a sentence for the first broken promise.
+  /// Bounds everything in the frame of the last update and checks it against `vertices`, per body,
+  /// or in single precision against vertices mapped one by one from its rounded nodes; "" or a
+  /// sentence for the first broken promise.
   std::string validate(const std::vector<std::vector<Vec3>>& vertices);
   /// Since the last update.
   LazyCounters counters() const;
@@ -47,7 +53,12 @@ class LazyDetector : public Detector {
   std::size_t instance_bytes() const;
 
  private:
+  bool single() const { return config_.precision == Precision::kSingle; }
+  bool bounds_all() const { return config_.bounds == BoundSource::kVertices; }
+  void begin_in_doubles(const Frame& frame);
+  void begin_in_single(const Frame& frame);
   void begin_body(const BodyState& body, LazyState& state);
+  void map(std::size_t index);
   void bound(std::size_t index, LazyScratch& scratch);
   void bound_bodies_that_meet();
 
@@ -56,7 +67,8 @@ class LazyDetector : public Detector {
   Semantics semantics_;
   std::vector<std::shared_ptr<const LatticeTree>> trees_;  // per body; instances share
   std::vector<LazyState> states_;
-  std::vector<std::vector<Vec3>> mapped_;  // per body that is mapped here
+  std::vector<std::vector<Vec3>> mapped_;          // per body that is mapped here
+  std::vector<std::vector<Vec3f>> single_mapped_;  // instead in single precision
   std::vector<BodyPair> candidates_;
   std::vector<std::size_t> to_bound_;
   std::vector<ElementPair> found_;

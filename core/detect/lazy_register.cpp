@@ -23,6 +23,10 @@ OptionInfo threads_option() {
   return numeric_option("threads", "1", 1, 256, true, "contacts do not depend on it");
 }
 
+Precision precision_of(const Options& options) {
+  return in_single(options) ? Precision::kSingle : Precision::kDouble;
+}
+
 std::size_t threads_of(const Options& options) {
   return static_cast<std::size_t>(number_option(options, "threads"));
 }
@@ -33,12 +37,13 @@ void add_ffd_lazy(DetectorCatalog& catalog) {
   info.summary = "tree bounded lazily from lattice nodes, SIMD; exact triangle test";
   info.options = {choice_option("bounds", "auto", {"auto", "nodes"},
                                 "auto: bodies small for their lattice are mapped and refitted"),
-                  isa_option(), threads_option()};
+                  isa_option(), threads_option(), precision_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
     LazyConfig config;
     config.bounds = options.at("bounds") == "auto" ? BoundSource::kCheaper : BoundSource::kNodes;
     config.isa = options.at("isa");
     config.threads = threads_of(options);
+    config.precision = precision_of(options);
     return std::make_unique<LazyDetector>(config);
   };
   catalog.add(std::move(info));
@@ -48,10 +53,10 @@ void add_full_refit(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "full-refit";
   info.summary = "the same tree and tests, refitted to all mapped vertices in every frame";
-  info.options = {isa_option(), threads_option()};
+  info.options = {isa_option(), threads_option(), precision_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
-    return std::make_unique<LazyDetector>(
-        LazyConfig{BoundSource::kVertices, options.at("isa"), threads_of(options)});
+    return std::make_unique<LazyDetector>(LazyConfig{BoundSource::kVertices, options.at("isa"),
+                                                     threads_of(options), precision_of(options)});
   };
   catalog.add(std::move(info));
 }

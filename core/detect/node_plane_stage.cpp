@@ -4,7 +4,8 @@
 
 namespace contactcheck {
 
-void NodePlaneStage::begin_frame(const std::vector<FfdModel>& models) {
+template <typename T>
+void NodePlaneStageOf<T>::begin_frame(const FfdModels<T>& models) {
   planes_.resize(models.size());
   known_.resize(models.size());
   for (std::size_t body = 0; body < models.size(); ++body) {
@@ -13,8 +14,9 @@ void NodePlaneStage::begin_frame(const std::vector<FfdModel>& models) {
   }
 }
 
-const BoxPlanes& NodePlaneStage::planes(const std::vector<FfdState>& states, std::uint32_t body,
-                                        std::uint32_t piece) {
+template <typename T>
+const BoxPlanesOf<T>& NodePlaneStageOf<T>::planes(const FfdStates<T>& states, std::uint32_t body,
+                                                  std::uint32_t piece) {
   if (!known_[body][piece]) {
     planes_[body][piece] = planes_of_box(states[body].corners[piece]);
     known_[body][piece] = 1;
@@ -22,15 +24,15 @@ const BoxPlanes& NodePlaneStage::planes(const std::vector<FfdState>& states, std
   return planes_[body][piece];
 }
 
-void NodePlaneStage::run_probes(const std::vector<FfdModel>& models,
-                                const std::vector<FfdState>& states, CellVolume volume,
-                                const std::vector<ProbeHit>& hits, bool first_only,
-                                std::vector<ElementPair>& out) {
+template <typename T>
+void NodePlaneStageOf<T>::run_probes(const FfdModels<T>& models, const FfdStates<T>& states,
+                                     CellVolume volume, const std::vector<ProbeHit>& hits,
+                                     bool first_only, std::vector<ElementPair>& out) {
   SeenPairs seen(models.size());
   for (const ProbeHit& hit : hits) {
     if (first_only && seen.seen(hit.body_a, hit.body_b)) continue;
     // In this reading each kept cell has exactly one box, of the same index.
-    const Vec3 p = probe_position(states[hit.body_a], volume, hit.probe);
+    const Vec3Of<T> p = probe_position(states[hit.body_a], volume, hit.probe);
     if (!node_inside(planes(states, hit.body_b, hit.cell_b), p)) continue;
     seen.mark(hit.body_a, hit.body_b);
     for_cells_of_probe(models[hit.body_a], volume, hit.probe, [&](std::uint32_t cell) {
@@ -39,14 +41,14 @@ void NodePlaneStage::run_probes(const std::vector<FfdModel>& models,
   }
 }
 
-void NodePlaneStage::run_contacts(const std::vector<FfdModel>& models,
-                                  const std::vector<FfdState>& states,
-                                  const std::vector<ProbeHit>& hits,
-                                  std::vector<PieceContact>& out) {
+template <typename T>
+void NodePlaneStageOf<T>::run_contacts(const FfdModels<T>& models, const FfdStates<T>& states,
+                                       const std::vector<ProbeHit>& hits,
+                                       std::vector<PieceContact>& out) {
   constexpr CellVolume kVolume = CellVolume::kFfdAabb;
   for (const ProbeHit& hit : hits) {
-    const Vec3 p = probe_position(states[hit.body_a], kVolume, hit.probe);
-    const BoxPlanes& box = planes(states, hit.body_b, hit.cell_b);
+    const Vec3Of<T> p = probe_position(states[hit.body_a], kVolume, hit.probe);
+    const BoxPlanesOf<T>& box = planes(states, hit.body_b, hit.cell_b);
     if (!node_inside(box, p)) continue;
     const NodeDepth way_out = node_depth(box, p);
     if (way_out.outward.isZero(0.0)) continue;
@@ -56,24 +58,24 @@ void NodePlaneStage::run_contacts(const std::vector<FfdModel>& models,
   }
 }
 
-bool NodePlaneStage::any_corner_inside(const std::vector<FfdModel>& models,
-                                       const std::vector<FfdState>& states, std::uint32_t body_a,
-                                       std::uint32_t cell_a, std::uint32_t body_b,
-                                       std::uint32_t cell_b) {
-  const FfdModel &a = models[body_a], &b = models[body_b];
+template <typename T>
+bool NodePlaneStageOf<T>::any_corner_inside(const FfdModels<T>& models, const FfdStates<T>& states,
+                                            std::uint32_t body_a, std::uint32_t cell_a,
+                                            std::uint32_t body_b, std::uint32_t cell_b) {
+  const FfdModelOf<T>&a = models[body_a], &b = models[body_b];
   for (std::uint32_t q = b.piece_begin[cell_b]; q < b.piece_begin[cell_b + 1]; ++q) {
-    const BoxPlanes& box = planes(states, body_b, q);
+    const BoxPlanesOf<T>& box = planes(states, body_b, q);
     for (std::uint32_t p = a.piece_begin[cell_a]; p < a.piece_begin[cell_a + 1]; ++p)
-      for (const Vec3& corner : states[body_a].corners[p])
+      for (const Vec3Of<T>& corner : states[body_a].corners[p])
         if (node_inside(box, corner)) return true;
   }
   return false;
 }
 
-void NodePlaneStage::run_cells(const std::vector<FfdModel>& models,
-                               const std::vector<FfdState>& states,
-                               const std::vector<ElementPair>& candidates, bool first_only,
-                               std::vector<ElementPair>& out) {
+template <typename T>
+void NodePlaneStageOf<T>::run_cells(const FfdModels<T>& models, const FfdStates<T>& states,
+                                    const std::vector<ElementPair>& candidates, bool first_only,
+                                    std::vector<ElementPair>& out) {
   SeenPairs seen(models.size());
   for (const ElementPair& c : candidates) {
     if (first_only && seen.seen(c.body_a, c.body_b)) continue;
@@ -84,5 +86,8 @@ void NodePlaneStage::run_cells(const std::vector<FfdModel>& models,
     }
   }
 }
+
+template class NodePlaneStageOf<double>;
+template class NodePlaneStageOf<float>;
 
 }  // namespace contactcheck

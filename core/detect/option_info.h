@@ -21,7 +21,7 @@ inline OptionInfo choice_option(std::string name, std::string value,
 
 /// A number in [min, max]; `integer`: a whole one.
 inline OptionInfo numeric_option(std::string name, std::string value, double min, double max,
-                                 bool integer, std::string help) {
+                                 bool integer, std::string help, double step = 2.0) {
   OptionInfo o;
   o.name = std::move(name);
   o.default_value = std::move(value);
@@ -29,7 +29,16 @@ inline OptionInfo numeric_option(std::string name, std::string value, double min
   o.max = max;
   o.integer = integer;
   o.help = std::move(help);
+  o.step = step;
   return o;
 }
+
+inline OptionInfo precision_option() {
+  return choice_option("precision", "double", {"double", "single"},
+                       "single: floats about the centre of the frame, rounded once, not exact");
+}
+
+/// @pre the detector has precision_option()
+inline bool in_single(const Options& options) { return options.at("precision") == "single"; }
 
 }  // namespace contactcheck

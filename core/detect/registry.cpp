@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/types/check.h"
+#include "core/types/shortest.h"
 
 namespace contactcheck {
 namespace {
@@ -14,13 +15,6 @@ std::string join(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
   return out;
-}
-
-// Shortest text that reads back as the same double.
-std::string shortest(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end.ptr};
 }
 
 std::string checked_number(const std::string& detector, const OptionInfo& option,

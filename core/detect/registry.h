@@ -19,6 +19,7 @@ struct OptionInfo {
   double min = 0.0, max = 0.0;
   bool integer = false;
   std::string help;
+  double step = 2.0;  ///< of a number: the factor from one value worth trying to the next
 };
 
 /// Options by name, complete: every option of the detector has a value here.

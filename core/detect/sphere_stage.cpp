@@ -5,11 +5,13 @@
 namespace contactcheck {
 namespace {
 
-bool collide(const Sphere& a, const Sphere& b, BoundsReading bounds) {
+template <typename T>
+bool collide(const SphereOf<T>& a, const SphereOf<T>& b, BoundsReading bounds) {
   return bounds == BoundsReading::kPaper ? collide_strict(a, b) : collide_safe(a, b);
 }
 
-void test_top(const std::vector<FfdState>& states, BoundsReading bounds, bool spheres,
+template <typename T>
+void test_top(const FfdStates<T>& states, BoundsReading bounds, bool spheres,
               SphereSurvivors& out) {
   out.sphere_pairs.clear();
   out.tested = 0;
@@ -22,16 +24,17 @@ void test_top(const std::vector<FfdState>& states, BoundsReading bounds, bool sp
 }
 
 // From the pairs of `level` - 1 to those of `level`.
-void test_children(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                   BoundsReading bounds, int level, SphereSurvivors& out) {
+template <typename T>
+void test_children(const FfdModels<T>& models, const FfdStates<T>& states, BoundsReading bounds,
+                   int level, SphereSurvivors& out) {
   std::swap(out.sphere_pairs, out.parent_pairs);
   out.sphere_pairs.clear();
   out.tested = 0;
   for (const SpherePair& p : out.parent_pairs) {
     const SphereNode& above_a = models[p.bodies.a].spheres.levels[level - 1][p.a];
     const SphereNode& above_b = models[p.bodies.b].spheres.levels[level - 1][p.b];
-    const Sphere* const spheres_a = states[p.bodies.a].spheres[level].data();
-    const Sphere* const spheres_b = states[p.bodies.b].spheres[level].data();
+    const SphereOf<T>* const spheres_a = states[p.bodies.a].spheres[level].data();
+    const SphereOf<T>* const spheres_b = states[p.bodies.b].spheres[level].data();
     for (std::uint32_t a = above_a.child_begin; a < above_a.child_end; ++a)
       for (std::uint32_t b = above_b.child_begin; b < above_b.child_end; ++b) {
         ++out.tested;
@@ -41,7 +44,8 @@ void test_children(const std::vector<FfdModel>& models, const std::vector<FfdSta
   }
 }
 
-void mark_active(const std::vector<FfdModel>& models, int level, SphereSurvivors& out) {
+template <typename T>
+void mark_active(const FfdModels<T>& models, int level, SphereSurvivors& out) {
   out.sphere_active.resize(models.size());
   for (std::size_t m = 0; m < models.size(); ++m)
     out.sphere_active[m].assign(
@@ -58,12 +62,18 @@ void mark_active(const std::vector<FfdModel>& models, int level, SphereSurvivors
 
 }  // namespace
 
-void run_spheres(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                 BoundsReading bounds, int levels, SphereSurvivors& out) {
+template <typename T>
+void run_spheres(const FfdModels<T>& models, const FfdStates<T>& states, BoundsReading bounds,
+                 int levels, SphereSurvivors& out) {
   out.bodies = models.size();
   test_top(states, bounds, levels > 0, out);
   for (int level = 1; level < levels; ++level) test_children(models, states, bounds, level, out);
   mark_active(models, levels > 1 ? levels - 1 : 0, out);
 }
+
+template void run_spheres(const FfdModels<double>&, const FfdStates<double>&, BoundsReading, int,
+                          SphereSurvivors&);
+template void run_spheres(const FfdModels<float>&, const FfdStates<float>&, BoundsReading, int,
+                          SphereSurvivors&);
 
 }  // namespace contactcheck

@@ -31,7 +31,8 @@ struct SphereSurvivors {
 };
 
 /// Sphere levels 1 .. `levels` (0: every pair of bodies is a candidate).
-void run_spheres(const std::vector<FfdModel>& models, const std::vector<FfdState>& states,
-                 BoundsReading bounds, int levels, SphereSurvivors& out);
+template <typename T>
+void run_spheres(const FfdModels<T>& models, const FfdStates<T>& states, BoundsReading bounds,
+                 int levels, SphereSurvivors& out);
 
 }  // namespace contactcheck

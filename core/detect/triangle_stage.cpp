@@ -1,21 +1,27 @@
 #include "core/detect/triangle_stage.h"
 
+#include <type_traits>
+
 #include "core/detect/seen_pairs.h"
 #include "core/narrow/triangle_triangle.h"
 
 namespace contactcheck {
 namespace {
 
-TrianglePoints points_of(const FfdModel& model, std::span<const Vec3> vertices, std::uint32_t t) {
+template <typename T>
+TrianglePointsOf<T> points_of(const FfdModelOf<T>& model,
+                              std::type_identity_t<std::span<const Vec3Of<T>>> vertices,
+                              std::uint32_t t) {
   const Triangle& tri = model.shape->mesh.triangles[t];
   return {vertices[tri[0]], vertices[tri[1]], vertices[tri[2]]};
 }
 
 }  // namespace
 
-void TriangleStage::begin_frame(const std::vector<FfdModel>& models, const Frame& frame) {
-  vertices_.clear();
-  for (const BodyState& body : frame.bodies) vertices_.push_back(body.vertices);
+template <typename T>
+void TriangleStageOf<T>::begin_frame(const FfdModels<T>& models,
+                                     const std::vector<std::span<const Vec3Of<T>>>& vertices) {
+  vertices_ = vertices;
   boxes_.resize(models.size());
   for (std::size_t body = 0; body < models.size(); ++body) {
     boxes_[body].resize(models[body].piece_begin.size() - 1);
@@ -23,16 +29,18 @@ void TriangleStage::begin_frame(const std::vector<FfdModel>& models, const Frame
   }
 }
 
-const TriangleStage::CellBoxes& TriangleStage::boxes(const std::vector<FfdModel>& models,
-                                                     std::uint32_t body, std::uint32_t cell) {
+template <typename T>
+const typename TriangleStageOf<T>::CellBoxes& TriangleStageOf<T>::boxes(const FfdModels<T>& models,
+                                                                        std::uint32_t body,
+                                                                        std::uint32_t cell) {
   CellBoxes& out = boxes_[body][cell];
   if (out.known) return out;
   const auto row = models[body].triangles.row(cell);
-  out.whole = Aabb{};
+  out.whole = AabbOf<T>{};
   out.triangles.resize(row.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
-    Aabb box;
-    for (const Vec3& p : points_of(models[body], vertices_[body], row[i])) box.extend(p);
+    AabbOf<T> box;
+    for (const Vec3Of<T>& p : points_of(models[body], vertices_[body], row[i])) box.extend(p);
     out.triangles[i] = box;
     out.whole.extend(box);
   }
@@ -40,17 +48,18 @@ const TriangleStage::CellBoxes& TriangleStage::boxes(const std::vector<FfdModel>
   return out;
 }
 
-void TriangleStage::collect(const std::vector<FfdModel>& models, std::uint32_t body,
-                            std::uint32_t cell, const Aabb& region,
-                            std::vector<std::uint32_t>& out) {
+template <typename T>
+void TriangleStageOf<T>::collect(const FfdModels<T>& models, std::uint32_t body, std::uint32_t cell,
+                                 const AabbOf<T>& region, std::vector<std::uint32_t>& out) {
   out.clear();
   const CellBoxes& cell_boxes = boxes(models, body, cell);
   for (std::uint32_t i = 0; i < cell_boxes.triangles.size(); ++i)
     if (cell_boxes.triangles[i].overlaps(region)) out.push_back(i);
 }
 
-bool TriangleStage::test_pair(const std::vector<FfdModel>& models, const ElementPair& cells,
-                              bool first_only, std::vector<ElementPair>& out) {
+template <typename T>
+bool TriangleStageOf<T>::test_pair(const FfdModels<T>& models, const ElementPair& cells,
+                                   bool first_only, std::vector<ElementPair>& out) {
   const CellBoxes& a = boxes(models, cells.body_a, cells.a);
   const CellBoxes& b = boxes(models, cells.body_b, cells.b);
   if (!a.whole.overlaps(b.whole)) return false;
@@ -60,7 +69,8 @@ bool TriangleStage::test_pair(const std::vector<FfdModel>& models, const Element
   const auto row_b = models[cells.body_b].triangles.row(cells.b);
   bool any = false;
   for (std::uint32_t i : near_a_) {
-    const TrianglePoints p = points_of(models[cells.body_a], vertices_[cells.body_a], row_a[i]);
+    const TrianglePointsOf<T> p =
+        points_of(models[cells.body_a], vertices_[cells.body_a], row_a[i]);
     for (std::uint32_t j : near_b_) {
       if (!a.triangles[i].overlaps(b.triangles[j])) continue;
       if (!triangles_intersect(p,
@@ -74,14 +84,17 @@ bool TriangleStage::test_pair(const std::vector<FfdModel>& models, const Element
   return any;
 }
 
-void TriangleStage::run(const std::vector<FfdModel>& models,
-                        const std::vector<ElementPair>& candidates, bool first_only,
-                        std::vector<ElementPair>& out) {
+template <typename T>
+void TriangleStageOf<T>::run(const FfdModels<T>& models, const std::vector<ElementPair>& candidates,
+                             bool first_only, std::vector<ElementPair>& out) {
   SeenPairs seen(models.size());
   for (const ElementPair& c : candidates) {
     if (first_only && seen.seen(c.body_a, c.body_b)) continue;
     if (test_pair(models, c, first_only, out)) seen.mark(c.body_a, c.body_b);
   }
 }
+
+template class TriangleStageOf<double>;
+template class TriangleStageOf<float>;
 
 }  // namespace contactcheck

@@ -4,15 +4,15 @@
 
 #include <Eigen/Core>
 
+#include "core/types/ordered_dot.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
 
 using Mat3 = Eigen::Matrix3d;
 
-inline double ordered_dot(const Vec3& a, const Vec3& b) {
-  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-}
+// For columns of matrices, too.
+inline double ordered_dot(const Vec3& a, const Vec3& b) { return ordered_dot<double>(a, b); }
 
 /// m * v
 inline Vec3 ordered_product(const Mat3& m, const Vec3& v) {

@@ -18,6 +18,16 @@
 // with factors of at most 2: below 800 u M. 2048 u M is the slack of slabs. To both come, in units
 // of the world, the error of the canonical mapping (mapping.h), that of x - origin (2^-53 of the
 // largest coordinate) and float underflow.
+//
+// In single precision (single_frame.h) the float nodes are the nodes: all of the above holds, with
+// the first u M to spare. But what is bounded are vertices mapped from them in floats. Those are
+// off the exact image of their local coordinates, for which the pieces were made, by 10 u M of the
+// blends (mapping.h with u for 2^-53) and 3 u M of the rounding of three local coordinates
+// (single_frame.cpp): 13 u M, and along n at most three times that. These come to the slacks of 256
+// u M and 2048 u M, though the first would hold them: 201 + 13. M is the scene's half-width, the
+// same for all bodies. Boxes of triangles and of refitted bodies are made of the very floats that
+// are tested: they need no slack. So all triangles are tested whose boxes meet, but for those that
+// slabs part, and those share no point: what is found is what intersects, as in doubles.
 
 #if defined(CONTACTCHECK_LAZY_BOUNDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_BOUNDS_INL

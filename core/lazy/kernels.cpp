@@ -32,14 +32,29 @@ void collide_part(BodiesToTest bodies, FrontPart part, bool first_only, LazyScra
 }
 
 void bound_all(LazyState& state, FrameArena& arena) {
-  if (state.from_vertices) return refit(state, arena);
+  if (state.from_vertices && state.precision == Precision::kSingle)
+    return refit<float>(state, arena);
+  if (state.from_vertices) return refit<double>(state, arena);
   for (std::uint32_t block = 0; block < state.tree->blocks.size(); ++block)
     bounds(state, block, arena);
 }
 
+BatchVerdict test_batch(const TriangleBatch& batch) { return test_batch_in(batch); }
+
+BatchVerdict test_single_batch(const SingleTriangleBatch& batch) { return test_batch_in(batch); }
+
+const LeafCache& map_leaf(LazyState& state, std::uint32_t leaf, FrameArena& arena) {
+  return map_leaf_in<double>(state, leaf, arena);
+}
+
+const SingleLeafCache& map_single_leaf(LazyState& state, std::uint32_t leaf, FrameArena& arena) {
+  return map_leaf_in<float>(state, leaf, arena);
+}
+
 const LazyKernels& kernels() {
   static const LazyKernels all = {
-      hwy::TargetName(HWY_TARGET), collide, spread, collide_part, bound_all, test_batch, map_leaf};
+      hwy::TargetName(HWY_TARGET), collide,  spread,         collide_part, bound_all, test_batch,
+      test_single_batch,           map_leaf, map_single_leaf};
   return all;
 }
 

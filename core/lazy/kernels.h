@@ -41,11 +41,12 @@ struct LazyScratch {
   PairFront open;
   std::vector<SlotPair> level;
   TriangleBatch batch{};
+  SingleTriangleBatch single_batch{};              ///< used instead in single precision
   LazyCounters counters;                           ///< without what count_made() adds
   std::vector<ElementPair>* candidates = nullptr;  ///< takes down every pair tested, if any
 };
 
-/// Two bodies of one frame, placed and with their nodes known (lazy_state.h).
+/// Two bodies of one frame and one precision, placed and with their nodes known (lazy_state.h).
 struct BodiesToTest {
   BodyPair names;
   LazyState& a;
@@ -64,10 +65,13 @@ struct LazyKernels {
                        std::vector<ElementPair>& out);
   /// Bounds every block of the body, in order of their indices. For refitted bodies and validate().
   void (*bound_all)(LazyState& state, FrameArena& arena);
-  /// The filtered test of up to eight pairs.
+  /// The filtered test of up to eight pairs; in floats without a filter.
   BatchVerdict (*test_batch)(const TriangleBatch& batch);
+  BatchVerdict (*test_single_batch)(const SingleTriangleBatch& batch);
   /// Maps one leaf, once per frame.
   const LeafCache& (*map_leaf)(LazyState& state, std::uint32_t leaf, FrameArena& arena);
+  const SingleLeafCache& (*map_single_leaf)(LazyState& state, std::uint32_t leaf,
+                                            FrameArena& arena);
 };
 
 /// The kernels for this processor, or for a named instruction set.

@@ -205,17 +205,29 @@ std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
+void round_local(const BodyShape& shape, TreeUse use, LatticeTree& tree) {
+  if (use == TreeUse::kVertices) {
+    tree.single_sorted_local = single_local(shape.embedding);
+  } else {
+    for (int k = 0; k < 3; ++k)
+      tree.single_leaf_local[k].assign(tree.leaf_local[k].begin(), tree.leaf_local[k].end());
+  }
+  tree.leaf_local = {};
+}
+
 }  // namespace
 
 std::size_t LatticeTree::bytes() const {
   std::size_t local = 0;
-  for (const auto& axis : leaf_local) local += bytes_of(axis);
+  for (int k = 0; k < 3; ++k)
+    local +=
+        bytes_of(leaf_local[k]) + bytes_of(single_leaf_local[k]) + bytes_of(single_sorted_local[k]);
   return bytes_of(blocks) + bytes_of(pieces) + bytes_of(slabs) + bytes_of(leaves) +
          bytes_of(leaf_triangles) + bytes_of(leaf_corners) + bytes_of(leaf_vertices) + local +
          bytes_of(runs);
 }
 
-LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use) {
+LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use, Precision precision) {
   CONTACTCHECK_INVARIANT(!shape.mesh.triangles.empty(), "a tree of something");
   LatticeTree tree;
   const Partition partition = partition_triangles(shape);
@@ -223,6 +235,7 @@ LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use) {
   tree.leaf_vertices.resize(tree.leaf_vertices.size() + kLeafPadding, 0);
   if (!shape.lattice) return tree;
   for (auto& axis : tree.leaf_local) axis.resize(axis.size() + kLeafPadding, 0.0);
+  if (precision == Precision::kSingle) round_local(shape, use, tree);
   return tree;
 }
 

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/types/semantics.h"
 
 namespace contactcheck {
 
@@ -96,8 +97,11 @@ struct LatticeTree {
   std::vector<std::uint32_t> leaf_triangles;      ///< index in the mesh
   std::vector<LeafCorners> leaf_corners;          ///< per leaf
   std::vector<std::uint32_t> leaf_vertices;       ///< index in the mesh, and padding
-  std::array<std::vector<double>, 3> leaf_local;  ///< with a lattice: s, t, u, and padding
   std::vector<VertexRun> runs;                    ///< with a lattice
+  std::array<std::vector<double>, 3> leaf_local;  ///< with a lattice: s, t, u, and padding
+  /// In single precision instead: rounded; and for kVertices in the order of the batch mapping.
+  std::array<std::vector<float>, 3> single_leaf_local;
+  SingleLocal single_sorted_local;
 
   /// Bytes held, for the report.
   std::size_t bytes() const;
@@ -109,6 +113,7 @@ enum class TreeUse {
 };
 
 /// @pre the shape has triangles
-LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use = TreeUse::kNodes);
+LatticeTree make_lattice_tree(const BodyShape& shape, TreeUse use = TreeUse::kNodes,
+                              Precision precision = Precision::kDouble);
 
 }  // namespace contactcheck

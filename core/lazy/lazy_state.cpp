@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/deform/mapping.h"
+#include "core/lazy/frame_scale.h"
 #include "core/types/check.h"
 
 namespace contactcheck {
@@ -15,13 +16,8 @@ double half_width(const Aabb& box) {
   return (box.hi - middle).cwiseMax(middle - box.lo).maxCoeff();
 }
 
-void forget_frame(LazyState& state) {
-  state.blocks.begin_frame(state.tree->blocks.size());
-  state.leaves.begin_frame(state.tree->leaves.size());
-  state.cells_known = false;
-}
-
 Vec3 in_frame(const LazyState& state, const Vec3& x) { return (x - state.origin) * state.scale; }
+Vec3 in_frame(const LazyState&, const Vec3f& x) { return x.cast<double>(); }
 
 void set_box(std::span<const Vec3> points, LazyState& state) {
   Vec3 lo = points[0], hi = points[0];
@@ -31,14 +27,6 @@ void set_box(std::span<const Vec3> points, LazyState& state) {
   }
   state.largest = std::max(lo.cwiseAbs().maxCoeff(), hi.cwiseAbs().maxCoeff());
   state.box = {lo, hi};
-}
-
-// Finite whatever happens, so that boxes of lanes without a child stay empty; all content of a body
-// lies within 1 of its origin, so this much is everything.
-float round_up(double slack) {
-  constexpr double kEverything = 1e29;
-  return std::nextafter(static_cast<float>(std::min(slack, kEverything)),
-                        std::numeric_limits<float>::infinity());
 }
 
 bool box_holds(const LaneBoxes& box, std::uint32_t lane, const Vec3& p) {
@@ -51,15 +39,6 @@ bool slab_holds(const LaneSlabs& slab, std::uint32_t lane, const Vec3& p) {
   double along = 0.0;
   for (int k = 0; k < 3; ++k) along += slab.normal[k][lane] * p[k];
   return std::abs(along - slab.middle[lane]) <= slab.half[lane];
-}
-
-// The power of two that brings x to about 1, as near as it and its inverse are doubles.
-double scale_to_one(double x) {
-  constexpr int kLargestExponent = 1000;
-  if (!(x > 0.0)) return 1.0;
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
 }
 
 void place_one(const Aabb& frame, double scale, LazyState& state) {
@@ -92,9 +71,31 @@ void set_terms(const CornerIds& ids, const std::vector<Float4>& nodes, CellTerms
   for (int c = 0; c < 8; ++c) out.term[c] = f[c];
 }
 
+// An eighth of a node in the body's frame.
+Float4 near_node(const LazyState& state, std::size_t n) {
+  if (state.precision == Precision::kSingle) {
+    const Vec3f& node = state.single.nodes[n];
+    return {0.125f * node.x(), 0.125f * node.y(), 0.125f * node.z(), 0.0f};
+  }
+  const double eighth = 0.125 * state.scale;
+  Float4 near;
+  near << ((state.nodes[n] - state.origin) * eighth).cast<float>(), 0.0f;
+  return near;
+}
+
+template <class Leaves>
+void count_leaves(const LatticeTree& tree, const Leaves& leaves, LazyCounters& counters) {
+  for (std::uint32_t l = 0; l < leaves.size(); ++l) {
+    if (leaves.find(l) == nullptr) continue;
+    ++counters.leaves_mapped;
+    counters.vertices_mapped += tree.leaves[l].vertices;
+  }
+}
+
+template <class Real>
 class Validation {
  public:
-  Validation(const LazyState& state, std::span<const Vec3> vertices)
+  Validation(const LazyState& state, std::span<const Vec3Of<Real>> vertices)
       : state_(state), vertices_(vertices) {}
 
   // Leaves under a block go through every lane above them.
@@ -133,11 +134,21 @@ class Validation {
   }
 
   const LazyState& state_;
-  std::span<const Vec3> vertices_;
+  std::span<const Vec3Of<Real>> vertices_;
   std::vector<Slot> path_;
 };
 
 }  // namespace
+
+void forget_frame(LazyState& state) {
+  state.blocks.begin_frame(state.tree->blocks.size());
+  if (state.precision == Precision::kSingle) {
+    state.single.leaves.begin_frame(state.tree->leaves.size());
+  } else {
+    state.leaves.begin_frame(state.tree->leaves.size());
+  }
+  state.cells_known = false;
+}
 
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes) {
   forget_frame(state);
@@ -175,12 +186,9 @@ void place(std::span<LazyState> states) {
 
 void find_cells(LazyState& state) {
   if (state.cells_known || state.from_vertices) return;
-  const double eighth = 0.125 * state.scale;
-  state.near_nodes.resize(state.nodes.size());
-  for (std::size_t n = 0; n < state.nodes.size(); ++n) {
-    const Vec3 near = (state.nodes[n] - state.origin) * eighth;
-    state.near_nodes[n] << near.cast<float>(), 0.0f;
-  }
+  state.near_nodes.resize(state.shape->node_count());
+  for (std::size_t n = 0; n < state.near_nodes.size(); ++n)
+    state.near_nodes[n] = near_node(state, n);
   const std::vector<CornerIds>& cells = state.shape->lattice->cell_nodes;
   state.cells.resize(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
@@ -191,15 +199,16 @@ void find_cells(LazyState& state) {
 void count_made(const LazyState& state, LazyCounters& counters) {
   for (std::uint32_t b = 0; b < state.blocks.size(); ++b)
     if (state.blocks.find(b) != nullptr) ++counters.blocks_bounded;
-  for (std::uint32_t l = 0; l < state.leaves.size(); ++l) {
-    if (state.leaves.find(l) == nullptr) continue;
-    ++counters.leaves_mapped;
-    counters.vertices_mapped += state.tree->leaves[l].vertices;
-  }
+  count_leaves(*state.tree, state.leaves, counters);
+  count_leaves(*state.tree, state.single.leaves, counters);
 }
 
 std::string validate(const LazyState& state, std::span<const Vec3> vertices) {
-  return Validation(state, vertices).block(0);
+  return Validation<double>(state, vertices).block(0);
+}
+
+std::string validate(const LazyState& state, std::span<const Vec3f> vertices) {
+  return Validation<float>(state, vertices).block(0);
 }
 
 }  // namespace contactcheck

@@ -5,6 +5,9 @@
 // bodies as scale. The origin is the middle of the scene where bodies are not small beside it, else
 // the middle of each body. So a scene far out loses nothing, nor does a body far from the others,
 // and neither overflow nor underflow spoils a bound.
+//
+// In single precision (single_frame.h) that frame is all there is: nodes are rounded into it once,
+// vertices are mapped and triangles tested in it.
 #pragma once
 
 #include <array>
@@ -12,10 +15,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/lazy/frame_memory.h"
 #include "core/lazy/lattice_tree.h"
+#include "core/types/semantics.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
@@ -49,14 +54,25 @@ struct BlockBounds {
   LaneSlabs slab;  ///< never written where bounds come from vertices
 };
 
-/// The mapped leaf: its vertices, world coordinates as map_point() gives them, and the boxes of its
-/// triangles in the body's frame.
-struct LeafCache {
-  const double* x = nullptr;
-  const double* y = nullptr;
-  const double* z = nullptr;
+/// The mapped leaf: its vertices as map_point() gives them, and the boxes of its triangles in the
+/// body's frame. Doubles are world coordinates; floats are in the body's frame.
+template <class Real>
+struct LeafCacheOf {
+  const Real* x = nullptr;
+  const Real* y = nullptr;
+  const Real* z = nullptr;
   const LaneBoxes* boxes = nullptr;  ///< of kLeafTriangles triangles
   const LaneBoxes* whole = nullptr;  ///< lane 0: of all of them
+};
+using LeafCache = LeafCacheOf<double>;
+using SingleLeafCache = LeafCacheOf<float>;
+
+/// What a body in single precision has instead of nodes, vertices and leaves in doubles: the same
+/// in the body's frame.
+struct SingleBody {
+  std::vector<Vec3f> nodes;
+  std::span<const Vec3f> vertices;  ///< if from_vertices
+  FrameTable<SingleLeafCache> leaves;
 };
 
 /// What was done, since the last update. Where all pairs were asked for, all but the first depend
@@ -75,10 +91,11 @@ struct LazyCounters {
 struct LazyState {
   const BodyShape* shape = nullptr;
   const LatticeTree* tree = nullptr;
+  Precision precision = Precision::kDouble;
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices
-  Aabb box;                        ///< holds all nodes or vertices
+  Aabb box;                        ///< holds all nodes or vertices; single: in the body's frame
   double largest = 0.0;            ///< |coordinate|
 
   Vec3 origin = Vec3::Zero();
@@ -92,10 +109,41 @@ struct LazyState {
 
   FrameTable<BlockBounds> blocks;
   FrameTable<LeafCache> leaves;
+  SingleBody single;
 };
 
-/// Forgets the last frame; the body's box is that of its lattice's nodes. Where `from_vertices`,
-/// `vertices` is to be set before blocks are bounded. @pre shape, tree and from_vertices are set
+/// What leaves are mapped from and where they are kept, for loops of either precision.
+template <class Real>
+std::span<const Vec3Of<Real>> nodes_in(const LazyState& state) {
+  if constexpr (std::is_same_v<Real, float>) {
+    return state.single.nodes;
+  } else {
+    return state.nodes;
+  }
+}
+template <class Real>
+std::span<const Vec3Of<Real>> vertices_in(const LazyState& state) {
+  if constexpr (std::is_same_v<Real, float>) {
+    return state.single.vertices;
+  } else {
+    return state.vertices;
+  }
+}
+template <class Real>
+FrameTable<LeafCacheOf<Real>>& leaves_in(LazyState& state) {
+  if constexpr (std::is_same_v<Real, float>) {
+    return state.single.leaves;
+  } else {
+    return state.leaves;
+  }
+}
+
+/// Nothing of the frame is known any more; nothing of the last one is left.
+void forget_frame(LazyState& state);
+
+/// Forgets the last frame, in doubles (in single precision: single_frame.h); the body's box is that
+/// of its lattice's nodes. Where `from_vertices`, `vertices` is to be set before blocks are
+/// bounded. @pre shape, tree and from_vertices are set
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
 
 /// The same for a body whose vertices are known. @pre also from_vertices
@@ -107,12 +155,15 @@ void place(std::span<LazyState> states);
 /// Adds the blocks, leaves and vertices made in this frame.
 void count_made(const LazyState& state, LazyCounters& counters);
 
-/// Takes the lattice into the body's frame, once per frame. @pre place
+/// Takes the lattice into the body's frame, once per frame. @pre place, or place_in_single
 void find_cells(LazyState& state);
 
 /// Checks what the bounds promise for the mapped `vertices`: every block's lane holds the vertices
 /// of every triangle below it. Returns a sentence for the first broken promise, or "".
 /// @pre all blocks are bounded in this frame (LazyKernels::bound_all)
 std::string validate(const LazyState& state, std::span<const Vec3> vertices);
+
+/// The same in single precision. `vertices`: in the body's frame.
+std::string validate(const LazyState& state, std::span<const Vec3f> vertices);
 
 }  // namespace contactcheck

@@ -1,4 +1,4 @@
-// Triangles of two leaves against each other: boxes, then the exact test in batches.
+// Triangles of two leaves against each other: boxes, then the test of triangles in batches.
 // Compiled once per instruction set (kernels.cpp).
 
 #if defined(CONTACTCHECK_LAZY_LEAF_PAIRS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -29,18 +29,29 @@ HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32
   return shift.none ? overlapping(one, lanes) : overlapping(MovedBounds{one, shift}, lanes);
 }
 
+HWY_INLINE TriangleBatch& batch_in(double, LazyScratch& scratch) { return scratch.batch; }
+HWY_INLINE SingleTriangleBatch& batch_in(float, LazyScratch& scratch) {
+  return scratch.single_batch;
+}
+
 // Tests of leaf pairs of two bodies; flush() when all are in.
+template <class Real>
 class LeafPairTests {
  public:
   LeafPairTests(const BodiesToTest& bodies, const Shift& to_a, const Shift& to_b,
                 LazyScratch& scratch, std::vector<ElementPair>& out)
-      : bodies_(bodies), to_a_(to_a), to_b_(to_b), scratch_(scratch), out_(out) {
-    scratch.batch.count = 0;
+      : bodies_(bodies),
+        to_a_(to_a),
+        to_b_(to_b),
+        scratch_(scratch),
+        batch_(batch_in(Real(), scratch)),
+        out_(out) {
+    batch_.count = 0;
   }
 
   HWY_NOINLINE void test(const LeafPair& pair) {
-    const LeafCache& a = map_leaf(bodies_.a, pair.a, scratch_.arena);
-    const LeafCache& b = map_leaf(bodies_.b, pair.b, scratch_.arena);
+    const Leaf& a = map_leaf_in<Real>(bodies_.a, pair.a, scratch_.arena);
+    const Leaf& b = map_leaf_in<Real>(bodies_.b, pair.b, scratch_.arena);
     const std::uint32_t in_b = meeting_triangles(*a.whole, 0, to_b_, b);
     if (in_b == 0) return;
     const std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a);
@@ -55,9 +66,9 @@ class LeafPairTests {
   }
 
   HWY_NOINLINE void flush() {
-    TriangleBatch& batch = scratch_.batch;
+    TriangleBatchOf<Real>& batch = batch_;
     if (batch.count == 0) return;
-    const BatchVerdict verdict = test_batch(batch);
+    const BatchVerdict verdict = test_batch_in(batch);
     std::uint32_t meeting = verdict.meet;
     for (std::uint32_t lane : Bits(verdict.unknown))
       if (triangles_intersect(batch.points(0, lane), batch.points(1, lane))) meeting |= 1u << lane;
@@ -73,22 +84,24 @@ class LeafPairTests {
   }
 
  private:
+  using Leaf = LeafCacheOf<Real>;
+
   // Triangles of one leaf, sixteen bits, whose boxes meet that of one triangle of the other.
   static HWY_INLINE std::uint32_t meeting_triangles(const LaneBoxes& box, std::uint32_t lane,
-                                                    const Shift& shift, const LeafCache& leaf) {
+                                                    const Shift& shift, const Leaf& leaf) {
     return overlapping_triangles(box, lane, shift, leaf.boxes[0]) |
            overlapping_triangles(box, lane, shift, leaf.boxes[1]) << kBlockWidth;
   }
 
   // Those that may meet triangle i.
-  static HWY_INLINE std::uint32_t partners(const LeafCache& leaf, std::uint32_t i,
-                                           const Shift& shift, const LeafCache& other) {
+  static HWY_INLINE std::uint32_t partners(const Leaf& leaf, std::uint32_t i, const Shift& shift,
+                                           const Leaf& other) {
     return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, shift, other);
   }
 
-  HWY_INLINE void add_pair(const LeafPair& leaves, const LeafCache& a, std::uint32_t i,
-                           const LeafCache& b, std::uint32_t j) {
-    TriangleBatch& batch = scratch_.batch;
+  HWY_INLINE void add_pair(const LeafPair& leaves, const Leaf& a, std::uint32_t i, const Leaf& b,
+                           std::uint32_t j) {
+    TriangleBatchOf<Real>& batch = batch_;
     const std::size_t lane = batch.count;
     batch.a[lane] = name(bodies_.a, leaves.a, i);
     batch.b[lane] = name(bodies_.b, leaves.b, j);
@@ -101,8 +114,8 @@ class LeafPairTests {
     return state.tree->leaf_triangles[state.tree->leaves[leaf].first_triangle + triangle];
   }
 
-  static HWY_INLINE void copy_corners(const LeafCorners& corners, const LeafCache& leaf,
-                                      std::uint32_t triangle, double (&out)[3][3][kBatchWidth],
+  static HWY_INLINE void copy_corners(const LeafCorners& corners, const Leaf& leaf,
+                                      std::uint32_t triangle, Real (&out)[3][3][kBatchWidth],
                                       std::size_t lane) {
     for (int c = 0; c < 3; ++c) {
       const std::uint32_t v = corners[c][triangle];
@@ -116,6 +129,7 @@ class LeafPairTests {
   const Shift& to_a_;
   const Shift& to_b_;
   LazyScratch& scratch_;
+  TriangleBatchOf<Real>& batch_;
   std::vector<ElementPair>& out_;
 };
 

@@ -24,29 +24,41 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using DoubleLanes = hn::CappedTag<double, kBlockWidth>;
 
+HWY_INLINE const double* leaf_local(double, const LatticeTree& tree, int axis) {
+  return tree.leaf_local[axis].data();
+}
+HWY_INLINE const float* leaf_local(float, const LatticeTree& tree, int axis) {
+  return tree.single_leaf_local[axis].data();
+}
+
 // The last vector of a run writes beyond it: the next run overwrites that, or it is padding.
-HWY_INLINE void map_runs(const LazyState& state, const TreeLeaf& leaf, double* (&out)[3]) {
-  const DoubleLanes d;
+template <class Real>
+HWY_INLINE void map_runs(const LazyState& state, const TreeLeaf& leaf, Real* (&out)[3]) {
+  const hn::CappedTag<Real, kBlockWidth> d;
   const LatticeTree& tree = *state.tree;
+  const Real* local[3];
+  for (int k = 0; k < 3; ++k) local[k] = leaf_local(Real(), tree, k) + leaf.first_vertex;
   std::uint32_t done = 0;
   for (std::uint32_t r = 0; r < leaf.runs; ++r) {
     const VertexRun run = tree.runs[leaf.first_run + r];
-    double corners[3][8];
-    gather_corners(state.shape->lattice->cell_nodes[run.cell], state.nodes.data(), corners);
+    Real corners[3][8];
+    gather_corners(state.shape->lattice->cell_nodes[run.cell], nodes_in<Real>(state).data(),
+                   corners);
     for (std::uint32_t i = 0; i < run.count; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
-      const std::size_t at = leaf.first_vertex + done + i;
-      const auto w =
-          local_lanes(d, hn::LoadU(d, &tree.leaf_local[0][at]),
-                      hn::LoadU(d, &tree.leaf_local[1][at]), hn::LoadU(d, &tree.leaf_local[2][at]));
-      for (int k = 0; k < 3; ++k) hn::StoreU(map_axis(d, corners[k], w), d, out[k] + done + i);
+      const std::uint32_t at = done + i;
+      const auto w = local_lanes(d, hn::LoadU(d, local[0] + at), hn::LoadU(d, local[1] + at),
+                                 hn::LoadU(d, local[2] + at));
+      for (int k = 0; k < 3; ++k) hn::StoreU(map_axis(d, corners[k], w), d, out[k] + at);
     }
     done += run.count;
   }
 }
 
-HWY_INLINE void copy_vertices(const LazyState& state, const TreeLeaf& leaf, double* (&out)[3]) {
+template <class Real>
+HWY_INLINE void copy_vertices(const LazyState& state, const TreeLeaf& leaf, Real* (&out)[3]) {
+  const auto vertices = vertices_in<Real>(state);
   for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
-    const Vec3& v = state.vertices[state.tree->leaf_vertices[leaf.first_vertex + i]];
+    const Vec3Of<Real>& v = vertices[state.tree->leaf_vertices[leaf.first_vertex + i]];
     for (int k = 0; k < 3; ++k) out[k][i] = v[k];
   }
 }
@@ -92,34 +104,62 @@ HWY_INLINE float extreme(const float* lanes) {
   return hn::GetLane(least ? hn::MinOfLanes(d, best) : hn::MaxOfLanes(d, best));
 }
 
-HWY_INLINE const LeafCache& map_leaf(LazyState& state, std::uint32_t index, FrameArena& arena) {
-  static_assert(kLeafTriangles == 2 * kBlockWidth);
-  if (const LeafCache* known = state.leaves.find(index)) return *known;
+// Boxes of a leaf's triangles along one axis, and of all of them. `near`: in the body's frame.
+HWY_INLINE void bound_leaf(const float* near, const LeafCorners& corners, std::uint32_t triangles,
+                           float slack, int axis, LaneBoxes* boxes) {
+  for (std::uint32_t half = 0; half < 2; ++half)
+    bound_triangles(near, corners, half * kBlockWidth, triangles, slack, boxes[half].lo[axis],
+                    boxes[half].hi[axis]);
+  boxes[2].lo[axis][0] =
+      std::min(extreme<true>(boxes[0].lo[axis]), extreme<true>(boxes[1].lo[axis]));
+  boxes[2].hi[axis][0] =
+      std::max(extreme<false>(boxes[0].hi[axis]), extreme<false>(boxes[1].hi[axis]));
+}
+
+// Floats are in the body's frame: their boxes need no slack.
+HWY_INLINE void bound_axis(const LazyState& state, std::uint32_t index, const float* x, int axis,
+                           LaneBoxes* boxes) {
+  bound_leaf(x, state.tree->leaf_corners[index], state.tree->leaves[index].triangles, 0.0f, axis,
+             boxes);
+}
+
+HWY_INLINE void bound_axis(const LazyState& state, std::uint32_t index, const double* x, int axis,
+                           LaneBoxes* boxes) {
   const TreeLeaf& leaf = state.tree->leaves[index];
-  const std::size_t room = (leaf.vertices + kLeafPadding + 7u) / 8 * 8;
-  auto* const world = static_cast<double*>(
-      arena.take(3 * room * sizeof(double) + 3 * sizeof(LaneBoxes) + sizeof(LeafCache)));
-  double* axes[3] = {world, world + room, world + 2 * room};
+  HWY_ALIGN float near[3 * kLeafTriangles + kBlockWidth];
+  to_frame(x, state.origin[axis], state.scale, leaf.vertices, near);
+  bound_leaf(near, state.tree->leaf_corners[index], leaf.triangles, state.slack, axis, boxes);
+}
+
+template <class Real>
+HWY_NOINLINE const LeafCacheOf<Real>& make_leaf(LazyState& state, std::uint32_t index,
+                                                FrameArena& arena) {
+  static_assert(kLeafTriangles == 2 * kBlockWidth);
+  const TreeLeaf& leaf = state.tree->leaves[index];
+  constexpr std::size_t kLine = 64 / sizeof(Real);  // boxes follow, aligned
+  const std::size_t room = (leaf.vertices + kLeafPadding + kLine - 1) / kLine * kLine;
+  auto* const mapped = static_cast<Real*>(
+      arena.take(3 * room * sizeof(Real) + 3 * sizeof(LaneBoxes) + sizeof(LeafCacheOf<Real>)));
+  Real* axes[3] = {mapped, mapped + room, mapped + 2 * room};
   if (state.from_vertices) {
     copy_vertices(state, leaf, axes);
   } else {
     map_runs(state, leaf, axes);
   }
-  auto* const boxes = reinterpret_cast<LaneBoxes*>(world + 3 * room);
-  LeafCache& cache = *new (boxes + 3) LeafCache;
-  HWY_ALIGN float near[3 * kLeafTriangles + kBlockWidth];
-  for (int k = 0; k < 3; ++k) {
-    to_frame(axes[k], state.origin[k], state.scale, leaf.vertices, near);
-    for (std::uint32_t half = 0; half < 2; ++half)
-      bound_triangles(near, state.tree->leaf_corners[index], half * kBlockWidth, leaf.triangles,
-                      state.slack, boxes[half].lo[k], boxes[half].hi[k]);
-    boxes[2].lo[k][0] = std::min(extreme<true>(boxes[0].lo[k]), extreme<true>(boxes[1].lo[k]));
-    boxes[2].hi[k][0] = std::max(extreme<false>(boxes[0].hi[k]), extreme<false>(boxes[1].hi[k]));
-  }
+  auto* const boxes = reinterpret_cast<LaneBoxes*>(mapped + 3 * room);
+  auto& cache = *new (boxes + 3) LeafCacheOf<Real>;
+  for (int k = 0; k < 3; ++k) bound_axis(state, index, axes[k], k, boxes);
   cache.x = axes[0], cache.y = axes[1], cache.z = axes[2];
   cache.boxes = boxes, cache.whole = boxes + 2;
-  state.leaves.put(index, &cache);
+  leaves_in<Real>(state).put(index, &cache);
   return cache;
+}
+
+template <class Real>
+HWY_INLINE const LeafCacheOf<Real>& map_leaf_in(LazyState& state, std::uint32_t index,
+                                                FrameArena& arena) {
+  if (const LeafCacheOf<Real>* known = leaves_in<Real>(state).find(index)) return *known;
+  return make_leaf<Real>(state, index, arena);
 }
 
 }  // namespace HWY_NAMESPACE

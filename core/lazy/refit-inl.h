@@ -22,14 +22,22 @@ struct FrameBox {
   float lo[3], hi[3];
 };
 
-// The box of a leaf's vertices in the body's frame. (x - origin) * scale is monotone in x, rounding
-// included, so it is applied to the ends alone.
+// Doubles into the body's frame: (x - origin) * scale is monotone in x, rounding included, so it is
+// applied to the ends of boxes alone. Floats are in that frame, and need no slack.
+HWY_INLINE float end_in_frame(const LazyState& state, int axis, double x, float outward) {
+  return static_cast<float>((x - state.origin[axis]) * state.scale) + outward;
+}
+HWY_INLINE float end_in_frame(const LazyState&, int, float x, float) { return x; }
+
+// The box of a leaf's vertices.
+template <class Real>
 HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
   const std::uint32_t* ids = &state.tree->leaf_vertices[leaf.first_vertex];
-  double lo[3], hi[3];
-  for (int k = 0; k < 3; ++k) lo[k] = hi[k] = state.vertices[ids[0]][k];
+  const auto vertices = vertices_in<Real>(state);
+  Real lo[3], hi[3];
+  for (int k = 0; k < 3; ++k) lo[k] = hi[k] = vertices[ids[0]][k];
   for (std::uint32_t i = 1; i < leaf.vertices; ++i) {
-    const double* v = state.vertices[ids[i]].data();
+    const Real* v = vertices[ids[i]].data();
     for (int k = 0; k < 3; ++k) {
       lo[k] = v[k] < lo[k] ? v[k] : lo[k];
       hi[k] = v[k] > hi[k] ? v[k] : hi[k];
@@ -37,8 +45,8 @@ HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
   }
   FrameBox box;
   for (int k = 0; k < 3; ++k) {
-    box.lo[k] = static_cast<float>((lo[k] - state.origin[k]) * state.scale) - state.slack;
-    box.hi[k] = static_cast<float>((hi[k] - state.origin[k]) * state.scale) + state.slack;
+    box.lo[k] = end_in_frame(state, k, lo[k], -state.slack);
+    box.hi[k] = end_in_frame(state, k, hi[k], state.slack);
   }
   return box;
 }
@@ -52,6 +60,7 @@ HWY_INLINE FrameBox box_of_block(const LaneBoxes& lanes) {
   return box;
 }
 
+template <class Real>
 HWY_INLINE void refit(LazyState& state, FrameArena& arena) {
   const LatticeTree& tree = *state.tree;
   for (std::size_t index = tree.blocks.size(); index-- > 0;) {
@@ -63,7 +72,7 @@ HWY_INLINE void refit(LazyState& state, FrameArena& arena) {
       if (c >= block.children) {
         for (int k = 0; k < 3; ++k) box.lo[k] = kInfinity, box.hi[k] = -kInfinity;
       } else if (block.child[c].leaf()) {
-        box = box_of_leaf(state, tree.leaves[block.child[c].index()]);
+        box = box_of_leaf<Real>(state, tree.leaves[block.child[c].index()]);
       } else {
         box = box_of_block(state.blocks.find(block.child[c].index())->box);
       }

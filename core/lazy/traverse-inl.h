@@ -32,8 +32,7 @@ class PairTraversal {
         out_(out),
         slabs_(!bodies.a.from_vertices && !bodies.b.from_vertices),
         to_a_(shift_between(bodies.b, bodies.a)),
-        to_b_(shift_between(bodies.a, bodies.b)),
-        leaf_pairs_(bodies_, to_a_, to_b_, scratch, out) {
+        to_b_(shift_between(bodies.a, bodies.b)) {
     scratch.open.slots.clear();
     scratch.open.leaves.clear();
   }
@@ -168,10 +167,21 @@ class PairTraversal {
     if (in_a != 0 && in_b != 0) cross(a, in_a, b, in_b);
   }
 
-  HWY_INLINE void test_leaf_pairs() {
-    for (const LeafPair& pair : scratch_.open.leaves) leaf_pairs_.test(pair);
+  // Blocks are bounded in floats whatever the precision: it matters here first.
+  HWY_NOINLINE void test_leaf_pairs() {
+    if (bodies_.a.precision == Precision::kSingle) {
+      test_leaf_pairs_in<float>();
+    } else {
+      test_leaf_pairs_in<double>();
+    }
     scratch_.open.leaves.clear();
-    leaf_pairs_.flush();
+  }
+
+  template <class Real>
+  HWY_INLINE void test_leaf_pairs_in() {
+    LeafPairTests<Real> tests(bodies_, to_a_, to_b_, scratch_, out_);
+    for (const LeafPair& pair : scratch_.open.leaves) tests.test(pair);
+    tests.flush();
   }
 
   BodiesToTest bodies_;
@@ -180,7 +190,6 @@ class PairTraversal {
   std::vector<ElementPair>& out_;
   bool slabs_;
   Shift to_a_, to_b_;
-  LeafPairTests leaf_pairs_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "core/types/ordered_dot.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
@@ -13,30 +16,35 @@ namespace contactcheck {
 /// A mapped box has faces that need not be planar. Fixed reading (design, "Detector names"): a
 /// face's plane goes through its centroid, its normal is the cross product of its diagonals,
 /// outward at rest. A face without area has normal zero and excludes nothing.
-struct BoxPlanes {
-  std::array<Vec3, 6> normal;
-  std::array<Vec3, 6> point;
+template <typename T>
+struct BoxPlanesOf {
+  std::array<Vec3Of<T>, 6> normal;
+  std::array<Vec3Of<T>, 6> point;
 };
+using BoxPlanes = BoxPlanesOf<double>;
 
-inline BoxPlanes planes_of_box(const std::array<Vec3, 8>& corners) {
+template <typename T>
+BoxPlanesOf<T> planes_of_box(const std::array<Vec3Of<T>, 8>& corners) {
   // Counter-clockwise seen from outside at rest; corner c is high on axis k when bit k is set.
   constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  BoxPlanes planes;
+  BoxPlanesOf<T> planes;
   for (int f = 0; f < 6; ++f) {
-    const Vec3 &a = corners[kFaces[f][0]], &b = corners[kFaces[f][1]], &c = corners[kFaces[f][2]],
-               &d = corners[kFaces[f][3]];
+    const Vec3Of<T>&a = corners[kFaces[f][0]], &b = corners[kFaces[f][1]],
+          &c = corners[kFaces[f][2]], &d = corners[kFaces[f][3]];
     planes.normal[f] = (c - a).cross(d - b);
-    planes.point[f] = 0.25 * ((a + b) + (c + d));
+    planes.point[f] = T(0.25) * ((a + b) + (c + d));
   }
   return planes;
 }
 
-/// Closed: a node on a plane counts as inside. An approximation by nature, in plain double; what
-/// it misses and invents is what the suite measures.
-inline bool node_inside(const BoxPlanes& planes, const Vec3& node) {
+/// Closed: a node on a plane counts as inside. An approximation by nature, in plain arithmetic of
+/// its precision; what it misses and invents is what the suite measures.
+template <typename T>
+bool node_inside(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of<T>>& node) {
   for (int f = 0; f < 6; ++f) {
-    if (planes.normal[f].dot(node - planes.point[f]) > 0.0) return false;
+    const Vec3Of<T> arm = node - planes.point[f];
+    if (ordered_dot<T>(planes.normal[f], arm) > 0) return false;
   }
   return true;
 }
@@ -51,17 +59,19 @@ struct NodeDepth {
 /// onto the nearest one. Exact for parallelepipeds up to rounding; for other boxes it inherits what
 /// their planes are, approximations. No verdict hangs on it.
 /// @pre node_inside(planes, node)
-inline NodeDepth node_depth(const BoxPlanes& planes, const Vec3& node) {
+template <typename T>
+NodeDepth node_depth(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of<T>>& node) {
   NodeDepth nearest;
   for (int f = 0; f < 6; ++f) {
-    const double largest = planes.normal[f].cwiseAbs().maxCoeff();
-    if (!(largest > 0.0) || largest > std::numeric_limits<double>::max()) continue;
+    const T largest = planes.normal[f].cwiseAbs().maxCoeff();
+    if (!(largest > 0) || largest > std::numeric_limits<T>::max()) continue;
     // Scaled first: squares of a small face's normal underflow.
-    const Vec3 scaled = planes.normal[f] / largest;
-    const Vec3 unit = scaled / scaled.norm();
-    const double depth = std::max(0.0, unit.dot(planes.point[f] - node));
+    const Vec3Of<T> scaled = planes.normal[f] / largest;
+    const Vec3Of<T> unit = scaled / std::sqrt(ordered_dot<T>(scaled, scaled));
+    const Vec3Of<T> arm = planes.point[f] - node;
+    const double depth = std::max<T>(0, ordered_dot<T>(unit, arm));
     if (!nearest.outward.isZero(0.0) && depth >= nearest.depth) continue;
-    nearest = {depth, unit};
+    nearest = {depth, unit.template cast<double>()};
   }
   return nearest;
 }

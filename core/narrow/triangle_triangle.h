@@ -7,12 +7,23 @@
 
 namespace contactcheck {
 
-using TrianglePoints = std::array<Vec3, 3>;
+template <typename T>
+using TrianglePointsOf = std::array<Vec3Of<T>, 3>;
+using TrianglePoints = TrianglePointsOf<double>;
 
 /// True when the closed triangles share a point: touching counts, and a degenerate triangle is the
 /// segment or the point that it is. Exact for all finite doubles (including denormal and huge
 /// ones): a filter with a proven error bound answers first, else exact arithmetic does.
 /// @pre all coordinates finite
 bool triangles_intersect(const TrianglePoints& p, const TrianglePoints& q);
+
+/// The same of floats, as exact: floats are doubles.
+inline bool triangles_intersect(const TrianglePointsOf<float>& p,
+                                const TrianglePointsOf<float>& q) {
+  const auto doubles = [](const TrianglePointsOf<float>& t) -> TrianglePoints {
+    return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
+  };
+  return triangles_intersect(doubles(p), doubles(q));
+}
 
 }  // namespace contactcheck

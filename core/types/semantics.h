@@ -38,6 +38,11 @@ struct Semantics {
   double margin = 0.0;              ///< metres; near = closer than this, strictly; 0 without one
   Precision precision = Precision::kDouble;
   double scale = 1.0;  ///< with single precision it is fed fed_value(x, scale) and not x
+  /// Only with single precision, and then at scale 1: in every frame it subtracts local_origin() in
+  /// double before it rounds: it works on local_value(x, origin[axis]) (local_origin.h). One that
+  /// needs vertices is fed these values and judged by their truth as well. One that does not rounds
+  /// the nodes and maps vertices of its own, which nobody else knows: by the truth of x alone.
+  bool local_origin = false;
   DepthKind depth = DepthKind::kNone;
   bool whole_cells = false;  ///< of one that answers with cells: it tests these, not FFD-AABBs
   std::string means;         ///< what it calls contact, where that is not contact of the surfaces

@@ -6,34 +6,40 @@
 
 namespace contactcheck {
 
-/// A point or vector; metres, IEEE double.
-using Vec3 = Eigen::Vector3d;
+/// A point or vector; metres. T: double, or float about a local origin (local_origin.h).
+template <typename T>
+using Vec3Of = Eigen::Matrix<T, 3, 1>;
+using Vec3 = Vec3Of<double>;
+using Vec3f = Vec3Of<float>;
 
 /// Closed axis-aligned box; empty while lo > hi.
-struct Aabb {
-  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 hi = Vec3::Constant(-std::numeric_limits<double>::infinity());
+template <typename T>
+struct AabbOf {
+  using Point = Vec3Of<T>;
+  Point lo = Point::Constant(std::numeric_limits<T>::infinity());
+  Point hi = Point::Constant(-std::numeric_limits<T>::infinity());
 
-  void extend(const Vec3& p) {
+  void extend(const Point& p) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
-  void extend(const Aabb& other) {
+  void extend(const AabbOf& other) {
     lo = lo.cwiseMin(other.lo);
     hi = hi.cwiseMax(other.hi);
   }
   /// Closed: boxes that share only a boundary point overlap.
-  bool overlaps(const Aabb& other) const {
+  bool overlaps(const AabbOf& other) const {
     return lo.x() <= other.hi.x() && other.lo.x() <= hi.x() && lo.y() <= other.hi.y() &&
            other.lo.y() <= hi.y() && lo.z() <= other.hi.z() && other.lo.z() <= hi.z();
   }
-  bool contains(const Vec3& p) const {
+  bool contains(const Point& p) const {
     return (lo.array() <= p.array()).all() && (p.array() <= hi.array()).all();
   }
-  bool contains(const Aabb& other) const { return contains(other.lo) && contains(other.hi); }
+  bool contains(const AabbOf& other) const { return contains(other.lo) && contains(other.hi); }
   bool empty() const { return !(lo.array() <= hi.array()).all(); }
-  Vec3 center() const { return 0.5 * lo + 0.5 * hi; }
-  Vec3 extent() const { return hi - lo; }
+  Point center() const { return T(0.5) * lo + T(0.5) * hi; }
+  Point extent() const { return hi - lo; }
 };
+using Aabb = AabbOf<double>;
 
 }  // namespace contactcheck

@@ -24,7 +24,17 @@ void add_list(CommandLine& line) {
   list->add_flag("--families", arguments->families, "families of hard cases only");
   list->add_flag("--detectors", arguments->detectors,
                  "detectors only, with what each claims and its options");
-  list->footer("Examples:\n  contactcheck list\n  contactcheck list --detectors");
+  list->add_option("--detector", arguments->named,
+                   "this detector only, repeatable: a name, or with '/' or .so in it a shared "
+                   "library of your own, which is loaded in a process of its own and asked")
+      ->allow_extra_args(false);
+  add_commands(*list, arguments->commands);
+  list->footer(
+      "Examples:\n"
+      "  contactcheck list\n"
+      "  contactcheck list --detectors\n"
+      "  contactcheck list --detector ./libmine.so\n"
+      "  contactcheck list --detector-cmd \"python3 mine.py\"");
   choose(*list, line, [arguments, &line] { return list_command(*arguments, line.catalog); });
 }
 

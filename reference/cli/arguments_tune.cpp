@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/scene/simulation_spec.h"
 
 namespace contactcheck {
 namespace {
@@ -29,8 +30,8 @@ void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
       ->type_name("N");
   tune.add_option(
           "--max-deviation", arguments.max_deviation,
-          "with --lattice: how far a vertex may be from where the scene's own lattice takes "
-          "it, in metres (default: any distance)")
+          "with --lattice or --deformer: how far a vertex may be from where the scene's own model "
+          "takes it, in metres (default: any distance)")
       ->check(number_in(0.0, 1e9, "0 on"))
       ->type_name("METRES");
   tune.add_option("--budget-ms", arguments.budget_ms,
@@ -58,6 +59,13 @@ void add_space(CLI::App& tune, TuneArguments& arguments) {
       ->check(number_in(0.01, 100.0, "0.01 to 100"))
       ->type_name("FACTOR")
       ->allow_extra_args(false);
+  std::vector<std::string> deformers = model_names();
+  deformers.push_back("all");
+  tune.add_option("--deformer", arguments.deformers,
+                  "of a simulated scene: try it with bodies deformed by this model too, "
+                  "repeatable; every cost is then that of a step, its simulation included")
+      ->check(CLI::IsMember(deformers))
+      ->allow_extra_args(false);
 }
 
 }  // namespace
@@ -71,8 +79,8 @@ void add_tune(CommandLine& line) {
   add_space(*tune, *arguments);
   tune->add_option(
           "--frames", arguments->frames,
-          "frames to choose by (default: the scene's, at most 30); the choice is confirmed "
-          "on others")
+          "frames to choose by (default: the scene's, at most 30; of a simulated scene half of "
+          "its own); the choice is confirmed on others")
       ->check(CLI::Range(4, 100000));
   tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
       ->check(CLI::Range(1, 1000));
@@ -90,6 +98,7 @@ void add_tune(CommandLine& line) {
       "  contactcheck tune bunny-touch --max-missed 0 --max-hover 0.005\n"
       "  contactcheck tune mine.json --detector ffd-aabb-sphere2 --lattice 0.5 --max-deviation "
       "0.01\n"
+      "  contactcheck tune paper-rabbit --deformer all --question triangles\n"
       "  contactcheck tune out/recordings/paper-rabbit.ccr --question triangles --budget-ms 2");
   choose(*tune, line, [arguments, &line] {
     arguments->command_line = line.words;

@@ -46,6 +46,8 @@ struct ExportArguments {
 /// What to list; nothing chosen: everything, with one line each.
 struct ListArguments {
   bool suites = false, scenes = false, families = false, detectors = false;
+  std::vector<std::string> named;     ///< detectors alone, by name or library
+  std::vector<std::string> commands;  ///< and these, that are talked to over pipes
 };
 
 struct ReduceArguments {
@@ -82,6 +84,7 @@ struct TuneArguments {
   std::vector<std::string> detectors;  ///< names or libraries; empty: all that answer
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
   std::vector<double> lattices;        ///< beside the scene's own
+  std::vector<std::string> deformers;  ///< of a simulated scene; "all" among them: all
   std::optional<std::uint64_t> max_missed, max_spurious;
   std::optional<double> max_hover, max_deviation;  ///< metres
   std::optional<long> max_late;                    ///< frames

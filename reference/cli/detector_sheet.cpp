@@ -26,9 +26,10 @@ class Sheet {
  public:
   explicit Sheet(std::size_t width) : width_(width) {}
 
-  void title(const DetectorInfo& info) {
-    text_ +=
-        info.id + "\n" + std::string(kIndent, ' ') + wrapped_text(info.summary, kIndent, width_);
+  void title(const std::string& id, const std::string& summary) {
+    text_ += id + "\n";
+    if (!summary.empty())
+      text_ += std::string(kIndent, ' ') + wrapped_text(summary, kIndent, width_);
   }
   void line(std::string label, const std::string& value) {
     if (value.empty()) return;
@@ -58,6 +59,7 @@ std::string contact_text(const Semantics& s) {
 
 std::string numbers_text(const Semantics& s) {
   std::string text = std::string(name_of(s.precision)) + " precision";
+  if (s.local_origin) text += " about a local origin";
   if (s.scale != 1.0) text += ", fed at scale " + number_text(s.scale);
   return text;
 }
@@ -81,11 +83,25 @@ std::string allowed_text(const OptionInfo& o) {
   return number_text(o.min) + " to " + number_text(o.max) + (o.integer ? ", whole" : "");
 }
 
+void add_options(const std::vector<OptionInfo>& options, Sheet& sheet) {
+  const char* label = "options";
+  for (const OptionInfo& o : options) {
+    sheet.line(label, o.name + "=" + o.default_value + " (" + allowed_text(o) + "): " + o.help);
+    label = "";
+  }
+}
+
+std::string needs_text(const Declaration& d) {
+  if (d.needs_vertices && d.needs_nodes) return "deformed vertices and lattice nodes";
+  if (d.needs_vertices) return "deformed vertices";
+  return d.needs_nodes ? "lattice nodes" : "";
+}
+
 }  // namespace
 
 std::string detector_sheet(const DetectorInfo& info, std::size_t width) {
   Sheet sheet(width);
-  sheet.title(info);
+  sheet.title(info.id, info.summary);
   if (info.absent_because.empty()) {
     Options defaults;
     for (const OptionInfo& o : info.options) defaults[o.name] = o.default_value;
@@ -93,11 +109,19 @@ std::string detector_sheet(const DetectorInfo& info, std::size_t width) {
   } else {
     sheet.line("absent", info.absent_because);
   }
-  const char* label = "options";
-  for (const OptionInfo& o : info.options) {
-    sheet.line(label, o.name + "=" + o.default_value + " (" + allowed_text(o) + "): " + o.help);
-    label = "";
-  }
+  add_options(info.options, sheet);
+  return sheet.text();
+}
+
+std::string plugin_sheet(const Plugin& plugin, std::size_t width) {
+  const Declaration& declaration = plugin.declaration;
+  Sheet sheet(width);
+  sheet.title(declaration.id, declaration.summary);
+  sheet.line("from", described(plugin.source));
+  sheet.line("version", declaration.version);
+  add_semantics(declaration.semantics, sheet);
+  sheet.line("given", needs_text(declaration));
+  add_options(declaration.options, sheet);
   return sheet.text();
 }
 

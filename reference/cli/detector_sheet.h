@@ -5,11 +5,16 @@
 #include <string>
 
 #include "core/detect/registry.h"
+#include "reference/plugin/plugin.h"
 
 namespace contactcheck {
 
 /// Lines of at most `width` characters (longer only where one word is): summary, declared semantics
 /// with the options at their defaults, and the options with what is allowed.
 std::string detector_sheet(const DetectorInfo& info, std::size_t width);
+
+/// The same of a detector from outside, with where it comes from, its version and what it is given,
+/// as it declared them: nothing of it is loaded or started.
+std::string plugin_sheet(const Plugin& plugin, std::size_t width);
 
 }  // namespace contactcheck

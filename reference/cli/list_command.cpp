@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "core/detect/registry.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/detector_sheet.h"
+#include "reference/cli/own_detectors.h"
 #include "reference/cli/wrapped_text.h"
 #include "reference/scene/catalogue.h"
 
@@ -44,12 +47,36 @@ void print_lines(const DetectorCatalog& catalog) {
   }
 }
 
-void print_sheets(const DetectorCatalog& catalog) {
-  std::printf("Detectors (ID[:option=value,...]; everything as with the default options)\n");
+std::size_t sheet_width() {
   const std::size_t terminal = terminal_width();
-  const std::size_t width = terminal > 0 ? std::min(terminal, kWidth) : kWidth;
+  return terminal > 0 ? std::min(terminal, kWidth) : kWidth;
+}
+
+void print_sheets_title() {
+  std::printf("Detectors (ID[:option=value,...]; everything as with the default options)\n");
+}
+
+void print_sheets(const DetectorCatalog& catalog) {
+  print_sheets_title();
   for (const DetectorInfo& info : catalog.all())
-    std::printf("\n%s", detector_sheet(info, width).c_str());
+    std::printf("\n%s", detector_sheet(info, sheet_width()).c_str());
+}
+
+// One from outside stands in the catalogue too, but what that holds would load or start it here.
+std::string sheet_of(const std::string& id, const OwnDetectors& own) {
+  for (const Plugin& plugin : own.plugins)
+    if (plugin.declaration.id == id) return plugin_sheet(plugin, sheet_width());
+  return detector_sheet(*own.catalog.find(id), sheet_width());
+}
+
+// Everything is looked up before anything is printed.
+void print_named(const ListArguments& arguments, const DetectorCatalog& catalog) {
+  const OwnDetectors own = bring_in(arguments.named, arguments.commands, RunSettings{}, catalog);
+  std::vector<std::string> sheets;
+  for (const std::string& name : own.names)
+    sheets.push_back(sheet_of(own.catalog.parse(name).id, own));
+  print_sheets_title();
+  for (const std::string& sheet : sheets) std::printf("\n%s", sheet.c_str());
 }
 
 // Blank lines between sections, none before the first.
@@ -68,8 +95,9 @@ class Sections {
 
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog) {
   const auto fixtures = fixtures_directory();
-  const bool all =
-      !arguments.suites && !arguments.scenes && !arguments.families && !arguments.detectors;
+  const bool named = !arguments.named.empty() || !arguments.commands.empty();
+  const bool all = !arguments.suites && !arguments.scenes && !arguments.families &&
+                   !arguments.detectors && !named;
   Sections sections;
   if (all || arguments.suites) {
     sections.next();
@@ -86,6 +114,10 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   if (all || arguments.detectors) {
     sections.next();
     all ? print_lines(catalog) : print_sheets(catalog);
+  }
+  if (named) {
+    sections.next();
+    print_named(arguments, catalog);
   }
   return 0;
 }

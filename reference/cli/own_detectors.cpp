@@ -11,6 +11,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Where a library's file ends and its options begin: at a ':', and paths may hold some. The longest
+// beginning that is a file is meant; without any, the shortest.
+std::size_t end_of_file_name(const std::string& text) {
+  for (std::size_t end = text.size(); end != std::string::npos && end > 0;
+       end = text.rfind(':', end - 1)) {
+    std::error_code ignored;
+    if (fs::is_regular_file(text.substr(0, end), ignored)) return end;
+  }
+  return std::min(text.find(':'), text.size());
+}
+
 class BringIn {
  public:
   BringIn(const RunSettings& settings, const DetectorCatalog& catalog) : settings_(settings) {
@@ -32,10 +43,9 @@ class BringIn {
 
  private:
   std::string name_in_library(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const fs::path file = fs::absolute(text.substr(0, colon)).lexically_normal();
-    const std::string id = id_of({PluginKind::kLibrary, file.string()});
-    return colon == std::string::npos ? id : id + text.substr(colon);
+    const std::size_t end = end_of_file_name(text);
+    const fs::path file = fs::absolute(text.substr(0, end)).lexically_normal();
+    return id_of({PluginKind::kLibrary, file.string()}) + text.substr(end);
   }
 
   std::string id_of(const PluginSource& source) {

@@ -18,15 +18,17 @@
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
 #include "reference/run/worker.h"
+#include "reference/scene/shell_word.h"
 
 namespace contactcheck {
 namespace {
 
 constexpr int kBadUsage = 2;
 
+// For the record, to be run again.
 std::string join_command_line(int argc, char** argv) {
   std::string text = "contactcheck";
-  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) text += " " + in_shell(argv[i]);
   return text;
 }
 

@@ -10,12 +10,11 @@
 #include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
+#include "reference/reduce/defect_search.h"
 #include "reference/reduce/minimal_case.h"
 #include "reference/reduce/printed_test.h"
-#include "reference/reduce/probe.h"
 #include "reference/reduce/reduction.h"
 #include "reference/reduce/simple_number.h"
-#include "reference/reduce/task.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/scene.h"
@@ -26,40 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kProgressEvery = 20;  // candidates
-
-/// What is reduced: a frame of two bodies in which the detector was seen to err.
-struct Defect {
-  ReductionTask task;
-  Finding finding;
-};
-
-// A disagreement is judged at its own level (an error has none); bodies are judged beside it, as in
-// any scene.
-std::vector<Level> levels_for(const std::string& level_name) {
-  std::vector<Level> levels = {Level::kBody};
-  const Level level = level_from_name(level_name).value_or(Level::kTriangle);
-  if (level != Level::kBody) levels.push_back(level);
-  return levels;
-}
-
-// Where it is not known yet what is wrong.
-std::vector<Level> levels_for(const ReductionTask& task) {
-  if (!task.level.empty()) return levels_for(task.level);
-  return {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle, Level::kNear};
-}
-
-// Parts of a solid are no solids, and only these have an inside.
-void require_reducible(const std::string& level) {
-  for (const Level solid : {Level::kVertex, Level::kContainment})
-    if (level == name_of(solid))
-      throw InputError("a disagreement at level " + level +
-                       " cannot be reduced: inside is defined for closed surfaces, and a part of "
-                       "one is open");
-}
-
-Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
-  return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
-}
 
 // Of the command line: a case file that named a program to be started would be no mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
@@ -85,7 +50,7 @@ class ReduceCommand {
     check_words();
     const std::vector<ReductionTask> tasks = read_tasks();
     make_probe(tasks.front());
-    const Defect defect = find_defect(tasks);
+    const Defect defect = DefectSearch(*probe_, detector_, is_case_).find(tasks);
     const Candidate whole = candidate_of(defect.task.snapshot);
     const std::optional<Reduction> reduction = reduce_defect(defect, whole);
     if (!reduction) refuse_own_lattice(defect);
@@ -145,80 +110,6 @@ class ReduceCommand {
     settings.call_limit = arguments_.call_limit;
     settings.memory_limit = arguments_.memory_limit_mib << 20;
     probe_.emplace(settings);
-  }
-
-  // The first frame in which the detector errs as it is looked for.
-  Defect find_defect(const std::vector<ReductionTask>& tasks) {
-    for (const ReductionTask& task : tasks) {
-      if (task.snapshot.bodies.size() < 2) continue;
-      const Verdict verdict = probe_->ask(task.snapshot, levels_for(task));
-      const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind);
-      if (finding) return defect_of(task, verdict, *finding);
-      last_ = verdict;
-    }
-    refuse_without_finding(tasks);
-  }
-
-  Defect defect_of(const ReductionTask& task, const Verdict& verdict, const Finding& finding) {
-    require_reducible(finding.level);
-    Defect defect{task, finding};
-    if (is_case_) return with_position(std::move(defect));
-    if (finding.kind == "error") {
-      defect.task.snapshot = bodies_of_error(task, finding);
-      return defect;
-    }
-    const ElementPair& pair = disagreement_of(verdict, finding).pair;
-    const auto [a, b] = std::minmax(pair.body_a, pair.body_b);
-    defect.task.snapshot = two_of(task.snapshot, a, b);
-    defect.task.pair = triangles_of(disagreement_of(verdict, finding), task.snapshot);
-    defect.task.cells = cells_of(disagreement_of(verdict, finding));
-    return with_two_bodies(with_position(std::move(defect)));
-  }
-
-  static Defect with_position(Defect defect) {
-    if (names_triangles(defect.finding) && defect.task.pair)
-      defect.finding.general =
-          in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
-    return defect;
-  }
-
-  Snapshot bodies_of_error(const ReductionTask& task, const Finding& finding) {
-    const std::size_t count = task.snapshot.bodies.size();
-    for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = a + 1; b < count; ++b) {
-        const Snapshot two = two_of(task.snapshot, a, b);
-        if (shows(probe_->ask(two, levels_for(finding.level)), finding)) return two;
-      }
-    throw InputError(where(task) + ", " + detector_ + ": " + described(finding) +
-                     " needs more than two of its bodies, and a minimal case has two");
-  }
-
-  // Of more than two bodies the others may have had a part in it.
-  Defect with_two_bodies(const Defect& defect) {
-    if (!shows(probe_->ask(defect.task.snapshot, levels_for(defect.finding.level)), defect.finding))
-      throw InputError(where(defect.task) + ", " + detector_ + ": " + described(defect.finding) +
-                       " needs more than two of its bodies, and a minimal case has two");
-    return defect;
-  }
-
-  static std::string where(const ReductionTask& task) { return task.scene + ", " + task.place; }
-
-  [[noreturn]] void refuse_without_finding(const std::vector<ReductionTask>& tasks) const {
-    const ReductionTask& task = tasks.front();
-    const std::string place = tasks.size() == 1 ? where(task) : task.scene + ", every frame";
-    const std::string wanted = (task.kind.empty() ? "wrong" : task.kind) +
-                               (task.level.empty() ? "" : " at level " + task.level);
-    if (last_.status != RunStatus::kOk)
-      throw InputError(place + ": nothing is " + wanted + ": the answer of " + detector_ +
-                       " is \"" + name_of(last_.status) + "\": " + last_.message);
-    throw InputError(place + ": nothing is " + wanted + (is_case_ ? " any more" : "") +
-                     " in the answer of " + detector_ + why_not_judged(task.level));
-  }
-
-  std::string why_not_judged(const std::string& level) const {
-    for (const auto& [judged, why] : last_.not_judged)
-      if (level == name_of(judged)) return ": " + why;
-    return "";
   }
 
   std::optional<Reduction> reduce_defect(const Defect& defect, const Candidate& whole) {
@@ -338,7 +229,6 @@ class ReduceCommand {
   bool is_case_ = false;
   std::string detector_;
   std::optional<Probe> probe_;
-  Verdict last_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/scene/catalogue.h"
+#include "reference/scene/simulation_spec.h"
 #include "reference/tune/tune_text.h"
 
 namespace contactcheck {
@@ -48,6 +49,16 @@ RunSettings settings_of(const TuneArguments& arguments) {
   return settings;
 }
 
+std::vector<std::string> deformers_of(const TuneArguments& arguments) {
+  std::vector<std::string> deformers;
+  for (const std::string& name : arguments.deformers) {
+    if (name == "all") return model_names();
+    if (std::find(deformers.begin(), deformers.end(), name) == deformers.end())
+      deformers.push_back(name);
+  }
+  return deformers;
+}
+
 TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& own) {
   TuningRequest request;
   request.target = arguments.target;
@@ -58,6 +69,7 @@ TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& o
   for (const double lattice : arguments.lattices)
     if (std::find(lattices.begin(), lattices.end(), lattice) == lattices.end())
       lattices.push_back(lattice);
+  request.deformers = deformers_of(arguments);
   for (const Plugin& plugin : own.plugins)
     (plugin.source.kind == PluginKind::kLibrary ? request.libraries
                                                 : request.commands)[plugin.declaration.id] =
@@ -80,7 +92,8 @@ TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& o
 void show(const TuningProgress& progress) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const std::string what =
-      progress.confirming
+      !progress.simulating.empty() ? "simulating with " + progress.simulating
+      : progress.confirming
           ? "confirming on held-out frames"
           : std::to_string(progress.measured) + " of " + std::to_string(progress.candidates) +
                 " configurations measured" +

@@ -29,17 +29,19 @@ Json names_json(const std::vector<Level>& levels) {
 Json to_json(const Semantics& s) {
   Json questions = Json::array();
   for (Question question : s.questions) questions.push_back(name_of(question));
-  return {{"levels", names_json(s.levels)},
-          {"informative", names_json(s.informative)},
-          {"questions", questions},
-          {"body", s.solid ? "solid" : "surface"},
-          {"touching", s.closed ? "closed" : "open"},
-          {"exact", s.exact},
-          {"margin", s.margin},
-          {"precision", name_of(s.precision)},
-          {"scale", s.scale},
-          {"depth_kind", name_of(s.depth)},
-          {"means", s.means}};
+  Json out = {{"levels", names_json(s.levels)},
+              {"informative", names_json(s.informative)},
+              {"questions", questions},
+              {"body", s.solid ? "solid" : "surface"},
+              {"touching", s.closed ? "closed" : "open"},
+              {"exact", s.exact},
+              {"margin", s.margin},
+              {"precision", name_of(s.precision)},
+              {"scale", s.scale},
+              {"depth_kind", name_of(s.depth)},
+              {"means", s.means}};
+  if (s.local_origin) out["local_origin"] = true;
+  return out;
 }
 
 Json to_json(const PhaseTimes& t) {

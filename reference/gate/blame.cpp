@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/gate/reading.h"
+#include "reference/scene/shell_word.h"
 
 namespace contactcheck {
 namespace {
@@ -69,19 +70,6 @@ std::optional<std::size_t> frame_to_blame(const Rule& rule, const Json& results,
   if (level.empty() || level == per_frame.value("level", ""))
     return counted_frame(per_frame, kind_of(rule));
   return disagreed_frame(results, row, level, kind_of(rule));
-}
-
-bool is_plain(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) ||
-         std::string("_@%+=:,./-").find(c) != std::string::npos;
-}
-
-// As a shell takes it for one word.
-std::string in_shell(const std::string& word) {
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 Words words_of(const Json& results) {

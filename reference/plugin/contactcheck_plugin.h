@@ -27,8 +27,10 @@
 extern "C" {
 #endif
 
-/* Grows with every change of this header; a library of another version is refused. */
-#define CONTACTCHECK_PLUGIN_ABI 1u
+/* Grows with every change of this header. What an earlier version has stays where it is, and the
+ * table grows at its end: a library that was built with version 1, without what is said to be there
+ * since version 2, is loaded as before; one of a later version is refused. */
+#define CONTACTCHECK_PLUGIN_ABI 2u
 
 /* What a function gives back. With anything but OK it should have put a sentence (UTF-8, ended by
  * a zero byte) into `message`, which has room for CONTACTCHECK_MESSAGE_SIZE bytes. */
@@ -188,10 +190,51 @@ typedef struct contactcheck_answer {
   void (*vertex_contacts)(void* host, const contactcheck_vertex_contact* items, size_t count);
 } contactcheck_answer;
 
+/* ---- what a detector tells of its work (since version 2) --------------------------------- */
+
+/* What a stage still covers. The host finds out which true pairs of triangles a stage lost: those
+ * that everything before it covers and it does not. */
+enum {
+  CONTACTCHECK_COVERS_BODIES = 0,      /* all pairs of triangles of these pairs of bodies */
+  CONTACTCHECK_COVERS_LABEL_CELLS = 1, /* those that met these pairs of cells at rest (labels) */
+  CONTACTCHECK_COVERS_OWNER_CELLS = 2, /* those whose owner cells are these pairs; see owners() */
+  CONTACTCHECK_COVERS_TRIANGLES = 3    /* these pairs of triangles */
+};
+
+/* A stage of the last updated frame: "sphere tree", "boxes", "triangles". */
+typedef struct contactcheck_stage {
+  const char* name;         /* one line, 64 bytes at most */
+  const char* unit;         /* what `in` and `out` count: "node pairs"; likewise */
+  uint64_t in, out;         /* how many came in and how many are left */
+  uint64_t visited;         /* how many it looked at on the way, where it counts them */
+  const char* visited_unit; /* what it looked at; NULL: not counted */
+  uint32_t covers;          /* CONTACTCHECK_COVERS_... */
+  uint32_t reserved;
+  uint64_t count;                         /* of the list below */
+  const contactcheck_body_pair* bodies;   /* with COVERS_BODIES */
+  const contactcheck_element_pair* pairs; /* with the others */
+} contactcheck_stage;
+
+/* Where trace() puts its stages: stage() once for each, in the order in which they work, the same
+ * stages in every frame. owners() before or after, for each body, where a stage covers owner cells:
+ * the one cell that each triangle belongs to. Lists are copied. */
+typedef struct contactcheck_trace {
+  void* host;
+  void (*stage)(void* host, const contactcheck_stage* stage);
+  void (*owners)(void* host, uint32_t body, const uint32_t* cell_of_triangle, size_t count);
+} contactcheck_trace;
+
+/* Where counts() puts its numbers: add() once for each name (letters, digits, '-', '_', '.', 64 at
+ * most: "leaves_mapped"), the same names in every frame. */
+typedef struct contactcheck_counts {
+  void* host;
+  void (*add)(void* host, const char* name, uint64_t value);
+} contactcheck_counts;
+
 /* ---- the table --------------------------------------------------------------------------- */
 
-/* Sizes of all structures above and of the table, in this order; CONTACTCHECK_STRUCT_SIZES fills
- * them in, and the host refuses a library whose compiler laid them out otherwise. */
+/* Sizes of all structures of version 1 and of the table, in this order; CONTACTCHECK_STRUCT_SIZES
+ * fills them in, and the host refuses a library whose compiler laid them out otherwise. */
 #define CONTACTCHECK_STRUCT_COUNT 15
 #define CONTACTCHECK_STRUCT_SIZES                                                                \
   {                                                                                              \
@@ -203,6 +246,14 @@ typedef struct contactcheck_answer {
         (uint32_t)sizeof(contactcheck_vertex_in_body), (uint32_t)sizeof(contactcheck_near_pair), \
         (uint32_t)sizeof(contactcheck_piece_contact),                                            \
         (uint32_t)sizeof(contactcheck_vertex_contact), (uint32_t)sizeof(contactcheck_answer)     \
+  }
+
+/* The same of the structures since version 2, for a library that has trace() or counts(). */
+#define CONTACTCHECK_TOLD_COUNT 3
+#define CONTACTCHECK_TOLD_SIZES                                                 \
+  {                                                                             \
+    (uint32_t)sizeof(contactcheck_stage), (uint32_t)sizeof(contactcheck_trace), \
+        (uint32_t)sizeof(contactcheck_counts)                                   \
   }
 
 typedef struct contactcheck_plugin {
@@ -230,6 +281,17 @@ typedef struct contactcheck_plugin {
   /* Answers a question that was declared, about the frame of the last update. */
   int32_t (*query)(void* detector, uint32_t question, const contactcheck_answer* answer,
                    char* message);
+
+  /* Since version 2. All are optional (NULL), and none is timed. */
+  uint32_t told_sizes[CONTACTCHECK_TOLD_COUNT]; /* CONTACTCHECK_TOLD_SIZES; with trace or counts */
+  uint32_t reserved_2;
+  /* The stages of the frame of the last update, after its queries. */
+  int32_t (*trace)(void* detector, const contactcheck_trace* trace, char* message);
+  /* What the last update and the query after it took, in units of its own. */
+  int32_t (*counts)(void* detector, const contactcheck_counts* counts, char* message);
+  /* Its own clock: how many milliseconds (up to 1e9) the last update() or query() took; below 0: it
+   * has not measured that one. Shown beside the host's times; speed-ups are made of the host's. */
+  double (*own_ms)(void* detector);
 } contactcheck_plugin;
 
 #if defined(_WIN32)

@@ -1,9 +1,11 @@
 #include <array>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "core/types/check.h"
+#include "reference/plugin/library_told.h"
 #include "reference/plugin/library_views.h"
 #include "reference/plugin/plugin_library.h"
 
@@ -26,6 +28,8 @@ class LibraryDetector : public Detector {
     bodies_.clear();
     for (const auto& view : views_) bodies_.push_back(view->body());
     states_.resize(bodies.size());
+    stages_ = {};
+    counts_ = {};
     check(table().prepare(detector_.get(), bodies_.data(), count(bodies_), message_.data()),
           "prepare");
     declare();
@@ -43,6 +47,25 @@ class LibraryDetector : public Detector {
   void query(Question question, ContactSet& out) override {
     const contactcheck_answer answer = answer_into(out);
     check(table().query(detector_.get(), number_of(question), &answer, message_.data()), "query");
+  }
+
+  StageTrace trace() override {
+    if (table().trace == nullptr) return {};
+    const contactcheck_trace sink = stages_.sink();
+    check(table().trace(detector_.get(), &sink, message_.data()), "trace");
+    return stages_.checked(bodies_);
+  }
+
+  std::vector<Count> counts() override {
+    if (table().counts == nullptr) return {};
+    const contactcheck_counts sink = counts_.sink();
+    check(table().counts(detector_.get(), &sink, message_.data()), "counts");
+    return counts_.checked();
+  }
+
+  std::optional<double> reported_ns() const override {
+    if (table().own_ms == nullptr) return std::nullopt;
+    return told_ns(table().own_ms(detector_.get()));
   }
 
  private:
@@ -98,6 +121,8 @@ class LibraryDetector : public Detector {
   std::vector<std::unique_ptr<BodyView>> views_;  ///< what bodies_ point into
   std::vector<contactcheck_body> bodies_;
   std::vector<contactcheck_body_state> states_;
+  ToldStages stages_;
+  ToldCounts counts_;
   // Last, so that it goes first: destroy() may still read the bodies. A null detector has nothing
   // to destroy.
   std::unique_ptr<void, Destroy> detector_{nullptr, Destroy{nullptr}};

@@ -7,11 +7,14 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/run/printable.h"
 
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLongestShownLine = 80;  // bytes
 
 // All numbers of the protocol are little-endian, and arrays are sent as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
@@ -48,6 +51,21 @@ void append_lattice(const BodyShape& shape, std::string& out) {
   append(shape.embedding.label_cells, out);
 }
 
+// What a command prints for people lands among its messages: then that is what has to be said.
+[[noreturn]] void refuse_words(const std::string& line, const std::string& from,
+                               const char* message) {
+  throw InputError(from + " wrote \"" + printable_line(line, kLongestShownLine) +
+                   "\" where its message \"" + message +
+                   "\" was due; standard output is for messages alone, what it prints for people "
+                   "belongs on standard error");
+}
+
+JsonValue parsed(const std::string& line, const std::string& from, const char* message) {
+  const std::size_t begin = line.find_first_not_of(" \t");
+  if (begin == std::string::npos || line[begin] != '{') refuse_words(line, from, message);
+  return parse_json(line, from);
+}
+
 }  // namespace
 
 std::string hello_message() { return message({{"message", "hello"}, {"protocol", kPipeProtocol}}); }
@@ -82,7 +100,7 @@ std::string query_message(Question question) {
 }
 
 Reply::Reply(const std::string& line, std::string from, const char* message)
-    : from_(std::move(from)), value_(parse_json(line, from_)) {
+    : from_(std::move(from)), value_(parsed(line, from_, message)) {
   require_message(message);
 }
 

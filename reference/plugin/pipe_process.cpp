@@ -108,8 +108,15 @@ std::string for_shell(const std::string& command) {
   return simple ? "exec " + command : command;
 }
 
+// Of Python: the last line `File "mine.py", line 7, in update`.
+std::string traceback_place(const std::string& text) {
+  const std::size_t found = text.rfind("\n  File \"");
+  return found == std::string::npos ? "" : printable_line(text.substr(found));
+}
+
 // Between fork and exec: system calls alone. A library may have changed what is inherited.
-[[noreturn]] void become(const char* command, int input, int output, int errors, pid_t parent) {
+[[noreturn]] void become(const char* command, char** environment, int input, int output, int errors,
+                         pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
   dup2(input, STDIN_FILENO);
@@ -121,7 +128,7 @@ std::string for_shell(const std::string& command) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  execl("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr));
+  execle("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr), environment);
   _exit(127);
 }
 
@@ -141,19 +148,21 @@ void PipeProcess::start(const std::string& command, int input, int output) {
   const pid_t parent = getpid();
   const std::string text = for_shell(command);
   pid_ = fork();
-  if (pid_ == 0) become(text.c_str(), input, output, errors_.fd(), parent);
+  if (pid_ == 0) become(text.c_str(), mark_.environment(), input, output, errors_.fd(), parent);
   if (pid_ < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
 }
 
 PipeProcess::~PipeProcess() {
   close_input();
   if (!ends_within(kLeaveMilliseconds)) kill();
+  mark_.kill_bearers();  // what it has left behind
   close(output_);
 }
 
 void PipeProcess::kill() {
   if (reaped_) return;
   kill_tree(pid_);
+  mark_.kill_bearers();  // those that left the tree
   while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
   reaped_ = true;
@@ -255,12 +264,15 @@ std::string PipeProcess::first_error_line() const {
   return printable_line(errors_.text(kLongestErrorText));
 }
 
-// An interpreter names the cause in the last line of many.
+// An interpreter names the cause in the last line of many, and before it where that was.
 std::string PipeProcess::last_words() const {
   std::string text = errors_.last_text(kLongestErrorText);
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
-  const std::string line = printable_line(text.substr(text.find_last_of('\n') + 1));
-  return line.empty() ? "" : "; its last words: " + line;
+  const std::size_t end = text.find_last_of('\n');
+  const std::string line = printable_line(text.substr(end + 1));
+  if (line.empty()) return "";
+  const std::string place = end == std::string::npos ? "" : traceback_place(text.substr(0, end));
+  return "; its last words: " + line + (place.empty() ? "" : " (" + place + ")");
 }
 
 }  // namespace contactcheck

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "reference/run/process_mark.h"
 #include "reference/run/worker_process.h"
 
 namespace contactcheck {
@@ -56,6 +57,7 @@ class PipeProcess {
 
   PipeLimits limits_;
   MemoryFile errors_;
+  ProcessMark mark_;
   pid_t pid_ = 0;
   int input_ = -1, output_ = -1;  ///< of the command: written and read here
   int status_ = 0;

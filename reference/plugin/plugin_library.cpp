@@ -2,7 +2,8 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -29,25 +30,53 @@ std::string last_error() {
 
 std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
-// Nothing but the first two fields may be read before they are known to be right.
-std::string table_fault(const contactcheck_plugin* table) {
+constexpr const char* kToldStructs[] = {"stage", "trace", "counts"};
+static_assert(std::size(kToldStructs) == CONTACTCHECK_TOLD_COUNT);
+constexpr std::uint32_t kFirstVersion = 1;
+// Of version 1 the table is what stands before the first field that version 2 has added.
+constexpr std::size_t kFirstTableSize = offsetof(contactcheck_plugin, told_sizes);
+
+std::string version_fault(std::uint32_t version) {
+  if (version == kFirstVersion || version == CONTACTCHECK_PLUGIN_ABI) return "";
+  return "speaks version " + std::to_string(version) +
+         " of contactcheck_plugin.h; this program speaks version " + std::to_string(kFirstVersion) +
+         " and version " + std::to_string(CONTACTCHECK_PLUGIN_ABI);
+}
+
+std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t own) {
+  if (said == own) return "";
+  return "gives contactcheck_" + std::string(structure) + " a size of " + std::to_string(said) +
+         " bytes; here it has " + std::to_string(own);
+}
+
+// Only the first two fields may be read before they are known to be right.
+std::string layout_fault(const contactcheck_plugin* table) {
   if (table == nullptr) return std::string(kEntry) + "() gave no table";
-  if (table->abi_version != CONTACTCHECK_PLUGIN_ABI)
-    return "speaks version " + std::to_string(table->abi_version) +
-           " of contactcheck_plugin.h; this program speaks version " +
-           std::to_string(CONTACTCHECK_PLUGIN_ABI);
-  const std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;
-  for (std::size_t i = 0; i < std::size(own); ++i)
-    if (table->struct_sizes[i] != own[i])
-      return "gives contactcheck_" + std::string(kStructs[i]) + " a size of " +
-             std::to_string(table->struct_sizes[i]) + " bytes; here it has " +
-             std::to_string(own[i]);
-  if (table->id == nullptr) return "has no id";
-  if (table->option_count > 0 && table->options == nullptr) return "has options at no address";
-  const bool complete = table->create != nullptr && table->destroy != nullptr &&
-                        table->declare != nullptr && table->prepare != nullptr &&
-                        table->update != nullptr && table->query != nullptr;
-  return complete ? "" : "lacks one of its functions";
+  std::string fault = version_fault(table->abi_version);
+  if (!fault.empty()) return fault;
+  std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;
+  if (table->abi_version == kFirstVersion) own[0] = kFirstTableSize;
+  for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
+    fault = size_fault(kStructs[i], table->struct_sizes[i], own[i]);
+  return fault;
+}
+
+std::string told_fault(const contactcheck_plugin& table) {
+  if (table.trace == nullptr && table.counts == nullptr) return "";
+  const std::uint32_t own[] = CONTACTCHECK_TOLD_SIZES;
+  std::string fault;
+  for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
+    fault = size_fault(kToldStructs[i], table.told_sizes[i], own[i]);
+  return fault;
+}
+
+std::string content_fault(const contactcheck_plugin& table) {
+  if (table.id == nullptr) return "has no id";
+  if (table.option_count > 0 && table.options == nullptr) return "has options at no address";
+  const bool complete = table.create != nullptr && table.destroy != nullptr &&
+                        table.declare != nullptr && table.prepare != nullptr &&
+                        table.update != nullptr && table.query != nullptr;
+  return complete ? told_fault(table) : "lacks one of its functions";
 }
 
 OptionInfo option_of(const contactcheck_option& option) {
@@ -74,23 +103,27 @@ PluginLibrary::PluginLibrary(const std::filesystem::path& file)
   if (entry == nullptr)
     throw InputError(name_ + " is no detector: it has no function " + kEntry +
                      " (contactcheck_plugin.h)");
-  table_ = entry();
-  const std::string fault = table_fault(table_);
+  const contactcheck_plugin* const table = entry();
+  std::string fault = layout_fault(table);
+  if (fault.empty()) {
+    std::memcpy(&table_, table, table->struct_sizes[0]);
+    fault = content_fault(table_);
+  }
   if (!fault.empty()) throw InputError(name_ + " cannot be used: it " + fault);
 }
 
 std::vector<OptionInfo> PluginLibrary::options() const {
   std::vector<OptionInfo> out;
-  for (std::uint32_t i = 0; i < table_->option_count; ++i)
-    out.push_back(option_of(table_->options[i]));
+  for (std::uint32_t i = 0; i < table_.option_count; ++i)
+    out.push_back(option_of(table_.options[i]));
   return out;
 }
 
 Declaration PluginLibrary::declare() const {
   Declaration out;
-  out.id = text_of(table_->id);
-  out.summary = text_of(table_->summary);
-  out.version = text_of(table_->version);
+  out.id = text_of(table_.id);
+  out.summary = text_of(table_.summary);
+  out.version = text_of(table_.version);
   out.options = options();
   Options defaults;
   for (const OptionInfo& option : out.options) defaults[option.name] = option.default_value;

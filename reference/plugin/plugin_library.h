@@ -18,7 +18,8 @@ class PluginLibrary {
   /// @throws InputError: the file, and why it cannot be used
   explicit PluginLibrary(const std::filesystem::path& file);
 
-  const contactcheck_plugin& table() const { return *table_; }
+  /// As of the newest version: what the library's own does not have is null.
+  const contactcheck_plugin& table() const { return table_; }
   const std::string& name() const { return name_; }
   /// Makes a detector with its default options to ask what it claims.
   /// @throws InputError when it fails, or what it says cannot be said
@@ -28,7 +29,7 @@ class PluginLibrary {
   std::vector<OptionInfo> options() const;
 
   std::string name_;  ///< library "PATH"
-  const contactcheck_plugin* table_ = nullptr;
+  contactcheck_plugin table_ = {};
 };
 
 /// Makes the library's detector. `options` has a value for each that it declares.

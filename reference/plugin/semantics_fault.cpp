@@ -38,6 +38,8 @@ std::string numbers_fault(const Semantics& s) {
   if (!std::isfinite(s.scale) || s.scale <= 0.0) return "its scale is no number above 0";
   if (s.precision == Precision::kDouble && s.scale != 1.0)
     return "it has a scale and no single precision";
+  if (s.local_origin && (s.precision == Precision::kDouble || s.scale != 1.0))
+    return "it has a local origin and no single precision at scale 1";
   return "";
 }
 

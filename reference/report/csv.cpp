@@ -102,7 +102,8 @@ class Columns {
     for (const char* key : {"question", "timed_frames", "repeats"}) add(key, {"time_ms", key});
     add("prepare_ms", {"time_ms", "prepare"});
     for (const std::string part : {"cold", "hot"})
-      for (const std::string phase : {"map", "update", "query", "frame", "contact_frame"})
+      for (const std::string phase :
+           {"map", "update", "query", "frame", "contact_frame", "self_reported"})
         add(part + "_" + phase + "_ms", {"time_ms", part, phase});
     columns_.push_back({"speedup_question", [](const Json& run) -> Json {
                           if (!run.contains("speedup")) return nullptr;

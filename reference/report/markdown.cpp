@@ -11,6 +11,7 @@
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
 #include "reference/report/lattice_fits.h"
+#include "reference/report/loss_charts.h"
 #include "reference/report/markdown_table.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
@@ -178,8 +179,9 @@ std::string legend() {
 std::string markdown_report(const Json& results) {
   std::string out = "# contactcheck report\n\n" + machine_section(results) + parts_line(results) +
                     resumed_line(results) + summary_section(results) +
-                    speed_error_markdown(results) + goals_section(results) +
-                    hard_cases_markdown(results) + known_defects_markdown(results);
+                    speed_error_markdown(results) + loss_markdown(results) +
+                    goals_section(results) + hard_cases_markdown(results) +
+                    known_defects_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   // Families are told by who goes wrong in them; tables of every detector would bury that.

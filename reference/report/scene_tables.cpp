@@ -125,8 +125,10 @@ std::string times_table(const RunList& runs) {
         {detector_of(run), t.at("question").get<std::string>(), format_number(t.at("prepare")),
          format_number(t.at("cold").at("map")), format_number(t.at("cold").at("update")),
          format_number(t.at("cold").at("query")), format_number(t.at("cold").at("frame")),
-         format_number(t.at("cold").at("contact_frame")), format_number(t.at("hot").at("frame")),
-         format_count(t.at("timed_frames")), format_count(t.at("repeats")),
+         format_number(t.at("cold").at("contact_frame")),
+         format_number(at_or_null(t.at("cold"), "self_reported")),
+         format_number(t.at("hot").at("frame")), format_count(t.at("timed_frames")),
+         format_count(t.at("repeats")),
          format_number(run.at("memory_bytes").get<double>() / 1048576.0)});
   }
   return titled_table("Times in milliseconds per frame (medians over repeats; cold unless said):",
@@ -138,6 +140,7 @@ std::string times_table(const RunList& runs) {
                        {"query", false, ""},
                        {"frame", false, ""},
                        {"contact frame", false, ""},
+                       {"own clock", false, ""},
                        {"frame, hot", false, ""},
                        {"timed frames", false, ""},
                        {"repeats", false, ""},

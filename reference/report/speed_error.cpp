@@ -38,18 +38,6 @@ std::vector<Choice> choices_of(const Json& results) {
   return choices;
 }
 
-double share(std::int64_t part, std::int64_t whole) {
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
-
-// Nothing where there was nothing to find and nothing was reported.
-std::optional<double> worse_share(const SpeedErrorPoint& p) {
-  std::optional<double> worse;
-  if (p.truth > 0) worse = share(p.missed, p.truth);
-  if (p.reported > 0) worse = std::max(worse.value_or(0.0), share(p.spurious, p.reported));
-  return worse;
-}
-
 /// All runs by scene and detector.
 class RunIndex {
  public:
@@ -90,19 +78,6 @@ std::optional<double> mean_frame_ms(const Runs& runs) {
   return std::isfinite(mean) && mean > 0.0 ? std::optional(mean) : std::nullopt;
 }
 
-// At the finest level that the detector claims; false where none was judged.
-bool add_counts(const Json& run, SpeedErrorPoint& point) {
-  const std::string level = run.at("per_frame").value("level", "");
-  const Json& levels = run.at("levels");
-  if (!levels.contains(level) || levels.at(level).value("informative", false)) return false;
-  const Json& counts = levels.at(level);
-  point.truth += whole_number(counts.at("truth"));
-  point.reported += whole_number(counts.at("reported"));
-  point.missed += whole_number(counts.at("missed"));
-  point.spurious += whole_number(counts.at("spurious"));
-  return true;
-}
-
 // In alphabetical order.
 std::string levels_of(const Runs& runs) {
   std::set<std::string> levels;
@@ -125,8 +100,8 @@ Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scen
   if (!ms) return {{}, "not timed"};
   SpeedErrorPoint point;
   bool judged = false;
-  for (const Json* run : runs) judged = add_counts(*run, point) || judged;
-  const auto error = worse_share(point);
+  for (const Json* run : runs) judged = point.add(*run) || judged;
+  const auto error = point.worse_share();
   if (!judged || !error) return {{}, "nothing to judge"};
   point.detector = detector;
   point.question = runs.front()->at("time_ms").at("question").get<std::string>();

@@ -1,22 +1,22 @@
 // What every detector costs and how often it errs: the points of the chart of speed against error.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "reference/report/error_counts.h"
+
 namespace contactcheck {
 
-/// One detector over several scenes.
-struct SpeedErrorPoint {
+/// One detector over several scenes; the counts are sums over them.
+struct SpeedErrorPoint : ErrorCounts {
   std::string detector;
   std::string question;  ///< that was timed; times of different questions do not compare
   /// Of the counts: the finest that the detector claims. "body, triangle" where scenes differ.
   std::string level;
   double ms = 0.0;  ///< per frame: map + update + query, cold, the mean over all frames; positive
-  std::int64_t truth = 0, reported = 0, missed = 0, spurious = 0;  ///< sums over scenes
-  /// The larger one of missed / truth and spurious / reported; in [0, 1].
+  /// worse_share(); in [0, 1].
   double error = 0.0;
   /// No other point of the same question is faster without being worse.
   bool on_front = false;

@@ -74,8 +74,8 @@ class AccuracyPass {
     judge_.emplace(scene_.bodies, semantics, levels_, scene_.pairs ? 0 : kListedPairs);
     graded_.emplace(scene_.bodies, semantics, scene_.size());
     losses_.emplace(scene_.bodies);
-    if (semantics.precision != Precision::kSingle) return;
-    rounded_ = tools_.rounded(semantics.scale);
+    if (semantics.precision != Precision::kSingle || !detector_.needs_vertices()) return;
+    rounded_ = tools_.rounded(rounding_of(semantics));
     if (rounded_ != nullptr)
       rounded_judge_.emplace(scene_.bodies, semantics, vertex_levels(levels_));
   }

@@ -20,9 +20,10 @@ struct AccuracyOutcome {
 ///
 /// The detector's own question (its first) is judged at every level; bodies are judged by its
 /// answer to the question `body` where it has one: what is timed is judged. Depths and normals are
-/// taken from its answer to the question `contacts`. A detector in single precision is judged a
-/// second time, against the truth for the values that it was fed. Exceptions of the detector pass
-/// through; an answer that names what is not there throws std::runtime_error.
+/// taken from its answer to the question `contacts`. A detector in single precision that is fed
+/// vertices is judged a second time, against the truth for the values that it was fed (one that is
+/// fed nodes alone maps vertices of its own, whose truth nobody else knows). Exceptions of the
+/// detector pass through; an answer that names what is not there throws std::runtime_error.
 AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
                              ProgressWriter& progress, RunResult& result);
 

@@ -16,24 +16,15 @@ std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
 
 FramePositions::FramePositions(const Scene& scene) : scene_(&scene) {}
 
-FramePosition FramePositions::evaluated(std::size_t frame) const {
-  FramePosition out;
-  out.nodes = scene_->nodes_of_frame(frame);
-  out.vertices = map_bodies(*scene_, out.nodes);
-  return out;
-}
-
 const FramePosition& FramePositions::operator[](std::size_t frame) const {
   CONTACTCHECK_INVARIANT(scene_ != nullptr, "a scene was given");
-  if (scene_->pairs) {
-    if (!kept_.empty() && last_ == frame) return kept_.front();
-    kept_.resize(1);
-    kept_.front() = evaluated(frame);
-    last_ = frame;
-    return kept_.front();
+  if (held_frame_ != frame) {
+    held_frame_.reset();
+    held_.nodes = scene_->nodes_of_frame(frame);
+    held_.vertices = map_bodies(*scene_, held_.nodes);
+    held_frame_ = frame;
   }
-  while (kept_.size() <= frame) kept_.push_back(evaluated(kept_.size()));
-  return kept_[frame];
+  return held_;
 }
 
 }  // namespace contactcheck

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "reference/scene/scene.h"
@@ -17,23 +18,21 @@ struct FramePosition {
 std::vector<std::vector<Vec3>> map_bodies(const Scene& scene,
                                           const std::vector<std::vector<Vec3>>& nodes);
 
-/// Frames are evaluated when they are first asked for. They are kept, but for random pairs: of
-/// those only the last one asked for is held, because ten million would not fit into memory.
+/// A frame is evaluated when it is asked for, and only the last one is held: all of them are more
+/// memory than all detectors together, and mapping one again takes less time than any detector.
 class FramePositions {
  public:
   FramePositions() = default;
   /// `scene` must outlive it.
   explicit FramePositions(const Scene& scene);
 
-  /// Of random pairs valid until another frame is asked for. @pre the scene has this frame
+  /// Valid until another frame is asked for. @pre the scene has this frame
   const FramePosition& operator[](std::size_t frame) const;
 
  private:
-  FramePosition evaluated(std::size_t frame) const;
-
   const Scene* scene_ = nullptr;
-  mutable std::vector<FramePosition> kept_;
-  mutable std::size_t last_ = 0;  // of random pairs: the frame in kept_[0], if there is one
+  mutable FramePosition held_;
+  mutable std::optional<std::size_t> held_frame_;
 };
 
 }  // namespace contactcheck

@@ -24,7 +24,7 @@ struct JudgedScene {
   std::optional<PairTally> pairs;    ///< of random pairs: what rational arithmetic says
   std::string refused;  ///< not empty: which body and frame hold a NaN or infinite node
 
-  /// Of random pairs valid until another frame is asked for.
+  /// Valid until another frame is asked for.
   Frame frame(std::size_t index) const;
 };
 

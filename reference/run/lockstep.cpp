@@ -7,6 +7,7 @@
 #include "reference/run/printable.h"
 #include "reference/run/timing.h"
 #include "reference/simulate/driven_simulation.h"
+#include "reference/simulate/simulate_scene.h"
 
 namespace contactcheck {
 namespace {
@@ -15,22 +16,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::milli>(to - from).count();
-}
-
-// Before `wanted` steps, spread evenly over the motion.
-std::vector<SimulationState> record_states(const Scene& scene, Detector& driver, std::size_t wanted,
-                                           ProgressWriter& progress) {
-  const std::size_t steps = scene.frames * scene.simulation->every;
-  const std::size_t count = std::min(wanted, steps);
-  DrivenSimulation driven(scene, driver);
-  std::vector<SimulationState> states;
-  for (std::size_t step = 0; step < steps && states.size() < count; ++step) {
-    progress.enter(SharedProgress::kNoDetector, step, Phase::kTruth);
-    if (step == (2 * states.size() + 1) * steps / (2 * count))
-      states.push_back(driven.simulation().state());
-    driven.step();
-  }
-  return states;
 }
 
 void run_step(const SimulationState& from, DrivenSimulation& driven, StepSum& sum) {
@@ -83,8 +68,9 @@ std::vector<Runner> make_runners(const Scene& scene, std::vector<LockstepEntry>&
 
 void run_lockstep(const Scene& scene, Detector& driver, const LockstepSettings& settings,
                   std::vector<LockstepEntry>& entries, ProgressWriter& progress) {
-  const std::vector<SimulationState> states =
-      record_states(scene, driver, settings.steps, progress);
+  const std::vector<SimulationState> states = states_on_the_way(
+      scene, driver, settings.steps,
+      [&](std::size_t step) { progress.enter(SharedProgress::kNoDetector, step, Phase::kTruth); });
   for (LockstepEntry& entry : entries) {
     entry.times.steps = states.size();
     entry.times.sums.resize(settings.repeats);

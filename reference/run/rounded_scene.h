@@ -1,6 +1,8 @@
-// The truth for the values that a detector in single precision was fed: float(scale * x).
+// The truth for the values that a detector in single precision was fed: float(scale * x), or
+// float(x - origin) about the local origin of the frame.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -11,22 +13,35 @@
 
 namespace contactcheck {
 
-/// One scene in the values of one scale; truths are computed when first asked for and kept.
+/// How a detector in single precision is fed.
+struct Rounding {
+  double scale = 1.0;         ///< fed_value(), without a local origin
+  bool local_origin = false;  ///< local_value() about local_origin() of each frame
+  auto operator<=>(const Rounding&) const = default;
+};
+
+Rounding rounding_of(const Semantics& semantics);
+
+/// One scene in the values of one rounding; truths are computed when first asked for and kept.
 class RoundedScene {
  public:
-  RoundedScene(const JudgedScene& judged, double scale);
+  RoundedScene(const JudgedScene& judged, const Rounding& rounding);
 
-  /// False when a coordinate is beyond single precision at this scale: there is no such scene.
+  /// False when a coordinate is beyond single precision: there is no such scene.
   bool representable() const { return representable_; }
-  /// The rounded vertices, in units of 1 / scale metres; valid until the next call.
+  /// The rounded vertices, in units of 1 / scale metres, about the local origin if there is one;
+  /// valid until the next call.
   /// @pre representable()
   const Frame& frame(std::size_t index);
   /// @pre representable()
   const Truth& truth(std::size_t index, Oracle& oracle);
 
  private:
+  Vec3 origin_of(std::size_t index) const;
+  bool fits(std::size_t index) const;
+
   const JudgedScene& judged_;
-  double scale_;
+  Rounding rounding_;
   bool representable_ = true;
   std::vector<std::vector<Vec3>> vertices_;
   Frame frame_;
@@ -41,8 +56,8 @@ struct ContactMoment {
 /// What judging the detectors of a scene takes, made once.
 struct JudgingTools {
   explicit JudgingTools(const JudgedScene& judged);
-  /// The scene in the values of a scale; nullptr where they do not fit into single precision.
-  RoundedScene* rounded(double scale);
+  /// The scene in rounded values; nullptr where they do not fit into single precision.
+  RoundedScene* rounded(const Rounding& rounding);
 
   const JudgedScene& judged;
   Oracle oracle;
@@ -51,7 +66,7 @@ struct JudgingTools {
   std::map<std::pair<BodyPair, std::size_t>, ContactMoment> true_contacts;
 
  private:
-  std::map<double, RoundedScene> rounded_;
+  std::map<Rounding, RoundedScene> rounded_;
 };
 
 }  // namespace contactcheck

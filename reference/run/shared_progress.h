@@ -7,7 +7,17 @@
 
 namespace contactcheck {
 
-enum class Phase : std::uint32_t { kScene, kTruth, kPrepare, kMap, kUpdate, kQuery, kTrace, kDone };
+enum class Phase : std::uint32_t {
+  kScene,
+  kTruth,
+  kPrepare,
+  kMap,
+  kUpdate,
+  kQuery,
+  kTrace,
+  kDestroy,
+  kDone
+};
 
 inline const char* name_of(Phase phase) {
   switch (phase) {
@@ -25,6 +35,8 @@ inline const char* name_of(Phase phase) {
       return "query";
     case Phase::kTrace:
       return "trace";
+    case Phase::kDestroy:
+      return "destroy";
     case Phase::kDone:
       return "done";
   }

@@ -15,6 +15,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
+bool from_outside(const std::string& detector, const Json& results) {
+  const std::string id = detector.substr(0, detector.find(':'));
+  const Json plugins = results.value("plugins", Json::array());
+  return std::any_of(plugins.begin(), plugins.end(),
+                     [&](const Json& plugin) { return plugin.at("detector") == id; });
+}
+
+// Of a detector from outside it is its own matter, which its row tells.
+bool says_of_the_list(const DefectComparison& comparison, const Json& results) {
+  return std::any_of(comparison.unlisted.begin(), comparison.unlisted.end(),
+                     [&](const Sighting& s) {
+                       return s.kind == SightingKind::kError && !from_outside(s.detector, results);
+                     });
+}
+
 // Where nothing could have shown a defect, there is nothing to say about them.
 void add_known_defects(const KnownDefects& known, Json& results, SuiteOutcome* outcome) {
   const DefectComparison comparison =
@@ -23,7 +38,8 @@ void add_known_defects(const KnownDefects& known, Json& results, SuiteOutcome* o
   const Json& scenes = results.at("scenes");
   const bool families = std::any_of(scenes.begin(), scenes.end(),
                                     [](const Json& scene) { return scene.contains("family"); });
-  if (families || outcome->unlisted_error) results["known_defects"] = to_json(known, comparison);
+  if (families || says_of_the_list(comparison, results))
+    results["known_defects"] = to_json(known, comparison);
 }
 
 void append(Json from, Json& to) {

@@ -45,7 +45,7 @@ struct Entry {
   std::optional<ClosedLoop> closed_loop;
   std::optional<StepTimes> step_times;
 
-  bool usable() const { return detector && result.status == RunStatus::kOk; }
+  bool usable() const { return result.status == RunStatus::kOk; }
 };
 
 class Worker {
@@ -167,12 +167,19 @@ class Worker {
             run_accuracy(tools, entry.position, *entry.detector, progress_, entry.result)
                 .seconds_per_frame;
         measure_hover_gaps(tools, entry.position, *entry.detector, progress_, entry.result);
+        if (!job_.settings.timing) dismiss(entry);
       });
       for (Disagreement& d : entry.result.disagreements) {
         d.scene = scene_.id;
         d.detector = entry.spec.name;
       }
     }
+  }
+
+  // Nobody asks it again: what it holds shall not count against those after it.
+  void dismiss(Entry& entry) {
+    progress_.enter(entry.position, progress_.frame(), Phase::kDestroy);
+    entry.detector.reset();
   }
 
   // Closed loop, and whole steps timed: what a detector's errors and its time do to a simulation.
@@ -254,7 +261,7 @@ class Worker {
   std::vector<TimedEntry> timed_entries() {
     std::vector<TimedEntry> timed;
     for (Entry& entry : entries_) {
-      if (!entry.usable()) continue;
+      if (!entry.usable() || !entry.detector) continue;
       for (Question question : entry.result.semantics.questions) {
         TimedEntry t;
         t.position = entry.position;
@@ -332,32 +339,41 @@ class Worker {
   // Random pairs are far too many for pictures; a refused scene has no truth.
   bool lists_contacts() const { return judges() && !scene_.pairs && judged_.refused.empty(); }
 
+  // Piece by piece: in one tree, the contacts of all detectors would be the largest thing that this
+  // process holds.
   void write_answer() {
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
-    Json runs = Json::array();
-    for (Entry& entry : entries_) {
-      Json samples = Json::array();
-      for (const QuestionSamples& s : entry.samples) samples.push_back(samples_to_json(s));
-      Json cases = written_cases(entry.result.disagreements);
-      Json run = to_json(entry.result);
-      if (entry.usable() && entry.closed_loop) run["closed_loop"] = to_json(*entry.closed_loop);
-      if (entry.usable() && entry.step_times) run["step_ms"] = to_json(*entry.step_times);
-      runs.push_back({{"position", entry.position},
-                      {"run", std::move(run)},
-                      {"samples", samples},
-                      {"disagreements", cases}});
-      if (lists_contacts()) runs.back()["contacts"] = detector_contacts(entry.result);
-    }
+    std::string runs;
+    for (Entry& entry : entries_) runs += (runs.empty() ? "" : ",") + text_of(answer_of(entry));
     Json answer = {{"scene", scene_summary(judged_, separations_)},
                    {"contact_frames", judged_.contact_frames},
                    {"order", job_.order},
                    {"prefixes", job_.prefixes},
-                   {"runs", runs},
                    {"oracle_disagreements", oracle_cases()}};
     if (lists_contacts()) answer["truth_contacts"] = truth_contacts(judged_);
-    // Texts of libraries may hold anything; JSON takes UTF-8 alone.
-    write_file_atomically(job_.answer_file,
-                          answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+    std::string text = text_of(answer);
+    text.back() = ',';
+    write_file_atomically(job_.answer_file, text + "\"runs\":[" + runs + "]}");
+  }
+
+  Json answer_of(Entry& entry) {
+    Json samples = Json::array();
+    for (const QuestionSamples& s : entry.samples) samples.push_back(samples_to_json(s));
+    Json out;
+    out["position"] = entry.position;
+    out["run"] = to_json(entry.result);
+    if (entry.usable() && entry.closed_loop)
+      out["run"]["closed_loop"] = to_json(*entry.closed_loop);
+    if (entry.usable() && entry.step_times) out["run"]["step_ms"] = to_json(*entry.step_times);
+    out["samples"] = std::move(samples);
+    out["disagreements"] = written_cases(entry.result.disagreements);
+    if (lists_contacts()) out["contacts"] = detector_contacts(entry.result);
+    return out;
+  }
+
+  // Texts of libraries may hold anything; JSON takes UTF-8 alone.
+  static std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 
   Job job_;

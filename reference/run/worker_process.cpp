@@ -15,8 +15,6 @@
 
 #include "core/types/check.h"
 
-extern char** environ;
-
 namespace contactcheck {
 namespace {
 
@@ -53,8 +51,8 @@ class SpawnPlan {
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   }
   void move(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
-  int spawn(char** arguments, pid_t* child) const {
-    return posix_spawn(child, arguments[0], &actions_, &attributes_, arguments, environ);
+  int spawn(char** arguments, char** environment, pid_t* child) const {
+    return posix_spawn(child, arguments[0], &actions_, &attributes_, arguments, environment);
   }
 
  private:
@@ -107,7 +105,7 @@ void WorkerProcess::start(const std::filesystem::path& executable,
   plan.move(output_.fd(), STDOUT_FILENO);
   plan.move(errors_.fd(), STDERR_FILENO);
   plan.move(inherited_fd, kInheritedFd);
-  const int error = plan.spawn(words.data(), &pid_);
+  const int error = plan.spawn(words.data(), mark_.environment(), &pid_);
   if (error != 0)
     throw InputError("cannot start the worker " + program + ": " + std::strerror(error));
 }
@@ -138,6 +136,7 @@ int WorkerProcess::reap() {
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
+  mark_.kill_bearers();  // those that have left the group
   reaped_ = true;
   return status;
 }

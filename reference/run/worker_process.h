@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/run/process_mark.h"
+
 namespace contactcheck {
 
 /// A file without a name, in memory.
@@ -53,7 +55,8 @@ class WorkerProcess {
 
   bool has_ended() const;
   void kill();
-  /// Waits for its end, ends what is left of its group and gives its status as waitpid does.
+  /// Waits for its end, ends what is left of its group and what has left it, and gives its status
+  /// as waitpid does.
   int reap();
 
   std::uint64_t resident_bytes() const;
@@ -67,6 +70,7 @@ class WorkerProcess {
              int inherited_fd);
 
   MemoryFile output_, errors_;
+  ProcessMark mark_;
   pid_t pid_ = 0;
   bool reaped_ = false;
 };

@@ -1,12 +1,12 @@
 #include "reference/scene/json_value.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/types/check.h"
+#include "core/types/shortest.h"
 #include "reference/scene/file_text.h"
 
 namespace contactcheck {
@@ -151,11 +151,7 @@ std::string item_path(const std::string& parent, std::size_t index) {
   return parent + "[" + std::to_string(index) + "]";
 }
 
-std::string shown(double number) {
-  char digits[32];
-  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
-  return std::string(digits, end.ptr);
-}
+std::string shown(double number) { return shortest(number); }
 
 std::string shown(const JsonValue& value) {
   switch (value.kind) {

@@ -66,13 +66,10 @@ const std::vector<ModelRule>& model_rules() {
   return rules;
 }
 
-const ModelRule& rule_of(const JsonField& model) {
-  std::vector<std::string> names;
-  for (const ModelRule& rule : model_rules()) names.emplace_back(rule.name);
-  const std::string name = model.one_of(names);
+const ModelRule& rule_named(std::string_view name) {
   const auto rule = std::find_if(model_rules().begin(), model_rules().end(),
                                  [&](const ModelRule& r) { return name == r.name; });
-  CONTACTCHECK_INVARIANT(rule != model_rules().end(), "one_of allows known models alone");
+  CONTACTCHECK_INVARIANT(rule != model_rules().end(), "only known models are asked for");
   return *rule;
 }
 
@@ -105,6 +102,24 @@ void require_pose(const JsonField& field, const Motion& motion) {
 
 }  // namespace
 
+const char* name_of(DeformableModel model) {
+  const auto rule = std::find_if(model_rules().begin(), model_rules().end(),
+                                 [&](const ModelRule& r) { return model == r.model; });
+  CONTACTCHECK_INVARIANT(rule != model_rules().end(), "every model has a rule");
+  return rule->name;
+}
+
+DeformableModel model_named(std::string_view name) { return rule_named(name).model; }
+
+const std::vector<std::string>& model_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const ModelRule& rule : model_rules()) all.emplace_back(rule.name);
+    return all;
+  }();
+  return names;
+}
+
 SimulationSpec parse_simulation(const JsonField& field) {
   field.only_keys({"step", "substeps", "gravity", "ground", "driver", "every"});
   SimulationSpec spec;
@@ -121,7 +136,7 @@ SimulationSpec parse_simulation(const JsonField& field) {
 }
 
 Material parse_material(const JsonField& field) {
-  const ModelRule& rule = rule_of(field.at("model"));
+  const ModelRule& rule = rule_named(field.at("model").one_of(model_names()));
   std::vector<std::string> keys = {"model", "mass", "restitution", "friction"};
   keys.insert(keys.end(), rule.own_keys.begin(), rule.own_keys.end());
   field.only_keys(keys);

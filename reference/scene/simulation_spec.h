@@ -3,6 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/deform/body.h"
 #include "core/deform/motion.h"
@@ -11,6 +14,13 @@
 #include "reference/scene/scene.h"
 
 namespace contactcheck {
+
+/// What scene files call a model: "mass-spring".
+const char* name_of(DeformableModel model);
+/// @pre a name that name_of gives
+DeformableModel model_named(std::string_view name);
+/// All of them, in the order of the documentation.
+const std::vector<std::string>& model_names();
 
 /// The root's "simulation"; materials and velocities stay empty.
 /// @throws InputError

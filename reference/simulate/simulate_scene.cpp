@@ -41,6 +41,21 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
   return motion;
 }
 
+std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& driver,
+                                               std::size_t wanted, const OnStep& on_step) {
+  const std::size_t steps = scene.frames * scene.simulation->every;
+  const std::size_t count = std::min(wanted, steps);
+  DrivenSimulation driven(scene, driver);
+  std::vector<SimulationState> states;
+  for (std::size_t step = 0; step < steps && states.size() < count; ++step) {
+    on_step(step);
+    if (step == (2 * states.size() + 1) * steps / (2 * count))
+      states.push_back(driven.simulation().state());
+    driven.step();
+  }
+  return states;
+}
+
 void record_simulation(const DetectorCatalog& catalog, const OnStep& on_step, Scene& scene) {
   if (!scene.simulation) return;
   const std::string& driver_name = scene.simulation->driver;

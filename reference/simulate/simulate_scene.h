@@ -8,6 +8,7 @@
 
 #include "core/detect/detector.h"
 #include "core/detect/registry.h"
+#include "core/dynamics/simulation.h"
 #include "reference/scene/scene.h"
 
 namespace contactcheck {
@@ -30,6 +31,11 @@ using OnStep = std::function<void(std::size_t)>;
 /// Runs the scene with a detector in the loop: frames * every steps.
 /// @throws InputError when it cannot drive; Diverged
 SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& on_step);
+
+/// The states before `wanted` steps, spread evenly over the motion (all of them where there are
+/// fewer): what steps may be timed from. @throws as simulate()
+std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& driver,
+                                               std::size_t wanted, const OnStep& on_step);
 
 /// Fills scene.recorded by the scene's own driver; nothing to do for scenes that are not simulated.
 /// @throws InputError, one sentence with the scene: no such driver, one that cannot drive, a body

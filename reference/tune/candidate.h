@@ -1,4 +1,5 @@
-// What can be chosen for a scene: a detector with its options, in a lattice of some resolution.
+// What can be chosen for a scene: a detector with its options, in a lattice of some resolution,
+// with a deformer.
 #pragma once
 
 #include <string>
@@ -16,9 +17,11 @@ struct Choice {
 struct Candidate {
   std::string detector;  ///< canonical name, options included
   double lattice = 1.0;  ///< times the scene's own number of kept cells
-  /// The first is the detector's id, on the axis "detector"; then options and lattice.
+  std::string deformer;  ///< of a simulated scene; empty: the scene's own, which is not varied
+  double step_ms = 0.0;  ///< what a step of the simulation with this deformer costs
+  /// The first is the detector's id, on the axis "detector"; then options, lattice and deformer.
   std::vector<Choice> choices;
-  bool usual = false;  ///< every option at its default, in the scene's own lattice
+  bool usual = false;  ///< every option at its default, the scene's own lattice and deformer
 };
 
 }  // namespace contactcheck

@@ -20,24 +20,30 @@ SceneFrames every_other(const Scene& scene, std::size_t first, const fs::path& f
   return {file, 0};
 }
 
+void check_frames(const Scene& scene, std::size_t frames) {
+  if (frames < kFewestFrames)
+    throw InputError("scene " + scene.id +
+                     ": to choose by some frames and confirm on others, at "
+                     "least 4 are needed");
+}
+
 }  // namespace
 
 FrameSplit split_frames(const fs::path& file, std::size_t frames, const fs::path& work) {
   const Scene scene = load_any_scene(file);
-  if (scene.simulation)
-    throw InputError("scene " + scene.id + " is simulated: `contactcheck run " + scene.id +
-                     "` records its frames; tune for the recording");
   if (!scene.follows_time())
     throw InputError("scene " + scene.id + ": its frames are cases, of which none can be held out");
   if (frames > 0 && !scene.scripted())
     throw InputError("--frames: scene " + scene.id +
                      " has recorded frames; tune takes every other one of them");
+  if (!scene.scripted()) return split_recorded(scene, work);
   const std::size_t count = frames > 0 ? frames : std::min(scene.frames, kUsualFrames);
-  if (count < kFewestFrames || scene.frames < kFewestFrames)
-    throw InputError("scene " + scene.id +
-                     ": to choose by some frames and confirm on others, at "
-                     "least 4 are needed");
-  if (scene.scripted()) return {{file, count}, {file, count - 1}};
+  check_frames(scene, std::min(count, scene.frames));
+  return {{file, count}, {file, count - 1}};
+}
+
+FrameSplit split_recorded(const Scene& scene, const fs::path& work) {
+  check_frames(scene, scene.frames);
   fs::create_directories(work);
   return {every_other(scene, 0, work / (scene.id + "-chosen-by.ccr")),
           every_other(scene, 1, work / (scene.id + "-held-out.ccr"))};

@@ -20,9 +20,13 @@ struct FrameSplit {
 
 /// Of a scripted scene: `frames` moments (0: at most 30) and one less, over the same time, which
 /// share the first and the last alone. Of a recording: every other frame, written to `work`.
-/// @throws InputError for scenes that cannot be split: simulated ones, families, and those with
-/// fewer than 4 frames
+/// @pre the scene is not simulated
+/// @throws InputError for scenes that cannot be split: families, and those with fewer than 4 frames
 FrameSplit split_frames(const std::filesystem::path& file, std::size_t frames,
                         const std::filesystem::path& work);
+
+/// Of a scene with recorded frames: every other one of them, written to `work`.
+/// @throws InputError for fewer than 4 frames
+FrameSplit split_recorded(const Scene& scene, const std::filesystem::path& work);
 
 }  // namespace contactcheck

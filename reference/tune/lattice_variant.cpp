@@ -7,22 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/run/frame_positions.h"
-#include "reference/scene/file_text.h"
+#include "reference/tune/scene_variant.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-// Meshes are named from the scene's folder, which is another one now.
-void make_paths_absolute(Json& mesh, const fs::path& folder) {
-  if (mesh.is_object() && mesh.contains("file"))
-    mesh["file"] = fs::absolute(folder / mesh["file"].get<std::string>()).lexically_normal();
-}
 
 void scale_lattice(Json& body, double factor, const std::string& document) {
   if (!body.contains("lattice"))
@@ -46,21 +39,12 @@ void scale_lattice(Json& body, double factor, const std::string& document) {
 }  // namespace
 
 fs::path write_lattice_variant(const fs::path& file, double factor, const fs::path& folder) {
-  const std::string document = "scene file " + in_quotes(file.string());
-  Json scene = Json::parse(read_file_bytes(file, "scene file"), nullptr, false);
-  if (!scene.is_object() || !scene.contains("bodies") || !scene.contains("id"))
-    throw InputError(document + " is no scene whose lattices could be others");
-  const std::string percent = fmt::format("{:g}", 100.0 * factor);
-  const std::string id = scene["id"].get<std::string>() + "-lattice-" + percent;
-  scene["id"] = id;
-  for (Json& body : scene["bodies"]) {
-    if (body.contains("mesh")) make_paths_absolute(body["mesh"], file.parent_path());
-    scale_lattice(body, factor, document);
-  }
-  fs::create_directories(folder);
-  const fs::path variant = folder / (id + ".json");
-  write_file_atomically(variant, scene.dump(1) + "\n");
-  return variant;
+  return write_scene_variant(
+      file, fmt::format("lattice-{:g}", 100.0 * factor),
+      [&](Json& scene, const std::string& document) {
+        for (Json& body : scene["bodies"]) scale_lattice(body, factor, document);
+      },
+      folder);
 }
 
 double deviation(const Scene& scene, const Scene& variant) {

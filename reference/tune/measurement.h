@@ -8,12 +8,14 @@
 namespace contactcheck {
 
 struct Measurement {
-  std::string failure;   ///< not empty: it gave no answer or no time, and nothing else is set
-  double cost_ms = 0.0;  ///< per frame: map, update and query with cold caches
-  std::uint64_t missed = 0, spurious = 0;  ///< at the level of the question, over all frames
-  std::optional<double> hover;             ///< metres; none without an episode
+  std::string failure;  ///< not empty: it gave no answer or no time, and nothing else is set
+  /// Per frame: map, update and query with cold caches; and Candidate::step_ms.
+  double cost_ms = 0.0;
+  double cost_low_ms = 0.0, cost_high_ms = 0.0;  ///< 95 % interval of it (compare/speedup.h)
+  std::uint64_t missed = 0, spurious = 0;        ///< at the level of the question, over all frames
+  std::optional<double> hover;                   ///< metres; none without an episode
   std::optional<long> late_frames;
-  double deviation = 0.0;  ///< metres: how far the lattice takes a vertex from the scene's own
+  double deviation = 0.0;  ///< metres: how far the model takes a vertex from where the scene's does
 };
 
 /// Nothing set: nothing asked for.

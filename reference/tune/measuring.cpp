@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/types/check.h"
+#include "reference/compare/run_result.h"
 #include "reference/run/out_folder.h"
 #include "reference/scene/any_scene.h"
 #include "reference/tune/lattice_variant.h"
@@ -14,8 +15,6 @@ namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kOwnLattice = 1.0;
 
 const Json* row_of(const Json& runs, const std::string& scene, const std::string& detector) {
   for (const Json& run : runs)
@@ -36,11 +35,15 @@ std::optional<double> time_of(const Json& run, const std::string& question) {
   return std::nullopt;
 }
 
-std::optional<double> ratio_to(const Json& run, const std::string& question,
-                               const std::string& anchor) {
+// How many times as fast as the anchor.
+std::optional<Ratio> ratio_to(const Json& run, const std::string& question,
+                              const std::string& anchor) {
+  if (run.at("detector") == anchor) return Ratio{1.0, 1.0, 1.0};
   const Json speedups = run.value("speedup", Json::object()).value(question, Json::object());
   if (!speedups.contains(anchor)) return std::nullopt;
-  return speedups.at(anchor).at("cold").at("ratio").get<double>();
+  const Json& cold = speedups.at(anchor).at("cold");
+  return Ratio{cold.at("ratio").get<double>(), cold.at("low").get<double>(),
+               cold.at("high").get<double>()};
 }
 
 // Errors; the cost is still missing.
@@ -67,42 +70,51 @@ Measurement errors_of(const Json& run, const std::string& level) {
 
 Measuring::Measuring(const std::vector<Candidate>& candidates, MeasuringRequest request)
     : candidates_(candidates), request_(std::move(request)), anchor_(request_.anchor) {
-  const Scene scene = load_any_scene(request_.scene_file, request_.settings.frames);
-  scenes_[kOwnLattice] = request_.scene_file;
-  ids_[kOwnLattice] = scene.id;
-  deviations_[kOwnLattice] = 0.0;
+  const std::string id = load_any_scene(request_.scene_file, request_.settings.frames).id;
+  models_[{}] = {request_.scene_file, id, 0.0};
   for (const Candidate& candidate : candidates_)
-    if (!scenes_.contains(candidate.lattice)) prepare_variant(candidate.lattice);
+    if (const ModelKey key = key_of(candidate); !models_.contains(key))
+      models_[key] = make_model(key);
 }
 
-void Measuring::prepare_variant(double lattice) {
+Measuring::ModelKey Measuring::key_of(const Candidate& candidate) const {
+  const bool own = !request_.other_deformers.contains(candidate.deformer);
+  return {candidate.lattice, own ? "" : candidate.deformer};
+}
+
+Measuring::Model Measuring::make_model(const ModelKey& key) const {
   const std::size_t frames = request_.settings.frames;
   const Scene scene = load_any_scene(request_.scene_file, frames);
-  if (!scene.scripted())
-    throw InputError("scene " + scene.id +
-                     " is not scripted: its lattices cannot be of another resolution");
-  const auto file = write_lattice_variant(request_.scene_file, lattice, request_.work / "scenes");
-  const Scene variant = load_any_scene(file, frames);
-  scenes_[lattice] = file;
-  ids_[lattice] = variant.id;
-  deviations_[lattice] = deviation(scene, variant);
+  Model model;
+  if (!key.deformer.empty()) {
+    model.file = request_.other_deformers.at(key.deformer);
+  } else {
+    if (!scene.scripted())
+      throw InputError("scene " + scene.id +
+                       " is not scripted: its lattices cannot be of another resolution");
+    model.file = write_lattice_variant(request_.scene_file, key.lattice, request_.work / "scenes");
+  }
+  const Scene variant = load_any_scene(model.file, frames);
+  model.id = variant.id;
+  model.deviation = deviation(scene, variant);
+  return model;
 }
 
 std::filesystem::path Measuring::scene_of(const Candidate& candidate) const {
-  return scenes_.at(candidate.lattice);
+  return models_.at(key_of(candidate)).file;
 }
 
-SceneTask Measuring::task_of(double lattice, const std::vector<std::size_t>& batch) const {
+SceneTask Measuring::task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const {
   SceneTask task;
-  task.id = ids_.at(lattice);
-  task.file = scenes_.at(lattice);
+  task.id = models_.at(key).id;
+  task.file = models_.at(key).file;
   std::set<std::string> names;
   const auto add = [&](const std::string& name) {
     if (names.insert(name).second) task.detectors.push_back(name);
   };
   if (!anchor_.empty()) add(anchor_);
   for (const std::size_t i : batch)
-    if (candidates_[i].lattice == lattice) add(candidates_[i].detector);
+    if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
   // As long as none has answered, any of them may become what costs are taken against.
   task.references = anchor_ms_ > 0.0 ? std::vector<std::string>{anchor_} : task.detectors;
   task.frames = load_any_scene(task.file, request_.settings.frames).frames;
@@ -111,10 +123,10 @@ SceneTask Measuring::task_of(double lattice, const std::vector<std::size_t>& bat
 
 std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& batch) {
   SuiteRequest suite;
-  std::set<double> lattices = {kOwnLattice};
-  for (const std::size_t i : batch) lattices.insert(candidates_[i].lattice);
-  for (const double lattice : lattices) {
-    SceneTask task = task_of(lattice, batch);
+  std::set<ModelKey> models = {ModelKey{}};
+  for (const std::size_t i : batch) models.insert(key_of(candidates_[i]));
+  for (const ModelKey& key : models) {
+    SceneTask task = task_of(key, batch);
     if (!task.detectors.empty()) suite.tasks.push_back(std::move(task));
   }
   const ScratchFolder scratch(request_.work);
@@ -135,9 +147,9 @@ void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& 
   std::vector<std::string> names;
   if (!anchor_.empty()) names.push_back(anchor_);
   for (const std::size_t i : batch)
-    if (candidates_[i].lattice == kOwnLattice) names.push_back(candidates_[i].detector);
+    if (key_of(candidates_[i]) == ModelKey{}) names.push_back(candidates_[i].detector);
   for (const std::string& name : names) {
-    const Json* run = row_of(runs, ids_.at(kOwnLattice), name);
+    const Json* run = row_of(runs, own_model().id, name);
     const auto time = run == nullptr ? std::nullopt : time_of(*run, name_of(request_.question));
     if (!time || run->at("status") != "ok" || !(*time > 0.0)) continue;
     anchor_ = name;
@@ -148,23 +160,25 @@ void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& 
 
 Measurement Measuring::read(const Candidate& candidate, const Json& runs) const {
   const std::string question = name_of(request_.question);
-  const std::string& scene = ids_.at(candidate.lattice);
-  const Json* run = row_of(runs, scene, candidate.detector);
+  const Model& model = models_.at(key_of(candidate));
+  const Json* run = row_of(runs, model.id, candidate.detector);
   CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
   Measurement m = errors_of(*run, name_of(level_of(request_.question)));
-  m.deviation = deviations_.at(candidate.lattice);
+  m.deviation = model.deviation;
   if (!m.failure.empty()) return m;
-  const Json* here = row_of(runs, scene, anchor_);
-  const Json* own = row_of(runs, ids_.at(kOwnLattice), anchor_);
-  const std::optional<double> ratio =
-      candidate.detector == anchor_ ? 1.0 : ratio_to(*run, question, anchor_);
+  const Json* here = row_of(runs, model.id, anchor_);
+  const Json* own = row_of(runs, own_model().id, anchor_);
+  const std::optional<Ratio> ratio = ratio_to(*run, question, anchor_);
   const auto anchor_here = here == nullptr ? std::nullopt : time_of(*here, question);
   const auto anchor_own = own == nullptr ? std::nullopt : time_of(*own, question);
   if (!ratio || !anchor_here || !anchor_own) {
     m.failure = "not timed in the question " + question;
     return m;
   }
-  m.cost_ms = *anchor_here / *ratio * (anchor_ms_ / *anchor_own);
+  const double anchor_cost = *anchor_here * (anchor_ms_ / *anchor_own);
+  m.cost_ms = anchor_cost / ratio->ratio + candidate.step_ms;
+  m.cost_low_ms = anchor_cost / ratio->high + candidate.step_ms;
+  m.cost_high_ms = anchor_cost / ratio->low + candidate.step_ms;
   return m;
 }
 

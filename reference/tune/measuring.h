@@ -2,6 +2,7 @@
 // worker.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -18,6 +19,8 @@ namespace contactcheck {
 
 struct MeasuringRequest {
   std::filesystem::path scene_file;
+  /// Recordings of the same scene moved by other deformers, by Candidate::deformer.
+  std::map<std::string, std::filesystem::path> other_deformers;
   Question question = Question::kBody;
   RunSettings settings;
   std::filesystem::path work;        ///< scenes in other lattices are kept here
@@ -42,22 +45,34 @@ class Measuring {
   /// Empty before anything was measured.
   const std::string& anchor() const { return anchor_; }
 
-  /// The scene of a candidate: the given one, or one in other lattices.
+  /// The scene of a candidate: the given one, one in other lattices, or moved by another deformer.
   std::filesystem::path scene_of(const Candidate& candidate) const;
 
  private:
-  SceneTask task_of(double lattice, const std::vector<std::size_t>& batch) const;
+  struct ModelKey {
+    double lattice = 1.0;
+    std::string deformer;  ///< empty: the scene's own
+
+    auto operator<=>(const ModelKey&) const = default;
+  };
+  struct Model {
+    std::filesystem::path file;
+    std::string id;  ///< of its scene
+    double deviation = 0.0;
+  };
+
+  ModelKey key_of(const Candidate& candidate) const;
+  const Model& own_model() const { return models_.at({}); }
+  SceneTask task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const;
   void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
-  void prepare_variant(double lattice);
+  Model make_model(const ModelKey& key) const;
   Measurement read(const Candidate& candidate, const nlohmann::ordered_json& runs) const;
 
   const std::vector<Candidate>& candidates_;
   MeasuringRequest request_;
   std::string anchor_;      ///< name of the detector that costs are taken against
   double anchor_ms_ = 0.0;  ///< its time in the first run
-  std::map<double, std::filesystem::path> scenes_;  ///< by Candidate::lattice
-  std::map<double, double> deviations_;
-  std::map<double, std::string> ids_;
+  std::map<ModelKey, Model> models_;
 };
 
 }  // namespace contactcheck

@@ -73,9 +73,10 @@ class Search {
       out_.best = out_.tried.size() - 1;
     judged_.push_back(candidate);
     met_.push_back(met ? 1.0 : -1.0);
-    if (!m.failure.empty() || !(m.cost_ms > 0.0)) return;
+    const double detecting = m.cost_ms - candidates_[candidate].step_ms;
+    if (!m.failure.empty() || !(detecting > 0.0)) return;
     timed_.push_back(candidate);
-    log_cost_.push_back(std::log(m.cost_ms));
+    log_cost_.push_back(std::log(detecting));
   }
 
   void fit() {
@@ -101,9 +102,10 @@ class Search {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (!open_[i]) continue;
       const AdditiveModel::Guess cost = cost_.guess(i), accuracy = accuracy_.guess(i);
-      const double doubt = doubt_of(i), at_best = cost.mean - doubt * cost.deviation;
+      const double doubt = doubt_of(i);
+      const double at_best = std::exp(cost.mean - doubt * cost.deviation) + candidates_[i].step_ms;
       if (accuracy.mean + doubt * accuracy.deviation <= 0.0) continue;
-      if (out_.best && at_best >= std::log(out_.tried[*out_.best].measurement.cost_ms)) continue;
+      if (out_.best && at_best >= out_.tried[*out_.best].measurement.cost_ms) continue;
       // Before anything meets the limits, what does so is looked for.
       ranked.emplace_back(out_.best ? at_best : -accuracy.mean, i);
     }

@@ -3,6 +3,7 @@
 // Every detector is measured once as it is. Then, batch by batch, what may still be cheaper than
 // the best one found: two additive models (additive_model.h), of the logarithm of the cost and of
 // whether the limits are met, say how cheap and how accurate each of the others may be at best.
+// What a step of the simulation costs is known beforehand and comes on top of the model's guess.
 // The search ends when none of them may be cheaper.
 #pragma once
 

@@ -7,15 +7,10 @@
 #include <set>
 
 #include "core/types/check.h"
+#include "core/types/shortest.h"
 
 namespace contactcheck {
 namespace {
-
-std::string shortest(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end.ptr};
-}
 
 std::vector<std::string> values_of(const OptionInfo& option) {
   if (!option.choices.empty()) return option.choices;
@@ -23,7 +18,7 @@ std::vector<std::string> values_of(const OptionInfo& option) {
   std::from_chars(option.default_value.data(),
                   option.default_value.data() + option.default_value.size(), usual);
   std::vector<std::string> values = {option.default_value};
-  for (double value : {0.5 * usual, 2.0 * usual}) {
+  for (double value : {usual / option.step, option.step * usual}) {
     if (option.integer) value = std::round(value);
     const std::string text = shortest(value);
     const bool fits = value != 0.0 && value >= option.min && value <= option.max;
@@ -84,7 +79,7 @@ class Space {
 
   // An option that the name sets stays as it is.
   void vary(const DetectorInfo& info, const DetectorSpec& spec, std::size_t option) {
-    if (option == info.options.size()) return add_lattices(info, spec);
+    if (option == info.options.size()) return add_models(info, spec);
     const OptionInfo& o = info.options[option];
     if (is_the_machines(o) || given_.contains(o.name)) return vary(info, spec, option + 1);
     for (const std::string& value : values_of(o)) {
@@ -94,24 +89,42 @@ class Space {
     }
   }
 
-  void add_lattices(const DetectorInfo& info, const DetectorSpec& spec) {
+  void add_models(const DetectorInfo& info, const DetectorSpec& spec) {
+    const Candidate plain = candidate_of(info, spec);
     for (const double lattice : request_.lattices) {
-      Candidate candidate;
+      Candidate candidate = plain;
       candidate.lattice = lattice;
-      candidate.choices.push_back({"detector", spec.id});
-      candidate.usual = lattice == request_.lattices.front();
-      std::string options;
-      for (const OptionInfo& o : info.options) {
-        const std::string& value = spec.options.at(o.name);
-        if (!is_the_machines(o)) candidate.choices.push_back({o.name, value});
-        if (value == o.default_value) continue;
-        candidate.usual = false;
-        options += (options.empty() ? ":" : ",") + o.name + "=" + value;
-      }
       candidate.choices.push_back({"lattice", shortest(lattice)});
-      candidate.detector = catalog_.parse(spec.id + options).name;
-      candidates_.push_back(std::move(candidate));
+      candidate.usual &= lattice == request_.lattices.front();
+      if (request_.deformers.empty()) candidates_.push_back(candidate);
+      for (const DeformerChoice& deformer : request_.deformers)
+        candidates_.push_back(with(deformer, candidate));
     }
+  }
+
+  // In the scene's own model, of which nothing is said yet.
+  Candidate candidate_of(const DetectorInfo& info, const DetectorSpec& spec) const {
+    Candidate candidate;
+    candidate.choices.push_back({"detector", spec.id});
+    candidate.usual = true;
+    std::string options;
+    for (const OptionInfo& o : info.options) {
+      const std::string& value = spec.options.at(o.name);
+      if (!is_the_machines(o)) candidate.choices.push_back({o.name, value});
+      if (value == o.default_value) continue;
+      candidate.usual = false;
+      options += (options.empty() ? ":" : ",") + o.name + "=" + value;
+    }
+    candidate.detector = catalog_.parse(spec.id + options).name;
+    return candidate;
+  }
+
+  Candidate with(const DeformerChoice& deformer, Candidate candidate) const {
+    candidate.deformer = deformer.name;
+    candidate.step_ms = deformer.step_ms;
+    candidate.choices.push_back({"deformer", deformer.name});
+    candidate.usual &= deformer.name == request_.deformers.front().name;
+    return candidate;
   }
 
   const DetectorCatalog& catalog_;

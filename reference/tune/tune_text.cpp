@@ -16,9 +16,18 @@ bool varies_lattices(const std::vector<Candidate>& candidates) {
                      [](const Candidate& c) { return c.lattice != 1.0; });
 }
 
+bool varies_deformers(const std::vector<Candidate>& candidates) {
+  return !candidates.empty() && !candidates.front().deformer.empty();
+}
+
+// With deformers a frame is a step of the simulation.
 Row header_of(const std::vector<Candidate>& candidates) {
-  Row row = {"ms/frame", "missed", "spurious", "hover mm", "late"};
-  if (varies_lattices(candidates)) row.insert(row.end(), {"deviation mm", "lattice"});
+  const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
+  Row row = {deformers ? "ms/step" : "ms/frame", "missed", "spurious", "hover mm", "late"};
+  if (deformers) row.insert(row.begin() + 1, "of it deforming");
+  if (lattices || deformers) row.push_back("deviation mm");
+  if (lattices) row.push_back("lattice");
+  if (deformers) row.push_back("deformer");
   row.push_back("detector");
   return row;
 }
@@ -30,10 +39,12 @@ Row row_of(const Tried& tried, const std::vector<Candidate>& candidates) {
   Row row = {fmt::format("{:.3g}", m.cost_ms), fmt::format("{}", m.missed),
              fmt::format("{}", m.spurious), m.hover ? millimetres(*m.hover) : "-",
              m.late_frames ? fmt::format("{:+}", *m.late_frames) : "-"};
+  const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
+  if (deformers) row.insert(row.begin() + 1, fmt::format("{:.3g}", candidate.step_ms));
+  if (lattices || deformers) row.push_back(millimetres(m.deviation));
   if (failed) std::fill(row.begin(), row.end(), "-");
-  if (varies_lattices(candidates))
-    row.insert(row.end(),
-               {failed ? "-" : millimetres(m.deviation), fmt::format("{:g}", candidate.lattice)});
+  if (lattices) row.push_back(fmt::format("{:g}", candidate.lattice));
+  if (deformers) row.push_back(candidate.deformer);
   row.push_back(candidate.detector + (failed ? " (" + m.failure + ")" : ""));
   return row;
 }
@@ -98,6 +109,32 @@ std::string heading(const Tuning& tuning, const TuningRequest& request) {
                      tuning.outcome.exhausted ? " (as many as were allowed)" : "");
 }
 
+std::string model_in_words(const Candidate& candidate) {
+  if (!candidate.deformer.empty()) return " with " + candidate.deformer;
+  return candidate.lattice == 1.0 ? ""
+                                  : fmt::format(" in {:g} times as many cells", candidate.lattice);
+}
+
+// Also of those that were never measured with a detector, because their step alone is dearer.
+std::string deformers_of(const Tuning& tuning) {
+  if (!tuning.varies_deformers()) return "";
+  std::string costs, failures;
+  for (const SimulatedModel& model : tuning.models) {
+    if (model.failure.empty())
+      costs += fmt::format("{}{} {:.3g}", costs.empty() ? "" : ", ", model.deformer, model.step_ms);
+    else
+      failures += "\nNot tried: " + model.deformer + ": " + model.failure;
+  }
+  return "deforming, ms a step: " + costs + failures + "\n";
+}
+
+// A paragraph of its own.
+std::string in_markdown(std::string lines) {
+  if (lines.empty()) return lines;
+  lines[0] = 'D';
+  return lines + "\n";
+}
+
 std::string verdict(const Tuning& tuning, const TuningRequest& request) {
   if (!tuning.chosen)
     return tuning.confirmed.empty()
@@ -106,11 +143,10 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request) {
                              tuning.held_out_frames);
   const Tried& chosen = tuning.confirmed[*tuning.chosen];
   const Candidate& candidate = tuning.candidates[chosen.candidate];
-  std::string text = fmt::format(
-      "Chosen: {}{}, {:.3g} ms a frame on {} held-out frames.\n", candidate.detector,
-      candidate.lattice == 1.0 ? ""
-                               : fmt::format(" in {:g} times as many cells", candidate.lattice),
-      chosen.measurement.cost_ms, tuning.held_out_frames);
+  std::string text =
+      fmt::format("Chosen: {}{}, {:.3g} ms a {} on {} held-out frames.\n", candidate.detector,
+                  model_in_words(candidate), chosen.measurement.cost_ms,
+                  tuning.varies_deformers() ? "step" : "frame", tuning.held_out_frames);
   if (!tuning.within_budget(request.budget_ms))
     text += fmt::format("That is more than the {:g} ms that are allowed.\n", *request.budget_ms);
   return text;
@@ -131,8 +167,8 @@ std::string command_of(const Tuning& tuning, const TuningRequest& request) {
 }  // namespace
 
 std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
-  std::string text = heading(tuning, request) + "\nlimits: " + limits_in_words(request) +
-                     "\n\nPareto front of what was measured\n" +
+  std::string text = heading(tuning, request) + "\nlimits: " + limits_in_words(request) + "\n" +
+                     deformers_of(tuning) + "\nPareto front of what was measured\n" +
                      aligned(rows_of(front_of(tuning), tuning.candidates)) + "\n";
   if (!tuning.confirmed.empty())
     text += fmt::format("On {} held-out frames\n", tuning.held_out_frames) +
@@ -144,7 +180,7 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
 
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
   std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
-                     ".\n\n" + verdict(tuning, request);
+                     ".\n\n" + in_markdown(deformers_of(tuning)) + verdict(tuning, request);
   const std::string command = command_of(tuning, request);
   if (!command.empty()) text += "\n    " + command + "\n";
   text += "\n## Pareto front\n\n" + markdown(rows_of(front_of(tuning), tuning.candidates));

@@ -1,21 +1,26 @@
 #include "reference/tune/tuning.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "core/types/check.h"
 #include "reference/scene/any_scene.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kFinalists = 3, kAtOnce = 24;
 
-MeasuringRequest measuring_request(const TuningRequest& request, const SceneFrames& frames) {
+using Half = SceneFrames FrameSplit::*;
+
+MeasuringRequest measuring_request(const TuningRequest& request, const Tuning& tuning,
+                                   const FrameSplit& split, Half half) {
+  const SceneFrames& frames = split.*half;
   MeasuringRequest measuring;
   measuring.scene_file = frames.file;
+  for (std::size_t i = 1; i < tuning.models.size(); ++i)
+    measuring.other_deformers[tuning.models[i].deformer] = (tuning.models[i].split.*half).file;
   measuring.question = request.space.question;
   measuring.settings = request.settings;
   measuring.settings.frames = frames.frames;
@@ -53,7 +58,12 @@ class Teller {
          const std::function<void(const TuningProgress&)>& progress)
       : tuning_(tuning), limits_(limits), progress_(progress) {}
 
+  void simulates(const std::string& deformer) {
+    now_.simulating = deformer;
+    if (!deformer.empty()) progress_(now_);
+  }
   void starts() {
+    now_.simulating.clear();
     now_.candidates = tuning_.candidates.size();
     progress_(now_);
   }
@@ -94,7 +104,7 @@ SearchOutcome measure_all(std::size_t count, const Limits& limits, const Measure
 // Beside one another, since the cheapest differ by little; the next ones where none of them holds.
 void confirm(const TuningRequest& request, const FrameSplit& split, const std::string& anchor,
              Tuning& tuning) {
-  MeasuringRequest held_out = measuring_request(request, split.held_out);
+  MeasuringRequest held_out = measuring_request(request, tuning, split, &FrameSplit::held_out);
   held_out.anchor = anchor;
   Measuring measuring(tuning.candidates, std::move(held_out));
   const std::vector<std::size_t> order = by_cost(tuning.outcome.tried, request.limits);
@@ -108,38 +118,50 @@ void confirm(const TuningRequest& request, const FrameSplit& split, const std::s
   }
   if (!tuning.chosen) return;
   const Candidate& chosen = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate];
-  tuning.chosen_scene =
-      chosen.lattice == 1.0 ? request.target : measuring.scene_of(chosen).string();
+  tuning.chosen_scene = request.target;
+  if (chosen.lattice != 1.0) tuning.chosen_scene = measuring.scene_of(chosen).string();
+  for (std::size_t i = 1; i < tuning.models.size(); ++i)
+    if (tuning.models[i].deformer == chosen.deformer)
+      tuning.chosen_scene = tuning.models[i].file.string();
 }
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
+void simulate_all(const TuningRequest& request, const DetectorCatalog& catalog, Teller& teller,
+                  Tuning& tuning) {
+  if (request.space.lattices.size() > 1)
+    throw InputError("--lattice: scene \"" + request.target +
+                     "\" is simulated: in other lattices its materials would be others");
+  SimulationRequest simulation;
+  simulation.scene_file = request.scene_file;
+  simulation.deformers = request.deformers;
+  simulation.frames = request.frames;
+  simulation.work = request.out / "tune";
+  simulation.settings = request.settings;
+  tuning.models = simulate_models(simulation, catalog,
+                                  [&](const std::string& deformer) { teller.simulates(deformer); });
 }
 
-Json to_json(const Tried& tried, const std::vector<Candidate>& candidates) {
-  const Candidate& candidate = candidates[tried.candidate];
-  Json json = {{"detector", candidate.detector}, {"lattice", candidate.lattice}};
-  const Measurement& m = tried.measurement;
-  if (!m.failure.empty()) {
-    json["failure"] = m.failure;
-    return json;
+// Those whose simulation failed are told, and have no candidates.
+SpaceRequest with_deformers(const TuningRequest& request, const Tuning& tuning) {
+  SpaceRequest space = request.space;
+  if (request.deformers.empty()) return space;
+  for (const SimulatedModel& model : tuning.models)
+    if (model.failure.empty()) space.deformers.push_back({model.deformer, model.step_ms});
+  return space;
+}
+
+FrameSplit split_of(const TuningRequest& request, const Scene& scene,
+                    const DetectorCatalog& catalog, Teller& teller, Tuning& tuning) {
+  if (scene.simulation) {
+    simulate_all(request, catalog, teller, tuning);
+    return tuning.models.front().split;
   }
-  json["cost_ms"] = m.cost_ms;
-  json["missed"] = m.missed;
-  json["spurious"] = m.spurious;
-  json["hover_gap_max"] = or_null(m.hover);
-  json["late_frames"] = or_null(m.late_frames);
-  json["deviation_max"] = m.deviation;
-  return json;
+  if (!request.deformers.empty())
+    throw InputError("--deformer: scene \"" + request.target + "\" is not simulated");
+  return split_frames(request.scene_file, request.frames, request.out / "tune");
 }
 
-Json limits_json(const TuningRequest& request) {
-  const Limits& limits = request.limits;
-  return {
-      {"missed", or_null(limits.missed)},           {"spurious", or_null(limits.spurious)},
-      {"hover_gap_max", or_null(limits.hover)},     {"late_frames", or_null(limits.late_frames)},
-      {"deviation_max", or_null(limits.deviation)}, {"budget_ms", or_null(request.budget_ms)}};
+std::size_t count_frames(const SceneFrames& part) {
+  return load_any_scene(part.file, part.frames).frames;
 }
 
 }  // namespace
@@ -151,18 +173,19 @@ bool Tuning::within_budget(const std::optional<double>& budget_ms) const {
 Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
             const std::function<void(const TuningProgress&)>& progress) {
   Tuning tuning;
+  // Before a simulation that would be for nothing: are the words about detectors right?
   tuning.candidates = make_space(catalog, request.space);
   fs::create_directories(request.out / "tune");
-  const FrameSplit split = split_frames(request.scene_file, request.frames, request.out / "tune");
-  const auto frames_of = [](const SceneFrames& part) {
-    return load_any_scene(part.file, part.frames);
-  };
-  tuning.scene = frames_of(split.chosen_by).id;
-  tuning.frames = frames_of(split.chosen_by).frames;
-  tuning.held_out_frames = frames_of(split.held_out).frames;
   Teller teller(tuning, request.limits, progress);
+  const FrameSplit split =
+      split_of(request, load_any_scene(request.scene_file), catalog, teller, tuning);
+  tuning.candidates = make_space(catalog, with_deformers(request, tuning));
+  tuning.scene = load_any_scene(split.chosen_by.file).id;
+  tuning.frames = count_frames(split.chosen_by);
+  tuning.held_out_frames = count_frames(split.held_out);
   teller.starts();
-  Measuring measuring(tuning.candidates, measuring_request(request, split.chosen_by));
+  Measuring measuring(tuning.candidates,
+                      measuring_request(request, tuning, split, &FrameSplit::chosen_by));
   const Measure measure = [&](const std::vector<std::size_t>& batch) {
     std::vector<Measurement> found = measuring(batch);
     teller.take(batch, found);
@@ -175,32 +198,6 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
   teller.confirms();
   confirm(request, split, measuring.anchor(), tuning);
   return tuning;
-}
-
-Json to_json(const Tuning& tuning, const TuningRequest& request) {
-  Json json = {{"schema", "contactcheck-tune/1"},
-               {"command", request.command},
-               {"scene", tuning.scene},
-               {"question", name_of(request.space.question)},
-               {"limits", limits_json(request)},
-               {"candidates", tuning.candidates.size()},
-               {"frames", tuning.frames},
-               {"held_out_frames", tuning.held_out_frames},
-               {"exhausted", tuning.outcome.exhausted}};
-  json["measured"] = Json::array();
-  for (const Tried& tried : tuning.outcome.tried)
-    json["measured"].push_back(to_json(tried, tuning.candidates));
-  json["front"] = Json::array();
-  for (const std::size_t i : tuning.front)
-    json["front"].push_back(to_json(tuning.outcome.tried[i], tuning.candidates));
-  json["confirmed"] = Json::array();
-  for (const Tried& tried : tuning.confirmed)
-    json["confirmed"].push_back(to_json(tried, tuning.candidates));
-  json["chosen"] =
-      tuning.chosen ? to_json(tuning.confirmed[*tuning.chosen], tuning.candidates) : Json();
-  if (tuning.chosen) json["chosen"]["scene"] = tuning.chosen_scene;
-  json["within_budget"] = tuning.within_budget(request.budget_ms);
-  return json;
 }
 
 }  // namespace contactcheck

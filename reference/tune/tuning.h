@@ -12,6 +12,7 @@
 #include "reference/tune/frame_split.h"
 #include "reference/tune/measuring.h"
 #include "reference/tune/search.h"
+#include "reference/tune/simulated_models.h"
 #include "reference/tune/space.h"
 
 namespace contactcheck {
@@ -19,7 +20,8 @@ namespace contactcheck {
 struct TuningRequest {
   std::string target;  ///< the scene as the user named it
   std::filesystem::path scene_file;
-  SpaceRequest space;
+  SpaceRequest space;                  ///< without deformers: what they cost is measured first
+  std::vector<std::string> deformers;  ///< to try beside the scene's own; it is simulated then
   Limits limits;
   std::optional<double> budget_ms;  ///< what the chosen one may cost per frame
   SearchSettings search;
@@ -39,10 +41,12 @@ struct TuningProgress {
   std::size_t measured = 0, candidates = 0;
   std::string best;  ///< name of the cheapest that meets the limits; empty: none yet
   bool confirming = false;
+  std::string simulating;  ///< with this deformer, before anything is measured; empty: not now
 };
 
 struct Tuning {
   std::string scene;
+  std::vector<SimulatedModel> models;  ///< of a simulated scene, its own first
   std::vector<Candidate> candidates;
   SearchOutcome outcome;
   std::vector<std::size_t> front;  ///< indices into outcome.tried, by cost
@@ -53,6 +57,10 @@ struct Tuning {
   /// What `run` takes: the scene as it was named, or a file in `out`; empty: none chosen.
   std::string chosen_scene;
 
+  /// With deformers a frame is a step: its simulation is part of every cost.
+  bool varies_deformers() const {
+    return !candidates.empty() && !candidates.front().deformer.empty();
+  }
   bool within_budget(const std::optional<double>& budget_ms) const;
 };
 

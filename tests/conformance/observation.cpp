@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "core/types/local_origin.h"
 #include "reference/compare/judge.h"
 #include "reference/oracle/oracle.h"
 #include "tests/conformance/answers.h"
@@ -29,12 +30,20 @@ WantedTruth wanted_truth(const std::vector<Level>& levels, const Semantics& sema
   return wanted;
 }
 
+// Stored as a float in between: g++ 12 may leave out a way there and back.
+double fed_coordinate(double x, double origin, const Semantics& semantics) {
+  const volatile float fed =
+      semantics.local_origin ? local_value(x, origin) : fed_value(x, semantics.scale);
+  return fed;
+}
+
 /// The vertices as the detector was fed them, in double.
 FrameData as_fed(FrameData data, const Semantics& semantics) {
   if (semantics.precision == Precision::kDouble) return data;
+  const Vec3 origin = semantics.local_origin ? local_origin(data.frame(0)) : Vec3::Zero();
   for (std::vector<Vec3>& body : data.vertices)
     for (Vec3& v : body)
-      for (int k = 0; k < 3; ++k) v[k] = fed_value(v[k], semantics.scale);
+      for (int k = 0; k < 3; ++k) v[k] = fed_coordinate(v[k], origin[k], semantics);
   return data;
 }
 

@@ -62,6 +62,10 @@ TEST_P(Declared, MarginAndScaleAreUsable) {
   EXPECT_GT(semantics_.scale, 0.0);
   if (semantics_.precision == Precision::kDouble) {
     EXPECT_EQ(semantics_.scale, 1.0);
+    EXPECT_FALSE(semantics_.local_origin);
+  }
+  if (semantics_.local_origin) {
+    EXPECT_EQ(semantics_.scale, 1.0);
   }
 }
 
@@ -74,6 +78,7 @@ TEST_P(Declared, BeforeAndAfterPrepareAreTheSame) {
   EXPECT_EQ(before_.closed, semantics_.closed);
   EXPECT_EQ(before_.exact, semantics_.exact);
   EXPECT_EQ(before_.precision, semantics_.precision);
+  EXPECT_EQ(before_.local_origin, semantics_.local_origin);
   EXPECT_EQ(before_.depth, semantics_.depth);
   EXPECT_EQ(before_.means, semantics_.means);
 }

@@ -45,6 +45,13 @@ def expect_silence(row):
     assert level["spurious"] == 0, level
 
 
+def expect_boxes(row):
+    """Here the bodies touch where their boxes do, in both frames."""
+    level = row["levels"]["body"]
+    assert row["status"] == "ok" and row["notes"] == [], row
+    assert level["truth"] == 2 and level["hit"] == 2 and level["spurious"] == 0, level
+
+
 def main():
     readme, program, compiler, headers, cpp_main, folder = sys.argv[1:]
     text, folder = pathlib.Path(readme).read_text(), pathlib.Path(folder)
@@ -55,7 +62,7 @@ def main():
     subprocess.run([compiler, "-shared", "-fPIC", "-I", headers, folder / "mine.c", "-o", library], check=True)
     expect_silence(row_of(program, folder, ["--detector", library]))
     (folder / "mine.py").write_text(block(text, "python"))
-    expect_silence(row_of(program, folder, ["--detector-cmd", f"{sys.executable} {folder / 'mine.py'}"]))
+    expect_boxes(row_of(program, folder, ["--detector-cmd", f"{sys.executable} {folder / 'mine.py'}"]))
     assert block(text, "cpp") in pathlib.Path(cpp_main).read_text()
 
 

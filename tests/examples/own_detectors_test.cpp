@@ -44,6 +44,9 @@ TEST(OwnDetectors, FromOutsideAnswerAsFclDoes) {
 TEST(OwnDetectors, FromOutsideAreNamedInTheResults) {
   PluginRun run({"--detector", c_library() + ":axis=z", "--detector-cmd", python_command()});
   EXPECT_EQ(run.row("c-sweep:axis=z").at("options"), json({{"axis", "z"}}));
+  EXPECT_THAT(run.results().at("command").get<std::string>(),
+              testing::HasSubstr("--detector-cmd '" + python_command() + "'"))
+      << "to be run again as it stands";
   const json plugins = run.results().at("plugins");
   ASSERT_EQ(plugins.size(), 2u);
   EXPECT_EQ(plugins[0].at("detector"), "python-sweep");
@@ -52,6 +55,19 @@ TEST(OwnDetectors, FromOutsideAreNamedInTheResults) {
   EXPECT_EQ(plugins[1].at("detector"), "c-sweep");
   EXPECT_EQ(plugins[1].at("source"), std::filesystem::path(c_library()).filename().string());
   EXPECT_EQ(plugins[1].at("version"), "1.0");
+}
+
+TEST(OwnDetectors, InCTellOfTheirStagesAndCounts) {
+  PluginRun run({"--detector", c_library()});
+  const json row = run.row("c-sweep");
+  ASSERT_EQ(row.at("stages").size(), 1u);
+  const json boxes = row.at("stages")[0];
+  EXPECT_EQ(boxes.at("name"), "boxes");
+  EXPECT_EQ(boxes.at("missed"), 0);
+  EXPECT_GE(boxes.at("out"), row.at("levels").at("triangle").at("truth"));
+  EXPECT_GT(boxes.at("in"), boxes.at("out"));
+  EXPECT_EQ(row.at("counters").at("pairs_swept"), boxes.at("in"));
+  EXPECT_EQ(row.at("counters").at("triangle_pairs_tested"), boxes.at("out"));
 }
 
 TEST(OwnDetectors, OfALibraryTwiceAreTwoRows) {
@@ -73,11 +89,14 @@ TEST(OwnDetectors, AreTimedInEveryProcessBesideTheirOwnClock) {
     EXPECT_TRUE(row.at("speedup").at("triangles").contains("fcl-aabb")) << detector;
   }
   for (const char* part : {"cold", "hot"}) {
+    for (const char* detector : {"c-sweep", "python-sweep"}) {
+      const json times = run.row(detector).at("time_ms").at(part);
+      EXPECT_GT(times.at("self_reported").get<double>(), 0.0) << detector;
+    }
     const json times = run.row("python-sweep").at("time_ms").at(part);
     const double ours = times.at("update").get<double>() + times.at("query").get<double>();
-    EXPECT_GT(times.at("self_reported").get<double>(), 0.0);
     EXPECT_LT(times.at("self_reported").get<double>(), ours) << "ours has the pipe in it";
-    EXPECT_FALSE(run.row("c-sweep").at("time_ms").at(part).contains("self_reported"));
+    EXPECT_FALSE(run.row("fcl-aabb").at("time_ms").at(part).contains("self_reported"));
   }
 }
 

@@ -53,7 +53,7 @@ TEST(ShrunkBounds, WholeOnesLoseNothing) {
 
 TEST(ShrunkBounds, SpheresLoseEverythingAndTheirStageIsNamed) {
   FfdConfig config = safe_config();
-  config.faults.sphere_radius = 0.5;
+  config.sphere_radius = 0.5;
   const RunResult result = accuracy_of(config);
   const LevelCounts& counts = result.levels.at(Level::kTriangle);
   EXPECT_EQ(counts.missed, counts.truth);
@@ -82,7 +82,7 @@ TEST(ShrunkBounds, BoxesLosePairsAndTheHashStageIsNamed) {
 
 TEST(ShrunkBounds, LossesOfAllStagesAddUpToTheMissed) {
   FfdConfig config = safe_config();
-  config.faults.sphere_radius = 0.97;
+  config.sphere_radius = 0.97;
   config.faults.cell_box = 0.97;
   const RunResult result = accuracy_of(config);
   std::uint64_t lost = 0;

@@ -1,15 +1,13 @@
 #include "core/deform/mapping.h"
 
-#include "core/types/vector_targets.h"
-
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstring>
 #include <set>
 #include <string>
 
+#include "tests/core/deform/scoped_target.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
 #include "tests/support/wide.h"
@@ -17,30 +15,9 @@
 namespace contactcheck {
 namespace {
 
+using test::compiled_targets;
+using test::ScopedTarget;
 using test::Wide;
-
-// Chooses one instruction set for the time of a scope.
-class ScopedTarget {
- public:
-  explicit ScopedTarget(std::int64_t target) { choose(target); }
-  ~ScopedTarget() { choose(0); }
-  ScopedTarget(const ScopedTarget&) = delete;
-  ScopedTarget& operator=(const ScopedTarget&) = delete;
-
- private:
-  static void choose(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
-
-std::vector<std::int64_t> compiled_targets() {
-  std::vector<std::int64_t> out;
-  const std::int64_t all = hwy::SupportedTargets() & HWY_TARGETS;
-  for (int bit = 0; bit < 63; ++bit)
-    if (all & (std::int64_t{1} << bit)) out.push_back(std::int64_t{1} << bit);
-  return out;
-}
 
 bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 

@@ -93,6 +93,15 @@ TEST(SphereLevels, OfAnyNumberAndWidthEqualBruteForce) {
     EXPECT_EQ(wrong_frames(name), 0) << name;
 }
 
+TEST(SphereRadius, LargerThanNeededEqualsBruteForceAndSmallerDoesNot) {
+  for (const std::string id :
+       {"ffd-aabb-sphere+tri", "ffd-aabb-sphere2+tri", "ffd-aabb-sphereN+tri"}) {
+    for (const char* larger : {":radius=1.25", ":radius=4"})
+      EXPECT_EQ(wrong_frames(id + larger), 0) << id << larger;
+    EXPECT_GT(wrong_frames(id + ":radius=0.25"), 0) << id;
+  }
+}
+
 TEST_P(EveryMember, OfThePaperWithTrianglesNeverInventsAPair) {
   const std::string name = GetParam() + "+tri:bounds=paper";
   std::size_t reported = 0, truth = 0;

@@ -63,12 +63,23 @@ TEST(SeededFaults, WithoutFaultTheTouchIsFound) {
   }
 }
 
-TEST(SeededFaults, SmallerSpheresLoseTheTouchAndAreReported) {
-  SeededFaults faults;
-  faults.sphere_radius = 0.99;
+TEST(SphereRadius, SmallerSpheresLoseTheTouchAndAreReported) {
   for (int levels : {1, 2, 3}) {
-    EXPECT_TRUE(found(config_with(levels, faults)).empty()) << levels;
-    EXPECT_EQ(promise(config_with(levels, faults)), "triangle 0 leaves its sphere of level 1");
+    FfdConfig config = config_with(levels, {});
+    config.sphere_radius = 0.99;
+    EXPECT_TRUE(found(config).empty()) << levels;
+    EXPECT_EQ(promise(config), "triangle 0 leaves its sphere of level 1");
+    EXPECT_FALSE(FfdDetector(config).semantics().exact) << "it may miss, and does not deny it";
+  }
+}
+
+TEST(SphereRadius, LargerSpheresFindTheTouchAndKeepThePromise) {
+  for (int levels : {1, 2, 3}) {
+    FfdConfig config = config_with(levels, {});
+    config.sphere_radius = 1.5;
+    EXPECT_EQ(found(config).size(), 1u) << levels;
+    EXPECT_EQ(promise(config), "");
+    EXPECT_TRUE(FfdDetector(config).semantics().exact);
   }
 }
 

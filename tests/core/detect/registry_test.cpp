@@ -59,8 +59,12 @@ TEST(DetectorCatalog, DefaultBoundsArePaperAndSafeWithTriangles) {
 TEST(DetectorCatalog, ParseCompletesTheOptions) {
   const DetectorSpec spec = core_catalog().parse("ffd-aabb-sphere2+tri:spheres=8");
   EXPECT_EQ(spec.id, "ffd-aabb-sphere2+tri");
-  EXPECT_EQ(spec.options,
-            (Options{{"bounds", "safe"}, {"cell", "1"}, {"spheres", "8"}, {"table", "0"}}));
+  EXPECT_EQ(spec.options, (Options{{"bounds", "safe"},
+                                   {"cell", "1"},
+                                   {"precision", "double"},
+                                   {"radius", "1"},
+                                   {"spheres", "8"},
+                                   {"table", "0"}}));
 }
 
 TEST(DetectorCatalog, CanonicalNamesLeaveDefaultsOutAndSortTheRest) {
@@ -114,10 +118,10 @@ TEST(DetectorCatalog, UnknownDetectorIsNamed) {
 TEST(DetectorCatalog, UnknownOptionIsNamedWithThoseThatExist) {
   EXPECT_EQ(error_of("ffd-aabb:sphere=2"),
             "detector \"ffd-aabb:sphere=2\": unknown option \"sphere\"; ffd-aabb knows bounds, "
-            "cell, table");
+            "cell, table, precision");
   EXPECT_EQ(error_of("ffd-aabb-sphere:spheres=2"),
             "detector \"ffd-aabb-sphere:spheres=2\": unknown option \"spheres\"; ffd-aabb-sphere "
-            "knows bounds, cell, table");
+            "knows bounds, cell, table, precision, radius");
   EXPECT_THAT(error_of("ffd-aabb:=2"), ::testing::HasSubstr("unknown option \"\""));
   DetectorCatalog catalog;
   DetectorInfo plain;

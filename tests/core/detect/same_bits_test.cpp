@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "core/detect/frame_numbers.h"
 #include "core/types/hash.h"
 #include "tests/core/detect/scenes.h"
 
@@ -36,13 +37,14 @@ std::vector<Vec3> shaken(const BodyShape& shape, const Vec3& at, Numbers& number
   return nodes;
 }
 
-// Three bodies that come nearer: apart, touching, deep inside.
-Scene fixed_scene() {
+// Three bodies that come nearer: apart, touching, deep inside; and one beside them at `far`.
+Scene fixed_scene(double far = 0.0) {
   Scene scene;
   scene.bodies = {
       test::make_body("left", test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}),
       test::make_body("right", test::sphere_mesh(Vec3::Zero(), 1.1, 3), {5, 4, 3}),
       test::make_body("below", test::box_mesh(Vec3(-2, -1, -0.5), Vec3(2, 1, 0.5), 5), {6, 3, 2})};
+  if (far > 0.0) scene.bodies.push_back(scene.bodies[0]);
   Numbers numbers;
   for (int f = 0; f < 6; ++f) {
     const double gap = 3.0 - 0.375 * f;
@@ -50,6 +52,7 @@ Scene fixed_scene() {
     nodes.push_back(shaken(*scene.bodies[0].shape, Vec3(-0.5 * gap, 0, 0), numbers));
     nodes.push_back(shaken(*scene.bodies[1].shape, Vec3(0.5 * gap, 0.125, 0), numbers));
     nodes.push_back(shaken(*scene.bodies[2].shape, Vec3(0, 0, -0.625 * gap), numbers));
+    if (far > 0.0) nodes.push_back(shaken(*scene.bodies[3].shape, Vec3(far, far, far), numbers));
     scene.frames.push_back(test::make_frame(scene.bodies, std::move(nodes)));
   }
   return scene;
@@ -74,32 +77,78 @@ std::uint64_t hash_of_contacts(const std::string& name, const Scene& scene) {
 
 TEST(SameBits, MappedVertices) { EXPECT_EQ(hash_of_vertices(fixed_scene()), 2314277800574072379u); }
 
+// Of every pair of triangles that meet, and of the cells that the paper's pipeline reports.
+constexpr std::uint64_t kTriangles = 1417059647185862788u, kAabbCells = 10896995354945533846u,
+                        kAabbCellsOfN = 3389917938739314841u, kGridCells = 643190377150691094u;
+
+std::map<std::string, std::uint64_t> expected_hashes() {
+  return {{"aabb-tree", kTriangles},
+          {"bd-tree", kTriangles},
+          {"ffd-aabb", kAabbCells},
+          {"ffd-aabb+tri", kTriangles},
+          {"ffd-aabb-sphere", kAabbCells},
+          {"ffd-aabb-sphere+tri", kTriangles},
+          {"ffd-aabb-sphere2", kAabbCells},
+          {"ffd-aabb-sphere2+tri", kTriangles},
+          {"ffd-aabb-sphereN", kAabbCellsOfN},
+          {"ffd-aabb-sphereN+tri", kTriangles},
+          {"ffd-grid", kGridCells},
+          {"ffd-grid+tri", kTriangles},
+          {"ffd-lazy", kTriangles},
+          {"full-refit", kTriangles},
+          {"spatial-hash", kTriangles},
+          {"sphere-tree", kTriangles}};
+}
+
 TEST(SameBits, ContactsOfEveryDetectorOfCore) {
-  // Of every pair of triangles that meet, and of the cells that the paper's pipeline reports.
-  constexpr std::uint64_t kTriangles = 1417059647185862788u, kAabbCells = 10896995354945533846u,
-                          kAabbCellsOfN = 3389917938739314841u, kGridCells = 643190377150691094u;
-  const std::map<std::string, std::uint64_t> expected = {{"aabb-tree", kTriangles},
-                                                         {"bd-tree", kTriangles},
-                                                         {"ffd-aabb", kAabbCells},
-                                                         {"ffd-aabb+tri", kTriangles},
-                                                         {"ffd-aabb-sphere", kAabbCells},
-                                                         {"ffd-aabb-sphere+tri", kTriangles},
-                                                         {"ffd-aabb-sphere2", kAabbCells},
-                                                         {"ffd-aabb-sphere2+tri", kTriangles},
-                                                         {"ffd-aabb-sphereN", kAabbCellsOfN},
-                                                         {"ffd-aabb-sphereN+tri", kTriangles},
-                                                         {"ffd-grid", kGridCells},
-                                                         {"ffd-grid+tri", kTriangles},
-                                                         {"ffd-lazy", kTriangles},
-                                                         {"full-refit", kTriangles},
-                                                         {"spatial-hash", kTriangles},
-                                                         {"sphere-tree", kTriangles}};
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   const Scene scene = fixed_scene();
   std::map<std::string, std::uint64_t> found;
   for (const DetectorInfo& info : catalog.all()) found[info.id] = hash_of_contacts(info.id, scene);
-  EXPECT_EQ(found, expected);
+  EXPECT_EQ(found, expected_hashes());
+}
+
+TEST(SameBits, VerticesMappedInSinglePrecision) {
+  const Scene scene = fixed_scene();
+  FrameNumbers<float> numbers;
+  numbers.prepare(scene.bodies, true);
+  Fnv1a hash;
+  for (const FrameData& frame : scene.frames) {
+    numbers.update(frame.frame());
+    for (const std::span<const Vec3f> body : numbers.vertices())
+      for (const Vec3f& vertex : body)
+        for (int axis = 0; axis < 3; ++axis) hash.value(vertex[axis]);
+  }
+  EXPECT_EQ(hash.digest(), 13260691688073655738u);
+}
+
+// Nothing in this scene is so close to touching that floats say anything else than doubles.
+TEST(SameBits, ContactsInSinglePrecision) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  const Scene scene = fixed_scene();
+  std::size_t with_choice = 0;
+  for (const DetectorInfo& info : catalog.all())
+    for (const OptionInfo& option : info.options) {
+      if (option.name != "precision") continue;
+      ++with_choice;
+      EXPECT_EQ(hash_of_contacts(info.id + ":precision=single", scene),
+                expected_hashes().at(info.id))
+          << info.id;
+    }
+  EXPECT_GE(with_choice, 10u);
+}
+
+// The far body leaves floats eight binary digits of a metre: contacts are rounded ones.
+TEST(SameBits, RoundedContacts) {
+  constexpr std::uint64_t kRounded = 11571887441486454298u;
+  const Scene scene = fixed_scene(0x1p16);
+  EXPECT_NE(hash_of_contacts("ffd-lazy", scene), kRounded);
+  for (const char* name : {"ffd-lazy:precision=single", "ffd-lazy:precision=single,bounds=nodes",
+                           "ffd-lazy:precision=single,threads=3", "full-refit:precision=single",
+                           "ffd-aabb+tri:precision=single,bounds=safe"})
+    EXPECT_EQ(hash_of_contacts(name, scene), kRounded) << name;
 }
 
 }  // namespace

@@ -6,60 +6,25 @@
 #include <algorithm>
 #include <string>
 
-#include "core/lazy/kernels.h"
-#include "tests/core/lazy/one_body.h"
+#include "tests/core/lazy/bounds_cases.h"
 
 namespace contactcheck {
 namespace {
 
+using test::AllKernels;
 using test::Deformation;
+using test::lanes_of;
+using test::move_down;
+using test::move_up;
+using test::NamedShape;
 using test::OneBody;
+using test::reported_lanes;
 using test::rest_nodes_at;
 using test::ShapePtr;
+using test::shapes;
+using test::shrink;
 using test::triangles_under;
 using test::TriangleSource;
-
-struct NamedShape {
-  std::string name;
-  ShapePtr shape;
-};
-
-const std::vector<NamedShape>& shapes() {
-  static const std::vector<NamedShape> all = [] {
-    const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 3);
-    const TriangleMesh box = test::box_mesh(Vec3(-1, -0.75, -0.5), Vec3(1, 0.75, 0.5), 4);
-    return std::vector<NamedShape>{
-        {"ball, one cell", make_shape(ball, {1, 1, 1})},
-        {"ball, coarse", make_shape(ball, {3, 4, 3})},
-        {"ball, fine", make_shape(ball, {10, 10, 10})},
-        {"box, fine", make_shape(box, {10, 10, 10})},
-        {"box on its nodes", test::box_on_its_nodes(6)},
-        {"sheet", make_shape(test::sheet(9), {5, 5, 1})},
-        {"long triangles", make_shape(test::long_triangles(6, 60), {8, 8, 8})},
-        {"bare", make_bare_shape(ball)},
-    };
-  }();
-  return all;
-}
-
-// Promises broken on any instruction set, for bounds from nodes and from vertices.
-class AllKernels {
- public:
-  explicit AllKernels(const ShapePtr& shape) : from_nodes_(shape, false), refitted_(shape, true) {}
-
-  std::string broken(const std::vector<Vec3>& nodes, double company = 0.0) {
-    for (OneBody* body : {&from_nodes_, &refitted_})
-      for (const std::string& isa : lazy_isas()) {
-        body->begin(nodes, company);
-        const std::string text = body->broken(lazy_kernels(isa));
-        if (!text.empty()) return isa + (body == &refitted_ ? " from vertices: " : ": ") + text;
-      }
-    return "";
-  }
-
- private:
-  OneBody from_nodes_, refitted_;
-};
 
 TEST(LazyBounds, HoldTheirVerticesUnderStrongDeformation) {
   TriangleSource random(501);
@@ -142,47 +107,6 @@ TEST(LazyBounds, AreTestedWithTrianglesBetweenCellsThatAreNoNeighbours) {
   EXPECT_GT(far, 20);
 }
 
-// Applies `spoil(lo, hi)` to one lane at a time; the lanes that validate() does not miss.
-template <typename Spoil>
-int reported_lanes(OneBody& body, Spoil&& spoil) {
-  int reported = 0;
-  for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b) {
-    const TreeBlock& block = body.tree().blocks[b];
-    for (std::uint32_t c = 0; c < block.children; ++c) {
-      LaneBoxes& boxes = body.state().blocks.find(b)->box;
-      const LaneBoxes before = boxes;
-      for (int k = 0; k < 3; ++k) spoil(boxes.lo[k][c], boxes.hi[k][c]);
-      const std::string text = validate(body.state(), body.vertices());
-      const std::string lane = "lane " + std::to_string(c) + " of block " + std::to_string(b);
-      reported += text.find(lane) != std::string::npos;
-      boxes = before;
-    }
-  }
-  return reported;
-}
-
-int lanes_of(const LatticeTree& tree) {
-  int lanes = 0;
-  for (const TreeBlock& block : tree.blocks) lanes += static_cast<int>(block.children);
-  return lanes;
-}
-
-void shrink(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo += way;
-  hi -= way;
-}
-void move_up(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo += way;
-  hi += way;
-}
-void move_down(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo -= way;
-  hi -= way;
-}
-
 TEST(LazyBounds, ShrunkOrMovedByOnePercentAreReported) {
   for (const ShapePtr& shape :
        {test::box_on_its_nodes(10), make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {2, 2, 2})})
@@ -210,10 +134,10 @@ TEST(LazyBounds, SlabsShrunkOrMovedAreReported) {
         ASSERT_LT(slabs.half[c], kNoSlab);
         const LaneSlabs before = slabs;
         slabs.half[c] *= 0.9f;
-        narrow += !validate(body.state(), body.vertices()).empty();
+        narrow += !body.broken().empty();
         slabs = before;
         slabs.middle[c] += 0.1f * slabs.half[c];
-        moved += !validate(body.state(), body.vertices()).empty();
+        moved += !body.broken().empty();
         slabs = before;
       }
     // At rest nothing bends: slabs are tight but for the slack, which is most of the thinnest.
@@ -308,7 +232,7 @@ TEST(LazyBounds, AreMadeOncePerFrame) {
   EXPECT_EQ(body.made().blocks_bounded, 0u);
   lazy_kernels().bound_all(body.state(), body.arena());
   EXPECT_EQ(body.made().blocks_bounded, body.tree().blocks.size());
-  EXPECT_EQ(validate(body.state(), body.vertices()), "");
+  EXPECT_EQ(body.broken(), "");
 }
 
 }  // namespace

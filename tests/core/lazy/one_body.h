@@ -10,6 +10,8 @@
 #include "core/lazy/kernels.h"
 #include "core/lazy/lattice_tree.h"
 #include "core/lazy/lazy_state.h"
+#include "core/lazy/single_frame.h"
+#include "core/types/local_origin.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
 
@@ -54,10 +56,12 @@ inline std::vector<Vec3> deformed_nodes(const BodyShape& shape, const Deformatio
 /// One body in one frame, placed as a scene of its own. Its state points into it.
 class OneBody {
  public:
-  OneBody(ShapePtr shape, bool from_vertices)
-      : shape_(std::move(shape)), tree_(make_lattice_tree(*shape_)) {
+  OneBody(ShapePtr shape, bool from_vertices, Precision precision = Precision::kDouble)
+      : shape_(std::move(shape)), tree_(make_lattice_tree(*shape_, TreeUse::kNodes, precision)) {
+    states_[1].shape = shape_.get();
     state().shape = shape_.get();
     state().tree = &tree_;
+    state().precision = precision;
     state().from_vertices = from_vertices || !shape_->lattice;
   }
   OneBody(const OneBody&) = delete;
@@ -67,6 +71,7 @@ class OneBody {
   void begin(std::vector<Vec3> nodes, double company = 0.0) {
     nodes_ = std::move(nodes);
     arena_.clear();
+    if (single()) return begin_in_single(company);
     vertices_.resize(shape_->mesh.vertices.size());
     map_body(*shape_, nodes_, vertices_);
     if (state().from_vertices) {
@@ -81,7 +86,12 @@ class OneBody {
   /// Bounds everything; "" or the first broken promise.
   std::string broken(const LazyKernels& kernels) {
     kernels.bound_all(state(), arena_);
-    return validate(state(), vertices_);
+    return broken();
+  }
+  /// The same once it is bounded.
+  std::string broken() const {
+    return single() ? validate(states_[0], std::span<const Vec3f>(single_vertices_))
+                    : validate(states_[0], std::span<const Vec3>(vertices_));
   }
 
   LazyState& state() { return states_[0]; }
@@ -94,22 +104,44 @@ class OneBody {
   const LatticeTree& tree() const { return tree_; }
   const BodyShape& shape() const { return *shape_; }
   const std::vector<Vec3>& vertices() const { return vertices_; }
+  /// In single precision instead, in the body's frame.
+  const std::vector<Vec3f>& single_vertices() const { return single_vertices_; }
 
   /// In the body's frame.
   Aabb box_of(std::span<const std::uint32_t> triangles) const {
     Aabb box;
     for (std::uint32_t t : triangles)
-      for (std::uint32_t v : shape_->mesh.triangles[t])
-        box.extend((vertices_[v] - states_[0].origin) * states_[0].scale);
+      for (std::uint32_t v : shape_->mesh.triangles[t]) box.extend(in_frame(v));
     return box;
   }
 
  private:
+  bool single() const { return states_[0].precision == Precision::kSingle; }
+  Vec3 in_frame(std::uint32_t v) const {
+    if (single()) return single_vertices_[v].cast<double>();
+    return (vertices_[v] - states_[0].origin) * states_[0].scale;
+  }
+
+  void begin_in_single(double company) {
+    const std::vector<Vec3> corners = {Vec3::Constant(-company), Vec3::Constant(company)};
+    Frame frame;
+    frame.bodies.push_back({nodes_, {}});
+    if (company > 0.0) frame.bodies.push_back({corners, {}});
+    const Vec3 origin = local_origin(frame);
+    begin_frame_in_single(state(), nodes_, origin);
+    states_[1].largest = (corners[1] - origin).cwiseAbs().maxCoeff();
+    place_in_single({states_.data(), frame.bodies.size()}, origin);
+    single_vertices_ = contactcheck::single_vertices(state());
+    if (state().from_vertices) state().single.vertices = single_vertices_;
+    find_cells(state());
+  }
+
   ShapePtr shape_;
   LatticeTree tree_;
   std::array<LazyState, 2> states_;
   FrameArena arena_;
   std::vector<Vec3> nodes_, vertices_;
+  std::vector<Vec3f> single_vertices_;
 };
 
 /// Long triangles between random points of [-1, 1]^3.

@@ -4,11 +4,14 @@
  *
  * Boxes of triangles are swept along an axis; pairs whose boxes overlap are tested by separating
  * axes, in double precision. Rounding can hide a contact or make one up where surfaces only just
- * touch: it claims triangles and bodies, and does not claim to be exact. */
+ * touch: it claims triangles and bodies, and does not claim to be exact. It tells of its work: the
+ * stage of the boxes, how many pairs it looked at, and times by its own clock. */
+#define _POSIX_C_SOURCE 199309L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "contactcheck_plugin.h"
 
@@ -25,7 +28,15 @@ typedef struct {
   Box* boxes;
   Box** order; /* the same boxes, by where they begin on the axis */
   size_t box_count;
+  uint64_t swept, tested; /* pairs since the last update: met on the axis, and of them in boxes */
+  double milliseconds;    /* of the last update or query */
 } Sweep;
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
 
 static int32_t fail(char* message, const char* text) {
   snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "%s", text);
@@ -186,10 +197,13 @@ static int32_t prepare(void* detector, const contactcheck_body* bodies, uint32_t
 
 static int32_t update(void* detector, const contactcheck_frame* frame, char* message) {
   Sweep* const sweep = detector;
+  const double start = now();
   if (frame->body_count != sweep->body_count) return fail(message, "not the bodies of prepare");
   for (uint32_t b = 0; b < frame->body_count; ++b) sweep->vertices[b] = frame->bodies[b].vertices;
   for (size_t i = 0; i < sweep->box_count; ++i) refit(sweep, &sweep->boxes[i]);
   sort_boxes(sweep);
+  sweep->swept = sweep->tested = 0;
+  sweep->milliseconds = now() - start;
   return CONTACTCHECK_OK;
 }
 
@@ -204,22 +218,95 @@ static void report(const Box* a, const Box* b, uint32_t question,
   }
 }
 
+/* Calls visit() for every pair of boxes of two bodies that overlap; gives how many pairs it looked
+ * at. */
+static uint64_t sweep_boxes(const Sweep* sweep,
+                            void (*visit)(void* context, const Box* a, const Box* b),
+                            void* context) {
+  uint64_t looked_at = 0;
+  for (size_t i = 0; i < sweep->box_count; ++i) {
+    const Box* const a = sweep->order[i];
+    for (size_t j = i + 1; j < sweep->box_count; ++j, ++looked_at) {
+      const Box* const b = sweep->order[j];
+      if (b->low[sweep->axis] > a->high[sweep->axis]) break;
+      if (a->body != b->body && boxes_overlap(a, b)) visit(context, a, b);
+    }
+  }
+  return looked_at;
+}
+
+typedef struct {
+  Sweep* sweep;
+  uint32_t question;
+  const contactcheck_answer* answer;
+} Asked;
+
+static void test_pair(void* context, const Box* a, const Box* b) {
+  const Asked* const asked = context;
+  ++asked->sweep->tested;
+  if (meet(asked->sweep, a, b)) report(a, b, asked->question, asked->answer);
+}
+
 /* Pairs of bodies may be told again and again: the host makes a set of them. */
 static int32_t query(void* detector, uint32_t question, const contactcheck_answer* answer,
                      char* message) {
-  const Sweep* const sweep = detector;
+  Sweep* const sweep = detector;
+  const Asked asked = {sweep, question, answer};
+  const double start = now();
   (void)message;
-  for (size_t i = 0; i < sweep->box_count; ++i) {
-    const Box* const a = sweep->order[i];
-    for (size_t j = i + 1; j < sweep->box_count; ++j) {
-      const Box* const b = sweep->order[j];
-      if (b->low[sweep->axis] > a->high[sweep->axis]) break;
-      if (a->body != b->body && boxes_overlap(a, b) && meet(sweep, a, b))
-        report(a, b, question, answer);
-    }
-  }
+  sweep->swept += sweep_boxes(sweep, test_pair, (void*)&asked);
+  sweep->milliseconds = now() - start;
   return CONTACTCHECK_OK;
 }
+
+/* ---- what it tells of its work ----------------------------------------------------------- */
+
+typedef struct {
+  contactcheck_element_pair* pairs;
+  uint64_t count, room;
+  int failed;
+} PairList;
+
+static void add_pair(void* context, const Box* a, const Box* b) {
+  PairList* const list = context;
+  const contactcheck_element_pair pair = {a->body, b->body, a->triangle, b->triangle};
+  if (list->count == list->room) {
+    const uint64_t room = list->room * 2 + 64;
+    void* const larger = realloc(list->pairs, room * sizeof pair);
+    if (larger == NULL) {
+      list->failed = 1;
+      return;
+    }
+    list->pairs = larger;
+    list->room = room;
+  }
+  list->pairs[list->count++] = pair;
+}
+
+static int32_t trace(void* detector, const contactcheck_trace* trace, char* message) {
+  PairList list = {NULL, 0, 0, 0};
+  const uint64_t swept = sweep_boxes(detector, add_pair, &list);
+  const contactcheck_stage stage = {.name = "boxes",
+                                    .unit = "triangle pairs",
+                                    .in = swept,
+                                    .out = list.count,
+                                    .covers = CONTACTCHECK_COVERS_TRIANGLES,
+                                    .count = list.count,
+                                    .pairs = list.pairs};
+  if (!list.failed) trace->stage(trace->host, &stage);
+  free(list.pairs); /* it was copied */
+  return list.failed ? fail(message, "out of memory") : CONTACTCHECK_OK;
+}
+
+static int32_t counts(void* detector, const contactcheck_counts* counts, char* message) {
+  const Sweep* const sweep = detector;
+  (void)message;
+  counts->add(counts->host, "pairs_swept", sweep->swept);
+  counts->add(counts->host, "triangle_pairs_tested", sweep->tested);
+  return CONTACTCHECK_OK;
+}
+
+static double own_ms(void* detector) { return ((const Sweep*)detector)->milliseconds; }
 
 static const char* const kAxes[] = {"x", "y", "z", NULL};
 static const contactcheck_option kOptions[] = {
@@ -239,6 +326,10 @@ static const contactcheck_plugin kPlugin = {
     .prepare = prepare,
     .update = update,
     .query = query,
+    .told_sizes = CONTACTCHECK_TOLD_SIZES,
+    .trace = trace,
+    .counts = counts,
+    .own_ms = own_ms,
 };
 
 const contactcheck_plugin* contactcheck_plugin_entry(void) { return &kPlugin; }

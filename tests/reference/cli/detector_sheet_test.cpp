@@ -76,6 +76,17 @@ TEST(DetectorSheet, OfOneThatSpeaksInMargins) {
             "  depth       vertex-surface\n");
 }
 
+TEST(DetectorSheet, SaysThatSinglePrecisionHasALocalOrigin) {
+  Semantics s;
+  s.levels = {Level::kBody};
+  s.questions = {Question::kBody};
+  s.precision = Precision::kSingle;
+  s.local_origin = true;
+  EXPECT_NE(
+      detector_sheet(info_with(s), 100).find("numbers     single precision about a local origin\n"),
+      std::string::npos);
+}
+
 TEST(DetectorSheet, OptionsShowDefaultAndWhatIsAllowed) {
   DetectorInfo info = info_with(plain());
   info.options = {choice_option("bounds", "safe", {"paper", "safe"}, "how culling is bounded"),

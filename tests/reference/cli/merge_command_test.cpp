@@ -88,7 +88,7 @@ class Shards : public testing::Test {
     return Json::parse(text_of(file));
   }
   void expect_same_folders(const std::string& a, const std::string& b) const {
-    for (const char* folder : {"cases", "contacts", "recordings"})
+    for (const char* folder : {"cases", "contacts", "plots", "recordings"})
       expect_same_files(dir(a) / folder, dir(b) / folder);
   }
 
@@ -105,7 +105,7 @@ TEST_F(Shards, MergedAreTheResultsOfTheRunInOnePiece) {
   EXPECT_GT(merged.at("disagreements").size(), 5u) << "there are cases to number";
   expect_same_folders("out", "whole");
   EXPECT_THAT(text_of(dir("out") / "report.md"), HasSubstr("Put together from 3 shards"));
-  EXPECT_EQ(names_in(dir("out")), test::run_files());
+  EXPECT_EQ(names_in(dir("out")), test::run_files({"plots"}));
 }
 
 TEST_F(Shards, AreNoBaseline) {
@@ -198,22 +198,27 @@ TEST_F(Shards, MoreThanScenesAreRefused) {
   EXPECT_FALSE(fs::exists(dir("out")));
 }
 
-// Two shards that belong together, made once; every test gets a copy.
-const test::Scratch& good_shards() {
-  static const test::Scratch* const scratch = [] {
-    auto* made = new test::Scratch;
-    made->write("one.json", tiny_scene("one"));
-    made->write("two.json", tiny_scene("two"));
+// Two shards that belong together.
+struct GoodShards {
+  GoodShards() {
+    scratch.write("one.json", tiny_scene("one"));
+    scratch.write("two.json", tiny_scene("two"));
     for (const char* k : {"1", "2"}) {
-      const Outcome outcome = contactcheck_program(
-          {"run", (made->folder() / "one.json").string(), (made->folder() / "two.json").string(),
-           "--detector", "fcl-aabb", "--detector", "ffd-grid", "--quiet", "--repeat", "1",
-           "--shard", std::string(k) + "/2", "--out", (made->folder() / k).string()});
+      const Outcome outcome =
+          contactcheck_program({"run", (scratch.folder() / "one.json").string(),
+                                (scratch.folder() / "two.json").string(), "--detector", "fcl-aabb",
+                                "--detector", "ffd-grid", "--quiet", "--repeat", "1", "--shard",
+                                std::string(k) + "/2", "--out", (scratch.folder() / k).string()});
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     }
-    return made;
-  }();
-  return *scratch;
+  }
+  test::Scratch scratch;
+};
+
+// Made once, gone at the end of the program; every test gets a copy.
+const test::Scratch& good_shards() {
+  static const GoodShards shards;
+  return shards.scratch;
 }
 
 /// What is done to DIR/2 before DIR/1 and DIR/2 are merged.

@@ -33,26 +33,29 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
 }
 
-TEST(ReportCommand, DrawsSpeedAgainstErrorAsTheRunDoes) {
+TEST(ReportCommand, DrawsThePicturesOfTheRun) {
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
-  ASSERT_EQ(contactcheck_program({"run", scene, "--detector", "fcl-aabb", "--detector", "ffd-aabb",
+  ASSERT_EQ(contactcheck_program({"run", scene, "--detector", "ffd-grid", "--detector", "ffd-aabb",
                                   "--quiet", "--repeat", "1", "--out", out})
                 .exit_code,
             0);
   ASSERT_EQ(contactcheck_program({"report", out / "results.json", "--format", "md", "--out", again})
                 .exit_code,
             0);
-  const fs::path picture = fs::path("plots") / "speed_error.svg";
-  EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-aabb: "));
-  EXPECT_EQ(text_of(again / picture), text_of(out / picture));
-  const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
-                                        {"-c",
-                                         "import sys, xml.dom.minidom as dom\n"
-                                         "print(dom.parse(sys.argv[1]).documentElement.tagName)",
-                                         (out / picture).string()});
-  EXPECT_EQ(xml.out, "svg\n") << xml.err;
+  EXPECT_EQ(test::names_in(again / "plots"), test::names_in(out / "plots"));
+  for (const char* name : {"speed_error.svg", "who_errs.svg"}) {
+    const fs::path picture = fs::path("plots") / name;
+    EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-grid"));
+    EXPECT_EQ(text_of(again / picture), text_of(out / picture));
+    const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
+                                          {"-c",
+                                           "import sys, xml.dom.minidom as dom\n"
+                                           "print(dom.parse(sys.argv[1]).documentElement.tagName)",
+                                           (out / picture).string()});
+    EXPECT_EQ(xml.out, "svg\n") << xml.err;
+  }
 }
 
 // What the page holds for its 3D view, packed.
@@ -88,7 +91,7 @@ TEST(ReportCommand, WritesTheFormatsAskedFor) {
   const fs::path results = out / "results.json";
   EXPECT_EQ(contactcheck_program({"report", results, "--format", "md", "--out", again}).exit_code,
             0);
-  EXPECT_EQ(test::names_in(again), std::set<std::string>{"report.md"});
+  EXPECT_EQ(test::names_in(again), (std::set<std::string>{"plots", "report.md"}));
   const Outcome refused = contactcheck_program({"report", results, "--format", "pdf"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--format \"pdf\" is not known; allowed: csv, html, md"));

@@ -74,7 +74,7 @@ class RunCommand : public testing::Test {
 TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
   const json results = run("out", {scene_, "--no-timing"});
   const fs::path out = scratch_.folder() / "out";
-  EXPECT_EQ(names_in(out), test::run_files());
+  EXPECT_EQ(names_in(out), test::run_files({"plots"}));
   EXPECT_THAT(names_in(out / "recordings"), ElementsAre("tiny.ccr"));
   EXPECT_THAT(text_of(out / "report.md"), HasSubstr("## tiny"));
   EXPECT_THAT(last_.out, HasSubstr("results.json"));

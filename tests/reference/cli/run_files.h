@@ -8,7 +8,8 @@
 
 namespace contactcheck::test {
 
-/// And `further` names; report.html only where this build can make it.
+/// And `further` names, "plots" among them where a detector errs or is timed; report.html only
+/// where this build can make it.
 inline std::set<std::string> run_files(std::set<std::string> further = {}) {
   std::set<std::string> names = {"cases",      "contacts",  "recordings",
                                  "report.csv", "report.md", "results.json"};

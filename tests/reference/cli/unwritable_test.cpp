@@ -124,7 +124,7 @@ class FullDisk : public testing::Test {
                              const std::string& before) {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(out)) names.insert(entry.path().filename());
-    EXPECT_THAT(names, testing::IsSubsetOf(test::run_files({"partial"})));
+    EXPECT_THAT(names, testing::IsSubsetOf(test::run_files({"partial", "plots"})));
     for (const auto& entry : fs::recursive_directory_iterator(out))
       EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
     if (outcome.exit_code == 0) {

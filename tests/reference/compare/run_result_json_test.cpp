@@ -220,6 +220,14 @@ TEST(RunResultJson, NearNamesItsMarginAndRoundedLevelsStandApart) {
   EXPECT_EQ(json.at("semantics").at("scale"), 64.0);
 }
 
+TEST(RunResultJson, SaysALocalOriginWhereThereIsOne) {
+  RunResult run = hand_built();
+  EXPECT_FALSE(to_json(run).at("semantics").contains("local_origin"));
+  run.semantics.precision = Precision::kSingle;
+  run.semantics.local_origin = true;
+  EXPECT_EQ(to_json(run).at("semantics").at("local_origin"), true);
+}
+
 RunTimes hand_built_times() {
   QuestionTimes cells, body;
   cells.question = Question::kCells;

@@ -10,6 +10,7 @@ import time
 
 FAULT = sys.argv[1]
 OUT = sys.stdout.buffer
+LEAKED = []
 HELLO = {
     "message": "hello",
     "protocol": "contactcheck-pipe/1",
@@ -166,6 +167,8 @@ def main():
             write({"message": "ready"})
         elif line["message"] == "frame":
             index = line["index"]
+            if FAULT == "leaks":
+                LEAKED.append(b"x" * (1 << 24))
             frame() if index == 2 else write({"message": "done"})
         elif FAULT == "always-lies":
             write({"message": "contacts", "triangles": 1}, PAIR)

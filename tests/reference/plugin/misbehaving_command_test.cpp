@@ -1,29 +1,19 @@
 // What a command that misbehaves comes to: a sentence before anything runs, or a row of its own.
 #include <gmock/gmock.h>
 
-#include "tests/reference/plugin/plugin_run.h"
+#include "tests/reference/plugin/plugin_fault.h"
 #include "tests/reference/run/is_dead.h"
 
 namespace contactcheck {
 namespace {
 
+using test::kLeakingLong;
+using test::kLittleMemory;
+using test::kShortCalls;
 using test::misbehaving_command;
 using test::PluginRun;
+using Fault = test::PluginFault;
 using testing::HasSubstr;
-
-struct Fault {
-  std::string name;
-  std::vector<std::string> pieces;  ///< of the sentence
-  std::string status = "error";
-  std::vector<std::string> flags = {"--no-timing"};
-};
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
-
-std::string test_name(const testing::TestParamInfo<Fault>& test) {
-  std::string name = test.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
 
 // ---- when it is greeted: the run is refused -------------------------------------------------
 
@@ -43,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no-answer", {"said nothing for 1.5 s (time limit)"}, "", {"--call-limit", "1.5"}},
         Fault{"ends-at-once", {"the command ended with exit code 3"}},
         Fault{"raises-at-once", {"exit code 1", "ValueError: no such model"}},
-        Fault{"garbage", {"line 1, column 1"}}, Fault{"not-utf8", {"line 1"}},
+        Fault{"garbage", {"where its message \"hello\" was due", "standard error"}},
+        Fault{"not-utf8", {"line 1"}},
         Fault{"version-2", {"protocol is \"contactcheck-pipe/2\"", "contactcheck-pipe/1"}},
         Fault{"bad-id", {"id is \"a:b\"", "it must be"}},
         Fault{"built-in-id", {"calls itself \"fcl-aabb\"", "another detector's name"}},
@@ -54,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
               {"more than 400 MiB resident (memory limit)"},
               "",
               {"--memory-limit", "400"}}),
-    test_name);
+    test::name_of_test);
 
 TEST(CommandAtHello, ThatIsNotThereIsRefused) {
   test::expect_refusal(PluginRun({"--detector-cmd", "./no-such-command --fast"}),
@@ -74,17 +65,8 @@ class CommandAtWork : public testing::TestWithParam<Fault> {};
 TEST_P(CommandAtWork, GetsARowAndDisturbsNobody) {
   PluginRun run({"--detector-cmd", misbehaving_command(GetParam().name), "--detector", "fcl-aabb"},
                 GetParam().flags);
-  const auto row = run.row("misbehaving");
-  EXPECT_EQ(row.at("status"), GetParam().status) << row.at("message");
-  EXPECT_EQ(run.outcome().exit_code, GetParam().status == "error" ? 3 : 0) << run.outcome().err;
-  for (const std::string& piece : GetParam().pieces)
-    EXPECT_THAT(row.at("message").get<std::string>(), HasSubstr(piece));
-  EXPECT_EQ(run.row("fcl-aabb").at("status"), "ok");
-  EXPECT_EQ(run.row("fcl-aabb").at("levels").at("triangle").at("missed"), 0);
+  test::expect_row_and_nobody_disturbed(run, "misbehaving", GetParam());
 }
-
-const std::vector<std::string> kQuick = {"--no-timing", "--call-limit", "1.5"};
-const std::vector<std::string> kSmall = {"--no-timing", "--memory-limit", "400"};
 
 INSTANTIATE_TEST_SUITE_P(
     All, CommandAtWork,
@@ -92,11 +74,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"exits-in-frame", {"frame 2", "the command ended with exit code 0"}},
         Fault{"raises-in-frame", {"frame 2", "ZeroDivisionError: division by zero in a frame"}},
         Fault{"kills-itself", {"frame 2", "ended with signal 9 (Killed)"}},
-        Fault{"hangs-in-frame", {"frame 2", "no progress for 1.5 s"}, "error", kQuick},
+        Fault{"hangs-in-frame", {"frame 2", "no progress for 1.5 s"}, "error", kShortCalls},
         Fault{"floods", {"frame 2", "a line of more than 1024 KiB"}},
         Fault{"floods-errors", {"frame 2", "more than 64 MiB to standard error"}},
-        Fault{"eats-memory", {"frame 2", "more than 400 MiB resident"}, "error", kSmall},
-        Fault{"eats-memory-in-a-child", {"frame 2", "more than 400 MiB"}, "error", kSmall},
+        Fault{"eats-memory", {"frame 2", "more than 400 MiB resident"}, "error", kLittleMemory},
+        Fault{"eats-memory-in-a-child", {"frame 2", "more than 400 MiB"}, "error", kLittleMemory},
+        Fault{"leaks", {"more than 400 MiB resident"}, "error", kLeakingLong},
         Fault{"closes-its-output", {"frame 2", "closed its standard output"}},
         Fault{"half-a-line", {"frame 2", "ended with exit code 0"}},
         Fault{"wrong-message", {"message is \"ready\"; it must be \"done\""}},
@@ -111,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"too-many", {"triangles is 1e+12", "whole number from 0 to 16777216"}},
         Fault{"half-a-message", {"frame 2", "ended with exit code 0"}},
         Fault{"nan-depth", {"frame 2: the answer holds a depth or normal"}}),
-    test_name);
+    test::name_of_test);
 
 TEST(CommandAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   PluginRun run({"--detector-cmd", misbehaving_command("lies")});

@@ -1,29 +1,19 @@
 // What a library that misbehaves comes to: a sentence before anything runs, or a row of its own.
 #include <gmock/gmock.h>
 
-#include "tests/reference/plugin/plugin_run.h"
+#include "tests/reference/plugin/plugin_fault.h"
 
 namespace contactcheck {
 namespace {
 
+using test::kLeakingLong;
+using test::kLittleMemory;
+using test::kShortCalls;
 using test::misbehaving_library;
 using test::PluginRun;
+using Fault = test::PluginFault;
 using testing::AllOf;
 using testing::HasSubstr;
-
-struct Fault {
-  std::string name;
-  std::vector<std::string> pieces;  ///< of the sentence
-  std::string status = "error";
-  std::vector<std::string> flags = {"--no-timing"};
-};
-void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
-
-std::string test_name(const testing::TestParamInfo<Fault>& test) {
-  std::string name = test.param.name;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
 
 // ---- when it is loaded: the run is refused --------------------------------------------------
 
@@ -52,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"crash", {"ended in signal 11"}}, Fault{"exit", {"ended in exit code "}},
         Fault{"hang", {"said nothing for 1.5 s (time limit)"}, "", {"--call-limit", "1.5"}},
         Fault{"memory", {"took more than 400 MiB (memory limit)"}, "", {"--memory-limit", "400"}}),
-    test_name);
+    test::name_of_test);
 
 TEST(LibraryAtLoad, OfNoSuchFileIsRefused) {
   test::expect_refusal(PluginRun({"--detector", "./no-such-library.so"}),
@@ -84,36 +74,29 @@ class LibraryAtWork : public testing::TestWithParam<Fault> {};
 TEST_P(LibraryAtWork, GetsARowAndDisturbsNobody) {
   PluginRun run({"--detector", misbehaving_library(GetParam().name), "--detector", "fcl-aabb"},
                 GetParam().flags);
-  const auto row = run.row("misbehaving:fault=" + GetParam().name);
-  EXPECT_EQ(row.at("status"), GetParam().status) << row.at("message");
-  EXPECT_EQ(run.outcome().exit_code, GetParam().status == "error" ? 3 : 0) << run.outcome().err;
-  for (const std::string& piece : GetParam().pieces)
-    EXPECT_THAT(row.at("message").get<std::string>(), HasSubstr(piece));
-  EXPECT_EQ(run.row("fcl-aabb").at("status"), "ok");
-  EXPECT_EQ(run.row("fcl-aabb").at("levels").at("triangle").at("missed"), 0);
+  test::expect_row_and_nobody_disturbed(run, "misbehaving:fault=" + GetParam().name, GetParam());
 }
-
-const std::vector<std::string> kQuick = {"--no-timing", "--call-limit", "1.5"};
-const std::vector<std::string> kSmall = {"--no-timing", "--memory-limit", "400"};
 
 INSTANTIATE_TEST_SUITE_P(
     All, LibraryAtWork,
-    testing::Values(Fault{"create-fails", {"create failed: no licence for this machine"}},
-                    Fault{"unknown-level", {"declares levels that do not exist"}},
-                    Fault{"no-question", {"it answers no question"}},
-                    Fault{"refuses", {"bodies without a licence"}, "refused"},
-                    Fault{"crash", {"frame 2", "signal 11"}},
-                    Fault{"exit", {"frame 2", "exit code "}},
-                    Fault{"hang", {"frame 2", "no progress for 1.5 s"}, "error", kQuick},
-                    Fault{"fails", {"frame 2", "update failed: xxx"}},
-                    Fault{"strange-status", {"frame 2", "update failed"}},
-                    Fault{"memory", {"frame 2", "memory limit"}, "error", kSmall},
-                    Fault{"no-such-body", {"frame 2: the answer names body 7 of 2 bodies"}},
-                    Fault{"no-such-triangle", {"frame 2: the answer names triangle 1000000"}},
-                    Fault{"endless-answer", {"frame 2", "memory limit"}, "error", kSmall},
-                    Fault{"nan-depth", {"frame 2: the answer holds a depth or normal"}},
-                    Fault{"null-items", {"frame 2"}}),
-    test_name);
+    testing::Values(
+        Fault{"create-fails", {"create failed: no licence for this machine"}},
+        Fault{"unknown-level", {"declares levels that do not exist"}},
+        Fault{"no-question", {"it answers no question"}},
+        Fault{"refuses", {"bodies without a licence"}, "refused"},
+        Fault{"crash", {"frame 2", "signal 11"}}, Fault{"exit", {"frame 2", "exit code "}},
+        Fault{"hang", {"frame 2", "no progress for 1.5 s"}, "error", kShortCalls},
+        Fault{"fails", {"frame 2", "update failed: xxx"}},
+        Fault{"strange-status", {"frame 2", "update failed"}},
+        Fault{"memory", {"frame 2", "memory limit"}, "error", kLittleMemory},
+        Fault{"leaks", {"phase update", "more than 400 MiB resident"}, "error", kLeakingLong},
+        Fault{"crash-when-destroyed", {"phase destroy", "signal 11"}},
+        Fault{"no-such-body", {"frame 2: the answer names body 7 of 2 bodies"}},
+        Fault{"no-such-triangle", {"frame 2: the answer names triangle 1000000"}},
+        Fault{"endless-answer", {"frame 2", "memory limit"}, "error", kLittleMemory},
+        Fault{"nan-depth", {"frame 2: the answer holds a depth or normal"}},
+        Fault{"null-items", {"frame 2"}}),
+    test::name_of_test);
 
 TEST(LibraryAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   PluginRun run({"--detector", misbehaving_library("lies"), "--detector",

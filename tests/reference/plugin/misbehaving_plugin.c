@@ -1,5 +1,5 @@
 /* A plug-in that does what its option `fault` says, in frame 2 of query, update or prepare, or in
- * its declaration. The environment variable CONTACTCHECK_PLUGIN_FAULT chooses what it does when it
+ * its declaration; it leaks in every frame. The environment variable CONTACTCHECK_PLUGIN_FAULT chooses what it does when it
  * is loaded: before there are options. Otherwise it reports no contacts, which is its claim. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
@@ -45,7 +45,10 @@ static int32_t create(const contactcheck_setting* settings, uint32_t count, void
   return CONTACTCHECK_OK;
 }
 
-static void destroy(void* detector) { free(detector); }
+static void destroy(void* detector) {
+  if (is(detector, "crash-when-destroyed")) die(SIGSEGV);
+  free(detector);
+}
 
 static int32_t declare(void* detector, contactcheck_semantics* s, char* message) {
   const State* const state = detector;
@@ -76,6 +79,7 @@ static int32_t prepare(void* detector, const contactcheck_body* bodies, uint32_t
 static int32_t update(void* detector, const contactcheck_frame* frame, char* message) {
   State* const state = detector;
   state->frame = frame->index;
+  if (is(state, "leaks")) memset(malloc(1 << 24), 1, 1 << 24);
   if (frame->index != 2) return CONTACTCHECK_OK;
   if (is(state, "crash")) die(SIGSEGV);
   if (is(state, "exit")) exit(0);
@@ -129,6 +133,8 @@ static const char* const kFaults[] = {"none",
                                       "fails",
                                       "strange-status",
                                       "memory",
+                                      "leaks",
+                                      "crash-when-destroyed",
                                       "no-such-body",
                                       "lies",
                                       "repeats",

@@ -137,8 +137,19 @@ TEST(PipeMessages, OfContactsWithCountsThatDisagreeAreRefused) {
   EXPECT_THAT(sentence_about(R"({"message": "contacts", "bytes": 1e300})"), HasSubstr("bytes is"));
   EXPECT_THAT(sentence_about(R"({"message": "contacts", "bytes": 1, "bytes": 2})"),
               HasSubstr("bytes"));
-  EXPECT_THAT(sentence_about(R"(["contacts"])"), HasSubstr("must be an object"));
   EXPECT_THAT(sentence_about("{}"), HasSubstr("message is missing"));
+}
+
+TEST(PipeMessages, WordsAmongThemAreShownWithWhereTheyBelong) {
+  for (const char* line : {"found 3 pairs", "3", R"(["contacts"])"}) {
+    const std::string sentence = sentence_about(line);
+    EXPECT_THAT(sentence,
+                HasSubstr("command wrote \"" + std::string(line) + "\" where its message"));
+    EXPECT_THAT(sentence, HasSubstr("\"contacts\" was due"));
+    EXPECT_THAT(sentence, HasSubstr("belongs on standard error"));
+  }
+  EXPECT_THAT(sentence_about(""), HasSubstr("command wrote \"\" where"));
+  EXPECT_THAT(sentence_about(R"({"message": "contacts")"), HasSubstr("not valid JSON"));
 }
 
 TEST(PipeMessages, OfErrorsAreThrownAsSuch) {

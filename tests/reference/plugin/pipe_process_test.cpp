@@ -55,6 +55,14 @@ TEST(PipeProcess, LastWordsAreTheLastLineOfItsErrors) {
   EXPECT_EQ(process.first_error_line(), "first");
 }
 
+TEST(PipeProcess, LastWordsOfPythonSayWhere) {
+  PipeProcess process(std::string(CONTACTCHECK_PYTHON) +
+                      " -c \"def answer(): return [][7]\nanswer()\"");
+  const std::string said = complaint([&] { process.receive_line(); });
+  EXPECT_THAT(said, HasSubstr("IndexError: list index out of range (File \"<string>\", line 1, in "
+                              "answer)"));
+}
+
 TEST(PipeProcess, SeesNoDescriptorsButItsThree) {
   PipeProcess process("ls /proc/self/fd | wc -l");
   EXPECT_EQ(std::atoi(process.receive_line().c_str()), 4) << "and the one that ls reads";
@@ -69,6 +77,28 @@ TEST(PipeProcess, EndsWithWhatItHasStarted) {
     EXPECT_EQ(kill(child, 0), 0);
   }
   EXPECT_TRUE(test::dies(child));
+}
+
+// An orphan in a session of its own: no tree and no group holds it any more.
+TEST(PipeProcess, EndsWithWhatHasLeftItsTree) {
+  for (const char* then : {"wait; cat", "exit 0"}) {
+    int child = 0;
+    {
+      PipeProcess process(std::string("(setsid sleep 300 >/dev/null 2>&1 & echo $!); ") + then);
+      child = std::atoi(process.receive_line().c_str());
+      ASSERT_GT(child, 0);
+      EXPECT_EQ(kill(child, 0), 0);
+    }
+    EXPECT_TRUE(test::dies(child)) << then;
+  }
+}
+
+TEST(PipeProcess, LeavesAloneWhatAnotherHasStarted) {
+  PipeProcess other("(setsid sleep 300 >/dev/null 2>&1 & echo $!); cat");
+  const int child = std::atoi(other.receive_line().c_str());
+  ASSERT_GT(child, 0);
+  { PipeProcess process("cat"); }
+  EXPECT_FALSE(test::is_dead(child));
 }
 
 TEST(PipeProcess, MemoryLimitHoldsForAllOfItsProcesses) {

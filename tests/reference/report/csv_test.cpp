@@ -84,6 +84,13 @@ TEST(Csv, RowHasWhatWasMeasuredAndEmptyCellsForTheRest) {
   EXPECT_EQ(row(csv_report(sample_results()), 1), expected);
 }
 
+TEST(Csv, HasADetectorsOwnClock) {
+  auto results = sample_results();
+  results["runs"][1]["time_ms"]["hot"]["self_reported"] = 0.125;
+  const auto cells = row(csv_report(results), 1);
+  EXPECT_EQ(cells.at("hot_self_reported_ms"), "0.125");
+}
+
 TEST(Csv, RowThatIsNotOkHasStatusAndMessage) {
   const std::map<std::string, std::string> expected = {
       {"scene", "hello"}, {"detector", "embree"}, {"status", "absent"}, {"message", "not built"}};

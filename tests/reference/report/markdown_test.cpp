@@ -46,6 +46,12 @@ Over scene hello. A time is that of mapping, update and query with cold caches, 
 
 Not in the chart: fcl-obbrss, embree, ffd-grid (ended well in 0 of 1 scenes).
 
+## Who errs, and in which stage
+
+![Share of true contacts missed and of reports spurious, a row per detector](plots/who_errs.svg)
+
+![Share of true pairs of triangles lost, stage by stage, a row per detector](plots/stage_losses.svg)
+
 ## What the results say
 
 ### ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`
@@ -92,10 +98,10 @@ Which stage lost which true triangle pairs (sums over frames):
 
 Times in milliseconds per frame (medians over repeats; cold unless said):
 
-| detector | question | prepare | map | update | query | frame | contact frame | frame, hot | timed frames | repeats | memory, MiB |
-|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|
-| fcl-aabb | triangles | 12.0 | 0.250 | 0.500 | 1.25 | 2.00 | 3.00 | 1.50 | 60 | 5 | 1.00 |
-| ffd-aabb-sphere2+tri | triangles | 8.00 | - | 0.125 | 0.375 | 0.500 | - | 0.250 | 60 | 5 | 0.500 |
+| detector | question | prepare | map | update | query | frame | contact frame | own clock | frame, hot | timed frames | repeats | memory, MiB |
+|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|
+| fcl-aabb | triangles | 12.0 | 0.250 | 0.500 | 1.25 | 2.00 | 3.00 | - | 1.50 | 60 | 5 | 1.00 |
+| ffd-aabb-sphere2+tri | triangles | 8.00 | - | 0.125 | 0.375 | 0.500 | - | - | 0.250 | 60 | 5 | 0.500 |
 
 Speed-ups: time of the reference / time of the detector on the same question, frames and repeats, with 95 % intervals:
 
@@ -118,7 +124,7 @@ Disagreements with the truth (first of each kind):
 - **body m/s**: pairs of bodies missed / spurious, over all frames
 - **hover mm**: largest true distance at the moment contact is first reported
 - **late**: frames reported after (+) or before (-) the truth, worst episode
-- **ms/frame**: map + update + query, cold median, own question
+- **ms/frame**: map + update + query, cold median, own question; (own ...): update + query by its own clock
 - **question**: question in which the next columns compare
 - **vs fcl-aabb**: time of fcl-aabb / time of this detector, cold
 - **vs fcl-obbrss**: time of fcl-obbrss / time of this detector, cold

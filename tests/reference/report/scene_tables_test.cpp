@@ -56,6 +56,23 @@ TEST(LevelsTable, TellsDoublesFromValuesFedAndClaimsFromWhatIsInformative) {
   EXPECT_THAT(table, HasSubstr("| bullet-vf | vertex, informative | doubles | 40 | 9 | 36 | 5 |"));
 }
 
+TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
+  Json with_clock = near_run(), without = renamed(near_run(), "other");
+  const Json phases = {
+      {"map", 0.5}, {"update", 1.0}, {"query", 2.0}, {"frame", 3.5}, {"contact_frame", 4.0}};
+  for (Json* run : {&with_clock, &without}) {
+    (*run)["time_ms"] = {{"prepare", 1.0}, {"question", "body"}, {"timed_frames", 7},
+                         {"repeats", 5},   {"cold", phases},     {"hot", phases}};
+    (*run)["memory_bytes"] = 1048576;
+  }
+  with_clock["time_ms"]["cold"]["self_reported"] = 2.25;
+  const std::string table = times_table({with_clock, without});
+  EXPECT_THAT(table, HasSubstr("| contact frame | own clock | frame, hot |"));
+  EXPECT_THAT(table,
+              HasSubstr("| bullet-vf | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 2.25 |"));
+  EXPECT_THAT(table, HasSubstr("| other | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | - |"));
+}
+
 TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
   EXPECT_THAT(
       graded_table({near_run()}),

@@ -30,12 +30,20 @@ TEST(Terminal, IsThisText) {
   body m/s       pairs of bodies missed / spurious, over all frames
   hover mm       largest true distance at the moment contact is first reported
   late           frames reported after (+) or before (-) the truth, worst episode
-  ms/frame       map + update + query, cold median, own question
+  ms/frame       map + update + query, cold median, own question; (own ...): update + query by its own clock
   question       question in which the next columns compare
   vs fcl-aabb    time of fcl-aabb / time of this detector, cold
   vs fcl-obbrss  time of fcl-obbrss / time of this detector, cold
   vs embree      time of embree / time of this detector, cold
 )");
+}
+
+TEST(Terminal, ShowsADetectorsOwnClockBesideOurs) {
+  auto results = sample_results();
+  results["runs"][1]["time_ms"]["cold"]["self_reported"] = 0.375;
+  const std::string text = terminal_tables(results, false);
+  EXPECT_THAT(text, HasSubstr("  0.500 (own 0.375)  triangles"));
+  EXPECT_THAT(text, HasSubstr("  2.00  triangles")) << "one without a clock has none";
 }
 
 TEST(Terminal, PaintsMissesSpuriousAndFailuresAlone) {

@@ -45,13 +45,16 @@ void step_for_a_second(ProgressWriter& progress) {
   }
 }
 
-// A child that would sleep on; the numbers of both are written beside the job file.
-void leave_child(const std::string& job_file) {
+// A child that would sleep on, `away` in a session of its own; the numbers of both are written
+// beside the job file.
+void leave_child(const std::string& job_file, bool away = false) {
   const pid_t child = fork();
   if (child == 0) {
+    if (away) setsid();
     sleep(300);
     _exit(0);
   }
+  while (away && getsid(child) != child) usleep(1'000);
   const std::string name = job_file + ".pids";
   std::ofstream(name + ".part") << getpid() << ' ' << child << '\n';
   std::rename((name + ".part").c_str(), name.c_str());
@@ -179,6 +182,10 @@ int act_on_job(const std::string& job_file, ProgressWriter& progress) {
   if (what.rfind('{', 0) == 0) return act_for_suite(read_job(job_file), progress);
   if (what == "crash with child") {
     leave_child(job_file);
+    die(SIGSEGV);
+  }
+  if (what == "crash with child away") {
+    leave_child(job_file, true);
     die(SIGSEGV);
   }
   if (what == "hang with child") {

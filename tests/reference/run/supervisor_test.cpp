@@ -154,13 +154,17 @@ Pids pids_beside(const std::filesystem::path& job) {
   return pids;
 }
 
+// Also one in a session of its own, whom no signal to the worker's group reaches. (A child of fork
+// alone still has the worker's environment.)
 TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
-  const Scratch scratch;
-  const std::filesystem::path job = scratch.write("job", "crash with child");
-  const WorkerOutcome outcome =
-      run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0), [](const WorkerProgress&) {});
-  EXPECT_EQ(outcome.reason, "signal 11 (Segmentation fault)");
-  EXPECT_TRUE(test::dies(pids_beside(job).child));
+  for (const char* what : {"crash with child", "crash with child away"}) {
+    const Scratch scratch;
+    const std::filesystem::path job = scratch.write("job", what);
+    const WorkerOutcome outcome =
+        run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0), [](const WorkerProgress&) {});
+    EXPECT_EQ(outcome.reason, "signal 11 (Segmentation fault)");
+    EXPECT_TRUE(test::dies(pids_beside(job).child)) << what;
+  }
 }
 
 // A process that supervises `job`, struck by `signal` in the middle. Its status at its end.

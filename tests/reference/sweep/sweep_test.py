@@ -49,6 +49,17 @@ echo $id
 SACCT = """#!/bin/sh
 cat {folder}/state.$2
 """
+NO_SACCT = """#!/bin/sh
+echo Slurm accounting storage is disabled >&2
+exit 1
+"""
+SCONTROL = """#!/bin/sh
+echo "JobId=$4 JobName=shard Priority=1 JobState=$(cat {folder}/state.$4) Reason=None"
+"""
+NO_JOB = """#!/bin/sh
+echo "slurm_load_jobs error: Invalid job id specified" >&2
+exit 1
+"""
 
 
 def rows_of(folder):
@@ -104,16 +115,32 @@ class Sweep(unittest.TestCase):
         self.assertNotEqual(outcome.returncode, 0)
         self.assertIn("this run has 3 scenes", outcome.stderr)
 
-    def test_on_a_cluster_a_lost_job_is_submitted_again(self):
+    def on_a_cluster(self, **stand_ins):
         tools = self.folder / "tools"
         self.script(tools / "sbatch", SBATCH)
-        self.script(tools / "sacct", SACCT)
+        for name, text in stand_ins.items():
+            self.script(tools / name, text)
         outcome = self.sweep("--profile", ROOT / "reference/sweep/slurm", "--latency-wait", "10",
                              path=tools)
         self.expect_whole(outcome)
         submitted = (self.folder / "submitted").read_text().splitlines()
         self.assertEqual(len(submitted), 4, "three shards, one of them twice")
         self.assertTrue(all("--parsable" in words for words in submitted))
+
+    def test_on_a_cluster_a_lost_job_is_submitted_again(self):
+        self.on_a_cluster(sacct=SACCT)
+
+    def test_on_a_cluster_without_accounts_too(self):
+        self.on_a_cluster(sacct=NO_SACCT, scontrol=SCONTROL)
+
+    def test_job_that_nobody_knows_any_more_has_failed(self):
+        tools = self.folder / "tools"
+        self.script(tools / "sacct", NO_SACCT)
+        self.script(tools / "scontrol", NO_JOB)
+        said = subprocess.run([ROOT / "reference/sweep/slurm/status.sh", "7"], check=True,
+                              env=dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}"),
+                              capture_output=True, text=True)
+        self.assertEqual(said.stdout, "failed\n")
 
 
 if __name__ == "__main__":

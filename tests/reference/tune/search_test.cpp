@@ -30,6 +30,30 @@ TEST(Search, FindsWhatMeasuringEverythingFindsWithAFifthOfTheMeasurements) {
   }
 }
 
+// Two deformers: a hundred times the dearest detector, and nothing.
+TEST(Search, MeasuresNothingWhoseStepAloneIsDearerThanTheBest) {
+  test::Grid grid;
+  const test::Grid detectors = test::random_grid(5);
+  const double dearest =
+      std::max_element(detectors.truth.begin(), detectors.truth.end(), [](auto& a, auto& b) {
+        return a.cost_ms < b.cost_ms;
+      })->cost_ms;
+  for (std::size_t i = 0; i < detectors.candidates.size(); ++i)
+    for (const bool dear : {false, true}) {
+      grid.candidates.push_back(detectors.candidates[i]);
+      grid.truth.push_back(detectors.truth[i]);
+      grid.candidates.back().choices.push_back({"deformer", dear ? "dear" : "cheap"});
+      if (!dear) continue;
+      grid.candidates.back().usual = false;
+      grid.candidates.back().step_ms = 100.0 * dearest;
+      grid.truth.back().cost_ms += 100.0 * dearest;
+    }
+  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed()));
+  for (const Tried& tried : found.tried) EXPECT_EQ(grid.candidates[tried.candidate].step_ms, 0.0);
+  EXPECT_LE(found.tried.size(), 40u);
+}
+
 TEST(Search, MeasuresNothingTwice) {
   const test::Grid grid = test::random_grid(7);
   std::vector<int> measured(grid.candidates.size());

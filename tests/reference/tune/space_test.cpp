@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
@@ -28,7 +29,7 @@ std::vector<std::string> names(const std::vector<Candidate>& candidates) {
 
 TEST(Space, VariesChoicesAndNumbers) {
   SpaceRequest request;
-  request.detectors = {"ffd-aabb"};
+  request.detectors = {"ffd-aabb:precision=double"};
   const auto candidates = make_space(core_catalog(), request);
   EXPECT_THAT(names(candidates),
               UnorderedElementsAre("ffd-aabb", "ffd-aabb:cell=0.5", "ffd-aabb:cell=2",
@@ -49,9 +50,16 @@ TEST(Space, LeavesWhatTheNameSetsAndWhatIsTheMachines) {
   }
 }
 
-TEST(Space, LeavesWhatTheNameSetsToItsDefault) {
+TEST(Space, TriesSinglePrecision) {
   SpaceRequest request;
   request.detectors = {"ffd-aabb:cell=1,bounds=paper"};
+  EXPECT_THAT(names(make_space(core_catalog(), request)),
+              IsSupersetOf({"ffd-aabb", "ffd-aabb:precision=single"}));
+}
+
+TEST(Space, LeavesWhatTheNameSetsToItsDefault) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:cell=1,bounds=paper,precision=double"};
   EXPECT_THAT(names(make_space(core_catalog(), request)), UnorderedElementsAre("ffd-aabb"));
 }
 
@@ -67,12 +75,33 @@ TEST(Space, TakesEveryDetectorThatAnswers) {
 
 TEST(Space, MultipliesByLattices) {
   SpaceRequest request;
-  request.detectors = {"ffd-aabb"};
+  request.detectors = {"ffd-aabb:precision=double"};
   request.lattices = {1.0, 0.5};
   const auto candidates = make_space(core_catalog(), request);
   EXPECT_EQ(candidates.size(), 12u);
   EXPECT_THAT(candidates[1].choices, Contains(Choice{"lattice", "0.5"}));
   EXPECT_FALSE(candidates[1].usual);
+}
+
+TEST(Space, VariesRadiiOfSpheresByAQuarter) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb-sphere:bounds=paper,cell=1,precision=double"};
+  EXPECT_THAT(names(make_space(core_catalog(), request)),
+              UnorderedElementsAre("ffd-aabb-sphere", "ffd-aabb-sphere:radius=0.8",
+                                   "ffd-aabb-sphere:radius=1.25"));
+}
+
+TEST(Space, MultipliesByDeformersWhoseStepsCost) {
+  SpaceRequest request;
+  request.detectors = {"ffd-aabb:bounds=paper,cell=1,precision=double"};
+  request.deformers = {{"mass-spring", 0.5}, {"shape-matching", 2.0}};
+  const auto candidates = make_space(core_catalog(), request);
+  ASSERT_EQ(candidates.size(), 2u);
+  EXPECT_TRUE(candidates[0].usual);
+  EXPECT_EQ(candidates[0].deformer, "mass-spring");
+  EXPECT_FALSE(candidates[1].usual);
+  EXPECT_EQ(candidates[1].step_ms, 2.0);
+  EXPECT_THAT(candidates[1].choices, Contains(Choice{"deformer", "shape-matching"}));
 }
 
 TEST(Space, RefusesWhatDoesNotAnswer) {

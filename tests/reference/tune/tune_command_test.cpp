@@ -32,7 +32,8 @@ class TuneCommand : public ::testing::Test {
 };
 
 TEST_F(TuneCommand, ChoosesAConfigurationThatRunConfirms) {
-  const Outcome tuned = tune({"--detector", "ffd-aabb+tri", "--detector", "ffd-aabb"});
+  const Outcome tuned = tune(
+      {"--detector", "ffd-aabb+tri:precision=double", "--detector", "ffd-aabb:precision=double"});
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   const Json json = result();
   EXPECT_EQ(json["schema"], "contactcheck-tune/1");
@@ -53,7 +54,7 @@ TEST_F(TuneCommand, ChoosesAConfigurationThatRunConfirms) {
 }
 
 TEST_F(TuneCommand, MeasuresEveryConfigurationWhenTold) {
-  ASSERT_EQ(tune({"--detector", "ffd-aabb", "--exhaustive"}).exit_code, 0);
+  ASSERT_EQ(tune({"--detector", "ffd-aabb:precision=double", "--exhaustive"}).exit_code, 0);
   EXPECT_EQ(result()["measured"].size(), 6u);
 }
 
@@ -77,8 +78,8 @@ TEST_F(TuneCommand, SaysThatTheChosenOneIsBeyondTheBudget) {
 }
 
 TEST_F(TuneCommand, TriesOtherLattices) {
-  const Outcome tuned = tune({"--detector", "ffd-aabb+tri:cell=3,bounds=paper", "--lattice", "0.04",
-                              "--exhaustive", "--max-missed", "1000"});
+  const Outcome tuned = tune({"--detector", "ffd-aabb+tri:cell=3,bounds=paper,precision=double",
+                              "--lattice", "0.04", "--exhaustive", "--max-missed", "1000"});
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   const Json json = result();
   ASSERT_EQ(json["measured"].size(), 2u);
@@ -88,8 +89,8 @@ TEST_F(TuneCommand, TriesOtherLattices) {
 
 TEST_F(TuneCommand, KeepsLatticesApartThatDifferByLessThanAPercent) {
   const Outcome tuned =
-      tune({"--detector", "ffd-aabb+tri:cell=3,bounds=paper", "--lattice", "0.041", "--lattice",
-            "0.044", "--lattice", "0.044", "--exhaustive", "--max-missed", "1000"});
+      tune({"--detector", "ffd-aabb+tri:cell=3,bounds=paper,precision=double", "--lattice", "0.041",
+            "--lattice", "0.044", "--lattice", "0.044", "--exhaustive", "--max-missed", "1000"});
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   ASSERT_EQ(result()["measured"].size(), 3u);
 }
@@ -123,6 +124,8 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
       {{"--question", "contacts"}, "contacts"},
       {{"--frames", "3"}, "3"},
       {{"--most", "1", "--exhaustive"}, "--exhaustive"},
+      {{"--deformer", "jelly"}, "jelly"},
+      {{"--deformer", "all"}, "is not simulated"},
       {{"--detector", "no-such"}, "unknown detector \"no-such\""},
       {{"--detector", "ffd-aabb", "--question", "triangles"}, "does not answer the question"}};
   for (const auto& [words, sentence] : bad) {
@@ -134,7 +137,7 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
   scene_ = "default";
   EXPECT_THAT(tune({}).err, HasSubstr("\"default\" is a suite"));
   scene_ = "paper-rabbit";
-  EXPECT_THAT(tune({}).err, HasSubstr("is simulated"));
+  EXPECT_THAT(tune({"--lattice", "2"}).err, HasSubstr("is simulated"));
   scene_ = "hard-vertex-face";
   EXPECT_THAT(tune({}).err, HasSubstr("its frames are cases"));
 }

@@ -36,6 +36,12 @@ test("every detector that was timed and judged in all scenes is a point", async 
                /^Not in the chart: <img src=x onerror=alert\(1\)> \(ended well in 0 of 2 scenes\)\.$/);
 });
 
+test("where there are few points, each has its name", async () => {
+  const {page} = await report.shared();
+  const names = await section(page).locator(".names text").allTextContents();
+  assert.deepEqual(names.sort(), ["fcl-aabb", "fcl-obbrss", "ffd-aabb", "ffd-grid", "ffd-lazy"]);
+});
+
 test("the front holds who is not beaten in the same question", async () => {
   const {page} = await report.open();
   const lines = await pointsTable(page);

@@ -40,3 +40,23 @@ test("command, machine and libraries are told", async () => {
   assert.match(await facts.textContent(), /example, 2 cores, AVX2, Debian 12/);
   assert.match(await facts.textContent(), /fcl 0\.7\.0/);
 });
+
+const shard = useReport("two_scenes.json", {change: (results) => {
+  results.shard = {index: 2, of: 3, command: "contactcheck run <b>all</b>", scenes: ["a", "b", "c", "d", "e"],
+      program: "0x1", settings: {timing: true}, goals: [], files: []};
+}});
+
+test("a shard is not taken for the whole run", async () => {
+  const {page} = await shard.shared();
+  assert.match(await page.locator("header").textContent(),
+      /Shard 2 of 3: 2 of the 5 scenes of contactcheck run <b>all<\/b>; contactcheck merge puts the shards together\./);
+});
+
+const merged = useReport("two_scenes.json", {change: (results) => {
+  results.merged = ["contactcheck run --shard 1/2", "contactcheck run --shard 2/2"];
+}});
+
+test("results that were put together from shards say so", async () => {
+  const {page} = await merged.shared();
+  assert.match(await page.locator("header").textContent(), /Put together from 2 shards \(contactcheck merge\)\./);
+});

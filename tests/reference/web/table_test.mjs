@@ -71,14 +71,14 @@ test("an open scene shows every number", async () => {
   await page.locator("#scene-meet > summary").click();
   const texts = (name) => tableTexts(page, name);
   assert.deepEqual((await texts("Result"))[4], ["ffd-aabb", "cell", "10", "0.70000", "3", "1", "0/0", "12.5",
-      "-1", "0.100", "body", "5.00x", "-", "-"]);
+      "-1", "0.100 (own 0.0700)", "body", "5.00x", "-", "-"]);
   assert.deepEqual((await texts("Bodies"))[1], ["left", "shape box", "8", "12", "8", "yes", ""]);
   assert.deepEqual((await texts("Every level judged (sums over frames)"))[8], ["ffd-aabb", "cell", "doubles",
       "10", "5", "3", "1", "0.70000", "0.20000"]);
   assert.deepEqual((await texts("Which stage lost which true triangle pairs (sums over frames)"))[2],
       ["ffd-aabb", "node-plane", "cell pairs", "9", "5", "12 planes", "2"]);
   assert.deepEqual((await texts("Times in milliseconds per frame (medians over repeats; cold unless said)"))[1],
-                   ["fcl-aabb", "triangles", "1.50", "0.100", "0.300", "0.100", "0.500", "0.500", "0.400",
+                   ["fcl-aabb", "triangles", "1.50", "0.100", "0.300", "0.100", "0.500", "0.500", "-", "0.400",
                        "2", "5", "1.00"]);
   assert.deepEqual((await texts("Disagreements with the truth (first of each kind)"))[1], ["fcl-obbrss",
       "missed", "triangle", "1", "cases/0001.json"]);

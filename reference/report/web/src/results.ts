@@ -14,6 +14,10 @@ export interface Results {
   disagreements: Disagreement[];
   goals?: Goal[];
   resumed?: string[];
+  /** A part of a run: these scenes are only some of `shard.scenes`. */
+  shard?: {index: number; of: number; scenes: string[]; command: string};
+  /** One entry per shard that these results were put together from. */
+  merged?: unknown[];
   known_defects?: KnownDefects;
   /** Not in results.json: the program adds reproduction.json of the same run. */
   reproduction?: Reproduction;
@@ -104,6 +108,7 @@ export interface Semantics {
   margin?: number;
   precision?: string;
   scale?: number;
+  local_origin?: boolean;
   means?: string;
   depth_kind?: string;
 }
@@ -173,6 +178,8 @@ export interface Phases {
   query: number;
   frame: number;
   contact_frame: number | null;
+  /** update and query, by the detector's own clock; absent: it has none */
+  self_reported?: number;
 }
 
 /** A run without timing has `prepare` alone. */

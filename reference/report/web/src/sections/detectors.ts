@@ -13,6 +13,7 @@ export function semanticsText(s: Semantics): string {
   text += `; questions ${names(s.questions)}; ${s.body ?? "surface"}, ${s.touching ?? "closed"}, ${s.exact ? "exact" : "not exact"}`;
   if ((s.margin ?? 0) > 0) text += `; margin ${millimetres(s.margin)} mm`;
   text += `; ${s.precision ?? "double"} precision`;
+  if (s.local_origin) text += " about a local origin";
   if ((s.scale ?? 1) !== 1) text += `, scale ${number(s.scale)}`;
   if ((s.depth_kind ?? "none") !== "none") text += `; depth ${s.depth_kind}`;
   return s.means ? `${text}; ${s.means}` : text;

@@ -47,7 +47,9 @@ function sentenceOf(point: Point): string {
 // Shares of 0 and of 1 in 10,000 must both be seen: the axis is linear below 0.1 %, then a logarithm.
 const kErrorAxis = {type: "symlog" as const, constant: 0.001, ticks: [0, 0.001, 0.01, 0.1, 0.5, 1]};
 
-// Names of all points would cover one another: the fastest and the best of each front are named.
+// Names of many points would cover one another: then the fastest and the best of each front are named.
+const kFew = 5;
+
 function isEnd(point: Point, front: Point[]): boolean {
   const own = front.filter((other) => other.question === point.question);
   return point === own[0] || point === own[own.length - 1];
@@ -84,7 +86,9 @@ function draw(width: number, all: Point[], choice: Choice): Node {
   const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5,
       Math.max(...times) * 1.5];
   const highest = Math.max(0.01, ...all.map((point) => point.error));
-  const ends = front.filter((point) => isEnd(point, front)), top = Math.min(1, 1.6 * highest);
+  const ends = all.length <= kFew ? [...all].sort((a, b) => a.ms - b.ms)
+      : front.filter((point) => isEnd(point, front));
+  const top = Math.min(1, 1.6 * highest);
   const low = below(ends, span, width, top);
   const xy = {x: "ms", y: "error"} as const;
   return Plot.plot({

@@ -1,0 +1,215 @@
+#include "reference/plugin/library_told.h"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "reference/scene/id_check.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr std::size_t kLongestName = 64, kMostItems = 64;
+constexpr double kMostMilliseconds = 1e9, kNanosecondsPerMillisecond = 1e6;
+
+// One byte more than is allowed is enough to know that it is too long.
+std::string bounded(const char* text) {
+  return text == nullptr ? "" : std::string(text, strnlen(text, kLongestName + 1));
+}
+
+// It goes into tables, on terminals and into JSON.
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= kLongestName &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
+
+/// The pairs of one stage against the bodies that there are.
+class StageCheck {
+ public:
+  StageCheck(const StageRecord& stage, std::span<const contactcheck_body> bodies)
+      : stage_(stage), bodies_(bodies) {}
+
+  void operator()() const {
+    if (stage_.kind == StageRecord::Kind::kLabelCells) check_lattices();
+    for (const BodyPair& pair : stage_.bodies) check_bodies(pair.a, pair.b);
+    for (const ElementPair& pair : stage_.elements) {
+      check_bodies(pair.body_a, pair.body_b);
+      check_element(pair.body_a, pair.a);
+      check_element(pair.body_b, pair.b);
+    }
+  }
+
+ private:
+  // Every true pair is looked up in the labels.
+  void check_lattices() const {
+    for (const contactcheck_body& body : bodies_)
+      if (body.lattice == nullptr)
+        fail("trace: stage \"" + stage_.name + "\" covers cells, and body \"" + body.name +
+             "\" has none");
+  }
+
+  void check_bodies(std::uint32_t a, std::uint32_t b) const {
+    if (std::max(a, b) >= bodies_.size())
+      refuse("body " + std::to_string(std::max(a, b)) + " of " + std::to_string(bodies_.size()) +
+             " bodies");
+    if (a == b) refuse("body \"" + std::string(bodies_[a].name) + "\" with itself");
+  }
+
+  void check_element(std::uint32_t body, std::uint32_t id) const {
+    const bool triangles = stage_.kind == StageRecord::Kind::kTriangles;
+    const contactcheck_body& of = bodies_[body];
+    const std::uint32_t cells = of.lattice == nullptr ? 0 : of.lattice->cell_count;
+    const std::uint32_t count = triangles ? of.triangle_count : cells;
+    if (id >= count)
+      refuse((triangles ? "triangle " : "cell ") + std::to_string(id) + " of body \"" + of.name +
+             "\", which has " + std::to_string(count));
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    fail("trace: stage \"" + stage_.name + "\" names " + what);
+  }
+
+  const StageRecord& stage_;
+  std::span<const contactcheck_body> bodies_;
+};
+
+// A stage of owner cells asks for the owner of every triangle.
+void check_owners(const StageTrace& trace, std::span<const contactcheck_body> bodies) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const contactcheck_body& body = bodies[b];
+    const std::string name = "body \"" + std::string(body.name) + "\"";
+    const std::size_t said = b < trace.owner.size() ? trace.owner[b].size() : 0;
+    if (said != body.triangle_count)
+      fail("trace: a stage covers owner cells, and owners() gave " + std::to_string(said) +
+           " of them for " + name + ", which has " + std::to_string(body.triangle_count) +
+           " triangles");
+    const std::uint32_t cells = body.lattice == nullptr ? 0 : body.lattice->cell_count;
+    for (const std::uint32_t cell : trace.owner[b])
+      if (cell >= cells)
+        fail("trace: owners() names cell " + std::to_string(cell) + " of " + name + ", which has " +
+             std::to_string(cells));
+  }
+}
+
+void make_set(StageRecord& stage) {
+  canonicalize(stage.elements);
+  for (BodyPair& pair : stage.bodies)
+    if (pair.a > pair.b) std::swap(pair.a, pair.b);
+  std::sort(stage.bodies.begin(), stage.bodies.end());
+}
+
+}  // namespace
+
+contactcheck_trace ToldStages::sink() {
+  frame_ = {};
+  covers_.clear();
+  too_many_ = false;
+  return {this, add_stage, add_owners};
+}
+
+void ToldStages::add_stage(void* host, const contactcheck_stage* stage) noexcept {
+  auto& told = *static_cast<ToldStages*>(host);
+  told.too_many_ = told.too_many_ || told.frame_.stages.size() == kMostItems;
+  if (told.too_many_) return;
+  StageRecord record;
+  record.name = bounded(stage->name);
+  record.unit = bounded(stage->unit);
+  record.in = stage->in;
+  record.out = stage->out;
+  record.visited = stage->visited;
+  record.visited_unit = bounded(stage->visited_unit);
+  record.kind = static_cast<StageRecord::Kind>(std::min(stage->covers, 3u));
+  const bool of_bodies = stage->covers == CONTACTCHECK_COVERS_BODIES;
+  for (std::uint64_t i = 0; i < stage->count && of_bodies; ++i)
+    record.bodies.push_back({stage->bodies[i].a, stage->bodies[i].b});
+  for (std::uint64_t i = 0; i < stage->count && !of_bodies; ++i) {
+    const contactcheck_element_pair& p = stage->pairs[i];
+    record.elements.push_back({p.body_a, p.body_b, p.a, p.b});
+  }
+  told.frame_.stages.push_back(std::move(record));
+  told.covers_.push_back(stage->covers);
+}
+
+void ToldStages::add_owners(void* host, std::uint32_t body, const std::uint32_t* cells,
+                            std::size_t count) noexcept {
+  auto& owner = static_cast<ToldStages*>(host)->frame_.owner;
+  constexpr std::uint32_t kMostBodies = 1u << 20;  // an absurd number must not take the memory
+  if (body >= kMostBodies) return;
+  if (owner.size() <= body) owner.resize(body + std::size_t{1});
+  owner[body].assign(cells, cells + count);
+}
+
+StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
+  if (too_many_) fail("trace: gives more than " + std::to_string(kMostItems) + " stages");
+  check_shape();
+  bool owners = false;
+  for (std::size_t i = 0; i < frame_.stages.size(); ++i) {
+    StageRecord& stage = frame_.stages[i];
+    if (covers_[i] > CONTACTCHECK_COVERS_TRIANGLES)
+      fail("trace: stage \"" + stage.name + "\" covers what does not exist (" +
+           std::to_string(covers_[i]) + ")");
+    StageCheck(stage, bodies)();
+    make_set(stage);
+    owners = owners || stage.kind == StageRecord::Kind::kOwnerCells;
+  }
+  if (owners) check_owners(frame_, bodies);
+  return std::exchange(frame_, {});
+}
+
+// Sums over frames are made stage by stage.
+void ToldStages::check_shape() {
+  std::vector<std::string> shape;
+  for (const StageRecord& stage : frame_.stages) {
+    const bool counted = !stage.visited_unit.empty();
+    if (!is_name(stage.name) || !is_name(stage.unit) || (counted && !is_name(stage.visited_unit)))
+      fail("trace: a stage's name and units must be one line of ASCII, " +
+           std::to_string(kLongestName) + " bytes at most");
+    shape.push_back(stage.name + '\n' + stage.unit + '\n' + stage.visited_unit);
+  }
+  if (has_shape_ && shape != shape_)
+    fail("trace: the stages or their units are not those of the frame before");
+  shape_ = std::move(shape);
+  has_shape_ = true;
+}
+
+contactcheck_counts ToldCounts::sink() {
+  frame_.clear();
+  return {this, add};
+}
+
+void ToldCounts::add(void* host, const char* name, std::uint64_t value) noexcept {
+  auto& frame = static_cast<ToldCounts*>(host)->frame_;
+  if (frame.size() <= kMostItems) frame.push_back({bounded(name), value});
+}
+
+std::vector<Count> ToldCounts::checked() {
+  if (frame_.size() > kMostItems)
+    fail("counts: gives more than " + std::to_string(kMostItems) + " counters");
+  std::vector<std::string> names;
+  for (const Count& count : frame_) {
+    if (!is_id(count.name))
+      fail("counts: a counter's name must be letters, digits, '-', '_' and '.', " +
+           std::to_string(kLongestName) + " at most");
+    names.push_back(count.name);
+  }
+  if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+    fail("counts: gives a counter twice");
+  if (has_names_ && names != names_) fail("counts: the counters are not those of the frame before");
+  names_ = std::move(names);
+  has_names_ = true;
+  return std::exchange(frame_, {});
+}
+
+std::optional<double> told_ns(double milliseconds) {
+  if (!(milliseconds <= kMostMilliseconds))
+    fail("own_ms gave " + std::to_string(milliseconds) + " ms; allowed: up to " +
+         std::to_string(static_cast<long>(kMostMilliseconds)) + ", or below 0 for none");
+  if (milliseconds < 0.0) return std::nullopt;
+  return kNanosecondsPerMillisecond * milliseconds;
+}
+
+}  // namespace contactcheck

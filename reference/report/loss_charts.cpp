@@ -1,0 +1,202 @@
+#include "reference/report/loss_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "reference/report/bar_plot.h"
+#include "reference/report/error_counts.h"
+#include "reference/report/format.h"
+#include "reference/report/run_row.h"
+
+namespace contactcheck {
+namespace {
+using Json = nlohmann::ordered_json;
+
+/// Those that the pictures are of, and how to call them.
+struct ChosenScenes {
+  std::set<std::string> ids;
+  std::string words;
+};
+
+ChosenScenes chosen_scenes(const Json& results) {
+  std::set<std::string> scenes, families;
+  for (const Json& scene : results.at("scenes"))
+    (scene.contains("family") ? families : scenes).insert(scene.at("id").get<std::string>());
+  if (scenes.empty()) return {families, fmt::format("{} families of hard cases", families.size())};
+  if (scenes.size() == 1) return {scenes, "scene " + *scenes.begin()};
+  return {scenes, fmt::format("{} scenes", scenes.size())};
+}
+
+std::vector<const Json*> ok_runs(const Json& results, const ChosenScenes& scenes) {
+  std::vector<const Json*> runs;
+  for (const Json& run : results.at("runs"))
+    if (run.at("status") == "ok" && scenes.ids.contains(run.at("scene").get<std::string>()))
+      runs.push_back(&run);
+  return runs;
+}
+
+std::string detector_of(const Json& run) { return run.at("detector").get<std::string>(); }
+
+// Counts of different levels do not add up: a detector has a sum per level.
+struct LevelSum : ErrorCounts {
+  std::string detector, level;
+};
+
+std::vector<LevelSum> sums_of(const std::vector<const Json*>& runs) {
+  std::vector<LevelSum> sums;
+  for (const Json* run : runs) {
+    const std::string detector = detector_of(*run), level = finest_level(*run);
+    auto sum = std::find_if(sums.begin(), sums.end(), [&](const LevelSum& s) {
+      return s.detector == detector && s.level == level;
+    });
+    if (sum == sums.end()) {
+      sum = sums.insert(sums.end(), LevelSum{});
+      sum->detector = detector;
+      sum->level = level;
+    }
+    sum->add(*run);
+  }
+  return sums;
+}
+
+std::string part_of(std::int64_t part, std::int64_t whole) {
+  return fmt::format("{} of {}", format_count(part), format_count(whole));
+}
+
+BarRow errors_row(const LevelSum& sum) {
+  const std::string name = fmt::format("{} ({})", sum.detector, sum.level);
+  const std::string missed = "missed " + part_of(sum.missed, sum.truth),
+                    spurious = "spurious " + part_of(sum.spurious, sum.reported);
+  return {name,
+          {{{0, sum.missed_share().value_or(0.0), name + ": " + missed}},
+           {{1, sum.spurious_share().value_or(0.0), name + ": " + spurious}}},
+          missed + "; " + spurious};
+}
+
+struct StageLoss {
+  std::string stage;
+  std::int64_t missed = 0;
+};
+
+struct DetectorLosses {
+  std::string detector;
+  std::int64_t truth = 0;  // pairs of triangles
+  std::vector<StageLoss> stages;
+  bool any() const {
+    return std::any_of(stages.begin(), stages.end(), [](const auto& s) { return s.missed > 0; });
+  }
+};
+
+template <typename List, typename Member>
+auto& named(List& list, Member member, const std::string& name) {
+  for (auto& item : list)
+    if (item.*member == name) return item;
+  auto& added = list.emplace_back();
+  added.*member = name;
+  return added;
+}
+
+// Stages cover pairs of triangles, and so do the counts of these levels.
+std::int64_t true_triangle_pairs(const Json& run) {
+  const std::string level = finest_level(run);
+  if (level != "cell" && level != "triangle") return 0;
+  const Json& levels = run.at("levels");
+  return levels.contains(level) ? whole_number(levels.at(level).at("truth")) : 0;
+}
+
+std::vector<DetectorLosses> losses_of(const std::vector<const Json*>& runs) {
+  std::vector<DetectorLosses> all;
+  for (const Json* run : runs) {
+    const std::int64_t truth = true_triangle_pairs(*run);
+    if (truth <= 0 || !run->contains("stages") || run->at("stages").empty()) continue;
+    DetectorLosses& losses = named(all, &DetectorLosses::detector, detector_of(*run));
+    losses.truth += truth;
+    for (const Json& stage : run->at("stages"))
+      named(losses.stages, &StageLoss::stage, stage.at("name").get<std::string>()).missed +=
+          whole_number(stage.at("missed"));
+  }
+  std::erase_if(all, [](const DetectorLosses& losses) { return !losses.any(); });
+  return all;
+}
+
+// Those that lost something, in the order in which they are met; the last one is of all that there
+// is no further colour for.
+std::vector<std::string> series_of(const std::vector<DetectorLosses>& all) {
+  std::vector<std::string> names;
+  for (const DetectorLosses& losses : all)
+    for (const StageLoss& stage : losses.stages)
+      if (stage.missed > 0 && std::find(names.begin(), names.end(), stage.stage) == names.end())
+        names.push_back(stage.stage);
+  if (names.size() > kBarSeries) {
+    names.resize(kBarSeries);
+    names.back() = "other stages";
+  }
+  return names;
+}
+
+BarRow losses_row(const DetectorLosses& losses, const std::vector<std::string>& series) {
+  BarRow row{losses.detector, {BarLane{}}, ""};
+  for (const StageLoss& stage : losses.stages) {
+    if (stage.missed == 0) continue;
+    const auto at = std::find(series.begin(), series.end(), stage.stage);
+    const std::size_t index = at == series.end() ? series.size() - 1 : at - series.begin();
+    row.lanes[0].push_back({index,
+                            static_cast<double>(stage.missed) / static_cast<double>(losses.truth),
+                            fmt::format("{}: {} true pairs lost in {}", losses.detector,
+                                        part_of(stage.missed, losses.truth), stage.stage)});
+    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", stage.stage,
+                             format_count(stage.missed));
+  }
+  row.words += fmt::format(" of {}", format_count(losses.truth));
+  return row;
+}
+
+}  // namespace
+
+std::string errors_picture(const Json& results) {
+  const ChosenScenes scenes = chosen_scenes(results);
+  BarChart chart;
+  chart.title = "Who misses contacts and who invents them: " + scenes.words;
+  chart.series = {"share of the true contacts missed", "share of the reports spurious"};
+  chart.axis = "share of errors, nearly a logarithm";
+  chart.scale = BarChart::Scale::kErrors;
+  for (const LevelSum& sum : sums_of(ok_runs(results, scenes)))
+    if (sum.missed + sum.spurious > 0) chart.rows.push_back(errors_row(sum));
+  chart.foot = {
+      "In brackets: the finest level that the detector claims. Who is not here made no "
+      "error, or did not end well."};
+  return bar_plot(chart);
+}
+
+std::string stages_picture(const Json& results) {
+  const ChosenScenes scenes = chosen_scenes(results);
+  const std::vector<DetectorLosses> all = losses_of(ok_runs(results, scenes));
+  BarChart chart;
+  chart.title = "Where true pairs are lost, stage by stage: " + scenes.words;
+  chart.series = series_of(all);
+  chart.axis = "share of the true pairs of triangles that was lost";
+  for (const DetectorLosses& losses : all) chart.rows.push_back(losses_row(losses, chart.series));
+  chart.foot = {
+      "Who is not here lost none, has no stages to look into, or was not judged at cells or "
+      "triangles."};
+  return bar_plot(chart);
+}
+
+std::string loss_markdown(const Json& results) {
+  std::string out;
+  if (!errors_picture(results).empty())
+    out += fmt::format(
+        "![Share of true contacts missed and of reports spurious, a row per detector]({})\n\n",
+        kErrorsFile);
+  if (!stages_picture(results).empty())
+    out += fmt::format(
+        "![Share of true pairs of triangles lost, stage by stage, a row per detector]({})\n\n",
+        kStagesFile);
+  return out.empty() ? "" : "## Who errs, and in which stage\n\n" + out;
+}
+
+}  // namespace contactcheck

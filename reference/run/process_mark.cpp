@@ -62,7 +62,8 @@ std::vector<int> all_processes() {
 ProcessMark::ProcessMark() : word_(new_word()) {
   const std::string name = kVariable;
   std::string inherited;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
+  // None at all after clearenv().
+  for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
     const std::string text = *variable;
     if (text.starts_with(name)) {
       inherited = text.substr(name.size()) + " ";

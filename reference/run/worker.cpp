@@ -82,6 +82,7 @@ class Worker {
       prepare_detectors();
     }
     if (job_.settings.timing) time_detectors();
+    dismiss_all();
     surroundings_.restore();
     write_answer();
     progress_.enter(SharedProgress::kNoDetector, 0, Phase::kDone);
@@ -182,6 +183,12 @@ class Worker {
     entry.detector.reset();
   }
 
+  // Before the answer is written: one that crashes here is no detector to use.
+  void dismiss_all() {
+    for (Entry& entry : entries_)
+      if (entry.detector) guarded(entry, [&] { dismiss(entry); });
+  }
+
   // Closed loop, and whole steps timed: what a detector's errors and its time do to a simulation.
   void simulate_with_detectors() {
     for (Entry& entry : entries_) {
@@ -214,9 +221,17 @@ class Worker {
     settings.repeats = job_.settings.repeats;
     settings.sweep_bytes = job_.settings.sweep_bytes;
     run_lockstep(scene_, *catalog_.make(driver), settings, lockstep, progress_);
-    for (const LockstepEntry& timed : lockstep)
+    for (LockstepEntry& timed : lockstep)
       for (Entry& entry : entries_)
-        if (entry.position == timed.position) take_step_times(timed, entry);
+        if (entry.position == timed.position) end_lockstep(timed, entry);
+  }
+
+  void end_lockstep(LockstepEntry& timed, Entry& entry) {
+    take_step_times(timed, entry);
+    guarded(entry, [&] {
+      progress_.enter(entry.position, progress_.frame(), Phase::kDestroy);
+      timed.detector.reset();
+    });
   }
 
   void take_step_times(const LockstepEntry& timed, Entry& entry) const {

@@ -98,6 +98,16 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"null-items", {"frame 2"}}),
     test::name_of_test);
 
+// With times its detector lives on to the end of the worker.
+TEST(LibraryAtWork, CrashWhenDestroyedIsAnErrorWithTimesToo) {
+  PluginRun run(
+      {"--detector", misbehaving_library("crash-when-destroyed"), "--detector", "fcl-aabb"},
+      {"--repeat", "1"});
+  test::expect_row_and_nobody_disturbed(run, "misbehaving:fault=crash-when-destroyed",
+                                        {"crash-when-destroyed", {"phase destroy", "signal 11"}});
+  EXPECT_TRUE(run.row("fcl-aabb").contains("time_ms"));
+}
+
 TEST(LibraryAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   PluginRun run({"--detector", misbehaving_library("lies"), "--detector",
                  misbehaving_library("repeats"), "--detector", "fcl-aabb"});

@@ -205,8 +205,8 @@ enum {
 typedef struct contactcheck_stage {
   const char* name;         /* one line, 64 bytes at most */
   const char* unit;         /* what `in` and `out` count: "node pairs"; likewise */
-  uint64_t in, out;         /* how many came in and how many are left */
-  uint64_t visited;         /* how many it looked at on the way, where it counts them */
+  uint64_t in, out;         /* how many came in and how many are left; up to 1e10 each */
+  uint64_t visited;         /* how many it looked at on the way, where it counts them; likewise */
   const char* visited_unit; /* what it looked at; NULL: not counted */
   uint32_t covers;          /* CONTACTCHECK_COVERS_... */
   uint32_t reserved;
@@ -225,7 +225,7 @@ typedef struct contactcheck_trace {
 } contactcheck_trace;
 
 /* Where counts() puts its numbers: add() once for each name (letters, digits, '-', '_', '.', 64 at
- * most: "leaves_mapped"), the same names in every frame. */
+ * most: "leaves_mapped"), the same names in every frame; values up to 1e10. */
 typedef struct contactcheck_counts {
   void* host;
   void (*add)(void* host, const char* name, uint64_t value);

@@ -12,6 +12,9 @@ namespace contactcheck {
 namespace {
 
 constexpr std::size_t kLongestName = 64, kMostItems = 64;
+// In a frame: all pairs of two meshes of 100,000 triangles. Sums over the frames of a scene,
+// 100,000 at most, stay whole numbers in every program that reads JSON (2^53).
+constexpr std::uint64_t kMostOfFrame = 10'000'000'000;
 constexpr double kMostMilliseconds = 1e9, kNanosecondsPerMillisecond = 1e6;
 
 // One byte more than is allowed is enough to know that it is too long.
@@ -95,6 +98,19 @@ void check_owners(const StageTrace& trace, std::span<const contactcheck_body> bo
   }
 }
 
+void check_number(std::uint64_t number, const std::string& of) {
+  if (number > kMostOfFrame)
+    fail(of + " is " + std::to_string(number) + "; allowed in a frame: up to " +
+         std::to_string(kMostOfFrame));
+}
+
+void check_numbers(const StageRecord& stage) {
+  const std::string of = "trace: stage \"" + stage.name + "\": ";
+  check_number(stage.in, of + "in");
+  check_number(stage.out, of + "out");
+  check_number(stage.visited, of + "visited");
+}
+
 void make_set(StageRecord& stage) {
   canonicalize(stage.elements);
   for (BodyPair& pair : stage.bodies)
@@ -107,6 +123,7 @@ void make_set(StageRecord& stage) {
 contactcheck_trace ToldStages::sink() {
   frame_ = {};
   covers_.clear();
+  bodies_of_owners_ = 0;
   too_many_ = false;
   return {this, add_stage, add_owners};
 }
@@ -136,7 +153,9 @@ void ToldStages::add_stage(void* host, const contactcheck_stage* stage) noexcept
 
 void ToldStages::add_owners(void* host, std::uint32_t body, const std::uint32_t* cells,
                             std::size_t count) noexcept {
-  auto& owner = static_cast<ToldStages*>(host)->frame_.owner;
+  auto& told = *static_cast<ToldStages*>(host);
+  told.bodies_of_owners_ = std::max(told.bodies_of_owners_, body + std::uint64_t{1});
+  auto& owner = told.frame_.owner;
   constexpr std::uint32_t kMostBodies = 1u << 20;  // an absurd number must not take the memory
   if (body >= kMostBodies) return;
   if (owner.size() <= body) owner.resize(body + std::size_t{1});
@@ -145,6 +164,9 @@ void ToldStages::add_owners(void* host, std::uint32_t body, const std::uint32_t*
 
 StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
   if (too_many_) fail("trace: gives more than " + std::to_string(kMostItems) + " stages");
+  if (bodies_of_owners_ > bodies.size())
+    fail("trace: owners() names body " + std::to_string(bodies_of_owners_ - 1) + " of " +
+         std::to_string(bodies.size()) + " bodies");
   check_shape();
   bool owners = false;
   for (std::size_t i = 0; i < frame_.stages.size(); ++i) {
@@ -152,6 +174,7 @@ StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
     if (covers_[i] > CONTACTCHECK_COVERS_TRIANGLES)
       fail("trace: stage \"" + stage.name + "\" covers what does not exist (" +
            std::to_string(covers_[i]) + ")");
+    check_numbers(stage);
     StageCheck(stage, bodies)();
     make_set(stage);
     owners = owners || stage.kind == StageRecord::Kind::kOwnerCells;
@@ -194,6 +217,7 @@ std::vector<Count> ToldCounts::checked() {
     if (!is_id(count.name))
       fail("counts: a counter's name must be letters, digits, '-', '_' and '.', " +
            std::to_string(kLongestName) + " at most");
+    check_number(count.value, "counts: " + count.name);
     names.push_back(count.name);
   }
   if (std::set<std::string>(names.begin(), names.end()).size() != names.size())

@@ -29,7 +29,8 @@ class ToldStages {
   void check_shape();
 
   StageTrace frame_;
-  std::vector<std::uint32_t> covers_;  ///< per stage, as it was said
+  std::vector<std::uint32_t> covers_;   ///< per stage, as it was said
+  std::uint64_t bodies_of_owners_ = 0;  ///< as many as there must be for what owners() named
   bool too_many_ = false;
   std::vector<std::string> shape_;  ///< names and units of the first frame's stages
   bool has_shape_ = false;

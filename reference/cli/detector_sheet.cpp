@@ -83,12 +83,21 @@ std::string allowed_text(const OptionInfo& o) {
   return number_text(o.min) + " to " + number_text(o.max) + (o.integer ? ", whole" : "");
 }
 
-void add_options(const std::vector<OptionInfo>& options, Sheet& sheet) {
+void add_options(const std::vector<OptionInfo>& options, const Options& values, Sheet& sheet) {
   const char* label = "options";
   for (const OptionInfo& o : options) {
-    sheet.line(label, o.name + "=" + o.default_value + " (" + allowed_text(o) + "): " + o.help);
+    const std::string& value = values.at(o.name);
+    const std::string other = value == o.default_value ? "" : "; default " + o.default_value;
+    sheet.line(label, o.name + "=" + value + " (" + allowed_text(o) + other + "): " + o.help);
     label = "";
   }
+}
+
+DetectorSpec with_defaults(const DetectorInfo& info) {
+  DetectorSpec spec;
+  spec.id = spec.name = info.id;
+  for (const OptionInfo& o : info.options) spec.options[o.name] = o.default_value;
+  return spec;
 }
 
 std::string needs_text(const Declaration& d) {
@@ -100,28 +109,31 @@ std::string needs_text(const Declaration& d) {
 }  // namespace
 
 std::string detector_sheet(const DetectorInfo& info, std::size_t width) {
+  return detector_sheet(info, with_defaults(info), width);
+}
+
+std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, std::size_t width) {
   Sheet sheet(width);
-  sheet.title(info.id, info.summary);
+  sheet.title(spec.name, info.summary);
   if (info.absent_because.empty()) {
-    Options defaults;
-    for (const OptionInfo& o : info.options) defaults[o.name] = o.default_value;
-    add_semantics(info.make(defaults)->semantics(), sheet);
+    add_semantics(info.make(spec.options)->semantics(), sheet);
   } else {
     sheet.line("absent", info.absent_because);
   }
-  add_options(info.options, sheet);
+  add_options(info.options, spec.options, sheet);
   return sheet.text();
 }
 
-std::string plugin_sheet(const Plugin& plugin, std::size_t width) {
+std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const DetectorSpec& spec,
+                         std::size_t width) {
   const Declaration& declaration = plugin.declaration;
   Sheet sheet(width);
-  sheet.title(declaration.id, declaration.summary);
+  sheet.title(spec.name, declaration.summary);
   sheet.line("from", described(plugin.source));
   sheet.line("version", declaration.version);
   add_semantics(declaration.semantics, sheet);
   sheet.line("given", needs_text(declaration));
-  add_options(declaration.options, sheet);
+  add_options(info.options, spec.options, sheet);
   return sheet.text();
 }
 

@@ -13,8 +13,13 @@ namespace contactcheck {
 /// with the options at their defaults, and the options with what is allowed.
 std::string detector_sheet(const DetectorInfo& info, std::size_t width);
 
+/// The same with the options of `spec`, under its name. @pre spec is one of this detector
+std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, std::size_t width);
+
 /// The same of a detector from outside, with where it comes from, its version and what it is given,
-/// as it declared them: nothing of it is loaded or started.
-std::string plugin_sheet(const Plugin& plugin, std::size_t width);
+/// as it declared them with its options at their defaults: nothing of it is loaded or started.
+/// `info`: its entry in the catalogue.
+std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const DetectorSpec& spec,
+                         std::size_t width);
 
 }  // namespace contactcheck

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,30 +53,32 @@ std::size_t sheet_width() {
   return terminal > 0 ? std::min(terminal, kWidth) : kWidth;
 }
 
-void print_sheets_title() {
-  std::printf("Detectors (ID[:option=value,...]; everything as with the default options)\n");
-}
-
 void print_sheets(const DetectorCatalog& catalog) {
-  print_sheets_title();
+  std::printf("Detectors (ID[:option=value,...]; everything as with the default options)\n");
   for (const DetectorInfo& info : catalog.all())
     std::printf("\n%s", detector_sheet(info, sheet_width()).c_str());
 }
 
 // One from outside stands in the catalogue too, but what that holds would load or start it here.
-std::string sheet_of(const std::string& id, const OwnDetectors& own) {
+std::string sheet_of(const DetectorSpec& spec, const OwnDetectors& own) {
+  const DetectorInfo& info = *own.catalog.find(spec.id);
   for (const Plugin& plugin : own.plugins)
-    if (plugin.declaration.id == id) return plugin_sheet(plugin, sheet_width());
-  return detector_sheet(*own.catalog.find(id), sheet_width());
+    if (plugin.declaration.id == spec.id) return plugin_sheet(plugin, info, spec, sheet_width());
+  return detector_sheet(info, spec, sheet_width());
 }
 
-// Everything is looked up before anything is printed.
+// Everything is looked up before anything is printed; what is named twice is printed once.
 void print_named(const ListArguments& arguments, const DetectorCatalog& catalog) {
   const OwnDetectors own = bring_in(arguments.named, arguments.commands, RunSettings{}, catalog);
+  std::set<std::string> names;
   std::vector<std::string> sheets;
   for (const std::string& name : own.names)
-    sheets.push_back(sheet_of(own.catalog.parse(name).id, own));
-  print_sheets_title();
+    if (const DetectorSpec spec = own.catalog.parse(name); names.insert(spec.name).second)
+      sheets.push_back(sheet_of(spec, own));
+  std::printf(
+      "Detectors (with the options that were given; what libraries and commands claim as with "
+      "their\n"
+      "default options)\n");
   for (const std::string& sheet : sheets) std::printf("\n%s", sheet.c_str());
 }
 

@@ -109,6 +109,25 @@ TEST(DetectorSheet, DefaultsReachTheDetector) {
   EXPECT_THAT(detector_sheet(info, 100), HasSubstr("margin 0.25 m, strictly nearer"));
 }
 
+TEST(DetectorSheet, ShowsTheOptionsThatWereGiven) {
+  DetectorCatalog catalog;
+  DetectorInfo info = info_with(plain());
+  info.options = {numeric_option("margin", "0.25", 0, 1, false, "metres"),
+                  numeric_option("k", "8", 1, 64, true, "clusters")};
+  info.make = [](const Options& options) {
+    Semantics s = plain();
+    s.margin = number_option(options, "margin");
+    return std::make_unique<Declaring>(s);
+  };
+  catalog.add(info);
+  const std::string sheet =
+      detector_sheet(info, catalog.parse("some-detector:margin=0.5,k=8"), 100);
+  EXPECT_THAT(sheet, testing::StartsWith("some-detector:margin=0.5\n  finds something\n"));
+  EXPECT_THAT(sheet, HasSubstr("margin 0.5 m, strictly nearer"));
+  EXPECT_THAT(sheet, HasSubstr("  options     margin=0.5 (0 to 1; default 0.25): metres\n"
+                               "              k=8 (1 to 64, whole): clusters\n"));
+}
+
 TEST(DetectorSheet, OfAnAbsentOneSaysWhyAndMakesNone) {
   DetectorInfo info;
   info.id = "elsewhere";

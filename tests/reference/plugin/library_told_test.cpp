@@ -76,6 +76,14 @@ TEST(LibraryThatTells, WhatCannotBeSoIsItsError) {
            {"covers-nothing", "stage \"even\" covers what does not exist (99)"},
            {"no-owners", "owners() gave 0 of them for body \"left\""},
            {"wrong-owner", "owners() names cell 1000000 of body \"left\""},
+           {"owners-of-nobody", "trace: owners() names body 777 of 2 bodies"},
+           {"owners-far-away", "trace: owners() names body 4294967295 of 2 bodies"},
+           {"huge-in",
+            "stage \"everything\": in is 18446744073709551615; allowed in a frame: up to "
+            "10000000000"},
+           {"huge-out", "stage \"everything\": out is 18446744073709551615"},
+           {"huge-visited", "stage \"even\": visited is 18446744073709551615"},
+           {"huge-counter", "counts: pairs_looked_at is 18446744073709551615"},
            {"counter-twice", "counts: gives a counter twice"},
            {"counter-name", "counts: a counter's name must be letters"},
            {"counter-comes", "counts: the counters are not those of the frame before"},
@@ -127,6 +135,19 @@ TEST(ListOfOwnDetectors, ShowsWhatALibraryDeclares) {
   EXPECT_THAT(list.out, testing::Not(HasSubstr("\nembree\n")));
 }
 
+TEST(ListOfOwnDetectors, ShowsWhatIsNamedTwiceOnceAndTheOptionsGiven) {
+  const test::Outcome list = test::contactcheck_program(
+      {"list", "--detector", "ffd-aabb:cell=3", "--detector", "fcl-aabb", "--detector", "fcl-aabb",
+       "--detector", staged("owners"), "--detector", staged("owners")});
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  for (const std::string once : {"\nfcl-aabb\n", "\nffd-aabb:cell=3\n", "\nstaged:told=owners\n"}) {
+    EXPECT_NE(list.out.find(once), std::string::npos) << once;
+    EXPECT_EQ(list.out.find(once), list.out.rfind(once)) << once;
+  }
+  EXPECT_THAT(list.out, AllOf(HasSubstr(" cell=3 ("), HasSubstr("; default 1)"),
+                              HasSubstr(" told=owners\n")));
+}
+
 // A ':' begins the options, unless the file's own name has it.
 TEST(ListOfOwnDetectors, FindsALibraryWhoseNameHasAColon) {
   const test::Scratch scratch;
@@ -137,7 +158,7 @@ TEST(ListOfOwnDetectors, FindsALibraryWhoseNameHasAColon) {
   for (const std::string options : {"", ":told=owners"}) {
     const test::Outcome list = test::contactcheck_program({"list", "--detector", file + options});
     EXPECT_EQ(list.exit_code, 0) << list.err;
-    EXPECT_THAT(list.out, HasSubstr("\nstaged\n"));
+    EXPECT_THAT(list.out, HasSubstr("\nstaged" + options + "\n"));
   }
   const test::Outcome none =
       test::contactcheck_program({"list", "--detector", file + "x:told=owners"});

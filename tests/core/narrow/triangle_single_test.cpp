@@ -29,8 +29,8 @@ TEST(SingleTriangles, AnswerAsTheSameNumbersInDoubles) {
 TEST(SingleTriangles, TouchingIsContact) {
   const Singles base = {Vec3f(0, 0, 0), Vec3f(4, 0, 0), Vec3f(0, 4, 0)};
   EXPECT_TRUE(triangles_intersect(base, Singles{Vec3f(1, 1, 0), Vec3f(1, 2, 3), Vec3f(2, 1, 3)}));
-  EXPECT_FALSE(triangles_intersect(base, Singles{Vec3f(1, 1, 0x1p-20f), Vec3f(1, 2, 3),
-                                                 Vec3f(2, 1, 3)}));
+  EXPECT_FALSE(
+      triangles_intersect(base, Singles{Vec3f(1, 1, 0x1p-20f), Vec3f(1, 2, 3), Vec3f(2, 1, 3)}));
 }
 
 // Nearly in one plane and a tenth of their size apart within it: determinants in floats are noise

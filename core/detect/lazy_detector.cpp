@@ -145,11 +145,11 @@ void LazyDetector::begin_in_single(const Frame& frame) {
 
 void LazyDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == states_.size(), "one state per prepared body");
-  candidates_.clear();  // a frame that is refused leaves no pair whose bounds are gone
   for (LazyScratch& scratch : team_.scratch()) {
     scratch.arena.clear();
     scratch.counters = {};
   }
+  candidates_.clear();  // a frame that is refused leaves no pair whose bounds are gone
   if (single()) {
     begin_in_single(frame);
   } else {

@@ -93,9 +93,9 @@ HWY_INLINE PairVec<Real> error_bound(const PointOf<Real> (&p)[3], const PointOf<
   const auto y = extent<Real>(p[0].y, p[1].y, p[2].y, q[0].y, q[1].y, q[2].y);
   const auto z = extent<Real>(p[0].z, p[1].z, p[2].z, q[0].z, q[1].z, q[2].z);
   const auto bound = hn::Mul(hn::Set(d, Filter::kErrorFactor), hn::Mul(hn::Mul(x, y), z));
-  const auto sound = hn::And(
-      hn::Ge(bound, hn::Set(d, Filter::kSmallestBound)),
-      hn::Le(hn::Max(hn::Max(x, y), z), hn::Set(d, Filter::kLargestDifference)));
+  const auto sound =
+      hn::And(hn::Ge(bound, hn::Set(d, Filter::kSmallestBound)),
+              hn::Le(hn::Max(hn::Max(x, y), z), hn::Set(d, Filter::kLargestDifference)));
   return hn::IfThenElse(sound, bound, hn::Set(d, std::numeric_limits<Real>::infinity()));
 }
 

@@ -1,5 +1,6 @@
 #include "tests/faults/mutant_findings.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,6 +24,13 @@ extern "C" void name_case_and_exit(int signal) {
   _exit(1);
 }
 
+// What a mutant leaves undefined may ask for any amount of memory; the machine is not its own.
+void limit_memory() {
+  constexpr rlim_t kBytes = rlim_t{4} << 30;
+  const rlimit limit = {kBytes, kBytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
 }  // namespace
 
 std::string MutantCase::text() const {
@@ -33,6 +41,7 @@ std::string MutantCase::text() const {
 void MutantFindings::name_crashes(unsigned seconds) {
   for (int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM})
     std::signal(signal, name_case_and_exit);
+  limit_memory();
   alarm(seconds);
 }
 

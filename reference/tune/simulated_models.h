@@ -29,8 +29,8 @@ struct SimulationRequest {
   RunSettings settings;
 };
 
-/// Simulates the scene once with each deformer. The scene's own is the first.
-/// @param starts told the deformer whose simulation begins
+/// Simulates the scene once with each deformer. The scene's own is the first. `starts` is told the
+/// deformer whose simulation begins.
 /// @throws InputError when the scene's own simulation fails, or has fewer than 4 frames
 std::vector<SimulatedModel> simulate_models(const SimulationRequest& request,
                                             const DetectorCatalog& catalog,

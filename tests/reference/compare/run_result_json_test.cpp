@@ -233,8 +233,8 @@ RunTimes hand_built_times() {
   cells.question = Question::kCells;
   cells.timed_frames = 1;
   cells.repeats = 5;
-  cells.cold = {std::nullopt, 0.125, 0.25, 0.375, std::nullopt};
-  cells.hot = {0.5, 0.0625, 0.125, 0.6875, 0.75};
+  cells.cold = {std::nullopt, 0.125, 0.25, 0.375, std::nullopt, std::nullopt};
+  cells.hot = {0.5, 0.0625, 0.125, 0.6875, 0.75, std::nullopt};
   body.question = Question::kBody;
   Speedup speedup;
   speedup.cold = {2.0, 1.5, 2.5};

@@ -41,6 +41,6 @@ export async function openReport(browser, file, {viewport = kWide, colorScheme =
   return {page, requests, errors, close: () => context.close()};
 }
 
-/** Charts are drawn in the frame after their place is known; two frames later they stand. */
+/** Charts are drawn in the frame after their place is known; two frames and a moment later they stand, on a busy machine too. */
 export const settled = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 250)))));

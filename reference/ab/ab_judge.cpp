@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kMicrosecondsPerMillisecond = 1e3;
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
   const RatioInterval& r = time.ratio;
   const double excess_us = (time.head_ms - time.base_ms) * kMicrosecondsPerMillisecond;

@@ -15,7 +15,7 @@ constexpr double kStep = 1.0 / 8.0, kAside = 1.0 / 4.0;
 // Of the smaller body's largest side: the way to the first touch ends in steps of this length.
 constexpr double kNearness = 1.0 / 512.0;
 // Steps to the first touch: distances are walked off at once, and what grazes takes short steps.
-constexpr int kMostSteps = 500;
+constexpr int kMostApproachSteps = 500;
 
 double largest_side(const std::vector<Vec3>& points) {
   return bounding_box(points).extent().maxCoeff();
@@ -98,7 +98,7 @@ class Finder {
   // A body that moves by less than the distance touches nothing on the way.
   std::optional<double> first_touch(const Way& way) {
     double along = way.apart;
-    for (int step = 0; step < kMostSteps && along >= way.end; ++step) {
+    for (int step = 0; step < kMostApproachSteps && along >= way.end; ++step) {
       const DistanceInterval distance = pair_.distance(way.at(along));
       if (distance.upper == 0.0) return along;
       along -= std::max(distance.lower, kNearness * small_);

@@ -15,8 +15,8 @@ namespace {
 
 using Nodes = std::vector<Vec3>;
 
-constexpr int kMostSteps = 20'000;  // of one way: what grazes comes nearer and nearer
-constexpr int kMostDraws = 200;     // of one orientation
+constexpr int kMostSweepSteps = 20'000;  // of one way: what grazes comes nearer and nearer
+constexpr int kMostDraws = 200;          // of one orientation
 
 // No library function: the same bits on every machine.
 class Draws {
@@ -119,7 +119,7 @@ class Poses {
   // Moves `at` inward to where the distance first is the separation wanted. A body that moves by
   // less than what is left cannot have passed that place.
   bool walk(double wanted, double& at) {
-    for (int step = 0; step < kMostSteps && at > through_; ++step) {
+    for (int step = 0; step < kMostSweepSteps && at > through_; ++step) {
       const DistanceInterval now = distance(at);
       if (now.upper <= wanted + tolerance_) return true;
       at -= std::max(now.lower - wanted, 0.5 * tolerance_);

@@ -36,8 +36,6 @@ std::string why_hash_changed(const Json& row, const Json& old, const Json* scene
   return "the truth is as it was: the detector's answer changed";
 }
 
-std::string text_at(const Json& row, const char* key) { return row.at(key).get<std::string>(); }
-
 Check hash_against_baseline(const Rule& rule, const RowIndex& now, const RowIndex* before,
                             const Json& row) {
   std::string reason;

@@ -15,10 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<const Json*>;
 
-std::string text_at(const Json& object, const char* key) {
-  return object.at(key).get<std::string>();
-}
-
 class Gate {
  public:
   Gate(const RowIndex& now, const RowIndex* before) : now_(now), before_(before) {}

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -26,5 +26,10 @@ class RowIndex {
   std::map<std::pair<std::string, std::string>, const nlohmann::ordered_json*> rows_;
   std::map<std::string, const nlohmann::ordered_json*> scenes_;  ///< null: no entry of its own
 };
+
+/// @throws nlohmann::json::exception when there is no such text
+inline std::string text_at(const nlohmann::ordered_json& object, const char* key) {
+  return object.at(key).get<std::string>();
+}
 
 }  // namespace contactcheck

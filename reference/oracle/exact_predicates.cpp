@@ -6,13 +6,15 @@
 namespace contactcheck::oracle {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using FilteredKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 to_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+FilteredKernel::Point_3 to_point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-Kernel::Point_2 project(const Vec3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+FilteredKernel::Point_2 project(const Vec3& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
 
-Kernel::Triangle_3 to_triangle(const TriangleCorners& t) {
+FilteredKernel::Triangle_3 to_triangle(const TriangleCorners& t) {
   return {to_point(t[0]), to_point(t[1]), to_point(t[2])};
 }
 

@@ -121,12 +121,6 @@ bool holds_a_point(const ConvexHull& hull, const ConvexHull& other) {
                      [&](const Vec3& p) { return holds(hull, p); });
 }
 
-Aabb box_of(const TriangleCorners& t) {
-  Aabb box;
-  for (const Vec3& p : t) box.extend(p);
-  return box;
-}
-
 bool surfaces_intersect(const ConvexHull& a, const ConvexHull& b) {
   for (const TriangleCorners& p : a.surface) {
     const Aabb box = box_of(p);

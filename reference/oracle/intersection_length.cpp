@@ -38,12 +38,6 @@ constexpr double kSmallestProduct = 0x1p-900;
 
 double largest(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
-Aabb box_of(const TriangleCorners& t) {
-  Aabb box;
-  for (const Vec3& p : t) box.extend(p);
-  return box;
-}
-
 // On which side of a plane the corners of a triangle lie; each value within its error of the truth.
 struct Sides {
   std::array<double, 3> value, error;

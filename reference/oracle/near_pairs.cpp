@@ -15,10 +15,10 @@ bool within(double margin, const Vec3& p, const Aabb& box) {
          box.lo.z() - p.z() <= margin && p.z() - box.hi.z() <= margin;
 }
 
-class Search {
+class MarginSearch {
  public:
-  Search(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface, double margin,
-         std::vector<NearPair>& out)
+  MarginSearch(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface,
+               double margin, std::vector<NearPair>& out)
       : pair_(pair), vertices_(vertices), surface_(surface), margin_(margin), out_(out) {}
 
   void run() {
@@ -39,7 +39,7 @@ class Search {
 };
 
 // Searches below a node for the vertices passed_[first .. last).
-void Search::descend(std::uint32_t index, std::size_t first, std::size_t last) {
+void MarginSearch::descend(std::uint32_t index, std::size_t first, std::size_t last) {
   const SurfaceTree::Node& node = surface_.node(index);
   const std::size_t begin = passed_.size();
   for (std::size_t i = first; i < last; ++i) {
@@ -57,7 +57,7 @@ void Search::descend(std::uint32_t index, std::size_t first, std::size_t last) {
   passed_.resize(begin);
 }
 
-void Search::measure(std::uint32_t place, std::size_t first, std::size_t last) {
+void MarginSearch::measure(std::uint32_t place, std::size_t first, std::size_t last) {
   const std::uint32_t triangle = surface_.triangle_at(place);
   const TriangleCorners corners = surface_.corners(triangle);
   for (std::size_t i = first; i < last; ++i) {
@@ -75,7 +75,7 @@ bool boxes_within(double margin, const Aabb& a, const Aabb& b) {
 
 void append_near_pairs(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface,
                        double margin, std::vector<NearPair>& out) {
-  Search(pair, vertices, surface, margin, out).run();
+  MarginSearch(pair, vertices, surface, margin, out).run();
 }
 
 }  // namespace contactcheck::oracle

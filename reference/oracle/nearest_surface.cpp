@@ -15,9 +15,9 @@ namespace contactcheck::oracle {
 namespace {
 
 // In fractions of the size: what counts as equally near, and how wide bounds may be.
-constexpr double kAsNear = 1e-9, kWidth = 5e-13;
+constexpr double kAsNear = 1e-9, kBoundsWidth = 5e-13;
 // A rounded distance to a box exceeds the true one by less than 8 * 2^-53 of it.
-constexpr double kBoxRounding = 1 - 16 * 0x1p-53;
+constexpr double kBoxDistanceRounding = 1 - 16 * 0x1p-53;
 
 struct Candidate {
   std::uint32_t triangle;
@@ -25,12 +25,12 @@ struct Candidate {
 };
 
 double distance_to(const Aabb& box, const Vec3& p) {
-  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm() * kBoxRounding;
+  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm() * kBoxDistanceRounding;
 }
 
-class Search {
+class NearestSearch {
  public:
-  Search(const Vec3& vertex, const SurfaceTree& surface, double size)
+  NearestSearch(const Vec3& vertex, const SurfaceTree& surface, double size)
       : vertex_(vertex), surface_(surface), size_(size) {}
 
   WayOut run();
@@ -50,7 +50,7 @@ class Search {
   std::vector<Candidate> near_;
 };
 
-void Search::descend(std::uint32_t index) {
+void NearestSearch::descend(std::uint32_t index) {
   const SurfaceTree::Node& node = surface_.node(index);
   if (!worth(distance_to(node.box, vertex_))) return;
   if (node.is_leaf()) {
@@ -66,26 +66,26 @@ void Search::descend(std::uint32_t index) {
   descend(second);
 }
 
-void Search::measure(std::uint32_t triangle) {
+void NearestSearch::measure(std::uint32_t triangle) {
   const NearestPoint point = nearest_point(vertex_, surface_.corners(triangle));
   if (!worth(point.lower)) return;
   upper_ = std::min(upper_, point.upper);
   near_.push_back({triangle, point});
 }
 
-void Search::drop_farther() {
+void NearestSearch::drop_farther() {
   std::erase_if(near_, [&](const Candidate& c) { return !worth(c.point.lower); });
 }
 
-void Search::narrow() {
+void NearestSearch::narrow() {
   for (Candidate& c : near_) {
-    if (c.point.upper - c.point.lower <= kWidth * size_) continue;
+    if (c.point.upper - c.point.lower <= kBoundsWidth * size_) continue;
     c.point = exact_nearest_point(vertex_, surface_.corners(c.triangle));
     upper_ = std::min(upper_, c.point.upper);
   }
 }
 
-WayOut Search::collect() {
+WayOut NearestSearch::collect() {
   const auto touches = [&](const Candidate& c) {
     return c.point.lower == 0 && point_on_triangle(vertex_, surface_.corners(c.triangle));
   };
@@ -102,7 +102,7 @@ WayOut Search::collect() {
   return out;
 }
 
-WayOut Search::run() {
+WayOut NearestSearch::run() {
   descend(0);
   drop_farther();
   narrow();
@@ -113,7 +113,7 @@ WayOut Search::run() {
 }  // namespace
 
 WayOut way_to_surface(const Vec3& vertex, const SurfaceTree& surface, double size) {
-  return Search(vertex, surface, size).run();
+  return NearestSearch(vertex, surface, size).run();
 }
 
 }  // namespace contactcheck::oracle

@@ -9,13 +9,13 @@ namespace contactcheck::oracle {
 namespace {
 
 // The computed distance of two boxes exceeds the true one by less than this share.
-constexpr double kRounding = 1 - 16 * 0x1p-53;
+constexpr double kGapRounding = 1 - 16 * 0x1p-53;
 
 // Rounded down, also where it is subnormal; no square of it overflows.
 double box_gap(const Aabb& a, const Aabb& b) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   const Vec3 gap = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0).cwiseMin(kLargest);
-  return std::max(0.0, std::nextafter(gap.stableNorm() * kRounding, -1.0));
+  return std::max(0.0, std::nextafter(gap.stableNorm() * kGapRounding, -1.0));
 }
 
 // Of equal gaps the first bodies first: the answer does not depend on the heap.

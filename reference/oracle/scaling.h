@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/types/vec3.h"
+#include "reference/oracle/point_box.h"
 
 namespace contactcheck::oracle {
 
@@ -19,9 +20,7 @@ inline double largest_coordinate(std::span<const Vec3> points) {
 
 /// The largest side of the points' box; infinite where it overflows, 0 without points.
 inline double largest_side(std::span<const Vec3> points) {
-  Aabb box;
-  for (const Vec3& p : points) box.extend(p);
-  return points.empty() ? 0.0 : box.extent().maxCoeff();
+  return points.empty() ? 0.0 : box_of(points).extent().maxCoeff();
 }
 
 /// The lowest k with x * 2^-k < 1; of 0 and infinity, that of the smallest and largest double.

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "reference/oracle/exact_tests.h"
+#include "reference/oracle/scaling.h"
 #include "reference/oracle/triangle_distance.h"
 
 namespace contactcheck::oracle {
@@ -22,29 +23,19 @@ namespace {
 // pays for the final rounding. Smaller: more rational arithmetic.
 constexpr double kWidth = 4e-10;
 // The computed squared distance of two boxes exceeds the true one by less than 5 * 2^-53 of it.
-constexpr double kBoxRounding = 1 - 16 * 0x1p-53;
-
-double largest_coordinate(std::span<const Vec3> points) {
-  double out = 0;
-  for (const Vec3& p : points) out = std::max(out, p.cwiseAbs().maxCoeff());
-  return out;
-}
-
-Vec3 scaled_point(const Vec3& p, int exponent) {
-  return {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent)};
-}
+constexpr double kSquaredGapRounding = 1 - 16 * 0x1p-53;
 
 void scale(ScaledSurface& surface, int exponent) {
   surface.scaled.clear();
   surface.scaled.reserve(surface.vertices.size());
-  for (const Vec3& p : surface.vertices) surface.scaled.push_back(scaled_point(p, exponent));
+  for (const Vec3& p : surface.vertices) surface.scaled.push_back(scaled_by_two_to(exponent, p));
   surface.tree->refit(surface.scaled);
 }
 
 // A lower bound of the squared distance of any two points of the boxes.
 double squared_gap(const Aabb& a, const Aabb& b) {
   const Vec3 gap = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0);
-  return gap.squaredNorm() * kBoxRounding;
+  return gap.squaredNorm() * kSquaredGapRounding;
 }
 
 struct PairBounds {
@@ -56,9 +47,9 @@ bool lower_last(const PairBounds& x, const PairBounds& y) {
   return x.bounds.lower > y.bounds.lower;
 }
 
-class Search {
+class DistanceSearch {
  public:
-  Search(const ScaledSurface& a, const ScaledSurface& b) : a_(a), b_(b) {}
+  DistanceSearch(const ScaledSurface& a, const ScaledSurface& b) : a_(a), b_(b) {}
 
   DistanceBounds run() {
     descend(0, 0);
@@ -87,7 +78,7 @@ class Search {
   std::vector<PairBounds> near_;  // all pairs measured whose lower bound was not above upper_
 };
 
-void Search::descend(std::uint32_t i, std::uint32_t j) {
+void DistanceSearch::descend(std::uint32_t i, std::uint32_t j) {
   const SurfaceTree::Node& x = tree_a().node(i);
   const SurfaceTree::Node& y = tree_b().node(j);
   if (touching_ || !worth(squared_gap(x.box, y.box))) return;
@@ -101,8 +92,8 @@ void Search::descend(std::uint32_t i, std::uint32_t j) {
   }
 }
 
-void Search::descend_nearer_first(std::uint32_t i1, std::uint32_t j1, std::uint32_t i2,
-                                  std::uint32_t j2) {
+void DistanceSearch::descend_nearer_first(std::uint32_t i1, std::uint32_t j1, std::uint32_t i2,
+                                          std::uint32_t j2) {
   // Overlapping boxes are all at distance 0: then the centres tell which is likelier to be near.
   const auto key = [&](std::uint32_t i, std::uint32_t j) {
     const Aabb& x = tree_a().node(i).box;
@@ -117,7 +108,7 @@ void Search::descend_nearer_first(std::uint32_t i1, std::uint32_t j1, std::uint3
   descend(i2, j2);
 }
 
-void Search::measure_leaves(const SurfaceTree::Node& x, const SurfaceTree::Node& y) {
+void DistanceSearch::measure_leaves(const SurfaceTree::Node& x, const SurfaceTree::Node& y) {
   for (std::uint32_t i = x.first; i < x.first + x.count; ++i) {
     const Aabb& box = tree_a().box_at(i);
     if (!worth(squared_gap(box, y.box))) continue;
@@ -127,7 +118,7 @@ void Search::measure_leaves(const SurfaceTree::Node& x, const SurfaceTree::Node&
   }
 }
 
-void Search::measure(std::uint32_t a, std::uint32_t b) {
+void DistanceSearch::measure(std::uint32_t a, std::uint32_t b) {
   const TriangleCorners p = tree_a().corners(a), q = tree_b().corners(b);
   if (slab_bound(p, q) > upper_) return;
   const DistanceBounds bounds = distance_bounds(p, q);
@@ -140,7 +131,7 @@ void Search::measure(std::uint32_t a, std::uint32_t b) {
   near_.push_back({a, b, bounds});
 }
 
-DistanceBounds Search::refine() {
+DistanceBounds DistanceSearch::refine() {
   std::erase_if(near_, [&](const PairBounds& pair) { return pair.bounds.lower > upper_; });
   std::make_heap(near_.begin(), near_.end(), lower_last);
   double lowest_refined = std::numeric_limits<double>::infinity();
@@ -180,7 +171,7 @@ DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
   const int exponent = std::ilogb(largest) + 1;
   scale(a, -exponent);
   scale(b, -exponent);
-  return unscaled(Search(a, b).run(), exponent);
+  return unscaled(DistanceSearch(a, b).run(), exponent);
 }
 
 }  // namespace contactcheck::oracle

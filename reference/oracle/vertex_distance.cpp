@@ -26,7 +26,7 @@ using Vector = CGAL::Simple_cartesian<Rational>::Vector_3;
 using Corners3 = std::array<Vector, 3>;
 
 // Twice what the analysis above asks for; relative to M.
-constexpr double kRounding = 128 * 0x1p-53;
+constexpr double kVertexRounding = 128 * 0x1p-53;
 
 // Within, M to the fourth power and its fraction 2^-100 are normal numbers.
 constexpr double kSmallest = 0x1p-200, kLargest = 0x1p+200;
@@ -130,8 +130,8 @@ NearestPoint nearest_point(const Vec3& vertex, const TriangleCorners& triangle) 
   double gap = 0.0;
   if (length > kShortest * size) gap = gap_along(out.offset, t);
   if (proper) gap = std::max(gap, gap_along(normal, t));
-  out.lower = std::max(0.0, gap - kRounding * size);
-  out.upper = length + kRounding * size;
+  out.lower = std::max(0.0, gap - kVertexRounding * size);
+  out.upper = length + kVertexRounding * size;
   return out;
 }
 

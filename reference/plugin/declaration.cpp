@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/plugin/header_order.h"
 #include "reference/scene/id_check.h"
 
 namespace contactcheck {
@@ -12,13 +13,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLongestText = 200;  // bytes of a summary or a sentence
 constexpr std::size_t kMostOptions = 64, kMostChoices = 64;
-constexpr Level kLevels[] = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
-                             Level::kTriangle, Level::kVertex,      Level::kNear};
-constexpr Question kQuestions[] = {Question::kTriangles, Question::kBody, Question::kCells,
-                                   Question::kContacts};
-constexpr Precision kPrecisions[] = {Precision::kDouble, Precision::kSingle};
-constexpr DepthKind kDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
-                                     DepthKind::kConvexPair};
 
 template <typename Value, std::size_t N>
 Value named_value(const JsonField& field, const Value (&all)[N]) {

@@ -7,6 +7,7 @@
 
 #include "core/types/check.h"
 #include "reference/plugin/declaration.h"
+#include "reference/plugin/header_order.h"
 
 namespace contactcheck {
 namespace {
@@ -39,14 +40,6 @@ Value value_of(std::uint32_t number, const Value (&order)[N], const char* what) 
   return order[number];
 }
 
-// In the order of the header's numbers.
-constexpr Level kLevels[] = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
-                             Level::kTriangle, Level::kVertex,      Level::kNear};
-constexpr Question kQuestions[] = {Question::kTriangles, Question::kBody, Question::kCells,
-                                   Question::kContacts};
-constexpr Precision kPrecisions[] = {Precision::kDouble, Precision::kSingle};
-constexpr DepthKind kDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
-                                     DepthKind::kConvexPair};
 constexpr std::size_t kLongestMeaning = 200;  // bytes
 
 // The host's side of contactcheck_answer. No exception may pass through the plug-in's frames, but

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Anchor = Svg::Anchor;
 
-constexpr double kSquare = 22, kGap = 2, kLetter = 7.2, kMargin = 16;
+constexpr double kSquare = 22, kGap = 2, kCaptionLetter = 7.2, kEdge = 16;
 constexpr double kHead = 50;       // title and legend
 constexpr double kFaintest = 0.3;  // one wrong contact of many must still be seen
 
@@ -36,7 +36,7 @@ class StabilityPlot {
   StabilityPlot(const Json& scene, std::vector<FamilyResult> rows)
       : scene_(scene),
         rows_(std::move(rows)),
-        left_(kMargin + label_width()),
+        left_(kEdge + label_width()),
         svg_(width(), kHead + height_of_rows() + foot()) {}
 
   std::string draw() {
@@ -57,31 +57,31 @@ class StabilityPlot {
   double label_width() const {
     std::size_t longest = 0;
     for (const FamilyResult& row : rows_) longest = std::max(longest, row.detector().size());
-    return kLetter * static_cast<double>(longest) + 8;
+    return kCaptionLetter * static_cast<double>(longest) + 8;
   }
   double width() const {
     const double squares = static_cast<double>(cases()) * (kSquare + kGap);
-    const double words = kLetter * static_cast<double>(title().size());
-    return std::max({left_ + squares, words + kMargin, 420.0}) + kMargin;
+    const double words = kCaptionLetter * static_cast<double>(title().size());
+    return std::max({left_ + squares, words + kEdge, 420.0}) + kEdge;
   }
   double height_of_rows() const { return static_cast<double>(rows_.size()) * (kSquare + kGap); }
   // Values stand on their heads below the squares, the parameter below them.
   double foot() const {
     std::size_t longest = 0;
     for (std::size_t c = 0; c < cases(); ++c) longest = std::max(longest, rows_[0].value(c).size());
-    return 40 + 0.9 * kLetter * static_cast<double>(longest);
+    return 40 + 0.9 * kCaptionLetter * static_cast<double>(longest);
   }
   double svg_bottom() const { return kHead + height_of_rows() + foot(); }
   double x_of(std::size_t c) const { return left_ + static_cast<double>(c) * (kSquare + kGap); }
   double y_of(std::size_t row) const { return kHead + static_cast<double>(row) * (kSquare + kGap); }
 
   void draw_head() {
-    svg_.text(kMargin, 18, title(), Anchor::kStart, "title");
-    double x = kMargin;
+    svg_.text(kEdge, 18, title(), Anchor::kStart, "title");
+    double x = kEdge;
     const auto entry = [&](const char* css_class, const std::string& words) {
       svg_.rectangle(x, 27, 11, 11, css_class);
       svg_.text(x + 16, 37, words);
-      x += 16 + kLetter * static_cast<double>(words.size()) + 10;
+      x += 16 + kCaptionLetter * static_cast<double>(words.size()) + 10;
     };
     entry("missed", "share missed");
     entry("spurious", "share spurious");

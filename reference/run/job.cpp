@@ -11,9 +11,9 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::json;
+using nlohmann::json;
 
-RunSettings settings_from(const Json& j) {
+RunSettings settings_from(const json& j) {
   RunSettings s;
   j.at("detectors").get_to(s.detectors);
   j.at("plugins").get_to(s.plugins);
@@ -50,7 +50,7 @@ nlohmann::json to_json(const RunSettings& s) {
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {
-  Json j = {{"scene_file", job.scene_file.string()},
+  json j = {{"scene_file", job.scene_file.string()},
             {"settings", to_json(job.settings)},
             {"skip", job.skip},
             {"process", job.process},
@@ -66,7 +66,7 @@ void write_job(const std::filesystem::path& file, const Job& job) {
 }
 
 Job read_job(const std::filesystem::path& file) {
-  const Json j = Json::parse(read_text_file(file));
+  const json j = json::parse(read_text_file(file));
   Job job;
   job.scene_file = j.at("scene_file").get<std::string>();
   if (j.contains("pairs"))

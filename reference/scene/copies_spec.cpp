@@ -6,7 +6,7 @@
 namespace contactcheck {
 namespace {
 
-constexpr NumberRange kLength = {-1e6, false, 1e6, false};  // metres
+constexpr NumberRange kSpacing = {-1e6, false, 1e6, false};  // metres
 constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
 constexpr NumberRange kSeconds = {0.0, false, 1e6, false};
 
@@ -48,7 +48,7 @@ CopiesSpec parse_copies(const JsonField& field) {
   field.only_keys({"counts", "spacing", "turn", "delay"});
   CopiesSpec out;
   out.counts = parse_counts(field.at("counts"));
-  out.spacing = field.at("spacing").vector(kLength);
+  out.spacing = field.at("spacing").vector(kSpacing);
   if (field.has("turn")) out.turn_degrees = field.at("turn").number(kDegrees);
   if (field.has("delay")) out.delay = field.at("delay").number(kSeconds);
   return out;

@@ -19,7 +19,7 @@
 namespace contactcheck {
 namespace {
 
-constexpr std::size_t kMostVertices = 100'000;
+constexpr std::size_t kMostFamilyVertices = 100'000;
 
 // Where a body's vertices stand before the steps.
 struct BaseMesh {
@@ -60,9 +60,9 @@ BaseMesh parse_base_mesh(const JsonField& field, const std::filesystem::path& fo
   }
   const MeshSpec spec = parse_mesh_spec(field, folder);
   LoadedMesh loaded = build_mesh(spec, field);
-  if (loaded.mesh.vertices.size() > kMostVertices)
+  if (loaded.mesh.vertices.size() > kMostFamilyVertices)
     field.fail("has " + std::to_string(loaded.mesh.vertices.size()) +
-               " vertices; a family may have " + std::to_string(kMostVertices));
+               " vertices; a family may have " + std::to_string(kMostFamilyVertices));
   base.triangles = loaded.mesh.triangles;
   base.built = std::move(loaded.mesh);
   base.source = described_source(spec);

@@ -9,7 +9,7 @@
 namespace contactcheck {
 namespace {
 
-constexpr std::size_t kMostNodesPerAxis = 129, kMostVertices = 10'000'000;
+constexpr std::size_t kMostNodesPerAxis = 129, kLargestVertex = 10'000'000;
 
 AmountVector parse_scale(const JsonField& field) {
   if (field.is(JsonValue::Kind::kArray)) return parse_amount_vector(field);
@@ -73,7 +73,7 @@ FamilyStep parse_family_step(const JsonField& field) {
     field.only_keys({kind, "by"});
     step.kind = kind == "node" ? FamilyStep::Kind::kMoveNode : FamilyStep::Kind::kMoveVertex;
     if (kind == "node") step.node = parse_node(field.at("node"));
-    if (kind == "vertex") step.vertex = field.at("vertex").whole(0, kMostVertices);
+    if (kind == "vertex") step.vertex = field.at("vertex").whole(0, kLargestVertex);
     step.vector = parse_amount_vector(field.at("by"));
     return step;
   }

@@ -12,7 +12,7 @@ namespace {
 
 // Far outside any real motion; keeps sums and products finite.
 constexpr NumberRange kTime = {0.0, false, 1e9, false};     // seconds
-constexpr NumberRange kLength = {-1e6, false, 1e6, false};  // metres
+constexpr NumberRange kOffset = {-1e6, false, 1e6, false};  // metres
 constexpr NumberRange kPlace = {-1e7, false, 1e7, false};   // metres: apart from the largest body
 constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
 constexpr NumberRange kTaperAmount = {-100.0, false, 100.0, false};
@@ -87,7 +87,7 @@ int parse_axis(const JsonField& field) { return field.one_of({"x", "y", "z"})[0]
 Vec3 parse_direction(const JsonField& field) {
   if (field.is(JsonValue::Kind::kText)) return Vec3::Unit(parse_axis(field));
   if (!field.is(JsonValue::Kind::kArray)) field.refuse("x, y, z, or an array of three numbers");
-  Vec3 direction = field.vector(kLength);
+  Vec3 direction = field.vector(kOffset);
   if (!(direction.norm() > 1e-9)) field.fail("is too short; it must not be zero");
   return direction;
 }
@@ -147,7 +147,7 @@ Deformer parse_nodes(const JsonField& field, const BodyShape& shape) {
       entry.only_keys({"node", "offset"});
       const GridIndex node = parse_node(entry.at("node"), *shape.lattice);
       if (!seen.insert(node).second) entry.at("node").fail("is named twice in this key");
-      key.offsets.emplace_back(node, entry.at("offset").vector(kLength));
+      key.offsets.emplace_back(node, entry.at("offset").vector(kOffset));
     }
     out.keys.push_back(std::move(key));
   }

@@ -5,14 +5,8 @@
 #include <nlohmann/json.hpp>
 
 namespace contactcheck {
-namespace {
-
-constexpr std::size_t kAlignment = 4;
-
-}  // namespace
-
 nlohmann::ordered_json ViewBuffers::reference(const char* type, std::size_t count) {
-  bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment);
+  bytes_.resize((bytes_.size() + kViewAlignment - 1) / kViewAlignment * kViewAlignment);
   return {{"type", type}, {"at", bytes_.size()}, {"count", count}};
 }
 

@@ -2,6 +2,7 @@
 // stand in its JSON header.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -10,6 +11,9 @@
 #include "core/types/vec3.h"
 
 namespace contactcheck {
+
+/// Bytes; where arrays and what stands before them begin.
+inline constexpr std::size_t kViewAlignment = 4;
 
 /// Every array starts at a multiple of 4 bytes from the first one. A reference is
 /// {"type": "f32" | "u16" | "u32", "at": byte, "count": elements}.

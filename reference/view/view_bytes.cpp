@@ -12,6 +12,7 @@
 #include "core/types/check.h"
 #include "reference/view/contacts_file.h"
 #include "reference/view/scene_view.h"
+#include "reference/view/view_buffers.h"
 
 namespace contactcheck {
 namespace {
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kMagic = "CCVIEW1\n";
-constexpr std::size_t kAlignment = 4;
 
 // A recording of this many times the limit is not even read: compressed, the view of one has been
 // between a third and a seventh of it.
@@ -130,7 +130,7 @@ std::string container(std::vector<Candidate>& scenes) {
     arrays += scene.view.arrays;
   }
   std::string text = dumped(header);
-  text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
+  text.resize((text.size() + kViewAlignment - 1) / kViewAlignment * kViewAlignment, ' ');
   std::string out(kMagic);
   for (int i = 0; i < 4; ++i) out += static_cast<char>(text.size() >> (8 * i) & 0xff);
   return out + text + arrays;

@@ -1,8 +1,8 @@
 // The chart of speed against error, and the other charts' bars.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {settled} from "./browser.mjs";
-import {tableTexts, useReport} from "./report.mjs";
+import {kNarrow, settled} from "./browser.mjs";
+import {tableTexts, unfold, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
 const kTable = "Points of the chart of speed against error";
@@ -20,7 +20,7 @@ async function choose(page, label, option) {
 }
 
 async function pointsTable(page) {
-  await section(page).getByText("The same as a table").click();
+  await unfold(page, section(page).getByText("The same as a table"));
   return tableTexts(page, kTable);
 }
 
@@ -112,7 +112,7 @@ test("cost is drawn against triangles and frames for the detectors chosen", asyn
   assert.deepEqual(await labelsOf(dots), [
     "ffd-lazy\nmeet: 24 triangles\n0.0200 ms per frame",
     "ffd-lazy\n<script>alert(1)</script>: 2,400 triangles\n0.0400 ms per frame"]);
-  await page.locator("#cost summary").click();
+  await unfold(page, page.locator("#cost summary"));
   await page.locator("#cost").getByRole("checkbox", {name: "ffd-lazy"}).uncheck();
   await settled(page);
   assert.equal(await dots.count(), 0);
@@ -124,4 +124,21 @@ test("depths and normals are ranges from the mean to the largest", async () => {
   assert.deepEqual(titles.map((title) => title.split("\n")[1]), [
     "mean 1.00 mm, 95 % below 3.00 mm, largest 4.00 mm",
     "mean 10.0 °, 95 % below 45.0 °, largest 90.0 °"]);
+});
+
+// What the screen reader is told of every chart, from the change of the window's width on.
+test("a chart that is not yet drawn says that it is busy", async () => {
+  const {page} = await report.open();
+  assert.equal(await page.locator("figure.chart[aria-busy]").count(), 0, "all are drawn");
+  assert.ok(await page.locator("figure.chart[role=group]").evaluateAll((all) =>
+    all.length > 5 && all.every((figure) => !figure.checkVisibility() || figure.firstElementChild)), "and hold something");
+  await page.evaluate(() => {
+    window.told = [];
+    new MutationObserver((changes) => window.told.push(...changes.map(({type, target}) =>
+      (type === "childList" ? "drawn" : `busy ${target.ariaBusy}`))))
+      .observe(document.querySelector("#speed-error figure"), {attributeFilter: ["aria-busy"], childList: true});
+  });
+  await page.setViewportSize(kNarrow);
+  await settled(page);
+  assert.deepEqual(await page.evaluate(() => window.told), ["busy true", "drawn", "busy null"]);
 });

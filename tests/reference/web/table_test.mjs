@@ -1,7 +1,7 @@
 // The tables: recall and spurious rates with their colours, the summary, the numbers of a scene.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {tableTexts, unfoldAll, useReport} from "./report.mjs";
+import {tableTexts, unfold, unfoldAll, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
 const kScene = "<script>alert(1)</script>";
@@ -68,7 +68,7 @@ test("a heading sorts, and sorts the other way", async () => {
 
 test("an open scene shows every number", async () => {
   const {page} = await report.open();
-  await page.locator("#scene-meet > summary").click();
+  await unfold(page, page.locator("#scene-meet > summary"));
   const texts = (name) => tableTexts(page, name);
   assert.deepEqual((await texts("Result"))[4], ["ffd-aabb", "cell", "10", "0.70000", "3", "1", "0/0", "12.5",
       "-1", "0.100 (own 0.0700)", "body", "5.00x", "-", "-"]);

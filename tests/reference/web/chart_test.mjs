@@ -5,6 +5,13 @@ import {kNarrow, settled} from "./browser.mjs";
 import {tableTexts, unfold, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
+// Two scenes of one size; one detector is judged by cells in the first, by bodies alone in the second.
+const mixed = useReport("two_scenes.json", {change(results) {
+  const run = results.runs.find((one) => one.scene !== "meet" && one.detector === "ffd-aabb");
+  run.per_frame.level = "body";
+  delete run.levels.cell;
+  results.scenes[1].bodies = results.scenes[0].bodies;
+}});
 const kTable = "Points of the chart of speed against error";
 
 const section = (page) => page.locator("#speed-error");
@@ -97,6 +104,17 @@ test("losses per stage are bars, and add up in words", async () => {
                    ["ffd-aabb loses 4: 2 in hash and 2 in node-plane."]);
 });
 
+test("where pairs of bodies alone are judged, no pair of triangles is lost", async () => {
+  const {page} = await mixed.open();
+  const losses = page.locator("#stages li:has-text('loses')");
+  assert.deepEqual(await losses.allTextContents(), ["ffd-aabb loses 3: 1 in hash and 2 in node-plane."]);
+  const ticks = await page.locator("#stages figure [aria-label='x-axis tick label'] text").allTextContents();
+  assert.ok(ticks.length > 2 && ticks.every((tick) => Number(tick) <= 100), `shares, in percent: ${ticks}`);
+  await page.locator("#stages").getByRole("combobox", {name: "Scenes"}).selectOption("1");
+  await settled(page);
+  assert.equal(await losses.count(), 0);
+});
+
 test("time per phase is stacked, with and without mapping", async () => {
   const {page} = await report.open();
   const bars = () => labelsOf(page.locator("#times [aria-label^='fcl-aabb:']"));
@@ -116,6 +134,12 @@ test("cost is drawn against triangles and frames for the detectors chosen", asyn
   await page.locator("#cost").getByRole("checkbox", {name: "ffd-lazy"}).uncheck();
   await settled(page);
   assert.equal(await dots.count(), 0);
+});
+
+test("a size that is the only one is told on the axis", async () => {
+  const {page} = await mixed.open();
+  const ticks = page.locator("#cost figure").first().locator("[aria-label='x-axis tick label'] text");
+  assert.deepEqual(await ticks.allTextContents(), ["24"]);
 });
 
 test("depths and normals are ranges from the mean to the largest", async () => {

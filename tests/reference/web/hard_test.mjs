@@ -45,7 +45,9 @@ test("the table of families says how many cases go wrong", async () => {
 
 test("a family is drawn case by case, and told from which value on it goes wrong", async () => {
   const {page} = await report.open();
-  await unfold(page, page.locator("#family-hello > summary"));
+  const summary = page.locator("#family-hello > summary");
+  assert.match(await summary.textContent(), /: 2 detectors go wrong$/);
+  await unfold(page, summary);
   assert.deepEqual((await page.locator("#family-hello svg title").allTextContents()).slice(0, 3), [
     "ffd-aabb-sphere2 at 0: 0 missed of 0, 1 spurious", "ffd-aabb-sphere2 at 1e-9: 1 missed of 4, 0 spurious",
     "ffd-aabb-sphere2 at 1: 0 missed of 6, 0 spurious"]);

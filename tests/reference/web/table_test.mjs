@@ -15,6 +15,20 @@ test("recall per scene, and its sum", async () => {
     ["<img src=x onerror=alert(1)>", "", "error", "absent"]]);
 });
 
+const mixed = useReport("two_scenes.json", {change(results) {
+  const run = results.runs.find((one) => one.scene === kScene && one.detector === "ffd-aabb");
+  run.per_frame.level = "body";
+  delete run.levels.cell;
+}});
+
+test("counts of different levels are not added up", async () => {
+  const {page} = await mixed.open();
+  const line = async () => (await tableTexts(page, "Recall per detector and scene")).find(([name]) => name === "ffd-aabb");
+  assert.deepEqual(await line(), ["ffd-aabb", "levels differ", "0.70000", "1"]);
+  await page.locator("#levels").getByRole("combobox", {name: "Level"}).selectOption("cell");
+  assert.deepEqual(await line(), ["ffd-aabb", "0.70000", "0.70000", ""]);
+});
+
 test("a perfect cell has no colour, others the more the worse", async () => {
   const {page} = await report.shared();
   const colour = (line, cell) => page.getByRole("region",

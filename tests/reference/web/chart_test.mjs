@@ -2,14 +2,12 @@
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {kNarrow, settled} from "./browser.mjs";
-import {tableTexts, unfold, useReport} from "./report.mjs";
+import {judgeByBodiesAlone, labelsOf, tableTexts, unfold, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
 // Two scenes of one size; one detector is judged by cells in the first, by bodies alone in the second.
 const mixed = useReport("two_scenes.json", {change(results) {
-  const run = results.runs.find((one) => one.scene !== "meet" && one.detector === "ffd-aabb");
-  run.per_frame.level = "body";
-  delete run.levels.cell;
+  judgeByBodiesAlone(results, results.scenes[1].id, "ffd-aabb");
   results.scenes[1].bodies = results.scenes[0].bodies;
 }});
 const kTable = "Points of the chart of speed against error";
@@ -18,7 +16,6 @@ const section = (page) => page.locator("#speed-error");
 const labels = (page) =>
   section(page).locator(".points [aria-label]").evaluateAll((all) =>
     all.map((point) => point.getAttribute("aria-label").split("\n")));
-const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
 const front = (lines) => lines.slice(1).filter((line) => line[10] === "yes").map((line) => line[0]);
 
 async function choose(page, label, option) {

@@ -65,6 +65,16 @@ export async function tableTexts(page, name) {
   return box.locator("tr").evaluateAll((lines) => lines.map((line) => [...line.children].map((cell) => cell.textContent)));
 }
 
+/** What a screen reader is told of each of these marks. */
+export const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
+
+/** Changes results: a detector that is judged by cells answers for pairs of bodies alone in one scene. */
+export function judgeByBodiesAlone(results, scene, detector) {
+  const run = results.runs.find((one) => one.scene === scene && one.detector === detector);
+  run.per_frame.level = "body";
+  delete run.levels.cell;
+}
+
 /** Opens a folded part of the page by its summary; what it holds is built after the click. */
 export async function unfold(page, summary) {
   await summary.click();

@@ -41,6 +41,20 @@ export async function openReport(browser, file, {viewport = kWide, colorScheme =
   return {page, requests, errors, close: () => context.close()};
 }
 
-/** Charts are drawn in the frame after their place is known; two frames and a moment later they stand, on a busy machine too. */
-export const settled = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 250)))));
+const kPatience = 60_000;  // ms; a page is drawn in one of its frames, which a busy machine may make rare
+
+/**
+ * Until all that can be seen is drawn: parts of the page that are not yet say aria-busy. A part hears of a
+ * new width at the end of a frame, so one frame goes by before they are asked.
+ * @throws where something is never drawn, with its name
+ */
+export async function settled(page) {
+  const busy = await page.evaluate(async (patience) => {
+    const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+    const busyParts = () => [...document.querySelectorAll("[aria-busy='true']")].filter((part) => part.checkVisibility());
+    const end = performance.now() + patience;
+    do await frame(); while (busyParts().length > 0 && performance.now() < end);
+    return busyParts().map((part) => part.ariaLabel ?? part.className);
+  }, kPatience);
+  if (busy.length > 0) throw new Error(`not drawn after ${kPatience / 1000} s: ${busy.join("; ")}`);
+}

@@ -1,17 +1,21 @@
 // The chart of speed against error, and the other charts' bars.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {settled} from "./browser.mjs";
-import {tableTexts, useReport} from "./report.mjs";
+import {kNarrow, settled} from "./browser.mjs";
+import {judgeByBodiesAlone, labelsOf, tableTexts, unfold, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
+// Two scenes of one size; one detector is judged by cells in the first, by bodies alone in the second.
+const mixed = useReport("two_scenes.json", {change(results) {
+  judgeByBodiesAlone(results, results.scenes[1].id, "ffd-aabb");
+  results.scenes[1].bodies = results.scenes[0].bodies;
+}});
 const kTable = "Points of the chart of speed against error";
 
 const section = (page) => page.locator("#speed-error");
 const labels = (page) =>
   section(page).locator(".points [aria-label]").evaluateAll((all) =>
     all.map((point) => point.getAttribute("aria-label").split("\n")));
-const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
 const front = (lines) => lines.slice(1).filter((line) => line[10] === "yes").map((line) => line[0]);
 
 async function choose(page, label, option) {
@@ -20,7 +24,7 @@ async function choose(page, label, option) {
 }
 
 async function pointsTable(page) {
-  await section(page).getByText("The same as a table").click();
+  await unfold(page, section(page).getByText("The same as a table"));
   return tableTexts(page, kTable);
 }
 
@@ -97,6 +101,17 @@ test("losses per stage are bars, and add up in words", async () => {
                    ["ffd-aabb loses 4: 2 in hash and 2 in node-plane."]);
 });
 
+test("where pairs of bodies alone are judged, no pair of triangles is lost", async () => {
+  const {page} = await mixed.open();
+  const losses = page.locator("#stages li:has-text('loses')");
+  assert.deepEqual(await losses.allTextContents(), ["ffd-aabb loses 3: 1 in hash and 2 in node-plane."]);
+  const ticks = await page.locator("#stages figure [aria-label='x-axis tick label'] text").allTextContents();
+  assert.ok(ticks.length > 2 && ticks.every((tick) => Number(tick) <= 100), `shares, in percent: ${ticks}`);
+  await page.locator("#stages").getByRole("combobox", {name: "Scenes"}).selectOption("1");
+  await settled(page);
+  assert.equal(await losses.count(), 0);
+});
+
 test("time per phase is stacked, with and without mapping", async () => {
   const {page} = await report.open();
   const bars = () => labelsOf(page.locator("#times [aria-label^='fcl-aabb:']"));
@@ -112,10 +127,16 @@ test("cost is drawn against triangles and frames for the detectors chosen", asyn
   assert.deepEqual(await labelsOf(dots), [
     "ffd-lazy\nmeet: 24 triangles\n0.0200 ms per frame",
     "ffd-lazy\n<script>alert(1)</script>: 2,400 triangles\n0.0400 ms per frame"]);
-  await page.locator("#cost summary").click();
+  await unfold(page, page.locator("#cost summary"));
   await page.locator("#cost").getByRole("checkbox", {name: "ffd-lazy"}).uncheck();
   await settled(page);
   assert.equal(await dots.count(), 0);
+});
+
+test("a size that is the only one is told on the axis", async () => {
+  const {page} = await mixed.open();
+  const ticks = page.locator("#cost figure").first().locator("[aria-label='x-axis tick label'] text");
+  assert.deepEqual(await ticks.allTextContents(), ["24"]);
 });
 
 test("depths and normals are ranges from the mean to the largest", async () => {
@@ -124,4 +145,21 @@ test("depths and normals are ranges from the mean to the largest", async () => {
   assert.deepEqual(titles.map((title) => title.split("\n")[1]), [
     "mean 1.00 mm, 95 % below 3.00 mm, largest 4.00 mm",
     "mean 10.0 °, 95 % below 45.0 °, largest 90.0 °"]);
+});
+
+// What the screen reader is told of every chart, from the change of the window's width on.
+test("a chart that is not yet drawn says that it is busy", async () => {
+  const {page} = await report.open();
+  assert.equal(await page.locator("figure.chart[aria-busy]").count(), 0, "all are drawn");
+  assert.ok(await page.locator("figure.chart[role=group]").evaluateAll((all) =>
+    all.length > 5 && all.every((figure) => !figure.checkVisibility() || figure.firstElementChild)), "and hold something");
+  await page.evaluate(() => {
+    window.told = [];
+    new MutationObserver((changes) => window.told.push(...changes.map(({type, target}) =>
+      (type === "childList" ? "drawn" : `busy ${target.ariaBusy}`))))
+      .observe(document.querySelector("#speed-error figure"), {attributeFilter: ["aria-busy"], childList: true});
+  });
+  await page.setViewportSize(kNarrow);
+  await settled(page);
+  assert.deepEqual(await page.evaluate(() => window.told), ["busy true", "drawn", "busy null"]);
 });

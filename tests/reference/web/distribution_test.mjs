@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import {test} from "node:test";
 import {settled} from "./browser.mjs";
-import {tableTexts, useReport} from "./report.mjs";
+import {labelsOf, tableTexts, useReport} from "./report.mjs";
 
 const kFarScene = 1;
 
@@ -46,7 +46,6 @@ const report = useReport("two_scenes.json", {change(results) {
 }});
 const old = useReport("two_scenes.json");
 
-const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
 const boxesOf = (marks) => marks.evaluateAll((all) => all.map((mark) => {
   const {x, y, width, height} = mark.getBoundingClientRect();
   return {x, y, width, height};

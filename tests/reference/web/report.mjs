@@ -6,7 +6,7 @@ import {tmpdir} from "node:os";
 import {dirname, join, resolve} from "node:path";
 import {after, before} from "node:test";
 import {fileURLToPath} from "node:url";
-import {launch, openReport} from "./browser.mjs";
+import {launch, openReport, settled} from "./browser.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const program = process.env.CONTACTCHECK_PROGRAM ?? resolve(here, "../../../build/release/contactcheck");
@@ -58,16 +58,40 @@ export function useReport(results, {beside = {}, change, args} = {}) {
   };
 }
 
-/** The texts of all cells of a table by its accessible name, line by line, headings first. */
-export const tableTexts = (page, name) =>
-  page.getByRole("region", {name, exact: true}).locator("tr").evaluateAll((lines) =>
-    lines.map((line) => [...line.children].map((cell) => cell.textContent)));
+/** The texts of all cells of a table by its accessible name, line by line, headings first; waits for the table. */
+export async function tableTexts(page, name) {
+  const box = page.getByRole("region", {name, exact: true});
+  await box.first().waitFor();
+  return box.locator("tr").evaluateAll((lines) => lines.map((line) => [...line.children].map((cell) => cell.textContent)));
+}
+
+/** What a screen reader is told of each of these marks. */
+export const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
+
+/** Changes results: a detector that is judged by cells answers for pairs of bodies alone in one scene. */
+export function judgeByBodiesAlone(results, scene, detector) {
+  const run = results.runs.find((one) => one.scene === scene && one.detector === detector);
+  run.per_frame.level = "body";
+  delete run.levels.cell;
+}
+
+/** Opens a folded part of the page by its summary; what it holds is built after the click. */
+export async function unfold(page, summary) {
+  await summary.click();
+  await summary.locator("xpath=following-sibling::*[1]").waitFor();
+  await settled(page);
+}
 
 /** Opens every part of the page that is folded. */
-export const unfoldAll = (page) => page.evaluate(async () => {
-  // What is opened may hold more to open.
-  for (let closed; (closed = document.querySelectorAll("details:not([open])")).length > 0;) {
-    closed.forEach((details) => (details.open = true));
-    await new Promise((done) => setTimeout(done, 50));
-  }
-});
+export async function unfoldAll(page) {
+  await page.evaluate(async () => {
+    // What is opened may hold more to open; its own listener, which fills it, comes before this one.
+    const open = (details) => new Promise((done) => {
+      details.addEventListener("toggle", done, {once: true});
+      details.open = true;
+    });
+    for (let closed; (closed = [...document.querySelectorAll("details:not([open])")]).length > 0;)
+      await Promise.all(closed.map(open));
+  });
+  await settled(page);
+}

@@ -3,7 +3,7 @@
 // pair. The report's own contacts decide what is shown; see browser.mjs for the environment.
 import {mkdirSync} from "node:fs";
 import {join} from "node:path";
-import {kWebGl, launch, openReport} from "./browser.mjs";
+import {kWebGl, launch, openReport, settled} from "./browser.mjs";
 
 const [report, folder] = process.argv.slice(2);
 if (!report || !folder) {
@@ -12,12 +12,8 @@ if (!report || !folder) {
 }
 mkdirSync(folder, {recursive: true});
 
-async function drawn(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
-}
-
 async function picture(page, name) {
-  await drawn(page);
+  await settled(page);
   const path = join(folder, `${name}.png`);
   await page.locator(".view-picture").screenshot({path});
   console.log(path);

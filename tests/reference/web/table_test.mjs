@@ -1,7 +1,7 @@
 // The tables: recall and spurious rates with their colours, the summary, the numbers of a scene.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {tableTexts, unfoldAll, useReport} from "./report.mjs";
+import {judgeByBodiesAlone, tableTexts, unfold, unfoldAll, useReport} from "./report.mjs";
 
 const report = useReport("two_scenes.json");
 const kScene = "<script>alert(1)</script>";
@@ -13,6 +13,16 @@ test("recall per scene, and its sum", async () => {
     ["fcl-aabb", "1", "1", "1"], ["fcl-obbrss", "0.93750", "0.90000", "1"], ["ffd-lazy", "1", "1", "1"],
     ["ffd-aabb", "0.75000", "0.70000", "0.83333"], ["ffd-grid", "1", "1", "1"],
     ["<img src=x onerror=alert(1)>", "", "error", "absent"]]);
+});
+
+const mixed = useReport("two_scenes.json", {change: (results) => judgeByBodiesAlone(results, kScene, "ffd-aabb")});
+
+test("counts of different levels are not added up", async () => {
+  const {page} = await mixed.open();
+  const line = async () => (await tableTexts(page, "Recall per detector and scene")).find(([name]) => name === "ffd-aabb");
+  assert.deepEqual(await line(), ["ffd-aabb", "levels differ", "0.70000", "1"]);
+  await page.locator("#levels").getByRole("combobox", {name: "Level"}).selectOption("cell");
+  assert.deepEqual(await line(), ["ffd-aabb", "0.70000", "0.70000", ""]);
 });
 
 test("a perfect cell has no colour, others the more the worse", async () => {
@@ -68,7 +78,7 @@ test("a heading sorts, and sorts the other way", async () => {
 
 test("an open scene shows every number", async () => {
   const {page} = await report.open();
-  await page.locator("#scene-meet > summary").click();
+  await unfold(page, page.locator("#scene-meet > summary"));
   const texts = (name) => tableTexts(page, name);
   assert.deepEqual((await texts("Result"))[4], ["ffd-aabb", "cell", "10", "0.70000", "3", "1", "0/0", "12.5",
       "-1", "0.100 (own 0.0700)", "body", "5.00x", "-", "-"]);

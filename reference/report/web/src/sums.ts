@@ -41,6 +41,10 @@ export function countsAt(runs: Run[], level: string): Counts | null {
   return judged ? sum : null;
 }
 
+/** Whether these runs were judged at different finest levels, whose counts do not add up. */
+export const levelsDiffer = (runs: Run[]): boolean =>
+  new Set(runs.map(finestLevel).filter((level) => level !== "")).size > 1;
+
 /** Milliseconds per frame, the mean over all frames of these runs; null where one is not timed. */
 export function meanFrameMs(runs: Run[], part: "cold" | "hot"): number | null {
   let ms = 0, frames = 0;

@@ -57,16 +57,26 @@ function series(all: Cost[]): Cost[][] {
   return [...groups.values()].filter((group) => group.length > 1);
 }
 
+// Between sizes near one another a logarithm has ticks without labels: they are ticks themselves then.
+function sizeTicks(sizes: number[], [low, high]: [number, number], width: number): number | number[] {
+  if (high > 10 * low) return width < 600 ? 3 : 6;
+  const across = (size: number): number => (width * Math.log(size / low)) / Math.log(high / low), room = 60;
+  const ticks: number[] = [];
+  for (const size of [...new Set(sizes)].sort((a, b) => a - b))
+    if (ticks.length === 0 || across(size) - across(ticks[ticks.length - 1]) > room) ticks.push(size);
+  return ticks;
+}
+
 function drawCosts(width: number, all: Cost[], lines: Lines): Node {
   const xy = {x: "triangles", y: "ms"} as const, sizes = all.map((cost) => cost.triangles);
+  const span: [number, number] = [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2];
   const title = (d: Cost): string =>
       `${d.detector}\n${d.scene}: ${grouped(d.triangles)} triangles\n${number(d.ms)} ms per frame`;
   return Plot.plot({
     width, height: Math.min(400, 240 + width / 5), marginLeft: 52, marginTop: 28, marginRight: 24,
         marginBottom: 40,
-    x: {type: "log", domain: [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2],
-        label: "triangles of all bodies →", grid: true,
-        tickFormat: width < 600 ? compact : plainNumber, ticks: width < 600 ? 3 : 6},
+    x: {type: "log", domain: span, label: "triangles of all bodies →", grid: true,
+        tickFormat: width < 600 ? compact : plainNumber, ticks: sizeTicks(sizes, span, width)},
     y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
     marks: [
       ...series(all).map((group) => Plot.line(group, {...xy, stroke: lines.style(group[0].detector).colour,

@@ -2,7 +2,7 @@
 import {legend} from "../chart";
 import {h, p, unfolding, type Child} from "../dom";
 import {familyResults, type FamilyResult} from "../family";
-import {number} from "../format";
+import {number, plural} from "../format";
 import type {Report} from "../report";
 import type {Scene} from "../results";
 import type {Section} from "../section";
@@ -94,7 +94,8 @@ function wrongRow(result: FamilyResult): Row {
 
 function familyDetails(scene: Scene, wrong: FamilyResult[]): HTMLElement {
   const {parameter, values, stresses, origin} = scene.family!;
-  const aside = h("span", {class: "aside"}, ` ${scene.title}: ${wrong.length} go wrong`);
+  const who = plural(wrong.length, "detector goes wrong", "detectors go wrong");
+  const aside = h("span", {class: "aside"}, ` ${scene.title}: ${who}`);
   return unfolding(h("span", {}, h("strong", {}, scene.id), aside), () => [
     p(`Parameter: ${parameter}, ${values.length} values from ${values[0]} on. Hard for: ${stresses}. From: ${origin}.`),
     h("div", {class: "scroll", role: "region", tabindex: 0, "aria-label": `Case by case, ${scene.id}`},

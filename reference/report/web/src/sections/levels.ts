@@ -6,7 +6,7 @@ import {term} from "../glossary";
 import {finestLevel, judgedLevels, kFinest, levelOf, type Report} from "../report";
 import type {Run} from "../results";
 import type {Section} from "../section";
-import {countsAt, missedShare, share, spuriousShare, type Counts} from "../sums";
+import {countsAt, levelsDiffer, missedShare, share, spuriousShare, type Counts} from "../sums";
 import {left, right, table, type Cell, type Row} from "../table";
 
 type Measure = "recall" | "spurious";
@@ -39,13 +39,19 @@ function sceneCell(run: Run | null, level: string, measure: Measure): Cell {
   return countsCell(levelOf(run, level), measure, where);
 }
 
+// Pairs of bodies and pairs of triangles do not add up: such a detector has a sum at each level alone.
+function sumCell(detector: string, ok: Run[], level: string, measure: Measure): Cell {
+  if (level === kFinest && levelsDiffer(ok)) return {text: "levels differ", sort: null, class: "informative"};
+  return countsCell(countsAt(ok, level), measure, `${detector}, all scenes`);
+}
+
 function heatTable(report: Report, level: string, measure: Measure): HTMLElement {
   const rows: Row[] = [];
   for (const detector of report.detectors) {
     const runs = report.scenes.map((scene) => report.run(scene.id, detector));
     const ok = runs.filter((run) => run?.status === "ok") as Run[];
     if (!ok.some((run) => levelOf(run, level)) && !runs.some((run) => run && run.status !== "ok")) continue;
-    const sum = countsCell(countsAt(ok, level), measure, `${detector}, all scenes`);
+    const sum = sumCell(detector, ok, level, measure);
     rows.push([detector, ...(report.scenes.length > 1 ? [sum] : []),
                ...runs.map((run) => sceneCell(run, level, measure))]);
   }
@@ -72,7 +78,8 @@ export const levels: Section = {
     return [
       p(term("recall", "Recall"), " is the share of true contacts that was found: 1 is perfect, and any other number has a colour. "
         + "The ", term("spurious"), " rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing "
-        + "reported. An empty cell: the detector does not claim this ", term("level"), " there."),
+        + "reported. An empty cell: the detector does not claim this ", term("level"), " there; "
+        + "where its finest level is not the same in all scenes, choose a level to have a sum."),
       controlBar(
         select("Level", [[kFinest, "each detector's finest"], ...names], choice.level,
             (level) => update({level})),

@@ -40,17 +40,18 @@ function addStage(stages: Stage[], stage: Stage): void {
   if (own.visited !== undefined) own.visited += stage.visited ?? 0;
 }
 
-// The stages cover pairs of triangles, and so do truth and missed of these two levels.
+// Stages cover pairs of triangles, and so do truth and missed of these two levels. What is judged by
+// pairs of bodies alone may stop at the first contact: the others are no loss.
 const countsTriangles = (run: Run): boolean => ["cell", "triangle"].includes(finestLevel(run));
 
 function lossesOf(report: Report, detector: string, scenes: Scene[]): Losses | null {
   const runs = scenes.map((scene) => report.okRun(scene.id, detector)).filter((run) => run !== null)
-    .filter((run) => (run.stages ?? []).length > 0);
+    .filter((run) => (run.stages ?? []).length > 0 && countsTriangles(run));
   if (runs.length === 0) return null;
   const stages: Stage[] = [];
   let truth = 0;
   for (const run of runs) {
-    if (countsTriangles(run)) truth += run.levels[finestLevel(run)]?.truth ?? 0;
+    truth += run.levels[finestLevel(run)]?.truth ?? 0;
     for (const stage of run.stages) addStage(stages, stage);
   }
   return {detector, truth, stages};
@@ -102,6 +103,7 @@ function stagesTable(all: Losses[]): HTMLElement {
 }
 
 function picture(all: Losses[]): HTMLElement[] {
+  if (all.length === 0) return [p("No detector with stages was judged by pairs of triangles here.")];
   const losses: Loss[] = all.flatMap(({detector, truth, stages}) => stages.filter((stage) => stage.missed > 0)
     .map((stage) => ({detector, stage: stage.name, missed: stage.missed, share: share(stage.missed,
         truth) ?? 0})));
@@ -136,7 +138,8 @@ export const stages: Section = {
     update(options[0][0]);
     return [
       p("A detector sorts pairs out in stages, from coarse to fine. A stage loses a true pair of triangles when what goes in still ",
-        "covers it and what comes out does not. The losses of all stages add up to what the detector misses."),
+        "covers it and what comes out does not. The losses of all stages add up to what the detector misses; ",
+        "a scene in which it is judged by pairs of bodies alone does not count."),
       controlBar(select("Scenes", options, options[0][0], update)),
       place,
     ];

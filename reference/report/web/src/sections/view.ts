@@ -9,7 +9,7 @@ export const view: Section = {
   short: "3D view",
   build({results, viewBytes}) {
     if (!viewBytes || !canHaveView()) return [];
-    const place = h("div", {class: "view-place"});
+    const place = h("div", {class: "view-place", "aria-busy": "true"});
     // Once it stands in the page and has a size.
     requestAnimationFrame(() => {
       try {
@@ -17,6 +17,7 @@ export const view: Section = {
       } catch (error) {
         place.textContent = `The 3D view cannot be shown: ${String(error)}`;
       }
+      place.removeAttribute("aria-busy");
     });
     return [place];
   },

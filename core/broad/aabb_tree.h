@@ -13,91 +13,99 @@
 #include "core/broad/triangle_tree.h"
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
-#include "core/types/frame.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
 
-/// The boxes of one body. Minima and maxima of doubles are exact, so the boxes are the tightest
-/// ones and nothing has to be rounded outward.
-class AabbTree {
+/// The boxes of one body. Minima and maxima of doubles, as of floats, are exact, so the boxes are
+/// the tightest ones and nothing has to be rounded outward.
+template <typename T>
+class AabbTreeOf {
  public:
-  explicit AabbTree(std::shared_ptr<const TriangleTree> tree);
+  explicit AabbTreeOf(std::shared_ptr<const TriangleTree> tree);
 
   /// Fits all boxes to the positions. Reads nothing of an earlier call.
   /// @pre one finite position per vertex of the mesh
-  void refit(std::span<const Vec3> vertices);
+  void refit(std::span<const Vec3Of<T>> vertices);
 
   const TriangleTree& tree() const { return *tree_; }
-  const Aabb& box(std::uint32_t node) const { return nodes_[node]; }
+  const AabbOf<T>& box(std::uint32_t node) const { return nodes_[node]; }
   /// Of the triangle in a slot of the tree.
-  const Aabb& triangle_box(std::uint32_t slot) const { return triangles_[slot]; }
+  const AabbOf<T>& triangle_box(std::uint32_t slot) const { return triangles_[slot]; }
 
-  bool overlap(std::uint32_t node, const AabbTree& other, std::uint32_t other_node) const {
+  bool overlap(std::uint32_t node, const AabbTreeOf& other, std::uint32_t other_node) const {
     return nodes_[node].overlaps(other.nodes_[other_node]);
   }
   /// Sum of the edges; infinite where they overflow.
-  double size(std::uint32_t node) const {
-    const Vec3 extent = nodes_[node].extent();
+  T size(std::uint32_t node) const {
+    const Vec3Of<T> extent = nodes_[node].extent();
     return extent.x() + extent.y() + extent.z();
   }
 
   /// "" or which box does not hold what it must. Slow: for tests.
-  std::string validate(std::span<const Vec3> vertices) const;
+  std::string validate(std::span<const Vec3Of<T>> vertices) const;
 
  private:
   std::shared_ptr<const TriangleTree> tree_;
-  std::vector<Aabb> nodes_;      // as tree_->nodes
-  std::vector<Aabb> triangles_;  // per slot, so those of a leaf are read in one go
+  std::vector<AabbOf<T>> nodes_;      // as tree_->nodes
+  std::vector<AabbOf<T>> triangles_;  // per slot, so those of a leaf are read in one go
 };
+using AabbTree = AabbTreeOf<double>;
 
 /// One tree per body; the broad phase of a TrianglePairDetector. Candidates: pairs of triangles
 /// whose boxes overlap, each exactly once.
-class AabbTrees {
+template <typename T>
+class AabbTreesOf {
  public:
+  using Real = T;
   static constexpr const char* kName = "aabb-tree";
   static constexpr const char* kVisitedUnit = "box pairs";
   static constexpr bool kBoxesOverlap = true;
 
-  explicit AabbTrees(std::uint32_t leaf_size) : leaf_size_(leaf_size) {}
+  explicit AabbTreesOf(std::uint32_t leaf_size) : leaf_size_(leaf_size) {}
 
   void prepare(const std::vector<Body>& bodies);
-  void update(const Frame& frame);
+  /// @pre `vertices`: per prepared body, one finite position per vertex
+  void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>
   void visit_candidates(Visit&& visit);
   /// Pairs of boxes, of nodes and of triangles, that the last traversal compared.
   std::uint64_t visited() const { return visited_; }
 
-  const AabbTree& tree(std::size_t body) const { return trees_[body]; }
+  const AabbTreeOf<T>& tree(std::size_t body) const { return trees_[body]; }
 
  private:
   template <typename Visit>
   bool visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b, Visit& visit);
 
   std::uint32_t leaf_size_;
-  std::vector<AabbTree> trees_;
+  std::vector<AabbTreeOf<T>> trees_;
   std::vector<NodePair> stack_;
   std::uint64_t visited_ = 0;
 };
+using AabbTrees = AabbTreesOf<double>;
 
+template <typename T>
 template <typename Visit>
-void AabbTrees::visit_candidates(Visit&& visit) {
+void AabbTreesOf<T>::visit_candidates(Visit&& visit) {
   traverse_bodies(trees_, stack_, visited_,
                   [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
                     return visit_leaves(bodies, leaf_a, leaf_b, visit);
                   });
 }
 
+template <typename T>
 template <typename Visit>
-bool AabbTrees::visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
-                             Visit& visit) {
-  const AabbTree &a = trees_[bodies.a], &b = trees_[bodies.b];
+bool AabbTreesOf<T>::visit_leaves(BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b,
+                                  Visit& visit) {
+  const AabbTreeOf<T>& a = trees_[bodies.a];
+  const AabbTreeOf<T>& b = trees_[bodies.b];
   const TriangleTree::Node node_a = a.tree().nodes[leaf_a], node_b = b.tree().nodes[leaf_b];
-  const Aabb& whole_b = b.box(leaf_b);
+  const AabbOf<T>& whole_b = b.box(leaf_b);
   visited_ += node_a.count;
   for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
-    const Aabb& box = a.triangle_box(i);
+    const AabbOf<T>& box = a.triangle_box(i);
     if (!box.overlaps(whole_b)) continue;
     visited_ += node_b.count;
     for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "core/deform/mapping.h"
 #include "core/types/check.h"
@@ -27,9 +28,31 @@ double largest_coordinate(std::span<const Vec3> points) {
   return largest;
 }
 
+// The sphere as it is kept: in floats with the radius rounded up, and the centre as
+// coordinate_errors() has it.
+template <typename T>
+SphereOf<T> kept(const Sphere& sphere) {
+  if constexpr (std::is_same_v<T, double>) {
+    return sphere;
+  } else {
+    using Limits = std::numeric_limits<float>;
+    // Beyond their range the conversion to floats is not defined.
+    const float radius =
+        sphere.radius < Limits::max() ? static_cast<float>(sphere.radius) : Limits::infinity();
+    return {sphere.center.cast<float>(), std::nextafter(radius, Limits::infinity())};
+  }
+}
+
+// Squares do not overflow.
+template <typename T>
+double distance(const Vec3Of<T>& a, const Vec3Of<T>& b) {
+  return (a.template cast<double>() - b.template cast<double>()).stableNorm();
+}
+
 }  // namespace
 
-BdTree::BdTree(std::shared_ptr<const BdModel> model, const BdSettings& settings)
+template <typename T>
+BdTreeOf<T>::BdTreeOf(std::shared_ptr<const BdModel> model, const BdSettings& settings)
     : model_(std::move(model)),
       settings_(settings),
       sphere_frame_(model_->spheres.size(), 0),
@@ -37,7 +60,8 @@ BdTree::BdTree(std::shared_ptr<const BdModel> model, const BdSettings& settings)
       spheres_(sphere_frame_.size()),
       vertices_(vertex_frame_.size()) {}
 
-void BdTree::begin_frame(std::span<const Vec3> nodes) {
+template <typename T>
+void BdTreeOf<T>::begin_frame(std::span<const Vec3> nodes) {
   const std::vector<Vec3>& rest = model_->reference.rest();
   CONTACTCHECK_INVARIANT(nodes.size() == rest.size(), "one position per node");
   ++frame_;
@@ -55,41 +79,59 @@ void BdTree::begin_frame(std::span<const Vec3> nodes) {
   }
 }
 
-void BdTree::evaluate(std::uint32_t node) const {
+template <typename T>
+void BdTreeOf<T>::evaluate(std::uint32_t node) const {
   const BdSphere& rest = model_->spheres[node];
   const std::span<const BdInfluence> influences = model_->influences_of(node);
-  Sphere& sphere = spheres_[node];
-  sphere.center.setZero();
+  Sphere sphere;
   for (const BdInfluence& i : influences) sphere.center += i.weight * nodes_[i.node];
-  const double errors =
-      2.0 * (blend_error_bound(influences.size(), largest_) + mapping_error_bound(largest_));
+  const double errors = 2.0 * coordinate_errors(influences.size());
   sphere.radius = paper_radius(rest, influences, errors);
   // Where the reference map says nearly all there is nothing to gain.
   if (!settings_.paper_bound && sphere.radius > kGoodEnough * stretch_ * rest.rest_radius)
     sphere.radius = std::min({sphere.radius, hull_radius(influences, sphere.center, errors),
                               local_radius(rest, influences, sphere.center, errors)});
   sphere.radius *= settings_.fault_radius;
+  spheres_[node] = kept<T>(sphere);
   sphere_frame_[node] = frame_;
   ++evaluated_spheres_;
 }
 
-double BdTree::paper_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
-                            double errors) const {
+template <typename T>
+double BdTreeOf<T>::coordinate_errors(std::size_t influences) const {
+  const double of_center = blend_error_bound(influences, largest_);
+  if constexpr (std::is_same_v<T, double>) {
+    return of_center + mapping_error_bound(largest_);
+  } else {
+    constexpr double kFloatUnit = 0x1p-24, kSmallest = std::numeric_limits<float>::denorm_min();
+    const double of_locals = 3.0 * kFloatUnit * largest_;
+    const double of_mapping =
+        static_cast<double>(mapping_error_bound(static_cast<float>(largest_)));
+    const double of_keeping = kFloatUnit * largest_ + kSmallest;
+    return of_center + of_locals + of_mapping + of_keeping;
+  }
+}
+
+template <typename T>
+double BdTreeOf<T>::paper_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
+                                 double errors) const {
   double sum = stretch_ * sphere.rest_radius + errors;
   for (const BdInfluence& i : influences) sum += i.spread * residual_norms_[i.node];
   return rounded_up(sum, influences.size());
 }
 
-double BdTree::hull_radius(std::span<const BdInfluence> influences, const Vec3& center,
-                           double errors) const {
+template <typename T>
+double BdTreeOf<T>::hull_radius(std::span<const BdInfluence> influences, const Vec3& center,
+                                double errors) const {
   double largest = 0.0;
   for (const BdInfluence& i : influences)
     largest = std::max(largest, (nodes_[i.node] - center).squaredNorm());
   return covering_radius(largest, errors);
 }
 
-double BdTree::local_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
-                            const Vec3& center, double errors) const {
+template <typename T>
+double BdTreeOf<T>::local_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
+                                 const Vec3& center, double errors) const {
   const std::vector<Vec3>& rest = model_->reference.rest();
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   double off_center = 0.0, off_rest = 0.0;
@@ -117,15 +159,19 @@ double BdTree::local_radius(const BdSphere& sphere, std::span<const BdInfluence>
   return rounded_up(local, influences.size());
 }
 
-void BdTree::map_vertex(std::uint32_t v) const {
+template <typename T>
+void BdTreeOf<T>::map_vertex(std::uint32_t v) const {
   const Embedding& embedding = model_->shape->embedding;
-  vertices_[v] = map_point(corners_of(*model_->shape->lattice, embedding.home_cell[v], nodes_),
-                           embedding.local[v]);
+  const Corners corners = corners_of(*model_->shape->lattice, embedding.home_cell[v], nodes_);
+  CornersOf<T> own;
+  for (std::size_t c = 0; c < own.size(); ++c) own[c] = corners[c].template cast<T>();
+  vertices_[v] = map_point<T>(own, embedding.local[v].template cast<T>());
   vertex_frame_[v] = frame_;
   ++mapped_vertices_;
 }
 
-std::string BdTree::validate() const {
+template <typename T>
+std::string BdTreeOf<T>::validate() const {
   std::vector<std::vector<std::uint32_t>> slots(tree().nodes.size());
   for (std::size_t n = slots.size(); n-- > 0;) {
     const TriangleTree::Node node = tree().nodes[n];
@@ -134,15 +180,17 @@ std::string BdTree::validate() const {
     for (std::uint32_t child = 0; !node.leaf() && child < 2; ++child)
       slots[n].insert(slots[n].end(), slots[node.first + child].begin(),
                       slots[node.first + child].end());
-    const Sphere& ball = sphere(static_cast<std::uint32_t>(n));
+    const SphereOf<T>& ball = sphere(static_cast<std::uint32_t>(n));
     for (std::uint32_t slot : slots[n])
       for (std::uint32_t v : tree().corners[slot])
-        // stableNorm(): squares of distances must not overflow here.
-        if ((vertex(v) - ball.center).stableNorm() > ball.radius)
+        if (distance(vertex(v), ball.center) > static_cast<double>(ball.radius))
           return "the sphere of node " + std::to_string(n) + " does not hold vertex " +
                  std::to_string(v);
   }
   return "";
 }
+
+template class BdTreeOf<double>;
+template class BdTreeOf<float>;
 
 }  // namespace contactcheck

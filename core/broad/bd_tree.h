@@ -40,9 +40,23 @@
 // 1 + (N + 8) 2^-52, twice what their roundings can take. No product of theirs underflows: spreads
 // are at least 2^-50, norms and radii at least 2^-500.
 //
-// So the closed ball of the stored centre and radius, both doubles, holds every mapped vertex of
-// the set, and their triangles with them; two triangles that share a point have spheres that share
-// it, at every level, and collide_safe() keeps those.
+// So the closed ball of the stored centre and radius holds every mapped vertex of the set, and
+// their triangles with them; two triangles that share a point have spheres that share it, at every
+// level, and collide_safe() keeps those.
+//
+// Single precision. The nodes are floats about the local origin, exactly; vertices are mapped in
+// floats and spheres kept and compared as such. What lies between, a few operations per node that
+// moves a sphere, is done in doubles as above, and everything said there holds (weights are
+// multiples of 2^-50, which floats have no room for). What is added, per coordinate, with v =
+// 2^-24:
+// - a vertex is mapped from local coordinates rounded to floats, by at most v / 2 each, and along
+//   each axis its exact image changes by at most 2 M over the cell: 3 v M; mapping_error_bound() of
+//   floats on top
+// - the centre errs by v M when it is rounded to floats, and by less than the smallest float when
+// it
+//   is below their range
+// The radius is rounded up. M is at most kSingleLimit, so no centre overflows; a radius does to
+// infinity. collide_safe() has the constants of floats.
 //
 // Overflow: a map that overflows is replaced by zero (body) or left out (sphere), so that no NaN
 // hides in a maximum. A centre beyond the doubles is infinite, a radius infinite: collide_safe()
@@ -71,27 +85,30 @@ struct BdSettings {
   double fault_radius = 1.0;
 };
 
-/// The spheres of one body. Not for two threads at once: const members fill caches.
-class BdTree {
+/// The spheres of one body; T: of doubles or of floats. Not for two threads at once: const members
+/// fill caches.
+template <typename T>
+class BdTreeOf {
  public:
-  BdTree(std::shared_ptr<const BdModel> model, const BdSettings& settings);
+  BdTreeOf(std::shared_ptr<const BdModel> model, const BdSettings& settings);
 
   /// Fits the reference map and measures the displacements: O(lattice nodes). Reads nothing of an
   /// earlier call. The nodes must outlive what is asked about them.
-  /// @pre one finite position per lattice node
+  /// @pre one finite position per lattice node; T float: every coordinate is one, within
+  /// kSingleLimit (local_origin.h)
   void begin_frame(std::span<const Vec3> nodes);
 
   const TriangleTree& tree() const { return model_->tree; }
-  const Sphere& sphere(std::uint32_t node) const {
+  const SphereOf<T>& sphere(std::uint32_t node) const {
     if (sphere_frame_[node] != frame_) evaluate(node);
     return spheres_[node];
   }
-  bool overlap(std::uint32_t node, const BdTree& other, std::uint32_t other_node) const {
+  bool overlap(std::uint32_t node, const BdTreeOf& other, std::uint32_t other_node) const {
     return collide_safe(sphere(node), other.sphere(other_node));
   }
-  double size(std::uint32_t node) const { return sphere(node).radius; }
+  T size(std::uint32_t node) const { return sphere(node).radius; }
   /// A vertex of the mesh with the bits of map_point.
-  const Vec3& vertex(std::uint32_t v) const {
+  const Vec3Of<T>& vertex(std::uint32_t v) const {
     if (vertex_frame_[v] != frame_) map_vertex(v);
     return vertices_[v];
   }
@@ -104,6 +121,8 @@ class BdTree {
 
  private:
   void evaluate(std::uint32_t node) const;
+  /// Of the coordinates of a computed centre and of a mapped vertex: each of their errors.
+  double coordinate_errors(std::size_t influences) const;
   double paper_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
                       double errors) const;
   double hull_radius(std::span<const BdInfluence> influences, const Vec3& center,
@@ -122,9 +141,10 @@ class BdTree {
 
   std::uint64_t frame_ = 0;  // caches of another frame are stale
   mutable std::vector<std::uint64_t> sphere_frame_, vertex_frame_;
-  mutable std::vector<Sphere> spheres_;
-  mutable std::vector<Vec3> vertices_;
+  mutable std::vector<SphereOf<T>> spheres_;
+  mutable std::vector<Vec3Of<T>> vertices_;
   mutable std::size_t evaluated_spheres_ = 0, mapped_vertices_ = 0;
 };
+using BdTree = BdTreeOf<double>;
 
 }  // namespace contactcheck

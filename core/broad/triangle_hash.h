@@ -11,7 +11,6 @@
 #include "core/broad/box_pairs.h"
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
-#include "core/types/frame.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
@@ -23,19 +22,24 @@ struct TriangleHashSettings {
 
 /// The broad phase of a TrianglePairDetector. Candidates: pairs of triangles whose boxes overlap,
 /// each exactly once, pairs of bodies mixed. Triangles outside the common part of their body's
-/// bounds with every other body's have no such pair and are not hashed.
-class TriangleHash {
+/// bounds with every other body's have no such pair and are not hashed. Boxes of floats are as
+/// exact as those of doubles, and their hash keys as monotone: nothing is rounded outward in
+/// either.
+template <typename T>
+class TriangleHashOf {
  public:
+  using Real = T;
   static constexpr const char* kName = "spatial-hash";
   static constexpr const char* kVisitedUnit = "bucket entries";
   static constexpr bool kBoxesOverlap = true;
 
-  explicit TriangleHash(const TriangleHashSettings& settings) : settings_(settings) {}
+  explicit TriangleHashOf(const TriangleHashSettings& settings) : settings_(settings) {}
 
   void prepare(const std::vector<Body>& bodies);
   /// Fits the boxes to the frame. Hashing is left to the traversal: which triangles take part is
   /// known here, but a table would be of no use to a frame that nobody asks about.
-  void update(const Frame& frame);
+  /// @pre `vertices`: per prepared body, one finite position per vertex
+  void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
   /// Calls `visit(ElementPair)`. The table is walked to its end whatever `visit` returns: all pairs
   /// are found first, as the method has no order of bodies.
   template <typename Visit>
@@ -48,26 +52,28 @@ class TriangleHash {
   std::size_t hashed() const { return boxes_.size(); }
 
  private:
-  void fit_bounds(const Frame& frame);
-  void collect_boxes(std::uint32_t body, std::span<const Vec3> vertices);
+  void fit_bounds(const std::vector<std::span<const Vec3Of<T>>>& vertices);
+  void collect_boxes(std::uint32_t body, std::span<const Vec3Of<T>> vertices);
   void find_pairs();
 
   TriangleHashSettings settings_;
   double cell_size_ = 1.0;
   std::vector<const TriangleMesh*> meshes_;
-  std::vector<Aabb> bounds_;                // per body
-  std::vector<std::vector<Aabb>> regions_;  // per body: its common parts with others
-  std::vector<OwnedBox> boxes_;             // `cell` is the triangle
-  BoxPairFinder finder_;
-  std::vector<BoxPairFinder::Pair> pairs_;
+  std::vector<AabbOf<T>> bounds_;                // per body
+  std::vector<std::vector<AabbOf<T>>> regions_;  // per body: its common parts with others
+  std::vector<OwnedBoxOf<T>> boxes_;             // `cell` is the triangle
+  BoxPairFinderOf<T> finder_;
+  std::vector<typename BoxPairFinderOf<T>::Pair> pairs_;
   std::uint64_t visited_ = 0;
 };
+using TriangleHash = TriangleHashOf<double>;
 
+template <typename T>
 template <typename Visit>
-void TriangleHash::visit_candidates(Visit&& visit) {
+void TriangleHashOf<T>::visit_candidates(Visit&& visit) {
   find_pairs();
   for (const auto& [i, j] : pairs_) {
-    const OwnedBox &a = boxes_[i], &b = boxes_[j];
+    const OwnedBoxOf<T>&a = boxes_[i], &b = boxes_[j];
     visit(ElementPair{a.body, b.body, a.cell, b.cell});
   }
 }

@@ -8,20 +8,22 @@
 // round the box of everything below. The first alone grows from level to level: at the root of a
 // finely divided ball it is more than twice as large as the ball.
 //
-// Rounding loses no pair. Let B(s) be the exact closed ball of a sphere's centre and radius, both
-// doubles. Each B holds all triangles below its node:
-// 1. Leaf: covering_radius() is at least the exact distance from the centre, whatever double that
+// Rounding loses no pair, in doubles and in floats, with the constants of sphere.h for each. Let
+// B(s) be the exact closed ball of a sphere's centre and radius as they are stored. Each B holds
+// all triangles below its node:
+// 1. Leaf: covering_radius() is at least the exact distance from the centre, whatever number that
 //    is, to every vertex; so B holds the vertices and, being convex, their triangles.
 // 2. Parent round children: its radius is at least |c - c_i| + r_i, exactly, for both children i
 //    (again whatever c is: rounding of c costs tightness, not safety); by the triangle inequality
 //    B holds both children's balls, which hold their triangles.
-// 3. Parent round a box: minima and maxima of doubles are exact, so the box holds all vertices
+// 3. Parent round a box: minima and maxima are exact, so the box holds all vertices
 //    below; its radius is at least the exact distance to the box's farthest corner, as in 1.
 // Two triangles that share a point x lie in balls that all hold x, in their leaves and above, and
 // collide_safe() is true for every two balls that share a point. Hence no pair of nodes above them
 // is ever dropped.
 // Overflow makes a radius infinite, which holds everything: every step takes maxima and sums of
-// values that are >= 0, and no centre is ever infinite, so no NaN arises.
+// values that are >= 0, and no centre is ever infinite, so no NaN arises. (Within kSingleLimit of
+// the local origin nothing overflows in floats: squares stay below 2^84.)
 #pragma once
 
 #include <cstdint>
@@ -34,7 +36,6 @@
 #include "core/broad/triangle_tree.h"
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
-#include "core/types/frame.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
@@ -42,68 +43,77 @@ namespace contactcheck {
 /// A sphere that holds both, rounded outward: the smallest one up to rounding, or one round the
 /// centre of `a` where the distance of the centres overflows.
 /// @pre finite centres, radii >= 0 (infinite ones are allowed)
-Sphere enclosing_sphere(const Sphere& a, const Sphere& b);
+template <typename T>
+SphereOf<T> enclosing_sphere(const SphereOf<T>& a, const SphereOf<T>& b);
 
 /// A sphere that holds the box, rounded outward: the smallest one up to rounding.
 /// @pre lo <= hi, all finite
-Sphere enclosing_sphere(const Aabb& box);
+template <typename T>
+SphereOf<T> enclosing_sphere(const AabbOf<T>& box);
 
 /// The spheres of one body.
-class TriangleSphereTree {
+template <typename T>
+class TriangleSphereTreeOf {
  public:
-  explicit TriangleSphereTree(std::shared_ptr<const TriangleTree> tree);
+  explicit TriangleSphereTreeOf(std::shared_ptr<const TriangleTree> tree);
 
   /// Fits all spheres to the positions. Reads nothing of an earlier call.
   /// @pre one finite position per vertex of the mesh
-  void refit(std::span<const Vec3> vertices);
+  void refit(std::span<const Vec3Of<T>> vertices);
 
   const TriangleTree& tree() const { return *tree_; }
-  const Sphere& sphere(std::uint32_t node) const { return nodes_[node]; }
+  const SphereOf<T>& sphere(std::uint32_t node) const { return nodes_[node]; }
 
-  bool overlap(std::uint32_t node, const TriangleSphereTree& other,
+  bool overlap(std::uint32_t node, const TriangleSphereTreeOf& other,
                std::uint32_t other_node) const {
     return collide_safe(nodes_[node], other.nodes_[other_node]);
   }
-  double size(std::uint32_t node) const { return nodes_[node].radius; }
+  T size(std::uint32_t node) const { return nodes_[node].radius; }
 
  private:
-  void fit_leaf(std::size_t node, std::span<const Vec3> vertices);
+  void fit_leaf(std::size_t node, std::span<const Vec3Of<T>> vertices);
   void fit_parent(std::size_t node);
 
   std::shared_ptr<const TriangleTree> tree_;
-  std::vector<Sphere> nodes_;  // as tree_->nodes
-  std::vector<Aabb> boxes_;    // the same
+  std::vector<SphereOf<T>> nodes_;  // as tree_->nodes
+  std::vector<AabbOf<T>> boxes_;    // the same
 };
+using TriangleSphereTree = TriangleSphereTreeOf<double>;
 
 /// One tree per body; the broad phase of a TrianglePairDetector. Candidates: all pairs of triangles
 /// of two leaves whose spheres overlap, each pair exactly once.
-class TriangleSphereTrees {
+template <typename T>
+class TriangleSphereTreesOf {
  public:
+  using Real = T;
   static constexpr const char* kName = "sphere-tree";
   static constexpr const char* kVisitedUnit = "sphere pairs";
   static constexpr bool kBoxesOverlap = false;
 
-  explicit TriangleSphereTrees(std::uint32_t leaf_size) : leaf_size_(leaf_size) {}
+  explicit TriangleSphereTreesOf(std::uint32_t leaf_size) : leaf_size_(leaf_size) {}
 
   void prepare(const std::vector<Body>& bodies);
-  void update(const Frame& frame);
+  /// @pre `vertices`: per prepared body, one finite position per vertex
+  void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>
   void visit_candidates(Visit&& visit);
   /// Pairs of spheres that the last traversal compared.
   std::uint64_t visited() const { return visited_; }
 
-  const TriangleSphereTree& tree(std::size_t body) const { return trees_[body]; }
+  const TriangleSphereTreeOf<T>& tree(std::size_t body) const { return trees_[body]; }
 
  private:
   std::uint32_t leaf_size_;
-  std::vector<TriangleSphereTree> trees_;
+  std::vector<TriangleSphereTreeOf<T>> trees_;
   std::vector<NodePair> stack_;
   std::uint64_t visited_ = 0;
 };
+using TriangleSphereTrees = TriangleSphereTreesOf<double>;
 
+template <typename T>
 template <typename Visit>
-void TriangleSphereTrees::visit_candidates(Visit&& visit) {
+void TriangleSphereTreesOf<T>::visit_candidates(Visit&& visit) {
   traverse_bodies(trees_, stack_, visited_,
                   [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
                     return visit_leaf_pairs(bodies, trees_[bodies.a].tree(), leaf_a,

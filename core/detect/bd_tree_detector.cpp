@@ -1,29 +1,35 @@
 #include "core/detect/bd_tree_detector.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "core/detect/triangle_pair_detector.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
+#include "core/types/local_origin.h"
 
 namespace contactcheck {
 namespace {
 
-TrianglePoints points_of(const BdTree& tree, std::uint32_t slot) {
+template <typename T>
+TrianglePointsOf<T> points_of(const BdTreeOf<T>& tree, std::uint32_t slot) {
   const Triangle& t = tree.tree().corners[slot];
   return {tree.vertex(t[0]), tree.vertex(t[1]), tree.vertex(t[2])};
 }
 
-Aabb box_of(const TrianglePoints& p) {
+template <typename T>
+AabbOf<T> box_of(const TrianglePointsOf<T>& p) {
   return {p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
 }
 
 }  // namespace
 
-BdTreeDetector::BdTreeDetector(const BdSettings& settings)
-    : settings_(settings), semantics_(exact_triangle_semantics()) {}
+template <typename T>
+BdTreeDetectorOf<T>::BdTreeDetectorOf(const BdSettings& settings)
+    : settings_(settings), semantics_(exact_triangle_semantics(kPrecision<T>)) {}
 
-void BdTreeDetector::prepare(const std::vector<Body>& bodies) {
+template <typename T>
+void BdTreeDetectorOf<T>::prepare(const std::vector<Body>& bodies) {
   trees_.clear();
   triangles_.clear();
   for (const auto& model : make_bd_models(bodies, settings_.leaf_size)) {
@@ -32,14 +38,33 @@ void BdTreeDetector::prepare(const std::vector<Body>& bodies) {
   }
 }
 
-void BdTreeDetector::update(const Frame& frame) {
+template <typename T>
+void BdTreeDetectorOf<T>::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == trees_.size(), "one state per prepared body");
+  constexpr bool kSingle = std::is_same_v<T, float>;
+  if constexpr (kSingle) round_nodes(frame);
   for (std::size_t body = 0; body < trees_.size(); ++body)
-    trees_[body].begin_frame(frame.bodies[body].nodes);
+    trees_[body].begin_frame(kSingle ? std::span<const Vec3>(rounded_[body])
+                                     : frame.bodies[body].nodes);
 }
 
+// As doubles again: spheres are computed from them in doubles.
+template <typename T>
+void BdTreeDetectorOf<T>::round_nodes(const Frame& frame) {
+  const Vec3 origin = local_origin(frame);
+  rounded_.resize(trees_.size());
+  std::vector<Vec3f> floats;
+  for (std::size_t body = 0; body < trees_.size(); ++body) {
+    floats.resize(frame.bodies[body].nodes.size());
+    round_to_local(frame.bodies[body].nodes, origin, floats);
+    rounded_[body].clear();
+    for (const Vec3f& node : floats) rounded_[body].push_back(node.cast<double>());
+  }
+}
+
+template <typename T>
 template <typename Visit>
-void BdTreeDetector::visit_leaves(Visit&& visit) {
+void BdTreeDetectorOf<T>::visit_leaves(Visit&& visit) {
   traverse_bodies(trees_, stack_, visited_,
                   [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
                     return visit(Leaves{bodies.a, bodies.b, leaf_a, leaf_b});
@@ -47,16 +72,17 @@ void BdTreeDetector::visit_leaves(Visit&& visit) {
 }
 
 // Calls `found(ElementPair)` for every intersecting pair of triangles until it returns true.
+template <typename T>
 template <typename Found>
-bool BdTreeDetector::test_leaves(const Leaves& leaves, Found&& found) {
-  const BdTree &a = trees_[leaves.body_a], &b = trees_[leaves.body_b];
+bool BdTreeDetectorOf<T>::test_leaves(const Leaves& leaves, Found&& found) {
+  const BdTreeOf<T>&a = trees_[leaves.body_a], &b = trees_[leaves.body_b];
   const TriangleTree::Node node_a = a.tree().nodes[leaves.leaf_a];
   const TriangleTree::Node node_b = b.tree().nodes[leaves.leaf_b];
   for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i) {
-    const TrianglePoints p = points_of(a, i);
-    const Aabb box = box_of(p);
+    const TrianglePointsOf<T> p = points_of(a, i);
+    const AabbOf<T> box = box_of(p);
     for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j) {
-      const TrianglePoints q = points_of(b, j);
+      const TrianglePointsOf<T> q = points_of(b, j);
       if (!box.overlaps(box_of(q)) || !triangles_intersect(p, q)) continue;
       if (found(ElementPair{leaves.body_a, leaves.body_b, a.tree().ids[i], b.tree().ids[j]}))
         return true;
@@ -65,7 +91,8 @@ bool BdTreeDetector::test_leaves(const Leaves& leaves, Found&& found) {
   return false;
 }
 
-void BdTreeDetector::find_triangles(std::vector<ElementPair>& out) {
+template <typename T>
+void BdTreeDetectorOf<T>::find_triangles(std::vector<ElementPair>& out) {
   visit_leaves([&](const Leaves& leaves) {
     return test_leaves(leaves, [&](const ElementPair& pair) {
       out.push_back(pair);
@@ -74,7 +101,8 @@ void BdTreeDetector::find_triangles(std::vector<ElementPair>& out) {
   });
 }
 
-void BdTreeDetector::find_bodies(std::vector<BodyPair>& out) {
+template <typename T>
+void BdTreeDetectorOf<T>::find_bodies(std::vector<BodyPair>& out) {
   visit_leaves([&](const Leaves& leaves) {
     return test_leaves(leaves, [&](const ElementPair& pair) {
       out.push_back({pair.body_a, pair.body_b});
@@ -83,7 +111,8 @@ void BdTreeDetector::find_bodies(std::vector<BodyPair>& out) {
   });
 }
 
-void BdTreeDetector::query(Question question, ContactSet& out) {
+template <typename T>
+void BdTreeDetectorOf<T>::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
   if (question == Question::kBody) {
     find_bodies(out.bodies);
@@ -92,7 +121,8 @@ void BdTreeDetector::query(Question question, ContactSet& out) {
   }
 }
 
-StageRecord BdTreeDetector::trace_spheres() {
+template <typename T>
+StageRecord BdTreeDetectorOf<T>::trace_spheres() {
   std::vector<ElementPair> pairs;
   visit_leaves([&](const Leaves& leaves) {
     return visit_leaf_pairs({leaves.body_a, leaves.body_b}, trees_[leaves.body_a].tree(),
@@ -108,7 +138,8 @@ StageRecord BdTreeDetector::trace_spheres() {
   return record;
 }
 
-StageTrace BdTreeDetector::trace() {
+template <typename T>
+StageTrace BdTreeDetectorOf<T>::trace() {
   StageTrace out;
   out.stages.push_back(trace_spheres());
   std::vector<ElementPair> exact;
@@ -116,5 +147,8 @@ StageTrace BdTreeDetector::trace() {
   out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
   return out;
 }
+
+template class BdTreeDetectorOf<double>;
+template class BdTreeDetectorOf<float>;
 
 }  // namespace contactcheck

@@ -26,12 +26,14 @@ void register_bd_tree(DetectorCatalog& catalog) {
       choice_option("reference", "affine", {"affine", "rigid", "none"},
                     "motion that is taken out of the displacements"),
       choice_option("bound", "tight", {"tight", "paper"},
-                    "radii: paper, by weight differences; tight, the least of that and two more")};
+                    "radii: paper, by weight differences; tight, the least of that and two more"),
+      precision_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
     BdSettings settings;
     settings.leaf_size = static_cast<std::uint32_t>(number_option(options, "leaf"));
     settings.reference = reference_kind(options.at("reference"));
     settings.paper_bound = options.at("bound") == "paper";
+    if (in_single(options)) return std::make_unique<BdTreeDetectorOf<float>>(settings);
     return std::make_unique<BdTreeDetector>(settings);
   };
   catalog.add(std::move(info));

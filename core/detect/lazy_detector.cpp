@@ -37,21 +37,12 @@ std::string broken_promise(const LazyState& state, const std::vector<Vec3Of<Real
   return "";
 }
 
-Semantics semantics_in(Precision precision) {
-  Semantics out = exact_triangle_semantics();
-  if (precision == Precision::kDouble) return out;
-  out.precision = precision;
-  out.local_origin = true;
-  out.exact = false;
-  return out;
-}
-
 }  // namespace
 
 LazyDetector::LazyDetector(const LazyConfig& config)
     : config_(config),
       kernels_(lazy_kernels(config.isa)),
-      semantics_(semantics_in(config.precision)),
+      semantics_(exact_triangle_semantics(config.precision)),
       team_(config.threads),
       tasks_(kernels_, team_) {}
 

@@ -23,10 +23,6 @@ OptionInfo threads_option() {
   return numeric_option("threads", "1", 1, 256, true, "contacts do not depend on it");
 }
 
-Precision precision_of(const Options& options) {
-  return in_single(options) ? Precision::kSingle : Precision::kDouble;
-}
-
 std::size_t threads_of(const Options& options) {
   return static_cast<std::size_t>(number_option(options, "threads"));
 }

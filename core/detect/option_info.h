@@ -40,5 +40,8 @@ inline OptionInfo precision_option() {
 
 /// @pre the detector has precision_option()
 inline bool in_single(const Options& options) { return options.at("precision") == "single"; }
+inline Precision precision_of(const Options& options) {
+  return in_single(options) ? Precision::kSingle : Precision::kDouble;
+}
 
 }  // namespace contactcheck

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/detect/detector.h"
+#include "core/detect/fed_vertices.h"
 #include "core/detect/seen_pairs.h"
 #include "core/detect/triangle_record.h"
 #include "core/narrow/triangle_triangle.h"
@@ -17,39 +19,51 @@
 
 namespace contactcheck {
 
-/// Core's exact test of two triangles: closed, for all finite doubles.
+/// Core's exact test of two triangles: closed, for all finite doubles, and so for floats.
 struct ExactTriangles {
-  bool operator()(const TrianglePoints& p, const TrianglePoints& q) const {
+  template <typename T>
+  bool operator()(const TrianglePointsOf<T>& p, const TrianglePointsOf<T>& q) const {
     return triangles_intersect(p, q);
   }
 };
 
-/// What an exact detector of triangle pairs claims.
-inline Semantics exact_triangle_semantics() {
+/// The precision of a detector whose numbers are of type T.
+template <typename T>
+inline constexpr Precision kPrecision =
+    std::is_same_v<T, float> ? Precision::kSingle : Precision::kDouble;
+
+/// What a detector claims that tests triangle pairs exactly. In single precision the triangles are
+/// those of vertices rounded about the local origin: it is not exact.
+inline Semantics exact_triangle_semantics(Precision precision = Precision::kDouble) {
   Semantics s;
   s.levels = {Level::kBody, Level::kTriangle};
   s.questions = {Question::kTriangles, Question::kBody};
-  s.exact = true;
+  s.precision = precision;
+  s.local_origin = precision == Precision::kSingle;
+  s.exact = precision == Precision::kDouble;
   return s;
 }
 
 /// Broad:
+///   Real                          double, or float: vertices rounded about the local origin
 ///   kName, kVisitedUnit           texts for the stage trace
 ///   kBoxesOverlap                 true: every candidate's two AABBs are known to overlap
-///   prepare(bodies), update(frame)
+///   prepare(bodies), update(vertices)   per body
 ///   visit_candidates(visit)       calls bool visit(const ElementPair&) for a superset of the
 ///                                 intersecting pairs of triangles of different bodies; once it has
 ///                                 returned true the rest of these two bodies may be left out
 ///   visited()                     what the last visit_candidates looked at
 /// Narrow:
-///   bool operator()(p, q)         two triangles whose AABBs overlap
+///   bool operator()(p, q)         two triangles of Reals whose AABBs overlap
 ///   begin_frame()                 optional; called by every update
 ///   notes()                       optional; see Detector::notes
-/// Exact when Narrow is, since nothing else decides: AABBs of doubles are exact.
+/// Exact for the vertices in Reals when Narrow is, since nothing else decides: AABBs are exact.
 /// @pre the frame's vertices outlive the queries that follow update
 template <typename Broad, typename Narrow = ExactTriangles>
 class TrianglePairDetector : public Detector {
  public:
+  using Real = typename Broad::Real;
+
   TrianglePairDetector(Broad broad, Narrow narrow, Semantics semantics)
       : broad_(std::move(broad)), narrow_(std::move(narrow)), semantics_(std::move(semantics)) {}
 
@@ -58,20 +72,17 @@ class TrianglePairDetector : public Detector {
 
   void prepare(const std::vector<Body>& bodies) override {
     shapes_.clear();
-    vertices_.clear();
     for (const Body& body : bodies) shapes_.push_back(body.shape.get());
     broad_.prepare(bodies);
   }
 
   void update(const Frame& frame) override {
     CONTACTCHECK_INVARIANT(frame.bodies.size() == shapes_.size(), "one state per prepared body");
-    vertices_.clear();
-    for (std::size_t b = 0; b < shapes_.size(); ++b) {
+    for (std::size_t b = 0; b < shapes_.size(); ++b)
       CONTACTCHECK_INVARIANT(frame.bodies[b].vertices.size() == shapes_[b]->mesh.vertices.size(),
                              "one position per vertex");
-      vertices_.push_back(frame.bodies[b].vertices);
-    }
-    broad_.update(frame);
+    vertices_.update(frame);
+    broad_.update(vertices_.spans());
     if constexpr (requires { narrow_.begin_frame(); }) narrow_.begin_frame();
   }
 
@@ -108,18 +119,20 @@ class TrianglePairDetector : public Detector {
   Narrow& narrow() { return narrow_; }
 
  private:
-  TrianglePoints points(std::uint32_t body, std::uint32_t triangle) const {
+  using Points = TrianglePointsOf<Real>;
+
+  Points points(std::uint32_t body, std::uint32_t triangle) const {
     const Triangle& t = shapes_[body]->mesh.triangles[triangle];
-    const std::span<const Vec3> v = vertices_[body];
+    const std::span<const Vec3Of<Real>> v = vertices_.spans()[body];
     return {v[t[0]], v[t[1]], v[t[2]]};
   }
 
-  static Aabb box_of(const TrianglePoints& p) {
+  static AabbOf<Real> box_of(const Points& p) {
     return {p[0].cwiseMin(p[1]).cwiseMin(p[2]), p[0].cwiseMax(p[1]).cwiseMax(p[2])};
   }
 
   bool intersect(const ElementPair& pair) {
-    const TrianglePoints p = points(pair.body_a, pair.a), q = points(pair.body_b, pair.b);
+    const Points p = points(pair.body_a, pair.a), q = points(pair.body_b, pair.b);
     if constexpr (!Broad::kBoxesOverlap)
       if (!box_of(p).overlaps(box_of(q))) return false;
     return narrow_(p, q);
@@ -163,7 +176,7 @@ class TrianglePairDetector : public Detector {
   Narrow narrow_;
   Semantics semantics_;
   std::vector<const BodyShape*> shapes_;
-  std::vector<std::span<const Vec3>> vertices_;
+  FedVertices<Real> vertices_;
 };
 
 }  // namespace contactcheck

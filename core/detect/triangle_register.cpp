@@ -19,9 +19,17 @@ namespace contactcheck {
 namespace {
 
 template <typename Broad>
-std::unique_ptr<Detector> exact_detector(Broad broad) {
-  return std::make_unique<TrianglePairDetector<Broad>>(std::move(broad), ExactTriangles{},
-                                                       exact_triangle_semantics());
+std::unique_ptr<Detector> with_exact_test(Broad broad) {
+  return std::make_unique<TrianglePairDetector<Broad>>(
+      std::move(broad), ExactTriangles{},
+      exact_triangle_semantics(kPrecision<typename Broad::Real>));
+}
+
+// A broad phase for either precision, as it is made of these settings.
+template <template <typename> class Broad, typename Settings>
+std::unique_ptr<Detector> detector_of(const Options& options, const Settings& settings) {
+  if (in_single(options)) return with_exact_test(Broad<float>(settings));
+  return with_exact_test(Broad<double>(settings));
 }
 
 std::uint32_t leaf_size(const Options& options) {
@@ -33,8 +41,11 @@ void add_aabb_tree(DetectorCatalog& catalog) {
   info.id = "aabb-tree";
   info.summary =
       "tree of boxes, built once and refitted (van den Bergen 1997); exact triangle test";
-  info.options = {numeric_option("leaf", "4", 1, 64, true, "triangles in a leaf, at most")};
-  info.make = [](const Options& options) { return exact_detector(AabbTrees(leaf_size(options))); };
+  info.options = {numeric_option("leaf", "4", 1, 64, true, "triangles in a leaf, at most"),
+                  precision_option()};
+  info.make = [](const Options& options) {
+    return detector_of<AabbTreesOf>(options, leaf_size(options));
+  };
   catalog.add(std::move(info));
 }
 
@@ -45,12 +56,13 @@ void add_spatial_hash(DetectorCatalog& catalog) {
   info.options = {
       numeric_option("cell", "2", 1e-3, 1e3, false,
                      "hash grid cell, in mean edges of the triangles' boxes at rest"),
-      numeric_option("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries")};
+      numeric_option("table", "0", 0, 1 << 24, true, "hash buckets; 0: as many as entries"),
+      precision_option()};
   info.make = [](const Options& options) {
     TriangleHashSettings settings;
     settings.cell = number_option(options, "cell");
     settings.table_size = static_cast<std::uint32_t>(number_option(options, "table"));
-    return exact_detector(TriangleHash(settings));
+    return detector_of<TriangleHashOf>(options, settings);
   };
   catalog.add(std::move(info));
 }
@@ -59,9 +71,10 @@ void add_sphere_tree(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "sphere-tree";
   info.summary = "tree of spheres, built once and refitted (Quinlan 1994); exact triangle test";
-  info.options = {numeric_option("leaf", "4", 1, 64, true, "triangles in a leaf, at most")};
+  info.options = {numeric_option("leaf", "4", 1, 64, true, "triangles in a leaf, at most"),
+                  precision_option()};
   info.make = [](const Options& options) {
-    return exact_detector(TriangleSphereTrees(leaf_size(options)));
+    return detector_of<TriangleSphereTreesOf>(options, leaf_size(options));
   };
   catalog.add(std::move(info));
 }

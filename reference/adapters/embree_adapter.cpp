@@ -147,6 +147,7 @@ constexpr const char* kDeviceConfiguration = "ignore_config_files=1,set_affinity
 class EmbreeScenes {
  public:
   static constexpr const char* kName = "boxes";
+  using Real = double;
   static constexpr const char* kVisitedUnit = "";  // Embree does not count
   static constexpr bool kBoxesOverlap = false;     // boxes of floats, wider than those of doubles
 
@@ -166,11 +167,7 @@ class EmbreeScenes {
     commit(rest);
   }
 
-  void update(const Frame& frame) {
-    std::vector<std::span<const Vec3>> vertices;
-    for (const BodyState& body : frame.bodies) vertices.push_back(body.vertices);
-    commit(vertices);
-  }
+  void update(const std::vector<std::span<const Vec3>>& vertices) { commit(vertices); }
 
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>

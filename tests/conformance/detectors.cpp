@@ -9,7 +9,11 @@ namespace {
 
 // Options that change what is asked of a library or what is claimed.
 constexpr const char* kVariants[] = {"spatial-hash:table=1",
+                                     "spatial-hash:precision=single",
+                                     "aabb-tree:precision=single",
+                                     "sphere-tree:precision=single",
                                      "bd-tree:bound=paper",
+                                     "bd-tree:precision=single",
                                      "ffd-aabb:bounds=safe",
                                      "ffd-aabb-sphere2:bounds=safe",
                                      "ffd-aabb-sphere2+tri:bounds=paper",

@@ -97,7 +97,7 @@ TEST(AabbTrees, CandidatesAreThePairsOfOverlappingBoxesOnceEach) {
     trees.prepare(bodies);
     for (double wobble : {0.0, 0.05, 1.0}) {
       const FrameData frame = frame_at(bodies, random, wobble);
-      trees.update(frame.frame());
+      trees.update({frame.vertices.begin(), frame.vertices.end()});
       const std::vector<ElementPair> expected = box_pairs(bodies, frame);
       ASSERT_GT(expected.size(), 100u);
       EXPECT_EQ(candidates(trees), expected) << leaf << " " << wobble;
@@ -114,7 +114,7 @@ TEST(AabbTrees, EnoughOfTwoBodiesIsNotEnoughOfOthers) {
   FrameData frame = frame_at(bodies, random, 0.05);
   frame.vertices[2] = frame.vertices[0];
   for (Vec3& v : frame.vertices[1]) v += frame.vertices[0][0] - frame.vertices[1][0];
-  trees.update(frame.frame());
+  trees.update({frame.vertices.begin(), frame.vertices.end()});
   candidates(trees);
   const std::uint64_t all = trees.visited();
   std::vector<BodyPair> pairs;
@@ -136,7 +136,7 @@ TEST(AabbTrees, BodiesApartAreToldByTheirRoots) {
     for (Vec3& v : frame.vertices.back()) v.x() += 9.0 * static_cast<double>(frame.vertices.size());
   }
   frame.nodes = frame.vertices;
-  trees.update(frame.frame());
+  trees.update({frame.vertices.begin(), frame.vertices.end()});
   EXPECT_TRUE(candidates(trees).empty());
   EXPECT_EQ(trees.visited(), 3u);
 }

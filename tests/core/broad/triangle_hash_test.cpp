@@ -33,7 +33,7 @@ Boxes boxes_at(const std::vector<Vec3>& places, int n = 4) {
 TriangleHash updated(const Boxes& boxes, const TriangleHashSettings& settings = {}) {
   TriangleHash hash(settings);
   hash.prepare(boxes.bodies);
-  hash.update(boxes.frame.frame());
+  hash.update({boxes.frame.vertices.begin(), boxes.frame.vertices.end()});
   return hash;
 }
 

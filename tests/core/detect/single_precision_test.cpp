@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "core/detect/ffd_detector.h"
-#include "core/detect/frame_numbers.h"
-#include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
-#include "tests/core/detect/scenes.h"
+#include "tests/core/detect/single_scenes.h"
 
 namespace contactcheck {
 namespace {
@@ -34,48 +32,6 @@ std::vector<FfdConfig> safe_configs() {
           safe_config(CellVolume::kFfdAabb, 1), safe_config(CellVolume::kFfdAabb, 3)};
 }
 
-// The vertices that a detector in single precision maps itself.
-class OwnVertices {
- public:
-  explicit OwnVertices(const Scene& scene) : scene_(scene) { numbers_.prepare(scene.bodies, true); }
-
-  void update(const test::FrameData& data) { numbers_.update(data.frame()); }
-  std::span<const Vec3f> of(std::size_t body) const { return numbers_.vertices()[body]; }
-
-  /// Every pair that intersects.
-  std::vector<ElementPair> meeting() const {
-    std::vector<ElementPair> out;
-    for (std::uint32_t a = 0; a < scene_.bodies.size(); ++a)
-      for (std::uint32_t b = a + 1; b < scene_.bodies.size(); ++b)
-        for (std::uint32_t i = 0; i < triangles(a).size(); ++i)
-          for (std::uint32_t j = 0; j < triangles(b).size(); ++j)
-            if (triangles_intersect(points(a, i), points(b, j))) out.push_back({a, b, i, j});
-    canonicalize(out);
-    return out;
-  }
-
- private:
-  const std::vector<Triangle>& triangles(std::size_t body) const {
-    return scene_.bodies[body].shape->mesh.triangles;
-  }
-  TrianglePointsOf<float> points(std::size_t body, std::uint32_t t) const {
-    const Triangle& corners = triangles(body)[t];
-    return {of(body)[corners[0]], of(body)[corners[1]], of(body)[corners[2]]};
-  }
-  const Scene& scene_;
-  FrameNumbers<float> numbers_;
-};
-
-std::vector<std::vector<ElementPair>> meeting_per_frame(const Scene& scene) {
-  OwnVertices own(scene);
-  std::vector<std::vector<ElementPair>> out;
-  for (const test::FrameData& frame : scene.frames) {
-    own.update(frame);
-    out.push_back(own.meeting());
-  }
-  return out;
-}
-
 TEST(SinglePrecision, DeclaresWhatItIs) {
   for (const std::string& name : test::family_with_triangles()) {
     const auto detector = test::prepared(name + kSingle, test::exact_boxes(Vec3::Zero()));
@@ -98,7 +54,10 @@ TEST(SinglePrecision, SafeFindsWhatItsOwnVerticesDo) {
     for (double scale : {1e-6, 1.0, 1e6})
       for (double offset : {0.0, 1e9}) {
         const Scene scene = test::approach({++seed, strength, scale, Vec3(offset, 0, -offset)}, 3);
-        const std::vector<std::vector<ElementPair>> expected = meeting_per_frame(scene);
+        std::vector<std::vector<ElementPair>> expected;
+        for (const test::FrameData& frame : scene.frames)
+          expected.push_back(
+              test::meeting_pairs(scene.bodies, test::mapped_in_floats(scene.bodies, frame)));
         for (const FfdConfig& config : safe_configs()) {
           SingleDetector detector(config);
           detector.prepare(scene.bodies);
@@ -114,16 +73,15 @@ TEST(SinglePrecision, SafeBoundsHoldTheVerticesItMaps) {
   for (double strength : {0.0, 0.3, 2.0, 50.0})
     for (double scale : {1e-30, 1e-9, 1.0, 1e9}) {
       const Scene scene = test::approach({++seed, strength, scale, Vec3::Constant(10 * scale)}, 2);
-      OwnVertices own(scene);
       for (const FfdConfig& config : safe_configs()) {
         SingleDetector detector(config);
         detector.prepare(scene.bodies);
         for (const test::FrameData& data : scene.frames) {
           const Frame frame = data.frame();
           detector.update(frame);
-          own.update(data);
+          const test::FloatVertices own = test::mapped_in_floats(scene.bodies, data);
           for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-            EXPECT_EQ(validate(detector.models()[b], detector.states()[b], own.of(b)), "")
+            EXPECT_EQ(validate(detector.models()[b], detector.states()[b], own[b]), "")
                 << strength << " " << scale;
         }
       }
@@ -132,14 +90,13 @@ TEST(SinglePrecision, SafeBoundsHoldTheVerticesItMaps) {
 
 TEST(SinglePrecision, SmallerBoundsAreReported) {
   const Scene scene = test::approach({850, 0.3}, 1);
-  OwnVertices own(scene);
-  own.update(scene.frames[0]);
+  const test::FloatVertices own = test::mapped_in_floats(scene.bodies, scene.frames[0]);
   FfdConfig config = safe_config(CellVolume::kFfdAabb, 1);
   config.faults.cell_box = 0.99;
   SingleDetector detector(config);
   detector.prepare(scene.bodies);
   detector.update(scene.frames[0].frame());
-  EXPECT_NE(validate(detector.models()[0], detector.states()[0], own.of(0)), "");
+  EXPECT_NE(validate(detector.models()[0], detector.states()[0], own[0]), "");
 }
 
 // No triangles of these scenes come within rounding of touching.

@@ -18,11 +18,12 @@ using ::testing::SizeIs;
 
 /// Names every pair of triangles twice, pairs of bodies mixed, and never stops.
 struct CarelessBroad {
+  using Real = double;
   static constexpr const char* kName = "careless";
   static constexpr const char* kVisitedUnit = "pairs";
   static constexpr bool kBoxesOverlap = false;
   void prepare(const std::vector<Body>& bodies) { count = bodies.size(); }
-  void update(const Frame&) {}
+  void update(const std::vector<std::span<const Vec3>>&) {}
   template <typename Visit>
   void visit_candidates(Visit&& visit) {
     for (std::uint32_t t = 0; t < 24; ++t)

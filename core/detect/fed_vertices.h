@@ -1,0 +1,47 @@
+// The vertices that a detector is fed, in its precision: the frame's own doubles, or these about
+// the local origin of the frame, rounded to floats once (local_origin.h).
+#pragma once
+
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "core/types/frame.h"
+#include "core/types/local_origin.h"
+
+namespace contactcheck {
+
+template <typename T>
+class FedVertices {
+  static_assert(std::is_same_v<T, double> || std::is_same_v<T, float>);
+
+ public:
+  /// In doubles the frame's vertices must outlive their use.
+  /// @throws RefusedInput when a coordinate is beyond single precision (round_to_local)
+  void update(const Frame& frame) {
+    if constexpr (std::is_same_v<T, double>) {
+      spans_.clear();
+      for (const BodyState& body : frame.bodies) spans_.push_back(body.vertices);
+    } else {
+      round(frame);
+      spans_.assign(rounded_.begin(), rounded_.end());
+    }
+  }
+  /// Per body; valid until the next update.
+  const std::vector<std::span<const Vec3Of<T>>>& spans() const { return spans_; }
+
+ private:
+  void round(const Frame& frame) {
+    const Vec3 origin = local_origin(frame);
+    rounded_.resize(frame.bodies.size());
+    for (std::size_t b = 0; b < rounded_.size(); ++b) {
+      rounded_[b].resize(frame.bodies[b].vertices.size());
+      round_to_local(frame.bodies[b].vertices, origin, rounded_[b]);
+    }
+  }
+
+  std::vector<std::vector<Vec3Of<T>>> rounded_;  // empty in doubles
+  std::vector<std::span<const Vec3Of<T>>> spans_;
+};
+
+}  // namespace contactcheck

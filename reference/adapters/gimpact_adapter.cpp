@@ -3,7 +3,8 @@
 //   contact points only, and the answer is then empty without an error.
 // - The boxes of a refitted tree are quantised to 16 bits within the bounds of the build plus one
 //   world unit, and clamped to these: a mesh that has moved further is nowhere, and every contact
-//   is lost without an error. See GimpactBody::room_for.
+//   is lost without an error. See GimpactBody::room_for. On a grid much wider than the mesh all its
+//   boxes are one, and every pair of triangles is tested. See GimpactBody::home_for.
 // - The clip test: each triangle must have a part within the other's prism (its edges swept along
 //   its normal) that reaches the other's plane or lies behind it, however far. Triangles back to
 //   back are reported; so are, with a depth of no meaning, many neighbours of a true pair.
@@ -54,25 +55,31 @@ class GimpactBody {
     for (const Triangle& t : mesh.triangles)
       for (const std::uint32_t v : t) indices_.push_back(static_cast<int>(v));
     rest_box_ = feed(mesh.vertices);
+    // Far beyond what a body turns and stretches by, so that few ever leave their first home.
+    home_step_ = std::ldexp(1.0, std::ilogb(std::max(1.0, largest_side(rest_box_))) + 8);
     arrays_ = std::make_unique<btTriangleIndexVertexArray>(
         static_cast<int>(mesh.triangles.size()), indices_.data(), static_cast<int>(3 * sizeof(int)),
         static_cast<int>(positions_.size()), positions_.data()->data(),
         static_cast<int>(sizeof(Position)));
     object_.setWorldTransform(btTransform::getIdentity());
-    build(0.0);
+    build();
   }
   GimpactBody(const GimpactBody&) = delete;
   GimpactBody& operator=(const GimpactBody&) = delete;
 
   void update(std::span<const Vec3> vertices) {
     CONTACTCHECK_INVARIANT(vertices.size() == positions_.size(), "one position per vertex");
-    const double room = room_for(feed(vertices));
-    if (room != room_) {
-      feed(mesh_.vertices);
-      build(room);
+    const Aabb box = feed(vertices);
+    const Vec3 home = home_for(box);
+    const double room = room_for(box, home);
+    if (home != home_ || room != room_) {
+      home_ = home;
+      room_ = room;
+      feed_rest_at_home();
+      build();
       feed(vertices);
     }
-    refit();
+    refit(grain_of(box, home));
   }
 
   btCollisionObject& object() { return object_; }
@@ -111,33 +118,68 @@ class GimpactBody {
     return box;
   }
 
-  /// Built at rest, the tree knows places up to one unit beyond the rest box. How much wider it has
-  /// to be made to hold `box`: 0 or a power of two, so that a body that moves on is rarely built
-  /// anew, and one that comes back is answered as before.
-  double room_for(const Aabb& box) const {
+  static double largest_side(const Aabb& box) {
+    return box.empty() ? 0.0 : box.extent().maxCoeff();
+  }
+
+  void feed_rest_at_home() {
+    feed(mesh_.vertices);
+    for (Position& p : positions_)
+      for (int axis = 0; axis < 3; ++axis) p[axis] += static_cast<float>(home_[axis]);
+  }
+
+  /// How far from its rest place the tree is made: at the steps of a coarse lattice, so that a body
+  /// that moves on is rarely built anew, and one that comes back is answered as before. Without it
+  /// a body 1e6 sizes away had one box in place of all, and a query did not end in minutes.
+  Vec3 home_for(const Aabb& box) const {
+    if (box.empty() || !(furthest(box) < 0x1p100))
+      return Vec3::Zero();  // its floats would overflow
+    Vec3 home;
+    for (int axis = 0; axis < 3; ++axis)
+      home[axis] =
+          home_step_ * std::round((box.center()[axis] - rest_box_.center()[axis]) / home_step_);
+    return home;
+  }
+
+  static double furthest(const Aabb& box) {
+    return std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
+  }
+
+  /// What one of Bullet's roundings of a coordinate may be off far from the origin: the distance of
+  /// two floats. At the first home as Bullet itself has it, none.
+  static double grain_of(const Aabb& box, const Vec3& home) {
+    if (home.isZero(0.0)) return 0.0;
+    const auto coordinate = static_cast<float>(furthest(box));
+    return static_cast<double>(std::nextafter(coordinate, 2.0f * coordinate)) - coordinate;
+  }
+
+  /// Built at home, the tree knows places up to one unit beyond the rest box there. How much wider
+  /// it has to be made to hold `box`: 0 or a power of two, for the reasons of home_for().
+  double room_for(const Aabb& box, const Vec3& home) const {
     if (box.empty()) return 0.0;
-    const Vec3 beyond = (rest_box_.lo - box.lo).cwiseMax(box.hi - rest_box_.hi);
-    const double needed = beyond.maxCoeff() + margin_;
+    const Vec3 beyond = (rest_box_.lo + home - box.lo).cwiseMax(box.hi - rest_box_.hi - home);
+    const double needed = beyond.maxCoeff() + margin_ + 2.0 * grain_of(box, home);
     double room = 0.0;
     while (room + 1.0 < needed && room < 0x1p120) room = std::max(1.0, 2.0 * room);
     return room;
   }
 
-  /// @pre the rest positions are fed. The one way to a wider grid is a margin while it is made.
-  void build(double room) {
+  /// @pre the rest positions at home are fed. The one way to a wider grid is a margin while it is
+  /// made.
+  void build() {
     shape_ = std::make_unique<btGImpactMeshShape>(arrays_.get());
-    shape_->setMargin(static_cast<float>(room));
+    shape_->setMargin(static_cast<float>(room_));
     shape_->updateBound();
     object_.setCollisionShape(shape_.get());
-    room_ = room;
   }
 
   /// Bullet rounds boxes to the nearest step of its grid. That is left as it is on Bullet's own
-  /// grid; on a grid that was widened here the boxes are padded by a step, or our widening would
-  /// lose contacts (4 of 176 at 300 units from rest).
-  void refit() {
+  /// grid; on a grid that was widened or moved here the boxes are padded by a step and a grain, or
+  /// our widening would lose contacts (4 of 176 at 300 units from rest).
+  void refit(double grain) {
     const double step = (rest_box_.extent().maxCoeff() + 2.0 * room_ + 2.0) / 65535.0;
-    shape_->setMargin(margin_ + (room_ > 0.0 ? static_cast<float>(step) : 0.0f));
+    const bool own_grid = room_ == 0.0 && home_.isZero(0.0);
+    shape_->setMargin(margin_ + (own_grid ? 0.0f : static_cast<float>(step + grain)));
     shape_->updateBound();
     shape_->setMargin(margin_);  // what the triangles are tested with
   }
@@ -148,6 +190,8 @@ class GimpactBody {
   std::vector<Position> positions_;
   std::vector<int> indices_;
   Aabb rest_box_;  // world units
+  double home_step_ = 0.0;
+  Vec3 home_ = Vec3::Zero();
   double room_ = 0.0;
   std::unique_ptr<btTriangleIndexVertexArray> arrays_;
   std::unique_ptr<btGImpactMeshShape> shape_;

@@ -1,6 +1,7 @@
 #include "reference/adapters/gimpact_adapter.h"
 
 #include <gmock/gmock.h>
+#include <time.h>
 
 #include <cmath>
 #include <limits>
@@ -229,13 +230,37 @@ TEST(Gimpact, BodiesThatMoveFarKeepTheirContacts) {
   }
 }
 
+/// Processor time of this thread that one query takes, which must find some pairs.
+double seconds_of_query(const World& world) {
+  const auto detector = prepared("bullet-gimpact:scale=1", world);
+  const auto now = [] {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  const ContactSet got = ask(*detector, Question::kTriangles);
+  const double seconds = now() - start;
+  EXPECT_THAT(got.triangles, SizeIs(Gt(100u)));
+  return seconds;
+}
+
+// On a grid as wide as the way, all boxes of a body are one: the query tests every pair.
+TEST(Gimpact, BodiesVeryFarAwayAreStillToldApartByTheirTrees) {
+  World world({sphere_mesh(Vec3(0, 0, 0), 1, 5), sphere_mesh(Vec3(1.1, 0.3, 0.2), 0.9, 5)});
+  const double near = seconds_of_query(world);
+  for (std::vector<Vec3>& body : world.vertices)
+    for (Vec3& v : body) v += Vec3(0x1p18, 0x1p17, -0x1p18);
+  EXPECT_LT(seconds_of_query(world), 20.0 * near + 0.05);
+}
+
 TEST(Gimpact, EarlierFramesLeaveNoTrace) {
   const World start = two_spheres();
   World world = start;
   const auto detector = prepared(kGimpact, start);
   const ContactSet before = ask(*detector, Question::kContacts);
   ASSERT_FALSE(before.triangles.empty());
-  for (const double offset : {0.5, 3.5, -3.5, 1000.0, -1000.0, 20.0, 0.25}) {
+  for (const double offset : {0.5, 3.5, -3.5, 1000.0, -1000.0, 3e5, 20.0, 0.25}) {
     for (std::size_t b = 0; b < 2; ++b)
       for (std::size_t v = 0; v < start.vertices[b].size(); ++v)
         world.vertices[b][v] = start.vertices[b][v] + Vec3(0, offset, 0);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/compare/nullable.h"
+#include "reference/compare/semantics_json.h"
 
 namespace contactcheck {
 namespace {
@@ -18,30 +19,6 @@ Json to_json(const LevelCounts& c) {
           {"spurious", c.spurious},
           {"recall", nullable(c.recall())},
           {"spurious_rate", nullable(c.spurious_rate())}};
-}
-
-Json names_json(const std::vector<Level>& levels) {
-  Json names = Json::array();
-  for (Level level : levels) names.push_back(name_of(level));
-  return names;
-}
-
-Json to_json(const Semantics& s) {
-  Json questions = Json::array();
-  for (Question question : s.questions) questions.push_back(name_of(question));
-  Json out = {{"levels", names_json(s.levels)},
-              {"informative", names_json(s.informative)},
-              {"questions", questions},
-              {"body", s.solid ? "solid" : "surface"},
-              {"touching", s.closed ? "closed" : "open"},
-              {"exact", s.exact},
-              {"margin", s.margin},
-              {"precision", name_of(s.precision)},
-              {"scale", s.scale},
-              {"depth_kind", name_of(s.depth)},
-              {"means", s.means}};
-  if (s.local_origin) out["local_origin"] = true;
-  return out;
 }
 
 Json to_json(const PhaseTimes& t) {

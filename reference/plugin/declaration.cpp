@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/compare/semantics_json.h"
 #include "reference/plugin/header_order.h"
 #include "reference/scene/id_check.h"
 
@@ -101,29 +102,6 @@ void read_needs(const JsonField& field, Declaration& out) {
     (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
 }
 
-template <typename Value>
-Json names_json(const std::vector<Value>& values) {
-  Json out = Json::array();
-  for (const Value value : values) out.push_back(name_of(value));
-  return out;
-}
-
-// The keys of results.json, and one more.
-Json semantics_json(const Semantics& s) {
-  return {{"levels", names_json(s.levels)},
-          {"informative", names_json(s.informative)},
-          {"questions", names_json(s.questions)},
-          {"body", s.solid ? "solid" : "surface"},
-          {"touching", s.closed ? "closed" : "open"},
-          {"exact", s.exact},
-          {"margin", s.margin},
-          {"precision", name_of(s.precision)},
-          {"scale", s.scale},
-          {"depth_kind", name_of(s.depth)},
-          {"whole_cells", s.whole_cells},
-          {"means", s.means}};
-}
-
 }  // namespace
 
 Semantics read_semantics(const JsonField& field) {
@@ -157,12 +135,13 @@ Declaration read_declaration(const JsonField& field) {
 }
 
 nlohmann::ordered_json to_json(const Declaration& d) {
-  Json options = Json::array(), needs = Json::array();
+  Json options = Json::array(), needs = Json::array(), semantics = to_json(d.semantics);
   for (const OptionInfo& option : d.options) options.push_back(option_json(option));
   if (d.needs_vertices) needs.push_back("vertices");
   if (d.needs_nodes) needs.push_back("nodes");
+  semantics["whole_cells"] = d.semantics.whole_cells;  // which results.json does not have
   return {{"id", d.id},         {"summary", d.summary}, {"version", d.version},
-          {"options", options}, {"needs", needs},       {"semantics", semantics_json(d.semantics)}};
+          {"options", options}, {"needs", needs},       {"semantics", semantics}};
 }
 
 }  // namespace contactcheck

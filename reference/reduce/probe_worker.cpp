@@ -82,7 +82,7 @@ class ProbeWorker {
   }
 
  private:
-  // As a worker of a run books it (run/worker.cpp).
+  // As a worker of a run books it (run/guarded_call.cpp).
   RunResult judge(JudgingTools& tools) {
     RunResult result;
     const FloatEnvironmentGuard guard;

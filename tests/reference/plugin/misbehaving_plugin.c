@@ -1,6 +1,7 @@
 /* A plug-in that does what its option `fault` says, in frame 2 of query, update or prepare, or in
- * its declaration; it leaks in every frame. The environment variable CONTACTCHECK_PLUGIN_FAULT chooses what it does when it
- * is loaded: before there are options. Otherwise it reports no contacts, which is its claim. */
+ * its declaration; it leaks in every frame. The environment variable CONTACTCHECK_PLUGIN_FAULT
+ * chooses what it does when it is loaded: before there are options. Otherwise it reports no
+ * contacts, which is its claim. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <signal.h>
@@ -10,9 +11,10 @@
 #include <unistd.h>
 
 #include "contactcheck_plugin.h"
+#include "one_word_plugin.h"
 
 typedef struct {
-  char fault[32];
+  Word fault;
   uint64_t frame;
 } State;
 
@@ -20,8 +22,6 @@ static const char* at_load(void) {
   const char* const fault = getenv("CONTACTCHECK_PLUGIN_FAULT");
   return fault == NULL ? "" : fault;
 }
-
-static int is(const State* state, const char* fault) { return strcmp(state->fault, fault) == 0; }
 
 static void die(int number) {
   signal(number, SIG_DFL);
@@ -35,7 +35,7 @@ static void hang(void) {
 static int32_t create(const contactcheck_setting* settings, uint32_t count, void** detector,
                       char* message) {
   State* const state = calloc(1, sizeof *state);
-  if (count > 0) snprintf(state->fault, sizeof state->fault, "%s", settings[0].value);
+  take_word(settings, count, &state->fault);
   if (is(state, "create-fails")) {
     free(state);
     snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "no licence for this machine");
@@ -148,19 +148,10 @@ static const contactcheck_option kOptions[] = {
     {"fault", "none", "what it does", kFaults, 0.0, 0.0, 0, 0}};
 
 static contactcheck_plugin plugin = {
-    .abi_version = CONTACTCHECK_PLUGIN_ABI,
-    .struct_sizes = CONTACTCHECK_STRUCT_SIZES,
+    ONE_WORD_TABLE,
     .id = "misbehaving",
     .summary = "misbehaves",
     .version = "0",
-    .options = kOptions,
-    .option_count = 1,
-    .create = create,
-    .destroy = destroy,
-    .declare = declare,
-    .prepare = prepare,
-    .update = update,
-    .query = query,
 };
 
 const contactcheck_plugin* contactcheck_plugin_entry(void) {

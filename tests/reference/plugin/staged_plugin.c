@@ -4,25 +4,23 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "contactcheck_plugin.h"
+#include "one_word_plugin.h"
 
 typedef struct {
-  char told[32];
+  Word told;
   uint64_t frame;
   const contactcheck_body* bodies;
   contactcheck_element_pair* pairs;
   uint64_t pair_count;
 } State;
 
-static int is(const State* state, const char* told) { return strcmp(state->told, told) == 0; }
-
 static int32_t create(const contactcheck_setting* settings, uint32_t count, void** detector,
                       char* message) {
   State* const state = calloc(1, sizeof *state);
   (void)message;
-  if (count > 0) snprintf(state->told, sizeof state->told, "%s", settings[0].value);
+  take_word(settings, count, &state->told);
   *detector = state;
   return CONTACTCHECK_OK;
 }
@@ -186,19 +184,10 @@ static const contactcheck_option kOptions[] = {
     {"told", "truth", "what it tells of its work", kTold, 0.0, 0.0, 0, 0}};
 
 static contactcheck_plugin plugin = {
-    .abi_version = CONTACTCHECK_PLUGIN_ABI,
-    .struct_sizes = CONTACTCHECK_STRUCT_SIZES,
+    ONE_WORD_TABLE,
     .id = "staged",
     .summary = "tells of its work",
     .version = "2.5",
-    .options = kOptions,
-    .option_count = 1,
-    .create = create,
-    .destroy = destroy,
-    .declare = declare,
-    .prepare = prepare,
-    .update = update,
-    .query = query,
     .told_sizes = CONTACTCHECK_TOLD_SIZES,
     .trace = trace,
     .counts = counts,

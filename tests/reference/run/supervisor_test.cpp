@@ -171,6 +171,7 @@ TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
 int status_of_struck_supervisor(const std::filesystem::path& job, int signal, Pids* pids) {
   const pid_t supervisor = fork();
   if (supervisor == 0) {
+    ::signal(signal, SIG_DFL);  // ignored, SIGINT would be inherited by what a shell runs with &
     try {
       run_supervised(CONTACTCHECK_FAKE_WORKER, job, limits(20.0), [](const WorkerProgress&) {});
     } catch (const Interrupted& interrupted) {

@@ -1,0 +1,51 @@
+#include "reference/run/guarded_call.h"
+
+#include <algorithm>
+
+#include "core/types/check.h"
+#include "reference/run/float_environment.h"
+#include "reference/run/printable.h"
+
+namespace contactcheck {
+namespace {
+
+void add_note(const std::string& note, RunResult& result) {
+  if (std::find(result.notes.begin(), result.notes.end(), note) == result.notes.end())
+    result.notes.push_back(note);
+}
+
+std::string place(const WorkerState& worker) {
+  return "scene " + worker.scene.id + ", frame " + std::to_string(worker.progress.frame()) +
+         ", phase " + name_of(worker.progress.phase()) + ": ";
+}
+
+}  // namespace
+
+// What a detector throws is its own result; what the suite throws ends the worker.
+void guarded(WorkerState& worker, WorkerEntry& entry, const std::function<void()>& work) {
+  const FloatEnvironmentGuard guard;
+  try {
+    work();
+  } catch (const Unavailable& e) {
+    entry.result.status = RunStatus::kAbsent;
+    entry.result.message = e.what();
+  } catch (const RefusedInput& e) {
+    entry.result.status = RunStatus::kRefused;
+    entry.result.message = e.what();
+  } catch (...) {
+    entry.result.status = RunStatus::kError;
+    entry.result.failed_frame = worker.progress.frame();
+    entry.result.message = place(worker) + current_exception_text();
+  }
+  guard.check_and_restore();  // whatever a call that threw has left behind
+  // Emptying buffers may hang: that too is this detector's.
+  worker.progress.enter(entry.position, worker.progress.frame(), Phase::kTrace);
+  for (const std::string& note : worker.surroundings.restore()) add_note(note, entry.result);
+}
+
+void book_error(const WorkerState& worker, const std::string& what, WorkerEntry& entry) {
+  entry.result.status = RunStatus::kError;
+  entry.result.message = "scene " + worker.scene.id + ", " + what;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,95 @@
+#include "reference/run/worker_judging.h"
+
+#include <algorithm>
+
+#include "reference/run/accuracy.h"
+#include "reference/run/guarded_call.h"
+#include "reference/run/hover.h"
+
+namespace contactcheck {
+namespace {
+
+void add_entry(std::uint32_t position, WorkerState& worker) {
+  WorkerEntry entry;
+  entry.position = position;
+  entry.spec = worker.catalog.parse(worker.job.settings.detectors[position]);
+  entry.result.scene = worker.scene.id;
+  entry.result.detector = entry.spec.name;
+  entry.result.options = entry.spec.options;
+  entry.result.frames = worker.scene.frames;
+  const DetectorInfo* info = worker.catalog.find(entry.spec.id);
+  if (!info->absent_because.empty()) {
+    entry.result.status = RunStatus::kAbsent;
+    entry.result.message = info->absent_because;
+  }
+  worker.entries.push_back(std::move(entry));
+}
+
+void make_detector(WorkerState& worker, WorkerEntry& entry) {
+  worker.progress.enter(entry.position, 0, Phase::kPrepare);
+  entry.detector = worker.catalog.make(entry.spec);
+}
+
+// Nobody asks it again: what it holds shall not count against those after it.
+void dismiss(WorkerState& worker, WorkerEntry& entry) {
+  worker.progress.enter(entry.position, worker.progress.frame(), Phase::kDestroy);
+  entry.detector.reset();
+}
+
+void judge(JudgingTools& tools, WorkerState& worker, WorkerEntry& entry) {
+  make_detector(worker, entry);
+  entry.seconds_per_frame =
+      run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.result)
+          .seconds_per_frame;
+  measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.result);
+  if (!worker.job.settings.timing) dismiss(worker, entry);
+}
+
+}  // namespace
+
+void add_entries(WorkerState& worker) {
+  const std::vector<std::uint32_t>& skip = worker.job.skip;
+  for (std::uint32_t i = 0; i < worker.job.settings.detectors.size(); ++i)
+    if (std::find(skip.begin(), skip.end(), i) == skip.end()) add_entry(i, worker);
+}
+
+void refuse_all(WorkerState& worker) {
+  for (WorkerEntry& entry : worker.entries) {
+    if (!entry.usable()) continue;
+    entry.result.status = RunStatus::kRefused;
+    entry.result.message = worker.judged.refused;
+  }
+}
+
+void judge_detectors(WorkerState& worker) {
+  JudgingTools tools(worker.judged);
+  const auto count = static_cast<double>(worker.entries.size());
+  for (std::size_t i = 0; i < worker.entries.size(); ++i) {
+    WorkerEntry& entry = worker.entries[i];
+    worker.progress.part(kShareOfTruth + 0.4 * static_cast<double>(i) / count);
+    if (!entry.usable()) continue;
+    guarded(worker, entry, [&] { judge(tools, worker, entry); });
+    for (Disagreement& d : entry.result.disagreements) {
+      d.scene = worker.scene.id;
+      d.detector = entry.spec.name;
+    }
+  }
+}
+
+void prepare_detectors(WorkerState& worker) {
+  for (WorkerEntry& entry : worker.entries) {
+    if (!entry.usable() || worker.job.prefixes[entry.position] == 0) continue;
+    guarded(worker, entry, [&] {
+      make_detector(worker, entry);
+      entry.result.semantics = entry.detector->semantics();
+      entry.detector->prepare(worker.scene.bodies);
+    });
+  }
+}
+
+void dismiss_all(WorkerState& worker) {
+  for (WorkerEntry& entry : worker.entries)
+    if (entry.detector) guarded(worker, entry, [&] { dismiss(worker, entry); });
+}
+
+}  // namespace contactcheck

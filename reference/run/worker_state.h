@@ -1,0 +1,58 @@
+// What a worker holds while it works: the job, its scene as judged, and each detector with what is
+// known of it so far.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/detect/registry.h"
+#include "reference/compare/run_result.h"
+#include "reference/compare/simulation_result.h"
+#include "reference/compare/speedup.h"
+#include "reference/run/job.h"
+#include "reference/run/judged_scene.h"
+#include "reference/run/shared_progress.h"
+#include "reference/run/surroundings.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck {
+
+/// One detector of the job.
+struct WorkerEntry {
+  std::uint32_t position = 0;  ///< in the job's list
+  DetectorSpec spec;
+  std::unique_ptr<Detector> detector;  ///< none: not yet made, dismissed, or not usable
+  RunResult result;
+  double seconds_per_frame = 0.0;  ///< see AccuracyOutcome
+  std::vector<QuestionSamples> samples;
+  std::optional<ClosedLoop> closed_loop;
+  std::optional<StepTimes> step_times;
+
+  bool usable() const { return result.status == RunStatus::kOk; }
+};
+
+/// Stays where it is: `judged` points to `scene`.
+struct WorkerState {
+  WorkerState(Job job_in, const DetectorCatalog& catalog_in, SharedProgress* shared,
+              bool supervised)
+      : job(std::move(job_in)), catalog(catalog_in), progress(shared), surroundings(supervised) {}
+  WorkerState(const WorkerState&) = delete;
+  WorkerState& operator=(const WorkerState&) = delete;
+
+  /// The job's first process judges; the others only time.
+  bool judges() const { return job.process == 0; }
+
+  Job job;
+  const DetectorCatalog& catalog;
+  ProgressWriter progress;
+  Surroundings surroundings;
+  Scene scene;
+  JudgedScene judged;
+  std::vector<double> separations;  ///< per frame (separation.h)
+  std::vector<WorkerEntry> entries;
+};
+
+}  // namespace contactcheck

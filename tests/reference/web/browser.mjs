@@ -13,6 +13,8 @@ export const kWebGl = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-un
 
 export const kWide = {width: 1280, height: 900}, kNarrow = {width: 400, height: 800};
 
+const kPatience = 60_000;  // ms, of whatever is waited for: a busy machine may take long to open a page
+
 /** @returns a browser; close() ends it. `args`: further flags, for WebGL for instance */
 export function launch(args = ["--disable-gpu"]) {
   return chromium.launch({
@@ -28,6 +30,7 @@ export function launch(args = ["--disable-gpu"]) {
  */
 export async function openReport(browser, file, {viewport = kWide, colorScheme = "light"} = {}) {
   const context = await browser.newContext({viewport, colorScheme});
+  context.setDefaultTimeout(kPatience);
   const page = await context.newPage();
   const url = pathToFileURL(resolve(file)).href, requests = [], errors = [];
   page.on("request", (request) => {
@@ -40,8 +43,6 @@ export async function openReport(browser, file, {viewport = kWide, colorScheme =
   await settled(page);
   return {page, requests, errors, close: () => context.close()};
 }
-
-const kPatience = 60_000;  // ms; a page is drawn in one of its frames, which a busy machine may make rare
 
 /**
  * Until all that can be seen is drawn: parts of the page that are not yet say aria-busy. A part hears of a

@@ -4,7 +4,7 @@ import {execFileSync} from "node:child_process";
 import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join, resolve} from "node:path";
-import {after, before} from "node:test";
+import {after, afterEach, before} from "node:test";
 import {fileURLToPath} from "node:url";
 import {launch, openReport, settled} from "./browser.mjs";
 
@@ -33,6 +33,10 @@ export function useReport(results, {beside = {}, change, args} = {}) {
       process.exit(0);
     }
     browser = await launch(args);
+  });
+  // Pages that nobody reads any more would slow the next one down.
+  afterEach(async () => {
+    for (const report of opened) if (report !== shared) await report.close();
   });
   after(async () => {
     await browser?.close();

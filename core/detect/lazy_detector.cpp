@@ -195,13 +195,10 @@ LazyCounters LazyDetector::counters() const {
 
 std::vector<Count> LazyDetector::counts() {
   const LazyCounters c = counters();
-  return {{"blocks_bounded", c.blocks_bounded},
-          {"leaves_mapped", c.leaves_mapped},
-          {"vertices_mapped", c.vertices_mapped},
-          {"block_pairs", c.block_pairs},
-          {"leaf_pairs", c.leaf_pairs},
-          {"triangle_tests", c.triangle_tests},
-          {single() ? "scalar_tests" : "exact_tests", c.filter_failures}};
+  return {{"blocks_bounded", c.blocks_bounded},   {"leaves_mapped", c.leaves_mapped},
+          {"vertices_mapped", c.vertices_mapped}, {"block_pairs", c.block_pairs},
+          {"leaf_pairs", c.leaf_pairs},           {"triangle_tests", c.triangle_tests},
+          {"exact_tests", c.filter_failures}};
 }
 
 std::string LazyDetector::validate(const std::vector<std::vector<Vec3>>& vertices) {

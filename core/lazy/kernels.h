@@ -65,7 +65,7 @@ struct LazyKernels {
                        std::vector<ElementPair>& out);
   /// Bounds every block of the body, in order of their indices. For refitted bodies and validate().
   void (*bound_all)(LazyState& state, FrameArena& arena);
-  /// The filtered test of up to eight pairs; in floats without a filter.
+  /// The filtered test of up to eight pairs, of doubles or of floats.
   BatchVerdict (*test_batch)(const TriangleBatch& batch);
   BatchVerdict (*test_single_batch)(const SingleTriangleBatch& batch);
   /// Maps one leaf, once per frame.

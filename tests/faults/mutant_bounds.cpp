@@ -11,6 +11,7 @@
 #include "core/detect/lazy_detector.h"
 #include "core/dynamics/ground.h"
 #include "core/lazy/kernels.h"
+#include "tests/core/detect/safe_config.h"
 #include "tests/faults/mutant_checks.h"
 #include "tests/support/random_triangles.h"
 
@@ -166,12 +167,7 @@ void check_lazy_bounds(const MutantScene& scene, MutantFindings& out) {
 }
 
 void check_family_bounds(const MutantScene& scene, CellVolume volume, MutantFindings& out) {
-  FfdConfig config;
-  config.volume = volume;
-  config.bounds = BoundsReading::kSafe;
-  config.element = ElementTest::kTriangle;
-  config.sphere_levels = 3, config.spheres = 4;
-  FfdDetector detector(config);
+  FfdDetector detector(safe_config(volume, 3));
   detector.prepare(scene.scene.bodies);
   for (std::size_t f = 0; f < scene.scene.frames.size(); ++f) {
     const bool whole = volume == CellVolume::kLatticeCell;

@@ -3,22 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "core/detect/ffd_detector.h"
+#include "tests/core/detect/safe_config.h"
 #include "tests/core/detect/scenes.h"
 
 namespace contactcheck {
 namespace {
 
+using test::safe_config;
 using test::Scene;
-
-FfdConfig safe_config(CellVolume volume, int sphere_levels) {
-  FfdConfig config;
-  config.volume = volume;
-  config.sphere_levels = sphere_levels;
-  config.spheres = 4;
-  config.element = ElementTest::kTriangle;
-  config.bounds = BoundsReading::kSafe;
-  return config;
-}
 
 std::vector<FfdConfig> safe_configs() {
   return {safe_config(CellVolume::kLatticeCell, 0), safe_config(CellVolume::kFfdAabb, 1),

@@ -139,6 +139,16 @@ TEST(LazySingle, SaysWhatItIs) {
   EXPECT_TRUE(LazyDetector({}).semantics().exact);
 }
 
+TEST(LazySingle, CountsWhatDoublesCount) {
+  const auto names = [](LazyDetector& detector) {
+    std::vector<std::string> out;
+    for (const Count& count : detector.counts()) out.emplace_back(count.name);
+    return out;
+  };
+  LazyDetector doubles{LazyConfig{}}, floats{config_of(BoundSource::kCheaper)};
+  EXPECT_EQ(names(floats), names(doubles));
+}
+
 TEST(LazySingle, RefusesWhatIsBeyondTheLimitAndAnswersTheNextFrame) {
   const Scene scene = test::approach({910, 0.3}, 4);
   for (const LazyConfig& config : configs()) {

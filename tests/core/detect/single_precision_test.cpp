@@ -7,25 +7,17 @@
 
 #include "core/detect/ffd_detector.h"
 #include "core/types/check.h"
+#include "tests/core/detect/safe_config.h"
 #include "tests/core/detect/single_scenes.h"
 
 namespace contactcheck {
 namespace {
 
+using test::safe_config;
 using test::Scene;
 using SingleDetector = FfdDetectorOf<float>;
 
 const std::string kSingle = ":precision=single";
-
-FfdConfig safe_config(CellVolume volume, int sphere_levels) {
-  FfdConfig config;
-  config.volume = volume;
-  config.sphere_levels = sphere_levels;
-  config.spheres = 4;
-  config.element = ElementTest::kTriangle;
-  config.bounds = BoundsReading::kSafe;
-  return config;
-}
 
 std::vector<FfdConfig> safe_configs() {
   return {safe_config(CellVolume::kLatticeCell, 0), safe_config(CellVolume::kFfdAabb, 0),

@@ -2,25 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
-
 #include "core/lazy/kernels.h"
-#include "tests/core/lazy/one_body.h"
+#include "tests/core/lazy/mapped_leaves.h"
 
 namespace contactcheck {
 namespace {
 
 using test::Deformation;
+using test::for_each_mapped_leaf;
 using test::OneBody;
 using test::rest_nodes_at;
-using test::ShapePtr;
-
-std::vector<ShapePtr> shapes() {
-  const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 3);
-  return {make_shape(ball, {1, 1, 1}), make_shape(ball, {10, 10, 10}), make_bare_shape(ball),
-          make_shape(test::long_triangles(5, 33), {6, 6, 6}),
-          make_shape(test::sheet(1), {1, 1, 1})};
-}
 
 const Deformation kDeformations[] = {{0.0},
                                      {0.4},
@@ -30,40 +21,10 @@ const Deformation kDeformations[] = {{0.0},
                                      {0.4, 1.0, {1e12, -1e12, 3e11}},
                                      {0.4, 1e-9, {1e300, 1.0, -1e300}}};
 
-// Every leaf of every shape, deformation, source and instruction set.
-template <typename Check>
-void for_each_mapped_leaf(Check&& check) {
-  test::TriangleSource random(11);
-  for (const ShapePtr& shape : shapes())
-    for (bool from_vertices : {false, true}) {
-      OneBody body(shape, from_vertices);
-      for (const Deformation& how : kDeformations)
-        for (const std::string& isa : lazy_isas()) {
-          SCOPED_TRACE(isa);
-          body.begin(deformed_nodes(*shape, how, random));
-          for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l)
-            check(body, l, lazy_kernels(isa).map_leaf(body.state(), l, body.arena()));
-        }
-    }
-}
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
 TEST(MapLeaf, GivesTheBitsOfTheMappingOnEveryInstructionSet) {
-  std::size_t different = 0, all = 0;
-  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
-    const TreeLeaf& leaf = body.tree().leaves[l];
-    for (std::uint32_t i = 0; i < leaf.vertices; ++i) {
-      const Vec3& v = body.vertices()[body.tree().leaf_vertices[leaf.first_vertex + i]];
-      different += !same_bits(cache.x[i], v.x()) || !same_bits(cache.y[i], v.y()) ||
-                   !same_bits(cache.z[i], v.z());
-      ++all;
-    }
-  });
-  EXPECT_EQ(different, 0u);
-  EXPECT_GT(all, 10000 * lazy_isas().size());
+  const test::BitTally tally = test::compare_bits<double>(11, kDeformations);
+  EXPECT_EQ(tally.different, 0u);
+  EXPECT_GT(tally.vertices, 10000 * lazy_isas().size());
 }
 
 struct FrameBox {
@@ -86,25 +47,27 @@ FrameBox lane_of(const LaneBoxes& boxes, std::uint32_t lane) {
 }
 
 TEST(MapLeaf, GivesBoxesThatHoldTheirTriangles) {
-  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
-    const TreeLeaf& leaf = body.tree().leaves[l];
-    for (std::uint32_t i = 0; i < leaf.triangles; ++i) {
-      const Aabb truth =
-          body.box_of(std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle + i, 1));
-      ASSERT_TRUE(holds(lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth), truth));
-      ASSERT_TRUE(holds(lane_of(*cache.whole, 0), truth));
-    }
-  });
+  for_each_mapped_leaf<double>(
+      11, kDeformations, [&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
+        const TreeLeaf& leaf = body.tree().leaves[l];
+        for (std::uint32_t i = 0; i < leaf.triangles; ++i) {
+          const Aabb truth = body.box_of(
+              std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle + i, 1));
+          ASSERT_TRUE(holds(lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth), truth));
+          ASSERT_TRUE(holds(lane_of(*cache.whole, 0), truth));
+        }
+      });
 }
 
 TEST(MapLeaf, LeavesLanesWithoutATriangleEmpty) {
   int empty = 0;
-  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
-    for (std::uint32_t i = body.tree().leaves[l].triangles; i < kLeafTriangles; ++i, ++empty) {
-      const FrameBox box = lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth);
-      for (int k = 0; k < 3; ++k) ASSERT_GT(box.lo[k], box.hi[k]);
-    }
-  });
+  for_each_mapped_leaf<double>(
+      11, kDeformations, [&](OneBody& body, std::uint32_t l, const LeafCache& cache) {
+        for (std::uint32_t i = body.tree().leaves[l].triangles; i < kLeafTriangles; ++i, ++empty) {
+          const FrameBox box = lane_of(cache.boxes[i / kBlockWidth], i % kBlockWidth);
+          for (int k = 0; k < 3; ++k) ASSERT_GT(box.lo[k], box.hi[k]);
+        }
+      });
   EXPECT_GT(empty, 0);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/lazy/kernels.h"
@@ -106,6 +107,15 @@ class OneBody {
   const std::vector<Vec3>& vertices() const { return vertices_; }
   /// In single precision instead, in the body's frame.
   const std::vector<Vec3f>& single_vertices() const { return single_vertices_; }
+
+  template <typename Real>
+  const std::vector<Vec3Of<Real>>& vertices_in() const {
+    if constexpr (std::is_same_v<Real, float>) {
+      return single_vertices_;
+    } else {
+      return vertices_;
+    }
+  }
 
   /// In the body's frame.
   Aabb box_of(std::span<const std::uint32_t> triangles) const {

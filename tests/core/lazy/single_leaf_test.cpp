@@ -3,28 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <bit>
-
 #include "core/deform/mapping.h"
 #include "core/lazy/kernels.h"
-#include "tests/core/lazy/one_body.h"
+#include "tests/core/lazy/mapped_leaves.h"
 
 namespace contactcheck {
 namespace {
 
 using test::Deformation;
+using test::for_each_mapped_leaf;
 using test::OneBody;
 using test::ShapePtr;
 
 constexpr Precision kSingle = Precision::kSingle;
-
-std::vector<ShapePtr> shapes() {
-  const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 3);
-  return {make_shape(ball, {1, 1, 1}), make_shape(ball, {10, 10, 10}), make_bare_shape(ball),
-          make_shape(test::long_triangles(5, 33), {6, 6, 6}),
-          make_shape(test::sheet(1), {1, 1, 1})};
-}
 
 const Deformation kDeformations[] = {{0.0},
                                      {0.4},
@@ -34,46 +25,16 @@ const Deformation kDeformations[] = {{0.0},
                                      {0.4, 1e9, {1e12, 0, 0}},
                                      {0.4, 1.0, {1e12, -1e12, 3e11}}};
 
-// Every leaf of every shape, deformation, source and instruction set.
-template <typename Check>
-void for_each_mapped_leaf(Check&& check) {
-  test::TriangleSource random(31);
-  for (const ShapePtr& shape : shapes())
-    for (bool from_vertices : {false, true}) {
-      OneBody body(shape, from_vertices, kSingle);
-      for (const Deformation& how : kDeformations)
-        for (const std::string& isa : lazy_isas()) {
-          SCOPED_TRACE(isa);
-          body.begin(deformed_nodes(*shape, how, random));
-          for (std::uint32_t l = 0; l < body.tree().leaves.size(); ++l)
-            check(body, l, lazy_kernels(isa).map_single_leaf(body.state(), l, body.arena()));
-        }
-    }
-}
-
-bool same_bits(float a, float b) {
-  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
-}
-
 TEST(MapSingleLeaf, GivesTheBitsOfTheMappingInFloatsOnEveryInstructionSet) {
-  int different = 0, all = 0;
-  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const SingleLeafCache& cache) {
-    const TreeLeaf& leaf = body.tree().leaves[l];
-    for (std::uint32_t i = 0; i < leaf.vertices; ++i, ++all) {
-      const std::uint32_t v = body.tree().leaf_vertices[leaf.first_vertex + i];
-      const Vec3f& truth = body.single_vertices()[v];
-      different += !same_bits(cache.x[i], truth.x()) || !same_bits(cache.y[i], truth.y()) ||
-                   !same_bits(cache.z[i], truth.z());
-    }
-  });
-  EXPECT_EQ(different, 0);
-  EXPECT_GT(all, 50000);
+  const test::BitTally tally = test::compare_bits<float>(31, kDeformations);
+  EXPECT_EQ(tally.different, 0u);
+  EXPECT_GT(tally.vertices, 50000u);
 }
 
 // What full-refit maps at once is what leaves are mapped to one by one.
 TEST(MapSingleLeaf, GivesTheBitsOfTheBatchMapping) {
   test::TriangleSource random(32);
-  for (const ShapePtr& shape : shapes()) {
+  for (const ShapePtr& shape : test::leaf_shapes()) {
     if (!shape->lattice) continue;
     OneBody body(shape, false, kSingle);
     body.begin(deformed_nodes(*shape, {0.4, 1.0, {1e6, 0, 0}}, random));
@@ -93,18 +54,19 @@ void expect_box(const LaneBoxes& boxes, std::uint32_t lane, const Aabb& truth) {
 
 TEST(MapSingleLeaf, GivesTheBoxesOfItsTrianglesAndNothingMore) {
   int empty = 0;
-  for_each_mapped_leaf([&](OneBody& body, std::uint32_t l, const SingleLeafCache& cache) {
-    const TreeLeaf& leaf = body.tree().leaves[l];
-    const auto triangles = std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle);
-    for (std::uint32_t i = 0; i < leaf.triangles; ++i)
-      expect_box(cache.boxes[i / kBlockWidth], i % kBlockWidth,
-                 body.box_of(triangles.subspan(i, 1)));
-    expect_box(*cache.whole, 0, body.box_of(triangles.first(leaf.triangles)));
-    for (std::uint32_t i = leaf.triangles; i < kLeafTriangles; ++i, ++empty)
-      for (int k = 0; k < 3; ++k)
-        ASSERT_GT(cache.boxes[i / kBlockWidth].lo[k][i % kBlockWidth],
-                  cache.boxes[i / kBlockWidth].hi[k][i % kBlockWidth]);
-  });
+  for_each_mapped_leaf<float>(
+      31, kDeformations, [&](OneBody& body, std::uint32_t l, const SingleLeafCache& cache) {
+        const TreeLeaf& leaf = body.tree().leaves[l];
+        const auto triangles = std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle);
+        for (std::uint32_t i = 0; i < leaf.triangles; ++i)
+          expect_box(cache.boxes[i / kBlockWidth], i % kBlockWidth,
+                     body.box_of(triangles.subspan(i, 1)));
+        expect_box(*cache.whole, 0, body.box_of(triangles.first(leaf.triangles)));
+        for (std::uint32_t i = leaf.triangles; i < kLeafTriangles; ++i, ++empty)
+          for (int k = 0; k < 3; ++k)
+            ASSERT_GT(cache.boxes[i / kBlockWidth].lo[k][i % kBlockWidth],
+                      cache.boxes[i / kBlockWidth].hi[k][i % kBlockWidth]);
+      });
   EXPECT_GT(empty, 0);
 }
 

@@ -1,0 +1,19 @@
+// The family in the reading that is exact: safe bounds, triangles tested.
+#pragma once
+
+#include "core/detect/ffd_config.h"
+
+namespace contactcheck::test {
+
+/// Of several levels of spheres, four to each above.
+inline FfdConfig safe_config(CellVolume volume, int sphere_levels) {
+  FfdConfig config;
+  config.volume = volume;
+  config.sphere_levels = sphere_levels;
+  config.spheres = 4;
+  config.element = ElementTest::kTriangle;
+  config.bounds = BoundsReading::kSafe;
+  return config;
+}
+
+}  // namespace contactcheck::test

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/bullet_findings.h"
+#include "reference/report/fcl_findings.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
@@ -84,7 +85,8 @@ std::string speed_claim(const Json& results, const char* detector, const char* q
 std::string claims_markdown(const Json& results) {
   return hover_claim(results) +
          speed_claim(results, "ffd-aabb-sphere2+tri", "triangles", "triangle") +
-         speed_claim(results, "ffd-aabb-sphere2", "body", "body") + bullet_findings(results);
+         speed_claim(results, "ffd-aabb-sphere2", "body", "body") + fcl_findings(results) +
+         bullet_findings(results);
 }
 
 }  // namespace contactcheck

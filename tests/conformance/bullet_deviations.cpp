@@ -105,16 +105,6 @@ std::vector<KnownDeviation> bullet_gimpact() {
        {{"touching-far-from-the-origin", 3}},
        seen("prior-art.md 3.4 B12"),
        "far from the origin single precision leaves no digits for differences"},
-      {gimpact,
-       "triangle spurious",
-       {{"touching-far-from-the-origin", 69}},
-       seen("prior-art.md 3.4 B12"),
-       "far from the origin single precision leaves no digits for differences"},
-      {gimpact,
-       "body spurious",
-       {{"touching-far-from-the-origin", 1}},
-       seen("prior-art.md 3.4 B12"),
-       "far from the origin single precision leaves no digits for differences"},
   };
 }
 

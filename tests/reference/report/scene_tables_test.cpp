@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/bullet_findings.h"
+#include "reference/report/fcl_findings.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
@@ -123,6 +124,31 @@ TEST(SemanticsText, NamesEveryClaim) {
       semantics_text(near_run().at("semantics")),
       "levels body, near; informative vertex; questions contacts, body; surface, open, not "
       "exact; margin 2.00 mm; single precision, scale 64.0; depth vertex-surface; near | far");
+}
+
+Json fcl_run(double farthest) {
+  Json run = renamed(near_run(), "fcl-aabb");
+  run["levels"] = {{"triangle", {{"reported", 1843}, {"spurious", 51}}}};
+  run["geometry"]["spurious_distance_max"] = farthest;
+  return run;
+}
+
+TEST(FclFindings, NameScenesWhereOnlyRoundingParts) {
+  const std::string text = fcl_findings(results_of({fcl_run(4e-18)}));
+  EXPECT_THAT(text, HasSubstr("gaps below rounding"));
+  EXPECT_THAT(text, HasSubstr("| hello | fcl-aabb | 1843 | 51 | 4.00e-15 |"));
+}
+
+TEST(FclFindings, AreSilentWhereAnotherCauseMayBe) {
+  EXPECT_EQ(fcl_findings(results_of({fcl_run(1e-6)})), "");
+  Json right = fcl_run(4e-18);
+  right["levels"]["triangle"]["spurious"] = 0;
+  EXPECT_EQ(fcl_findings(results_of({right, renamed(fcl_run(4e-18), "embree")})), "");
+  Json family = results_of({fcl_run(4e-18)});
+  family["scenes"][0]["family"] = Json::object();
+  EXPECT_EQ(fcl_findings(family), "");
+  EXPECT_EQ(
+      fcl_findings(results_of({{{"scene", "hello"}, {"detector", "x"}, {"status", "error"}}})), "");
 }
 
 TEST(BulletFindings, SetTheScalesSideBySide) {

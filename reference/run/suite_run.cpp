@@ -47,8 +47,12 @@ bool same_contacts(const Json& semantics, const Json& other) {
 class SceneRunner {
  public:
   SceneRunner(const SuiteRequest& request, const SceneTask& task, const fs::path& scratch,
-              ProgressCallback on_progress)
-      : request_(request), task_(task), scratch_(scratch), on_progress_(std::move(on_progress)) {
+              const SuiteListener& listener, ProgressCallback on_progress)
+      : request_(request),
+        task_(task),
+        scratch_(scratch),
+        listener_(listener),
+        on_progress_(std::move(on_progress)) {
     // The worker's working directory is for libraries to change.
     if (!task.file.empty()) job_.scene_file = fs::absolute(task.file);
     job_.pairs = task.pairs;
@@ -145,6 +149,9 @@ class SceneRunner {
     const auto contact = answers.front().at("contact_frames").get<std::vector<bool>>();
     for (auto& [position, run] : runs)
       if (samples.count(position)) add_times(times_of(position, runs, samples, contact), run);
+    for (const auto& [position, questions] : samples)
+      for (const ProcessSamples& question : questions)
+        listener_.samples(task_.id, task_.detectors[position], question);
     add_reference_options(runs);
     Json out = Json::array();
     for (std::uint32_t i = 0; i < task_.detectors.size(); ++i)
@@ -270,6 +277,7 @@ class SceneRunner {
   const SuiteRequest& request_;
   const SceneTask& task_;
   fs::path scratch_;
+  const SuiteListener& listener_;
   ProgressCallback on_progress_;
   Job job_;
   std::map<std::uint32_t, WorkerOutcome> broken_;
@@ -324,7 +332,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
     } else {
       partial.drop(task.id);  // its recording will be replaced
       report({});
-      finished = SceneRunner(request, task, scratch.path(), report).run();
+      finished = SceneRunner(request, task, scratch.path(), listener, report).run();
       partial.keep(task.id, identity.of(task), *finished);
     }
     listener.scene_end({task.id, resumed_now, finished->runs});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/compare/speedup.h"
 #include "reference/defects/known_defects.h"
 #include "reference/run/job.h"
 #include "reference/run/shard.h"
@@ -68,6 +69,9 @@ struct SuiteListener {
   /// At the start of a scene that is run, and a few times per second.
   std::function<void(const SuiteProgress&)> progress = [](const SuiteProgress&) {};
   std::function<void(const SceneEnd&)> scene_end = [](const SceneEnd&) {};
+  /// What a scene's detector was timed with in one question, before it is summed up.
+  std::function<void(const std::string& scene, const std::string& detector, const ProcessSamples&)>
+      samples = [](const std::string&, const std::string&, const ProcessSamples&) {};
 };
 
 struct SuiteOutcome {

@@ -14,11 +14,17 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
+/// Of a step of a simulation, without its collision test (step_cost.h).
+struct StepCost {
+  double ms = 0.0;
+  double low_ms = 0.0, high_ms = 0.0;  ///< 95 % interval beside the scene's own deformer
+};
+
 struct Candidate {
   std::string detector;  ///< canonical name, options included
   double lattice = 1.0;  ///< times the scene's own number of kept cells
   std::string deformer;  ///< of a simulated scene; empty: the scene's own, which is not varied
-  double step_ms = 0.0;  ///< what a step of the simulation with this deformer costs
+  StepCost step;         ///< of the simulation with this deformer
   /// The first is the detector's id, on the axis "detector"; then options, lattice and deformer.
   std::vector<Choice> choices;
   bool usual = false;  ///< every option at its default, the scene's own lattice and deformer

@@ -25,6 +25,11 @@ bool Limits::met_by(const Measurement& m) const {
          (!deviation || m.deviation <= *deviation);
 }
 
+bool as_cheap_within_noise(const Measurement& a, const Measurement& b) {
+  return a.failure.empty() && b.failure.empty() && a.cost_low_ms <= b.cost_high_ms &&
+         b.cost_low_ms <= a.cost_high_ms;
+}
+
 bool dominates(const Measurement& a, const Measurement& b) {
   if (!a.failure.empty() || !b.failure.empty()) return a.failure.empty() && !b.failure.empty();
   const auto first = badness(a), second = badness(b);

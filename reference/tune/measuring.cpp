@@ -35,15 +35,16 @@ std::optional<double> time_of(const Json& run, const std::string& question) {
   return std::nullopt;
 }
 
-// How many times as fast as the anchor.
-std::optional<Ratio> ratio_to(const Json& run, const std::string& question,
-                              const std::string& anchor) {
-  if (run.at("detector") == anchor) return Ratio{1.0, 1.0, 1.0};
-  const Json speedups = run.value("speedup", Json::object()).value(question, Json::object());
-  if (!speedups.contains(anchor)) return std::nullopt;
-  const Json& cold = speedups.at(anchor).at("cold");
-  return Ratio{cold.at("ratio").get<double>(), cold.at("low").get<double>(),
-               cold.at("high").get<double>()};
+const ProcessSamples* found_in(
+    const std::map<std::pair<std::string, std::string>, ProcessSamples>& times,
+    const std::string& scene, const std::string& detector) {
+  const auto at = times.find({scene, detector});
+  return at == times.end() ? nullptr : &at->second;
+}
+
+// What one side costs in units of the other; nothing where one of them was not timed.
+PairedRun paired(const ProcessSamples* own, const ProcessSamples* anchor) {
+  return own != nullptr && anchor != nullptr ? pair_up(*own, *anchor) : PairedRun{};
 }
 
 // Errors; the cost is still missing.
@@ -115,17 +116,26 @@ SceneTask Measuring::task_of(const ModelKey& key, const std::vector<std::size_t>
   if (!anchor_.empty()) add(anchor_);
   for (const std::size_t i : batch)
     if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
-  // As long as none has answered, any of them may become what costs are taken against.
-  task.references = anchor_ms_ > 0.0 ? std::vector<std::string>{anchor_} : task.detectors;
   task.frames = load_any_scene(task.file, request_.settings.frames).frames;
   return task;
 }
 
 std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& batch) {
+  std::set<ModelKey> keys = {ModelKey{}};
+  for (const std::size_t i : batch) keys.insert(key_of(candidates_[i]));
+  Times times;
+  const Json runs = run({keys.begin(), keys.end()}, batch, times);
+  if (!(anchor_ms_ > 0.0)) choose_anchor(runs, batch);
+  for (const ModelKey& key : keys) take_scale(key, times);
+  std::vector<Measurement> found;
+  for (const std::size_t i : batch) found.push_back(read(i, runs, times));
+  return found;
+}
+
+Json Measuring::run(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
+                    Times& times) const {
   SuiteRequest suite;
-  std::set<ModelKey> models = {ModelKey{}};
-  for (const std::size_t i : batch) models.insert(key_of(candidates_[i]));
-  for (const ModelKey& key : models) {
+  for (const ModelKey& key : keys) {
     SceneTask task = task_of(key, batch);
     if (!task.detectors.empty()) suite.tasks.push_back(std::move(task));
   }
@@ -134,13 +144,13 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
   suite.out = scratch.path();
   suite.executable = request_.executable;
   suite.known_defects = request_.known_defects;
+  SuiteListener listener = request_.listener;
+  listener.samples = [&](const std::string& scene, const std::string& detector,
+                         const ProcessSamples& samples) {
+    if (samples.front().question == request_.question) times[{scene, detector}] = samples;
+  };
   SuiteOutcome outcome;
-  const Json results = run_suite(suite, request_.listener, &outcome);
-  const Json& runs = results.at("runs");
-  if (!(anchor_ms_ > 0.0)) choose_anchor(runs, batch);
-  std::vector<Measurement> found;
-  for (const std::size_t i : batch) found.push_back(read(candidates_[i], runs));
-  return found;
+  return run_suite(suite, listener, &outcome).at("runs");
 }
 
 void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& batch) {
@@ -158,27 +168,46 @@ void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& 
   }
 }
 
-Measurement Measuring::read(const Candidate& candidate, const Json& runs) const {
-  const std::string question = name_of(request_.question);
+void Measuring::take_scale(const ModelKey& key, const Times& times) {
+  if (key == ModelKey{}) return;
+  const PairedRun run = paired(found_in(times, models_.at(key).id, anchor_),
+                               found_in(times, own_model().id, anchor_));
+  if (!run.empty()) scales_[key].push_back(relative_cost({run}));
+}
+
+// None where the candidate or the anchor was not timed.
+std::optional<Ratio> Measuring::ratio_of(std::size_t index, const Times& times) {
+  const Candidate& candidate = candidates_[index];
+  const ModelKey key = key_of(candidate);
+  const std::string& scene = models_.at(key).id;
+  PairedRun run =
+      paired(found_in(times, scene, candidate.detector), found_in(times, scene, anchor_));
+  if (run.empty()) return std::nullopt;
+  std::vector<PairedRun>& all = paired_[index];
+  all.push_back(std::move(run));
+  const Ratio ratio = relative_cost(all);
+  if (key == ModelKey{}) return ratio;
+  const auto scale = scales_.find(key);
+  if (scale == scales_.end()) return std::nullopt;
+  return product(ratio, middle_of(scale->second));
+}
+
+Measurement Measuring::read(std::size_t index, const Json& runs, const Times& times) {
+  const Candidate& candidate = candidates_[index];
   const Model& model = models_.at(key_of(candidate));
   const Json* run = row_of(runs, model.id, candidate.detector);
   CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
   Measurement m = errors_of(*run, name_of(level_of(request_.question)));
   m.deviation = model.deviation;
   if (!m.failure.empty()) return m;
-  const Json* here = row_of(runs, model.id, anchor_);
-  const Json* own = row_of(runs, own_model().id, anchor_);
-  const std::optional<Ratio> ratio = ratio_to(*run, question, anchor_);
-  const auto anchor_here = here == nullptr ? std::nullopt : time_of(*here, question);
-  const auto anchor_own = own == nullptr ? std::nullopt : time_of(*own, question);
-  if (!ratio || !anchor_here || !anchor_own) {
-    m.failure = "not timed in the question " + question;
+  const std::optional<Ratio> ratio = ratio_of(index, times);
+  if (!ratio) {
+    m.failure = std::string("not timed in the question ") + name_of(request_.question);
     return m;
   }
-  const double anchor_cost = *anchor_here * (anchor_ms_ / *anchor_own);
-  m.cost_ms = anchor_cost / ratio->ratio + candidate.step_ms;
-  m.cost_low_ms = anchor_cost / ratio->high + candidate.step_ms;
-  m.cost_high_ms = anchor_cost / ratio->low + candidate.step_ms;
+  m.cost_ms = anchor_ms_ * ratio->ratio + candidate.step.ms;
+  m.cost_low_ms = anchor_ms_ * ratio->low + candidate.step.low_ms;
+  m.cost_high_ms = anchor_ms_ * ratio->high + candidate.step.high_ms;
   return m;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "reference/run/suite_run.h"
 #include "reference/tune/candidate.h"
 #include "reference/tune/measurement.h"
+#include "reference/tune/paired_cost.h"
 
 namespace contactcheck {
 
@@ -31,14 +33,17 @@ struct MeasuringRequest {
   std::string anchor;
 };
 
-/// The machine may be faster in one run than in the next. So the first detector that answers stays
-/// for all runs as what costs are taken against: a candidate costs its ratio to it, measured
-/// interleaved on the same frames, times what the first run took for it.
+/// The machine may be faster in one run than in the next, and for a moment busy with something
+/// else. So the first detector that answers stays for all runs as what costs are taken against: a
+/// candidate costs its ratio to it (paired_cost.h), times what the first run took for it. In other
+/// lattices, or moved by another deformer, the anchor itself takes another time: how many times its
+/// own is what all runs so far say of it in the middle. What is measured again is pooled.
 class Measuring {
  public:
   Measuring(const std::vector<Candidate>& candidates, MeasuringRequest request);
 
-  /// Measures candidates in one run; as many answers in the same order.
+  /// Measures candidates in one run; as many answers in the same order, out of all that was ever
+  /// measured of each.
   /// @throws InputError for scenes that cannot be read
   std::vector<Measurement> operator()(const std::vector<std::size_t>& batch);
 
@@ -61,18 +66,27 @@ class Measuring {
     double deviation = 0.0;
   };
 
+  /// What one run timed, by scene and detector.
+  using Times = std::map<std::pair<std::string, std::string>, ProcessSamples>;
+
   ModelKey key_of(const Candidate& candidate) const;
   const Model& own_model() const { return models_.at({}); }
   SceneTask task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const;
-  void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
   Model make_model(const ModelKey& key) const;
-  Measurement read(const Candidate& candidate, const nlohmann::ordered_json& runs) const;
+  nlohmann::ordered_json run(const std::vector<ModelKey>& keys,
+                             const std::vector<std::size_t>& batch, Times& times) const;
+  void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
+  void take_scale(const ModelKey& key, const Times& times);
+  Measurement read(std::size_t index, const nlohmann::ordered_json& runs, const Times& times);
+  std::optional<Ratio> ratio_of(std::size_t index, const Times& times);
 
   const std::vector<Candidate>& candidates_;
   MeasuringRequest request_;
   std::string anchor_;      ///< name of the detector that costs are taken against
   double anchor_ms_ = 0.0;  ///< its time in the first run
   std::map<ModelKey, Model> models_;
+  std::map<ModelKey, std::vector<Ratio>> scales_;         ///< of the anchor, one of each run
+  std::map<std::size_t, std::vector<PairedRun>> paired_;  ///< by candidate
 };
 
 }  // namespace contactcheck

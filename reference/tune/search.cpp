@@ -11,6 +11,9 @@ namespace {
 // Whether the limits are met is a value of 1 or -1; what options do to it is seldom small.
 constexpr EffectPriors kAccuracyPriors{1.0, 0.3, 0.3, 0.1};
 
+// Races keep within a fifth of the candidates; of few candidates within so many measurements.
+constexpr std::size_t kShareOfMeasurements = 5, kFewMeasurements = 24;
+
 class Search {
  public:
   Search(const std::vector<Candidate>& candidates, const Limits& limits,
@@ -25,19 +28,49 @@ class Search {
 
   SearchOutcome run() {
     try_all(first_batch());
-    while (true) {
-      std::vector<std::size_t> next = promising();
-      if (next.empty()) break;
-      next.resize(std::min(next.size(), settings_.batch));
-      if (!try_all(next)) {
-        out_.exhausted = true;
-        break;
-      }
-    }
+    do {
+      explore();
+    } while (!out_.exhausted && race());
     return std::move(out_);
   }
 
  private:
+  void explore() {
+    for (auto next = promising(); !next.empty(); next = promising()) {
+      next.resize(std::min(next.size(), settings_.batch));
+      if (try_all(next)) continue;
+      out_.exhausted = true;
+      return;
+    }
+  }
+
+  // One round: the best one beside the cheapest of those that cannot be told from it.
+  bool race() {
+    if (!out_.best || rounds_ == settings_.races) return false;
+    std::vector<std::size_t> runners = as_cheap_as(*out_.best, out_.tried, limits_);
+    runners.insert(runners.begin(), *out_.best);
+    runners.resize(std::min({runners.size(), settings_.batch, left_for_a_race()}));
+    if (runners.size() < 2) return false;
+    ++rounds_;
+    std::vector<std::size_t> batch;
+    for (const std::size_t i : runners) batch.push_back(out_.tried[i].candidate);
+    const std::vector<Measurement> found = measure_(batch);
+    out_.measurements += batch.size();
+    for (std::size_t k = 0; k < runners.size(); ++k) {
+      out_.tried[runners[k]].measurement = found[k];
+      ++out_.tried[runners[k]].times;
+    }
+    out_.best = cheapest(out_.tried, limits_);
+    fit();
+    return true;
+  }
+
+  std::size_t left_for_a_race() const {
+    const std::size_t share = std::max(candidates_.size() / kShareOfMeasurements, kFewMeasurements);
+    const std::size_t most = settings_.most > 0 ? settings_.most : share;
+    return most - std::min(most, out_.measurements);
+  }
+
   // Every detector as it is; where a space has none that is, its first candidate.
   std::vector<std::size_t> first_batch() const {
     std::vector<std::size_t> batch;
@@ -54,34 +87,38 @@ class Search {
 
   // False when not all of them may be measured any more.
   bool try_all(std::vector<std::size_t> batch) {
-    const std::size_t most = settings_.most > 0 ? settings_.most : candidates_.size();
-    const std::size_t left = most - std::min(most, out_.tried.size());
+    const std::size_t most =
+        settings_.most > 0 ? settings_.most : out_.measurements + candidates_.size();
+    const std::size_t left = most - std::min(most, out_.measurements);
     const bool whole = batch.size() <= left;
     if (!whole) batch.resize(left);
     if (batch.empty()) return whole;
     const std::vector<Measurement> found = measure_(batch);
-    for (std::size_t i = 0; i < batch.size(); ++i) take(batch[i], found[i]);
+    out_.measurements += batch.size();
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      open_[batch[i]] = false;
+      out_.tried.push_back({batch[i], found[i]});
+    }
+    out_.best = cheapest(out_.tried, limits_);
     fit();
     return whole;
   }
 
-  void take(std::size_t candidate, const Measurement& m) {
-    open_[candidate] = false;
-    out_.tried.push_back({candidate, m});
-    const bool met = limits_.met_by(m);
-    if (met && (!out_.best || m.cost_ms < out_.tried[*out_.best].measurement.cost_ms))
-      out_.best = out_.tried.size() - 1;
-    judged_.push_back(candidate);
-    met_.push_back(met ? 1.0 : -1.0);
-    const double detecting = m.cost_ms - candidates_[candidate].step_ms;
-    if (!m.failure.empty() || !(detecting > 0.0)) return;
-    timed_.push_back(candidate);
-    log_cost_.push_back(std::log(detecting));
-  }
-
   void fit() {
-    accuracy_.fit(judged_, met_);
-    if (!timed_.empty()) cost_.fit(timed_, log_cost_);
+    std::vector<std::size_t> judged, timed;
+    std::vector<double> met, log_cost;
+    for (const Tried& tried : out_.tried) {
+      const Measurement& m = tried.measurement;
+      judged.push_back(tried.candidate);
+      met.push_back(limits_.met_by(m) ? 1.0 : -1.0);
+      const double detecting = m.cost_ms - candidates_[tried.candidate].step.ms;
+      if (!m.failure.empty() || !(detecting > 0.0)) continue;
+      timed.push_back(tried.candidate);
+      log_cost.push_back(std::log(detecting));
+    }
+    accuracy_.fit(judged, met);
+    has_costs_ = !timed.empty();
+    if (has_costs_) cost_.fit(timed, log_cost);
   }
 
   // Beside the best one a wrong guess costs most.
@@ -98,12 +135,12 @@ class Search {
   // What may be cheaper than the best one and accurate enough, the most promising first.
   std::vector<std::size_t> promising() const {
     std::vector<std::pair<double, std::size_t>> ranked;
-    if (timed_.empty()) return {};
+    if (!has_costs_) return {};
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       if (!open_[i]) continue;
       const AdditiveModel::Guess cost = cost_.guess(i), accuracy = accuracy_.guess(i);
       const double doubt = doubt_of(i);
-      const double at_best = std::exp(cost.mean - doubt * cost.deviation) + candidates_[i].step_ms;
+      const double at_best = std::exp(cost.mean - doubt * cost.deviation) + candidates_[i].step.ms;
       if (accuracy.mean + doubt * accuracy.deviation <= 0.0) continue;
       if (out_.best && at_best >= out_.tried[*out_.best].measurement.cost_ms) continue;
       // Before anything meets the limits, what does so is looked for.
@@ -121,12 +158,34 @@ class Search {
   const Measure& measure_;
   AdditiveModel cost_, accuracy_;
   std::vector<bool> open_;
-  std::vector<std::size_t> judged_, timed_;
-  std::vector<double> met_, log_cost_;
+  bool has_costs_ = false;  ///< one was timed at least
+  std::size_t rounds_ = 0;  ///< of the race
   SearchOutcome out_;
 };
 
 }  // namespace
+
+std::optional<std::size_t> cheapest(const std::vector<Tried>& tried, const Limits& limits) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    if (limits.met_by(tried[i].measurement) &&
+        (!best || tried[i].measurement.cost_ms < tried[*best].measurement.cost_ms))
+      best = i;
+  return best;
+}
+
+std::vector<std::size_t> as_cheap_as(std::size_t best, const std::vector<Tried>& tried,
+                                     const Limits& limits) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < tried.size(); ++i)
+    if (i != best && limits.met_by(tried[i].measurement) &&
+        as_cheap_within_noise(tried[i].measurement, tried[best].measurement))
+      found.push_back(i);
+  std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+    return tried[a].measurement.cost_ms < tried[b].measurement.cost_ms;
+  });
+  return found;
+}
 
 SearchOutcome search(const std::vector<Candidate>& candidates, const Limits& limits,
                      const SearchSettings& settings, const Measure& measure) {

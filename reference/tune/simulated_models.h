@@ -9,6 +9,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/run/job.h"
+#include "reference/tune/candidate.h"
 #include "reference/tune/frame_split.h"
 
 namespace contactcheck {
@@ -17,7 +18,7 @@ struct SimulatedModel {
   std::string deformer;        ///< "finite-elements"
   std::filesystem::path file;  ///< the scene that is moved by it
   FrameSplit split;            ///< recordings of its motion
-  double step_ms = 0.0;        ///< see step_cost.h; 0: not measured
+  StepCost step;               ///< see step_cost.h; 0: not measured
   std::string failure;         ///< not empty: its simulation ended with this
 };
 

@@ -121,7 +121,7 @@ class Space {
 
   Candidate with(const DeformerChoice& deformer, Candidate candidate) const {
     candidate.deformer = deformer.name;
-    candidate.step_ms = deformer.step_ms;
+    candidate.step = deformer.step;
     candidate.choices.push_back({"deformer", deformer.name});
     candidate.usual &= deformer.name == request_.deformers.front().name;
     return candidate;

@@ -15,7 +15,7 @@ Level level_of(Question question);
 
 struct DeformerChoice {
   std::string name;
-  double step_ms = 0.0;  ///< see Candidate::step_ms
+  StepCost step = {};
 };
 
 struct SpaceRequest {

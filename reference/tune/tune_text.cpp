@@ -9,6 +9,8 @@ namespace {
 
 using Row = std::vector<std::string>;
 
+constexpr std::size_t kNamed = 3;  ///< of those that are as cheap, for a terminal
+
 std::string millimetres(double metres) { return fmt::format("{:.3g}", 1e3 * metres); }
 
 bool varies_lattices(const std::vector<Candidate>& candidates) {
@@ -23,8 +25,13 @@ bool varies_deformers(const std::vector<Candidate>& candidates) {
 // With deformers a frame is a step of the simulation.
 Row header_of(const std::vector<Candidate>& candidates) {
   const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
-  Row row = {deformers ? "ms/step" : "ms/frame", "missed", "spurious", "hover mm", "late"};
-  if (deformers) row.insert(row.begin() + 1, "of it deforming");
+  Row row = {deformers ? "ms/step" : "ms/frame",
+             "95 % interval",
+             "missed",
+             "spurious",
+             "hover mm",
+             "late"};
+  if (deformers) row.insert(row.begin() + 2, "of it deforming");
   if (lattices || deformers) row.push_back("deviation mm");
   if (lattices) row.push_back("lattice");
   if (deformers) row.push_back("deformer");
@@ -32,15 +39,22 @@ Row header_of(const std::vector<Candidate>& candidates) {
   return row;
 }
 
+std::string interval_of(const Measurement& m) {
+  return fmt::format("{:.3g} to {:.3g}", m.cost_low_ms, m.cost_high_ms);
+}
+
 Row row_of(const Tried& tried, const std::vector<Candidate>& candidates) {
   const Candidate& candidate = candidates[tried.candidate];
   const Measurement& m = tried.measurement;
   const bool failed = !m.failure.empty();
-  Row row = {fmt::format("{:.3g}", m.cost_ms), fmt::format("{}", m.missed),
-             fmt::format("{}", m.spurious), m.hover ? millimetres(*m.hover) : "-",
+  Row row = {fmt::format("{:.3g}", m.cost_ms),
+             interval_of(m),
+             fmt::format("{}", m.missed),
+             fmt::format("{}", m.spurious),
+             m.hover ? millimetres(*m.hover) : "-",
              m.late_frames ? fmt::format("{:+}", *m.late_frames) : "-"};
   const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
-  if (deformers) row.insert(row.begin() + 1, fmt::format("{:.3g}", candidate.step_ms));
+  if (deformers) row.insert(row.begin() + 2, fmt::format("{:.3g}", candidate.step.ms));
   if (lattices || deformers) row.push_back(millimetres(m.deviation));
   if (failed) std::fill(row.begin(), row.end(), "-");
   if (lattices) row.push_back(fmt::format("{:g}", candidate.lattice));
@@ -103,10 +117,14 @@ std::string limits_in_words(const TuningRequest& request) {
 }
 
 std::string heading(const Tuning& tuning, const TuningRequest& request) {
-  return fmt::format("{}, question {}, {} frames: {} of {} configurations measured{}", tuning.scene,
-                     name_of(request.space.question), tuning.frames, tuning.outcome.tried.size(),
-                     tuning.candidates.size(),
-                     tuning.outcome.exhausted ? " (as many as were allowed)" : "");
+  const SearchOutcome& outcome = tuning.outcome;
+  const auto again = std::count_if(outcome.tried.begin(), outcome.tried.end(),
+                                   [](const Tried& tried) { return tried.times > 1; });
+  return fmt::format("{}, question {}, {} frames: {} of {} configurations measured{}{}",
+                     tuning.scene, name_of(request.space.question), tuning.frames,
+                     outcome.tried.size(), tuning.candidates.size(),
+                     again > 0 ? fmt::format(", the cheapest {} repeatedly", again) : "",
+                     outcome.exhausted ? " (as many as were allowed)" : "");
 }
 
 std::string model_in_words(const Candidate& candidate) {
@@ -121,7 +139,7 @@ std::string deformers_of(const Tuning& tuning) {
   std::string costs, failures;
   for (const SimulatedModel& model : tuning.models) {
     if (model.failure.empty())
-      costs += fmt::format("{}{} {:.3g}", costs.empty() ? "" : ", ", model.deformer, model.step_ms);
+      costs += fmt::format("{}{} {:.3g}", costs.empty() ? "" : ", ", model.deformer, model.step.ms);
     else
       failures += "\nNot tried: " + model.deformer + ": " + model.failure;
   }
@@ -135,7 +153,21 @@ std::string in_markdown(std::string lines) {
   return lines + "\n";
 }
 
-std::string verdict(const Tuning& tuning, const TuningRequest& request) {
+// Whether the choice is one by its cost at all.
+std::string as_cheap_in_words(const Tuning& tuning, std::size_t most_named) {
+  const std::vector<std::size_t>& others = tuning.as_cheap;
+  if (others.empty()) return "Nothing else that was measured is as cheap within noise.\n";
+  std::string words = "As cheap within noise: ";
+  const std::size_t named = std::min(others.size(), most_named);
+  for (std::size_t i = 0; i < named; ++i) {
+    const Candidate& other = tuning.candidates[others[i]];
+    words += (i == 0 ? "" : "; ") + other.detector + model_in_words(other);
+  }
+  if (others.size() > named) words += fmt::format("; and {} more (tune.md)", others.size() - named);
+  return words + ".\n";
+}
+
+std::string verdict(const Tuning& tuning, const TuningRequest& request, std::size_t most_named) {
   if (!tuning.chosen)
     return tuning.confirmed.empty()
                ? "No configuration meets the limits.\n"
@@ -144,9 +176,11 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request) {
   const Tried& chosen = tuning.confirmed[*tuning.chosen];
   const Candidate& candidate = tuning.candidates[chosen.candidate];
   std::string text =
-      fmt::format("Chosen: {}{}, {:.3g} ms a {} on {} held-out frames.\n", candidate.detector,
+      fmt::format("Chosen: {}{}, {:.3g} ms a {} ({}) on {} held-out frames.\n", candidate.detector,
                   model_in_words(candidate), chosen.measurement.cost_ms,
-                  tuning.varies_deformers() ? "step" : "frame", tuning.held_out_frames);
+                  tuning.varies_deformers() ? "step" : "frame", interval_of(chosen.measurement),
+                  tuning.held_out_frames) +
+      as_cheap_in_words(tuning, most_named);
   if (!tuning.within_budget(request.budget_ms))
     text += fmt::format("That is more than the {:g} ms that are allowed.\n", *request.budget_ms);
   return text;
@@ -173,14 +207,15 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
   if (!tuning.confirmed.empty())
     text += fmt::format("On {} held-out frames\n", tuning.held_out_frames) +
             aligned(rows_of(tuning.confirmed, tuning.candidates)) + "\n";
-  text += verdict(tuning, request);
+  text += verdict(tuning, request, kNamed);
   const std::string command = command_of(tuning, request);
   return command.empty() ? text : text + "  " + command + "\n";
 }
 
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
   std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
-                     ".\n\n" + in_markdown(deformers_of(tuning)) + verdict(tuning, request);
+                     ".\n\n" + in_markdown(deformers_of(tuning)) +
+                     verdict(tuning, request, tuning.as_cheap.size());
   const std::string command = command_of(tuning, request);
   if (!command.empty()) text += "\n    " + command + "\n";
   text += "\n## Pareto front\n\n" + markdown(rows_of(front_of(tuning), tuning.candidates));

@@ -42,15 +42,6 @@ std::vector<std::size_t> by_cost(const std::vector<Tried>& tried, const Limits& 
   return order;
 }
 
-std::optional<std::size_t> cheapest(const std::vector<Tried>& tried, const Limits& limits) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < tried.size(); ++i)
-    if (limits.met_by(tried[i].measurement) &&
-        (!best || tried[i].measurement.cost_ms < tried[*best].measurement.cost_ms))
-      best = i;
-  return best;
-}
-
 /// Tells what is known each time something was measured.
 class Teller {
  public:
@@ -98,7 +89,25 @@ SearchOutcome measure_all(std::size_t count, const Limits& limits, const Measure
     for (std::size_t i = 0; i < batch.size(); ++i) out.tried.push_back({batch[i], found[i]});
   }
   out.best = cheapest(out.tried, limits);
+  out.measurements = count;
   return out;
+}
+
+std::vector<std::size_t> told_from_none(const Tuning& tuning, const Limits& limits) {
+  std::vector<std::size_t> found;
+  for (const std::size_t i : as_cheap_as(*tuning.chosen, tuning.confirmed, limits))
+    found.push_back(tuning.confirmed[i].candidate);
+  const auto measured_as = [](const std::vector<Tried>& tried, std::size_t candidate) {
+    return std::find_if(tried.begin(), tried.end(),
+                        [&](const Tried& t) { return t.candidate == candidate; });
+  };
+  const std::vector<Tried>& tried = tuning.outcome.tried;
+  const auto chosen = measured_as(tried, tuning.confirmed[*tuning.chosen].candidate);
+  for (const std::size_t i :
+       as_cheap_as(static_cast<std::size_t>(chosen - tried.begin()), tried, limits))
+    if (measured_as(tuning.confirmed, tried[i].candidate) == tuning.confirmed.end())
+      found.push_back(tried[i].candidate);
+  return found;
 }
 
 // Beside one another, since the cheapest differ by little; the next ones where none of them holds.
@@ -117,6 +126,7 @@ void confirm(const TuningRequest& request, const FrameSplit& split, const std::s
     tuning.chosen = cheapest(tuning.confirmed, request.limits);
   }
   if (!tuning.chosen) return;
+  tuning.as_cheap = told_from_none(tuning, request.limits);
   const Candidate& chosen = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate];
   tuning.chosen_scene = request.target;
   if (chosen.lattice != 1.0) tuning.chosen_scene = measuring.scene_of(chosen).string();
@@ -145,7 +155,7 @@ SpaceRequest with_deformers(const TuningRequest& request, const Tuning& tuning) 
   SpaceRequest space = request.space;
   if (request.deformers.empty()) return space;
   for (const SimulatedModel& model : tuning.models)
-    if (model.failure.empty()) space.deformers.push_back({model.deformer, model.step_ms});
+    if (model.failure.empty()) space.deformers.push_back({model.deformer, model.step});
   return space;
 }
 

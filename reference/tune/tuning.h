@@ -53,6 +53,9 @@ struct Tuning {
   /// The cheapest that met the limits, measured again on the held-out frames, until one holds.
   std::vector<Tried> confirmed;
   std::optional<std::size_t> chosen;  ///< index into confirmed; none met the limits there
+  /// Candidates that meet the limits and cannot be told from the chosen one by their cost: on the
+  /// held-out frames, or on the others where they were not measured there.
+  std::vector<std::size_t> as_cheap;
   std::size_t frames = 0, held_out_frames = 0;
   /// What `run` takes: the scene as it was named, or a file in `out`; empty: none chosen.
   std::string chosen_scene;

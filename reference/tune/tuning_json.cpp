@@ -12,10 +12,15 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-Json to_json(const Tried& tried, const std::vector<Candidate>& candidates) {
-  const Candidate& candidate = candidates[tried.candidate];
+Json to_json(const Candidate& candidate) {
   Json json = {{"detector", candidate.detector}, {"lattice", candidate.lattice}};
   if (!candidate.deformer.empty()) json["deformer"] = candidate.deformer;
+  return json;
+}
+
+Json to_json(const Tried& tried, const std::vector<Candidate>& candidates) {
+  const Candidate& candidate = candidates[tried.candidate];
+  Json json = to_json(candidate);
   const Measurement& m = tried.measurement;
   if (!m.failure.empty()) {
     json["failure"] = m.failure;
@@ -24,7 +29,8 @@ Json to_json(const Tried& tried, const std::vector<Candidate>& candidates) {
   json["cost_ms"] = m.cost_ms;
   json["cost_ms_low"] = m.cost_low_ms;
   json["cost_ms_high"] = m.cost_high_ms;
-  if (!candidate.deformer.empty()) json["step_ms"] = candidate.step_ms;
+  json["times"] = tried.times;
+  if (!candidate.deformer.empty()) json["step_ms"] = candidate.step.ms;
   json["missed"] = m.missed;
   json["spurious"] = m.spurious;
   json["hover_gap_max"] = or_null(m.hover);
@@ -38,7 +44,9 @@ Json to_json(const SimulatedModel& model) {
   if (!model.failure.empty()) {
     json["failure"] = model.failure;
   } else {
-    json["step_ms"] = model.step_ms;
+    json["step_ms"] = model.step.ms;
+    json["step_ms_low"] = model.step.low_ms;
+    json["step_ms_high"] = model.step.high_ms;
   }
   return json;
 }
@@ -62,6 +70,7 @@ Json to_json(const Tuning& tuning, const TuningRequest& request) {
                {"candidates", tuning.candidates.size()},
                {"frames", tuning.frames},
                {"held_out_frames", tuning.held_out_frames},
+               {"measurements", tuning.outcome.measurements},
                {"exhausted", tuning.outcome.exhausted}};
   if (tuning.varies_deformers()) {
     json["deformers"] = Json::array();
@@ -79,6 +88,9 @@ Json to_json(const Tuning& tuning, const TuningRequest& request) {
   json["chosen"] =
       tuning.chosen ? to_json(tuning.confirmed[*tuning.chosen], tuning.candidates) : Json();
   if (tuning.chosen) json["chosen"]["scene"] = tuning.chosen_scene;
+  json["as_cheap"] = Json::array();
+  for (const std::size_t i : tuning.as_cheap)
+    json["as_cheap"].push_back(to_json(tuning.candidates[i]));
   json["within_budget"] = tuning.within_budget(request.budget_ms);
   return json;
 }

@@ -61,7 +61,7 @@ inline Grid random_grid(std::uint64_t seed) {
     candidate.detector = axes[0][value[0]] + ":" + std::to_string(i);
     candidate.usual = value[1] == 0 && value[2] == 0 && value[3] == 0;
     Measurement m;
-    m.cost_ms = std::exp(log_cost);
+    m.cost_ms = m.cost_low_ms = m.cost_high_ms = std::exp(log_cost);
     m.missed = value[1] == 1 || value[0] >= 3 ? 7 : 0;
     grid.candidates.push_back(candidate);
     grid.truth.push_back(m);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 namespace contactcheck {
 namespace {
 
@@ -30,10 +33,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Recording, IsAboutTwoHundredConfigurations) { EXPECT_GE(grid().candidates.size(), 200u); }
 
-// The cheapest of a noisy record is one of several that the next run may order otherwise. Found is
-// what cannot be told from it: inside its interval, and 10 % dearer at most, however wide that is.
+constexpr double kNotWorthASearch = 1.05;  ///< times the cost of the cheapest
+constexpr double kTooDear = 1.1;           ///< however wide the intervals of a busy machine are
+
+// The cheapest of a record is one of several that the next run may order otherwise. As good as
+// found is what the record itself cannot tell from it, or what is hardly dearer.
 bool as_cheap_as(const Measurement& best, const Measurement& answer) {
-  return answer.cost_ms <= best.cost_high_ms && answer.cost_ms <= 1.1 * best.cost_ms;
+  return answer.cost_ms <= kNotWorthASearch * best.cost_ms ||
+         (as_cheap_within_noise(answer, best) && answer.cost_ms <= kTooDear * best.cost_ms);
 }
 
 TEST_P(RecordedGrid, IsSearchedWithAFifthOfTheMeasurements) {
@@ -46,9 +53,41 @@ TEST_P(RecordedGrid, IsSearchedWithAFifthOfTheMeasurements) {
   EXPECT_TRUE(as_cheap_as(grid().truth[best], answer.measurement))
       << grid().candidates[answer.candidate].detector << " at " << answer.measurement.cost_ms
       << " and not " << grid().candidates[best].detector << " at " << grid().truth[best].cost_ms;
-  EXPECT_LE(found.tried.size(), grid().candidates.size() / 5);
+  EXPECT_LE(found.measurements, grid().candidates.size() / 5) << "races included";
   EXPECT_FALSE(found.exhausted);
-  RecordProperty("measured", static_cast<int>(found.tried.size()));
+  RecordProperty("measurements", static_cast<int>(found.measurements));
+}
+
+// The recording as another run might have made it: every cost 2 % off, as on a quiet machine, and
+// known that well. What is promised must not hang on the noise of one recording.
+test::Grid recorded_again(std::uint64_t seed) {
+  constexpr double kNoise = 0.02, kNormal95 = 1.96;
+  test::Grid again = grid();
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (Measurement& m : again.truth) {
+    m.cost_ms *= std::exp(kNoise * normal(random));
+    m.cost_low_ms = m.cost_ms * std::exp(-kNormal95 * kNoise);
+    m.cost_high_ms = m.cost_ms * std::exp(kNormal95 * kNoise);
+  }
+  return again;
+}
+
+TEST_P(RecordedGrid, IsSearchedAsWellHadItBeenRecordedAgain) {
+  constexpr int kRecordings = 20;
+  const Limits& limits = GetParam().limits;
+  int found = 0;
+  for (int seed = 0; seed < kRecordings; ++seed) {
+    const test::Grid again = recorded_again(static_cast<std::uint64_t>(seed));
+    const SearchOutcome outcome = search(again.candidates, limits, {}, again.measure());
+    ASSERT_TRUE(outcome.best);
+    found +=
+        as_cheap_as(again.truth[*again.best(limits)], outcome.tried[*outcome.best].measurement) &&
+        outcome.measurements <= again.candidates.size() / 5;
+  }
+  RecordProperty("found", found);
+  // Seen: 16 of 20 in the worst of the five limits, within which many lie as near as the noise.
+  EXPECT_GE(found, 16);
 }
 
 // What the test above is for: a guess of the options' effects is needed to find it.

@@ -100,7 +100,7 @@ TEST(Space, MultipliesByDeformersWhoseStepsCost) {
   EXPECT_TRUE(candidates[0].usual);
   EXPECT_EQ(candidates[0].deformer, "mass-spring");
   EXPECT_FALSE(candidates[1].usual);
-  EXPECT_EQ(candidates[1].step_ms, 2.0);
+  EXPECT_EQ(candidates[1].step.ms, 2.0);
   EXPECT_THAT(candidates[1].choices, Contains(Choice{"deformer", "shape-matching"}));
 }
 

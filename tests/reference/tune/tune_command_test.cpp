@@ -1,11 +1,6 @@
 // contactcheck tune, as it is run.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
-
-#include "tests/reference/cli/program.h"
 #include "tests/reference/cli/tiny_scene.h"
-#include "tests/support/files.h"
+#include "tests/reference/tune/tune_program.h"
 
 namespace contactcheck {
 namespace {
@@ -15,20 +10,9 @@ using test::contactcheck_program;
 using test::Outcome;
 using ::testing::HasSubstr;
 
-class TuneCommand : public ::testing::Test {
+class TuneCommand : public test::TuneProgram {
  protected:
-  Outcome tune(std::vector<std::string> more) {
-    std::vector<std::string> words = {"tune", scene_, "--out", out_, "--repeat", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return contactcheck_program(words);
-  }
-  Json result() const {
-    return Json::parse(test::text_of(std::filesystem::path(out_) / "tune.json"));
-  }
-
-  test::Scratch scratch_;
-  std::string scene_ = scratch_.write("tiny.json", test::tiny_scene("tiny", "9")).string();
-  std::string out_ = (scratch_.folder() / "out").string();
+  TuneCommand() : TuneProgram("tiny.json", test::tiny_scene("tiny", "9")) {}
 };
 
 TEST_F(TuneCommand, ChoosesAConfigurationThatRunConfirms) {
@@ -44,13 +28,33 @@ TEST_F(TuneCommand, ChoosesAConfigurationThatRunConfirms) {
   EXPECT_EQ(json["chosen"]["missed"], 0);
   const std::string command = "contactcheck run " + scene_ + " --detector " + chosen;
   EXPECT_THAT(tuned.out, HasSubstr(command));
-  EXPECT_THAT(test::text_of(std::filesystem::path(out_) / "tune.md"), HasSubstr(command));
+  EXPECT_THAT(page(), HasSubstr(command));
   const Outcome run = contactcheck_program(
       {"run", scene_, "--detector", chosen, "--no-timing", "--quiet", "--out", out_});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json row =
       Json::parse(test::text_of(std::filesystem::path(out_) / "results.json"))["runs"][0];
   EXPECT_EQ(row["levels"]["body"]["missed"], 0);
+}
+
+TEST_F(TuneCommand, SaysHowSureACostIsAndWhatIsAsCheap) {
+  const Outcome tuned = tune({"--detector", "ffd-aabb:precision=double"});
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+  const Json json = result();
+  std::size_t times = 0;
+  for (const Json& m : json["measured"]) {
+    EXPECT_LE(m["cost_ms_low"], m["cost_ms"]);
+    EXPECT_LE(m["cost_ms"], m["cost_ms_high"]);
+    times += m["times"].get<std::size_t>();
+  }
+  EXPECT_EQ(json["measurements"], times);
+  EXPECT_THAT(tuned.out, HasSubstr("95 % interval"));
+  const std::string words =
+      json["as_cheap"].empty()
+          ? "Nothing else that was measured is as cheap within noise."
+          : "As cheap within noise: " + json["as_cheap"][0]["detector"].get<std::string>();
+  EXPECT_THAT(tuned.out, HasSubstr(words));
+  EXPECT_THAT(page(), HasSubstr(words));
 }
 
 TEST_F(TuneCommand, MeasuresEveryConfigurationWhenTold) {

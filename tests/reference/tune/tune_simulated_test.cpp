@@ -1,12 +1,8 @@
 // contactcheck tune of simulated scenes, as it is run.
-#include <gmock/gmock.h>
-
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "tests/reference/cli/program.h"
 #include "tests/reference/tune/falling_scene.h"
-#include "tests/support/files.h"
+#include "tests/reference/tune/tune_program.h"
 
 namespace contactcheck {
 namespace {
@@ -16,20 +12,9 @@ using test::contactcheck_program;
 using test::Outcome;
 using ::testing::HasSubstr;
 
-class TuneSimulated : public ::testing::Test {
+class TuneSimulated : public test::TuneProgram {
  protected:
-  Outcome tune(std::vector<std::string> more) {
-    std::vector<std::string> words = {"tune", scene_, "--out", out_, "--repeat", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return contactcheck_program(words);
-  }
-  Json result() const {
-    return Json::parse(test::text_of(std::filesystem::path(out_) / "tune.json"));
-  }
-
-  test::Scratch scratch_;
-  std::string scene_ = scratch_.write("falling.json", test::falling_scene()).string();
-  std::string out_ = (scratch_.folder() / "out").string();
+  TuneSimulated() : TuneProgram("falling.json", test::falling_scene()) {}
 };
 
 TEST_F(TuneSimulated, SimulatesTheSceneAndHoldsOutEveryOtherFrame) {
@@ -68,8 +53,7 @@ TEST_F(TuneSimulated, TriesEveryDeformerAndCountsWhatItsStepCosts) {
   }
   EXPECT_THAT(tuned.out, HasSubstr("of it deforming"));
   EXPECT_THAT(tuned.out, HasSubstr("deforming, ms a step: mass-spring "));
-  EXPECT_THAT(test::text_of(std::filesystem::path(out_) / "tune.md"),
-              HasSubstr("Deforming, ms a step: mass-spring "));
+  EXPECT_THAT(page(), HasSubstr("Deforming, ms a step: mass-spring "));
 }
 
 TEST_F(TuneSimulated, NamesASceneThatRunsWithTheChosenDeformer) {

@@ -1,0 +1,44 @@
+// What a detector costs beside another one, from times that a busy machine has spoiled some of.
+//
+// Both are timed within a moment of each other, frame by frame and repeat by repeat. A machine that
+// slows down slows both, so that the quotient of such a pair stays; one of the two that is
+// preempted makes one quotient too high or too low, and the median over the pairs of a frame passes
+// over those on either side alike.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "reference/compare/speedup.h"
+
+namespace contactcheck {
+
+/// Cold nanoseconds of one frame, by repeat; as many of one as of the other.
+struct PairedFrame {
+  std::vector<double> own, anchor;
+};
+
+/// By frame, of one run.
+using PairedRun = std::map<std::size_t, PairedFrame>;
+
+/// The frames that both were timed on in the same process.
+PairedRun pair_up(const ProcessSamples& own, const ProcessSamples& anchor);
+
+/// How many times the anchor it costs: the mean over frames of the median quotient, weighted by
+/// what the anchor takes for the frame (the least of its repeats: a preemption only adds). Runs are
+/// pooled over the frames that all of them have. The 95 % interval is a percentile bootstrap (400
+/// draws, fixed seed) over runs and the pairs of each frame; fewer than 3 pairs of a frame show no
+/// spread, and then frames are drawn too, which is wider.
+/// @pre at least one run; all share a frame; times are finite and above 0
+Ratio relative_cost(const std::vector<PairedRun>& runs);
+
+/// The middle of what several runs say of one ratio, which they measured apart; the interval of
+/// their mean by their spread, and no narrower than that of the narrowest of them over the root of
+/// their number. @pre at least one run; ratios above 0
+Ratio middle_of(const std::vector<Ratio>& runs);
+
+/// The product of ratios that were measured apart, both uncertain.
+Ratio product(const Ratio& a, const Ratio& b);
+
+}  // namespace contactcheck

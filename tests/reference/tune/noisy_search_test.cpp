@@ -1,0 +1,121 @@
+// The search on a machine that spoils times, whose true costs are known.
+#include <gtest/gtest.h>
+
+#include "reference/tune/paired_cost.h"
+#include "tests/reference/tune/noisy_machine.h"
+
+namespace contactcheck {
+namespace {
+
+using test::Grid;
+using test::Noise;
+using test::NoisyMachine;
+
+constexpr std::size_t kRepeats = 5;  ///< what `tune` does unless it is told otherwise
+constexpr std::uint64_t kGrids = 25;
+constexpr double kSame = 1.02;  ///< times the true cost of the cheapest: not worth a search
+
+Limits nothing_missed() {
+  Limits limits;
+  limits.missed = 0;
+  return limits;
+}
+
+using Samples = std::map<std::size_t, ProcessSamples>;
+
+// One run of a batch beside the first candidate, which costs are taken against.
+Samples run_beside_anchor(NoisyMachine& machine, const std::vector<std::size_t>& batch) {
+  std::vector<std::size_t> entries = {0};
+  for (const std::size_t i : batch)
+    if (i != 0) entries.push_back(i);
+  return machine.run(entries);
+}
+
+Measurement with_cost(Measurement m, const Ratio& cost) {
+  m.cost_ms = cost.ratio;
+  m.cost_low_ms = cost.low;
+  m.cost_high_ms = cost.high;
+  return m;
+}
+
+// As Measuring does it: pooled with what was measured before.
+Measure paired(const Grid& grid, NoisyMachine& machine) {
+  return [&grid, &machine, all = std::map<std::size_t, std::vector<PairedRun>>()](
+             const std::vector<std::size_t>& batch) mutable {
+    const Samples samples = run_beside_anchor(machine, batch);
+    std::vector<Measurement> found;
+    for (const std::size_t i : batch) {
+      all[i].push_back(pair_up(samples.at(i), samples.at(0)));
+      found.push_back(with_cost(grid.truth[i], relative_cost(all[i])));
+    }
+    return found;
+  };
+}
+
+// What it is held against: sums of medians, each side for itself.
+Measure apart(const Grid& grid, NoisyMachine& machine) {
+  return [&](const std::vector<std::size_t>& batch) {
+    const Samples samples = run_beside_anchor(machine, batch);
+    const std::vector<bool> no_contact(NoisyMachine::kFrames);
+    std::vector<Measurement> found;
+    for (const std::size_t i : batch) {
+      const Ratio r = compute_speedup(samples.at(0), samples.at(i), no_contact)->cold;
+      found.push_back(with_cost(grid.truth[i], {1.0 / r.ratio, 1.0 / r.high, 1.0 / r.low}));
+    }
+    return found;
+  };
+}
+
+struct Score {
+  int right = 0;         ///< grids whose answer costs, in truth, what the cheapest costs
+  std::size_t most = 0;  ///< measurements, of any grid
+};
+
+bool is_right(const Grid& grid, std::size_t candidate) {
+  const double best = grid.truth[*grid.best(nothing_missed())].cost_ms;
+  return nothing_missed().met_by(grid.truth[candidate]) &&
+         grid.truth[candidate].cost_ms <= kSame * best;
+}
+
+template <class MakeMeasure>
+Score score(const MakeMeasure& make_measure, std::size_t races, const Noise& noise) {
+  Score score;
+  for (std::uint64_t seed = 0; seed < kGrids; ++seed) {
+    const Grid grid = test::random_grid(seed);
+    NoisyMachine machine(grid, noise, kRepeats, 1000 + seed);
+    SearchSettings settings;
+    settings.races = races;
+    const SearchOutcome found =
+        search(grid.candidates, nothing_missed(), settings, make_measure(grid, machine));
+    score.right += is_right(grid, found.tried[*found.best].candidate);
+    score.most = std::max(score.most, found.measurements);
+  }
+  return score;
+}
+
+struct Busy {
+  double preempted;
+  int right_before, right_after;  ///< at most, at least
+};
+
+// reference/tune/README.md says what these are.
+TEST(NoisySearch, PairsAndRacesAreRightMoreOftenThanSumsOfMedians) {
+  for (const Busy& busy : {Busy{0.1, 24, 24}, Busy{0.25, 10, 19}}) {
+    Noise noise;
+    noise.preempted = busy.preempted;
+    const Score before = score(apart, 0, noise), after = score(paired, 3, noise);
+    EXPECT_LE(before.right, busy.right_before) << busy.preempted;
+    EXPECT_GE(after.right, busy.right_after) << busy.preempted;
+    EXPECT_LE(after.most, 200u / 5) << "races included";
+  }
+}
+
+// A quiet machine: nothing is preempted, and no answer is left to chance.
+TEST(NoisySearch, IsRightOnAQuietMachine) {
+  Noise quiet;
+  quiet.preempted = 0.0;
+  EXPECT_EQ(score(paired, 3, quiet).right, static_cast<int>(kGrids));
+}
+
+}  // namespace
+}  // namespace contactcheck

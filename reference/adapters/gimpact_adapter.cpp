@@ -56,6 +56,8 @@ class GimpactBody {
       for (const std::uint32_t v : t) indices_.push_back(static_cast<int>(v));
     rest_box_ = feed(mesh.vertices);
     // Far beyond what a body turns and stretches by, so that few ever leave their first home.
+    // Scaled bodies are larger than 1; one that a scale from outside leaves smaller is tested
+    // slowly.
     home_step_ = std::ldexp(1.0, std::ilogb(std::max(1.0, largest_side(rest_box_))) + 8);
     arrays_ = std::make_unique<btTriangleIndexVertexArray>(
         static_cast<int>(mesh.triangles.size()), indices_.data(), static_cast<int>(3 * sizeof(int)),

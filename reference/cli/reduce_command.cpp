@@ -51,7 +51,7 @@ class ReduceCommand {
     const std::vector<ReductionTask> tasks = read_tasks();
     make_probe(tasks.front());
     const Defect defect = DefectSearch(*probe_, detector_, is_case_).find(tasks);
-    const Candidate whole = candidate_of(defect.task.snapshot);
+    const CaseCandidate whole = candidate_of(defect.task.snapshot);
     const std::optional<Reduction> reduction = reduce_defect(defect, whole);
     if (!reduction) refuse_own_lattice(defect);
     write(defect, whole, *reduction);
@@ -112,28 +112,28 @@ class ReduceCommand {
     probe_.emplace(settings);
   }
 
-  std::optional<Reduction> reduce_defect(const Defect& defect, const Candidate& whole) {
+  std::optional<Reduction> reduce_defect(const Defect& defect, const CaseCandidate& whole) {
     const std::vector<Level> levels = levels_for(defect.finding.level);
     return reduce(
         whole, defect.task.pair,
-        [&](const Candidate& candidate) {
+        [&](const CaseCandidate& candidate) {
           show_progress(candidate);
-          const Verdict verdict = probe_->ask(snapshot_of(candidate), levels);
+          const ProbeVerdict verdict = probe_->ask(snapshot_of(candidate), levels);
           return shows(verdict, defect.finding) && keeps_position(candidate, verdict, defect);
         },
         arguments_.budget,
         defect.task.cells ? cell_candidates(defect.task.snapshot, *defect.task.cells)
-                          : std::vector<Candidate>());
+                          : std::vector<CaseCandidate>());
   }
 
   // On a terminal alone; the line is cleared by whatever is printed next.
-  void show_progress(const Candidate& candidate) const {
+  void show_progress(const CaseCandidate& candidate) const {
     if (isatty(STDERR_FILENO) == 0 || probe_->asked() % kProgressEvery != 0) return;
     std::fprintf(stderr, "\r%zu candidates tried, now %zu triangles   \r", probe_->asked(),
                  candidate.triangles());
   }
 
-  static bool keeps_position(const Candidate& candidate, const Verdict& verdict,
+  static bool keeps_position(const CaseCandidate& candidate, const ProbeVerdict& verdict,
                              const Defect& defect) {
     if (!defect.finding.general) return true;
     const ElementPair& pair = disagreement_of(verdict, defect.finding).pair;
@@ -178,16 +178,16 @@ class ReduceCommand {
   }
 
   // In a fresh process, as whoever is given the case will see it.
-  Verdict verified(const MinimalCase& minimal) {
+  ProbeVerdict verified(const MinimalCase& minimal) {
     probe_->restart();
-    Verdict verdict = probe_->ask(snapshot_of(minimal.candidate), minimal.levels);
+    ProbeVerdict verdict = probe_->ask(snapshot_of(minimal.candidate), minimal.levels);
     if (!shows(verdict, minimal.finding))
       throw InputError(minimal.scene + ", " + minimal.place + ": the answer of " + detector_ +
                        " depends on what ran before it in its process, and cannot be reduced");
     return verdict;
   }
 
-  void write(const Defect& defect, const Candidate& whole, const Reduction& reduction) {
+  void write(const Defect& defect, const CaseCandidate& whole, const Reduction& reduction) {
     const fs::path file = out_file(defect.task);
     const MinimalCase minimal = minimal_of(defect, reduction, file);
     const CaseAnswers answers = answers_of(minimal, verified(minimal));
@@ -199,9 +199,9 @@ class ReduceCommand {
                 answers.detector.c_str(), printed_test(minimal, answers).c_str(), file.c_str());
   }
 
-  void print_summary(const MinimalCase& minimal, const Candidate& before,
+  void print_summary(const MinimalCase& minimal, const CaseCandidate& before,
                      const Reduction& reduction) const {
-    const Candidate& after = minimal.candidate;
+    const CaseCandidate& after = minimal.candidate;
     std::printf("%s, %s: %s %s\n\n", minimal.scene.c_str(), minimal.place.c_str(),
                 minimal.detector.c_str(), described(minimal.finding).c_str());
     std::printf("  %-28s %10s %10s\n", "", "before", "after");
@@ -217,7 +217,7 @@ class ReduceCommand {
   }
 
   // A number is as simple as its binary or its decimal text, whichever is shorter.
-  static std::size_t most_figures(const Candidate& candidate) {
+  static std::size_t most_figures(const CaseCandidate& candidate) {
     int out = 0;
     for (const double x : coordinates_of(candidate))
       out = std::max(out, std::min(significant_bits(x), decimal_digits(x)));

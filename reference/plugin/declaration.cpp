@@ -106,16 +106,17 @@ void read_needs(const JsonField& field, Declaration& out) {
 
 Semantics read_semantics(const JsonField& field) {
   Semantics s;
-  s.levels = named_values(field.at("levels"), kLevels);
-  s.questions = named_values(field.at("questions"), kQuestions);
-  if (field.has("informative")) s.informative = named_values(field.at("informative"), kLevels);
+  s.levels = named_values(field.at("levels"), kHeaderLevels);
+  s.questions = named_values(field.at("questions"), kHeaderQuestions);
+  if (field.has("informative"))
+    s.informative = named_values(field.at("informative"), kHeaderLevels);
   if (field.has("body")) s.solid = field.at("body").one_of({"surface", "solid"}) == "solid";
   if (field.has("touching")) s.closed = field.at("touching").one_of({"closed", "open"}) == "closed";
   if (field.has("exact")) s.exact = truth_value(field.at("exact"));
   if (field.has("margin")) s.margin = field.at("margin").number();
-  if (field.has("precision")) s.precision = named_value(field.at("precision"), kPrecisions);
+  if (field.has("precision")) s.precision = named_value(field.at("precision"), kHeaderPrecisions);
   if (field.has("scale")) s.scale = field.at("scale").number();
-  if (field.has("depth_kind")) s.depth = named_value(field.at("depth_kind"), kDepthKinds);
+  if (field.has("depth_kind")) s.depth = named_value(field.at("depth_kind"), kHeaderDepthKinds);
   if (field.has("whole_cells")) s.whole_cells = truth_value(field.at("whole_cells"));
   s.means = optional_line(field, "means");
   const std::string fault = semantics_fault(s);

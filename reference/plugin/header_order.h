@@ -5,13 +5,13 @@
 
 namespace contactcheck {
 
-inline constexpr Level kLevels[] = {Level::kBody, Level::kContainment, Level::kCell,
-                                    Level::kBox,  Level::kTriangle,    Level::kVertex,
-                                    Level::kNear};
-inline constexpr Question kQuestions[] = {Question::kTriangles, Question::kBody, Question::kCells,
-                                          Question::kContacts};
-inline constexpr Precision kPrecisions[] = {Precision::kDouble, Precision::kSingle};
-inline constexpr DepthKind kDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
-                                            DepthKind::kConvexPair};
+inline constexpr Level kHeaderLevels[] = {Level::kBody, Level::kContainment, Level::kCell,
+                                          Level::kBox,  Level::kTriangle,    Level::kVertex,
+                                          Level::kNear};
+inline constexpr Question kHeaderQuestions[] = {Question::kTriangles, Question::kBody,
+                                                Question::kCells, Question::kContacts};
+inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
+inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
+                                                  DepthKind::kConvexPair};
 
 }  // namespace contactcheck

@@ -124,19 +124,19 @@ contactcheck_semantics default_semantics() {
 
 Semantics semantics_of(const contactcheck_semantics& from) {
   Semantics s;
-  s.levels = values_of(from.levels, kLevels, "levels");
-  s.informative = values_of(from.informative, kLevels, "levels");
+  s.levels = values_of(from.levels, kHeaderLevels, "levels");
+  s.informative = values_of(from.informative, kHeaderLevels, "levels");
   if (from.question_count > std::size(from.questions))
     throw InputError("declares too many questions");
   for (std::uint32_t i = 0; i < from.question_count; ++i)
-    s.questions.push_back(value_of(from.questions[i], kQuestions, "question"));
+    s.questions.push_back(value_of(from.questions[i], kHeaderQuestions, "question"));
   s.solid = from.solid != 0;
   s.closed = from.touching_counts != 0;
   s.exact = from.exact != 0;
   s.margin = from.margin;
-  s.precision = value_of(from.precision, kPrecisions, "precision");
+  s.precision = value_of(from.precision, kHeaderPrecisions, "precision");
   s.scale = from.scale;
-  s.depth = value_of(from.depth_kind, kDepthKinds, "kind of depth");
+  s.depth = value_of(from.depth_kind, kHeaderDepthKinds, "kind of depth");
   s.whole_cells = from.whole_cells != 0;
   if (from.means != nullptr) s.means = std::string(from.means).substr(0, kLongestMeaning);
   const std::string fault = semantics_fault(s);
@@ -145,8 +145,8 @@ Semantics semantics_of(const contactcheck_semantics& from) {
 }
 
 std::uint32_t number_of(Question question) {
-  for (std::uint32_t i = 0; i < std::size(kQuestions); ++i)
-    if (kQuestions[i] == question) return i;
+  for (std::uint32_t i = 0; i < std::size(kHeaderQuestions); ++i)
+    if (kHeaderQuestions[i] == question) return i;
   return CONTACTCHECK_ASK_TRIANGLES;
 }
 

@@ -55,7 +55,7 @@ bool off_plane(const oracle::TriangleCorners& of, const oracle::TriangleCorners&
 
 }  // namespace
 
-Snapshot snapshot_of(const Candidate& candidate) {
+Snapshot snapshot_of(const CaseCandidate& candidate) {
   Snapshot out;
   for (std::size_t m = 0; m < 2; ++m) {
     const TriangleMesh& mesh = candidate.meshes[m];
@@ -71,9 +71,9 @@ Snapshot snapshot_of(const Candidate& candidate) {
   return out;
 }
 
-Candidate candidate_of(const Snapshot& snapshot) {
+CaseCandidate candidate_of(const Snapshot& snapshot) {
   CONTACTCHECK_INVARIANT(snapshot.bodies.size() == 2, "two bodies");
-  Candidate out;
+  CaseCandidate out;
   for (std::size_t m = 0; m < 2; ++m) {
     const Body& body = snapshot.bodies[m];
     out.names[m] = body.name;
@@ -84,8 +84,8 @@ Candidate candidate_of(const Snapshot& snapshot) {
   return out;
 }
 
-std::vector<Candidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells) {
-  Candidate base;
+std::vector<CaseCandidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells) {
+  CaseCandidate base;
   base.on_nodes = true;
   for (std::size_t m = 0; m < 2; ++m) {
     const BodyShape& shape = *snapshot.bodies[m].shape;
@@ -93,7 +93,7 @@ std::vector<Candidate> cell_candidates(const Snapshot& snapshot, const CellPair&
     base.names[m] = snapshot.bodies[m].name;
     base.meshes[m].vertices.assign(corners.begin(), corners.end());
   }
-  std::vector<Candidate> out;
+  std::vector<CaseCandidate> out;
   for (const Triangle& first : kFaceTriangles)
     for (const Triangle& second : kFaceTriangles) {
       base.meshes[0].triangles = {first};
@@ -103,8 +103,8 @@ std::vector<Candidate> cell_candidates(const Snapshot& snapshot, const CellPair&
   return out;
 }
 
-Candidate with_pieces(const Candidate& candidate, const std::vector<Piece>& pieces) {
-  Candidate out;
+CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piece>& pieces) {
+  CaseCandidate out;
   out.names = candidate.names;
   out.on_nodes = candidate.on_nodes;
   std::array<std::vector<Triangle>, 2> triangles;
@@ -115,21 +115,21 @@ Candidate with_pieces(const Candidate& candidate, const std::vector<Piece>& piec
   return out;
 }
 
-std::vector<Piece> pieces_of(const Candidate& candidate) {
+std::vector<Piece> pieces_of(const CaseCandidate& candidate) {
   std::vector<Piece> out;
   for (std::uint32_t m = 0; m < 2; ++m)
     for (std::uint32_t t = 0; t < candidate.meshes[m].triangles.size(); ++t) out.push_back({m, t});
   return out;
 }
 
-std::vector<double> coordinates_of(const Candidate& candidate) {
+std::vector<double> coordinates_of(const CaseCandidate& candidate) {
   std::vector<double> out;
   for (const TriangleMesh& mesh : candidate.meshes)
     for (const Vec3& v : mesh.vertices) out.insert(out.end(), {v.x(), v.y(), v.z()});
   return out;
 }
 
-Candidate with_coordinates(Candidate candidate, const std::vector<double>& coordinates) {
+CaseCandidate with_coordinates(CaseCandidate candidate, const std::vector<double>& coordinates) {
   CONTACTCHECK_INVARIANT(coordinates.size() == 3 * candidate.vertices(), "three per vertex");
   std::size_t at = 0;
   for (TriangleMesh& mesh : candidate.meshes)
@@ -138,14 +138,14 @@ Candidate with_coordinates(Candidate candidate, const std::vector<double>& coord
   return candidate;
 }
 
-std::vector<int> dimensions_of(const Candidate& candidate) {
+std::vector<int> dimensions_of(const CaseCandidate& candidate) {
   std::vector<int> out;
   for (const TriangleMesh& mesh : candidate.meshes)
     for (const Triangle& t : mesh.triangles) out.push_back(dimension_of(triangle_corners(mesh, t)));
   return out;
 }
 
-bool in_general_position(const Candidate& candidate, const TrianglePair& pair) {
+bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair) {
   std::array<oracle::TriangleCorners, 2> both;
   for (std::size_t m = 0; m < 2; ++m)
     both[m] = triangle_corners(candidate.meshes[m], candidate.meshes[m].triangles[pair[m]]);

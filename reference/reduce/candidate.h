@@ -19,7 +19,7 @@ struct Snapshot {
 };
 
 /// Two meshes whose vertices stand where they are judged.
-struct Candidate {
+struct CaseCandidate {
   std::array<std::string, 2> names;  ///< of the bodies
   std::array<TriangleMesh, 2> meshes;
   /// The vertices are nodes of a lattice (make_node_shape); else there is no lattice, and the rest
@@ -31,10 +31,10 @@ struct Candidate {
 };
 
 /// @pre both meshes have a triangle, and all coordinates are finite
-Snapshot snapshot_of(const Candidate& candidate);
+Snapshot snapshot_of(const CaseCandidate& candidate);
 
 /// The bodies of a frame without their lattices and rest shapes.
-Candidate candidate_of(const Snapshot& snapshot);
+CaseCandidate candidate_of(const Snapshot& snapshot);
 
 /// Ids of two kept cells, of the first and of the second body.
 using CellPair = std::array<std::uint32_t, 2>;
@@ -42,7 +42,7 @@ using CellPair = std::array<std::uint32_t, 2>;
 /// The two cells alone, for detectors that test mapped cells: each body is the 8 nodes of its cell
 /// and one triangle between three of them, on lattice nodes; one candidate for every pair of such
 /// triangles in the faces. @pre both bodies have lattices with these cells
-std::vector<Candidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells);
+std::vector<CaseCandidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells);
 
 /// A triangle of one of the two meshes.
 struct Piece {
@@ -50,25 +50,25 @@ struct Piece {
 };
 
 /// Only these triangles, in the order given, and only their vertices, in the order of the mesh.
-Candidate with_pieces(const Candidate& candidate, const std::vector<Piece>& pieces);
+CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piece>& pieces);
 
 /// All triangles, those of the first mesh first.
-std::vector<Piece> pieces_of(const Candidate& candidate);
+std::vector<Piece> pieces_of(const CaseCandidate& candidate);
 
 /// The coordinates of all vertices, x, y, z after one another, those of the first mesh first.
-std::vector<double> coordinates_of(const Candidate& candidate);
+std::vector<double> coordinates_of(const CaseCandidate& candidate);
 /// The same meshes elsewhere. @pre as many coordinates as coordinates_of gives
-Candidate with_coordinates(Candidate candidate, const std::vector<double>& coordinates);
+CaseCandidate with_coordinates(CaseCandidate candidate, const std::vector<double>& coordinates);
 
 /// Per triangle, in the order of pieces_of, what it really is: 2 with an area, 1 a segment, 0 a
 /// point. Exact.
-std::vector<int> dimensions_of(const Candidate& candidate);
+std::vector<int> dimensions_of(const CaseCandidate& candidate);
 
 /// Ids of two triangles, of the first and of the second mesh.
 using TrianglePair = std::array<std::uint32_t, 2>;
 
 /// True when no corner of either triangle lies in the plane of the other (and both have one): then
 /// a contact of them is a crossing that a small move of any corner does not end. Exact.
-bool in_general_position(const Candidate& candidate, const TrianglePair& pair);
+bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair);
 
 }  // namespace contactcheck

@@ -48,7 +48,7 @@ void require_reducible(const std::string& level) {
 Defect DefectSearch::find(const std::vector<ReductionTask>& tasks) {
   for (const ReductionTask& task : tasks) {
     if (task.snapshot.bodies.size() < 2) continue;
-    const Verdict verdict = probe_.ask(task.snapshot, levels_of(task));
+    const ProbeVerdict verdict = probe_.ask(task.snapshot, levels_of(task));
     const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind);
     if (finding) return defect_of(task, verdict, *finding);
     last_ = verdict;
@@ -56,7 +56,7 @@ Defect DefectSearch::find(const std::vector<ReductionTask>& tasks) {
   refuse_without_finding(tasks);
 }
 
-Defect DefectSearch::defect_of(const ReductionTask& task, const Verdict& verdict,
+Defect DefectSearch::defect_of(const ReductionTask& task, const ProbeVerdict& verdict,
                                const Finding& finding) {
   require_reducible(finding.level);
   Defect defect{task, finding};

@@ -38,7 +38,7 @@ class DefectSearch {
   Defect find(const std::vector<ReductionTask>& tasks);
 
  private:
-  Defect defect_of(const ReductionTask& task, const Verdict& verdict, const Finding& finding);
+  Defect defect_of(const ReductionTask& task, const ProbeVerdict& verdict, const Finding& finding);
   Snapshot bodies_of_error(const ReductionTask& task, const Finding& finding);
   Defect with_two_bodies(const Defect& defect);
   [[noreturn]] void refuse_more_bodies(const ReductionTask& task, const Finding& finding) const;
@@ -48,7 +48,7 @@ class DefectSearch {
   Probe& probe_;
   std::string detector_;
   bool is_case_;
-  Verdict last_;
+  ProbeVerdict last_;
 };
 
 }  // namespace contactcheck

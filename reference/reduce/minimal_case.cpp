@@ -37,7 +37,7 @@ std::string triangle_text(const Triangle& t) {
          "]";
 }
 
-std::string body_text(const Candidate& candidate, std::size_t m) {
+std::string body_text(const CaseCandidate& candidate, std::size_t m) {
   const TriangleMesh& mesh = candidate.meshes[m];
   return "    {\n      \"name\": " + quoted(candidate.names[m]) +
          ",\n      \"mesh\": {\n        \"vertices\": [\n" +

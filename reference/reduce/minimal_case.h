@@ -16,7 +16,7 @@ struct MinimalCase {
   std::string detector;  ///< canonical name
   std::string library;   ///< with its version, where the detector is one's; or empty
   Finding finding;
-  Candidate candidate;
+  CaseCandidate candidate;
   std::vector<Level> levels;  ///< at which it is judged
 };
 

@@ -87,7 +87,7 @@ std::string counted(std::uint64_t count, const std::string& level) {
 
 }  // namespace
 
-CaseAnswers answers_of(const MinimalCase& c, const Verdict& verdict) {
+CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   if (c.finding.kind == "error")
     return {"any answer, but an answer",
             described(c.finding) + (verdict.message.empty() ? "" : ": " + verdict.message)};

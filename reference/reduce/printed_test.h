@@ -11,7 +11,7 @@ namespace contactcheck {
 struct CaseAnswers {
   std::string exact, detector;
 };
-CaseAnswers answers_of(const MinimalCase& minimal, const Verdict& verdict);
+CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
 
 /// A GoogleTest in plain C++17 that needs `<array>` alone: the vertices and triangles of both
 /// meshes bit for bit, with what is to be expected, and what was answered, in comments.

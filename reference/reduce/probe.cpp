@@ -43,7 +43,7 @@ void Probe::pass_on_interrupt() {
   interrupts_.pass_on();
 }
 
-Verdict Probe::ask(const Snapshot& snapshot, const std::vector<Level>& levels) {
+ProbeVerdict Probe::ask(const Snapshot& snapshot, const std::vector<Level>& levels) {
   pass_on_interrupt();  // quick answers leave no time to look while they are waited for
   ++asked_;
   const std::string request = probe_request(snapshot, levels);
@@ -51,13 +51,13 @@ Verdict Probe::ask(const Snapshot& snapshot, const std::vector<Level>& levels) {
   // does not happen in a fresh process.
   for (int attempt = 0; attempt < 2; ++attempt) {
     if (!connection_) connect();
-    if (const std::optional<Verdict> verdict = exchange(request)) return *verdict;
+    if (const std::optional<ProbeVerdict> verdict = exchange(request)) return *verdict;
   }
   throw std::runtime_error("a worker process ended while it judged a frame, outside any detector");
 }
 
 // Nothing when the process ended before the detector's turn.
-std::optional<Verdict> Probe::exchange(const std::string& request) {
+std::optional<ProbeVerdict> Probe::exchange(const std::string& request) {
   const bool sent = connection_->channel.send(request);
   const std::string own_limit = limit_passed_before_message(kSecondsOfOwnCode);
   if (!sent || !own_limit.empty() || !connection_->channel.receive()) {
@@ -93,10 +93,10 @@ bool Probe::leaves_by_itself() const {
   return true;
 }
 
-Verdict Probe::end_of_process(const std::string& limit) {
+ProbeVerdict Probe::end_of_process(const std::string& limit) {
   if (!limit.empty() || !leaves_by_itself()) connection_->process.kill();
   const int status = connection_->process.reap();
-  Verdict verdict;
+  ProbeVerdict verdict;
   verdict.status = RunStatus::kError;
   verdict.how = limit.empty() ? describe_status(status) : limit;
   verdict.message = printable_line(connection_->process.error_text());

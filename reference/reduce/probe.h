@@ -32,7 +32,7 @@ class Probe {
 
   /// What the detector, made anew, answers, judged at `levels` as `contactcheck run` judges it.
   /// @throws std::runtime_error when the suite's own code cannot judge the frame; Interrupted
-  Verdict ask(const Snapshot& snapshot, const std::vector<Level>& levels);
+  ProbeVerdict ask(const Snapshot& snapshot, const std::vector<Level>& levels);
   /// The next question is asked in a fresh process.
   void restart() { connection_.reset(); }
   std::size_t asked() const { return asked_; }
@@ -46,10 +46,10 @@ class Probe {
 
   void connect();
   void pass_on_interrupt();
-  std::optional<Verdict> exchange(const std::string& request);
+  std::optional<ProbeVerdict> exchange(const std::string& request);
   std::string limit_passed_before_message(double seconds);
   bool leaves_by_itself() const;
-  Verdict end_of_process(const std::string& limit);
+  ProbeVerdict end_of_process(const std::string& limit);
 
   ProbeSettings settings_;
   std::unique_ptr<Connection> connection_;

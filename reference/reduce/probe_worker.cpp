@@ -50,8 +50,8 @@ Scene scene_of(const std::string& request) {
   return scene;
 }
 
-Verdict verdict_of(const RunResult& result) {
-  Verdict out;
+ProbeVerdict verdict_of(const RunResult& result) {
+  ProbeVerdict out;
   out.status = result.status;
   out.message = result.message;
   if (result.status == RunStatus::kError) out.how = "threw";

@@ -21,7 +21,7 @@ class Questions {
  public:
   Questions(const ShowsCandidate& shows, std::size_t budget) : shows_(shows), budget_(budget) {}
 
-  bool operator()(const Candidate& candidate) {
+  bool operator()(const CaseCandidate& candidate) {
     for (const TriangleMesh& mesh : candidate.meshes)
       if (mesh.triangles.empty()) return false;
     const auto [known, is_new] = answers_.try_emplace(key_of(candidate), false);
@@ -39,7 +39,7 @@ class Questions {
   static void append(const T& value, std::string& key) {
     key.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  static std::string key_of(const Candidate& candidate) {
+  static std::string key_of(const CaseCandidate& candidate) {
     std::string key(1, candidate.on_nodes ? 'n' : 'b');
     for (const TriangleMesh& mesh : candidate.meshes) {
       append(mesh.triangles.size(), key);
@@ -76,7 +76,8 @@ std::vector<std::uint32_t> nearest_triangles(const TriangleMesh& mesh, std::uint
   return out;
 }
 
-Candidate surroundings_of(const Candidate& whole, const TrianglePair& pair, std::size_t count) {
+CaseCandidate surroundings_of(const CaseCandidate& whole, const TrianglePair& pair,
+                              std::size_t count) {
   std::vector<Piece> pieces;
   for (std::uint32_t m = 0; m < 2; ++m)
     for (const std::uint32_t t : nearest_triangles(whole.meshes[m], pair[m], count))
@@ -93,14 +94,14 @@ class Reducer {
  public:
   Reducer(const ShowsCandidate& shows, std::size_t budget) : shows_(shows, budget) {}
 
-  std::optional<Reduction> run(const Candidate& whole, const std::optional<TrianglePair>& pair,
-                               const std::vector<Candidate>& cells) {
-    std::optional<Candidate> start;
-    for (const Candidate& candidate : cells)
+  std::optional<Reduction> run(const CaseCandidate& whole, const std::optional<TrianglePair>& pair,
+                               const std::vector<CaseCandidate>& cells) {
+    std::optional<CaseCandidate> start;
+    for (const CaseCandidate& candidate : cells)
       if (!start && shows_(candidate)) start = candidate;
     if (!start) start = find_start(whole, pair);
     if (!start) return std::nullopt;
-    Candidate now = *start;
+    CaseCandidate now = *start;
     while (true) {
       const std::size_t triangles = now.triangles();
       now = with_fewer_triangles(now);
@@ -113,8 +114,8 @@ class Reducer {
   }
 
  private:
-  std::optional<Candidate> find_start(const Candidate& whole,
-                                      const std::optional<TrianglePair>& pair) {
+  std::optional<CaseCandidate> find_start(const CaseCandidate& whole,
+                                          const std::optional<TrianglePair>& pair) {
     const std::size_t largest =
         std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
     for (std::size_t n = 1; pair && n < largest; n *= kGrowth)
@@ -123,7 +124,7 @@ class Reducer {
   }
 
   // Without a lattice there is less to understand.
-  std::optional<Candidate> embedded(Candidate candidate) {
+  std::optional<CaseCandidate> embedded(CaseCandidate candidate) {
     for (const bool on_nodes : {false, true}) {
       candidate.on_nodes = on_nodes;
       if (shows_(candidate)) return candidate;
@@ -131,7 +132,7 @@ class Reducer {
     return std::nullopt;
   }
 
-  Candidate with_fewer_triangles(const Candidate& now) {
+  CaseCandidate with_fewer_triangles(const CaseCandidate& now) {
     const std::vector<Piece> pieces = pieces_of(now);
     const auto subset = [&](const std::vector<std::size_t>& items) {
       std::vector<Piece> kept;
@@ -147,10 +148,10 @@ class Reducer {
     return kept.size() == all.size() ? now : subset(kept);
   }
 
-  Candidate with_simpler_numbers(const Candidate& now) {
+  CaseCandidate with_simpler_numbers(const CaseCandidate& now) {
     const std::vector<int> dimensions = dimensions_of(now);
     const auto shows = [&](const Coordinates& coordinates) {
-      const Candidate moved = with_coordinates(now, coordinates);
+      const CaseCandidate moved = with_coordinates(now, coordinates);
       return none_flatter(dimensions_of(moved), dimensions) && shows_(moved);
     };
     return with_coordinates(now, simplify(coordinates_of(now), 3 * now.meshes[0].vertices.size(),
@@ -162,9 +163,9 @@ class Reducer {
 
 }  // namespace
 
-std::optional<Reduction> reduce(const Candidate& whole, const std::optional<TrianglePair>& pair,
+std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<TrianglePair>& pair,
                                 const ShowsCandidate& shows, std::size_t budget,
-                                const std::vector<Candidate>& cells) {
+                                const std::vector<CaseCandidate>& cells) {
   return Reducer(shows, budget).run(whole, pair, cells);
 }
 

@@ -14,10 +14,10 @@
 namespace contactcheck {
 
 /// Does a candidate still show the defect? Must answer the same to the same candidate.
-using ShowsCandidate = std::function<bool(const Candidate&)>;
+using ShowsCandidate = std::function<bool(const CaseCandidate&)>;
 
 struct Reduction {
-  Candidate result;  ///< shows
+  CaseCandidate result;  ///< shows
   std::size_t evaluations = 0;
   /// Nothing smaller or simpler was found; else the budget was used up.
   bool complete = false;
@@ -31,8 +31,8 @@ struct Reduction {
 ///
 /// `shows` is asked `budget` times at most. Nothing when no start shows: then it takes the lattice
 /// or the rest shape of the scene. @pre without `pair` the defect has no triangles of its own
-std::optional<Reduction> reduce(const Candidate& whole, const std::optional<TrianglePair>& pair,
+std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<TrianglePair>& pair,
                                 const ShowsCandidate& shows, std::size_t budget,
-                                const std::vector<Candidate>& cells = {});
+                                const std::vector<CaseCandidate>& cells = {});
 
 }  // namespace contactcheck

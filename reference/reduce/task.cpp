@@ -128,7 +128,7 @@ void take_bodies(const JsonField& root, const Recording& recording, ReductionTas
 
 // A case without a recording: its two triangles are all there is.
 void take_triangles(const JsonField& root, ReductionTask& task) {
-  Candidate pair;
+  CaseCandidate pair;
   for (std::size_t side = 0; side < 2; ++side) {
     const JsonField element = root.at(side == 0 ? "first" : "second");
     pair.names[side] = element.at("body").text();

@@ -44,20 +44,20 @@ bool matches(const std::string& wanted, const std::string& is) {
   return wanted.empty() || wanted == is;
 }
 
-const Disagreement* find(const Verdict& verdict, const std::string& level,
+const Disagreement* find(const ProbeVerdict& verdict, const std::string& level,
                          const std::string& kind) {
   for (const Disagreement& d : verdict.disagreements)
     if (d.level == level && matches(kind, d.kind)) return &d;
   return nullptr;
 }
 
-bool crosses(const Verdict& verdict, const std::string& level, const std::string& kind) {
+bool crosses(const ProbeVerdict& verdict, const std::string& level, const std::string& kind) {
   return level == name_of(Level::kTriangle) && kind == "missed" && verdict.missed_length > 0.0;
 }
 
 }  // namespace
 
-std::string to_text(const Verdict& v) {
+std::string to_text(const ProbeVerdict& v) {
   Json levels = Json::object(), not_judged = Json::object(), disagreements = Json::array();
   for (const auto& [level, counts] : v.levels) levels[name_of(level)] = counts_json(counts);
   for (const auto& [level, why] : v.not_judged) not_judged[name_of(level)] = why;
@@ -72,9 +72,9 @@ std::string to_text(const Verdict& v) {
   return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Verdict verdict_from_text(const std::string& text) try {
+ProbeVerdict verdict_from_text(const std::string& text) try {
   const Json j = Json::parse(text);
-  Verdict v;
+  ProbeVerdict v;
   v.status = static_cast<RunStatus>(j.at("status").get<int>());
   v.message = j.at("message");
   v.how = j.at("how");
@@ -98,7 +98,7 @@ bool names_triangles(const Finding& finding) {
          (finding.level == name_of(Level::kCell) && finding.kind == "missed");
 }
 
-std::optional<Finding> finding_of(const Verdict& verdict, const std::string& level,
+std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,
                                   const std::string& kind) {
   if (verdict.status == RunStatus::kError && level.empty() && matches(kind, kError))
     return Finding{"", kError, verdict.how};
@@ -112,7 +112,7 @@ std::optional<Finding> finding_of(const Verdict& verdict, const std::string& lev
   return std::nullopt;
 }
 
-bool shows(const Verdict& verdict, const Finding& finding) {
+bool shows(const ProbeVerdict& verdict, const Finding& finding) {
   if (finding.kind == kError)
     return verdict.status == RunStatus::kError && verdict.how == finding.how;
   return verdict.status == RunStatus::kOk &&
@@ -120,7 +120,7 @@ bool shows(const Verdict& verdict, const Finding& finding) {
          (!finding.crossing || crosses(verdict, finding.level, finding.kind));
 }
 
-const Disagreement& disagreement_of(const Verdict& verdict, const Finding& finding) {
+const Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding) {
   const Disagreement* d = find(verdict, finding.level, finding.kind);
   CONTACTCHECK_INVARIANT(d != nullptr, "the verdict shows the finding");
   return *d;

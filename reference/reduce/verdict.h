@@ -11,7 +11,7 @@
 
 namespace contactcheck {
 
-struct Verdict {
+struct ProbeVerdict {
   RunStatus status = RunStatus::kOk;
   std::string message;  ///< of a status other than ok
   /// Of an error, in words that are the same for the same way: "threw", "signal 11 (...)".
@@ -23,15 +23,15 @@ struct Verdict {
   std::vector<Disagreement> disagreements;
 };
 
-std::string to_text(const Verdict& verdict);
+std::string to_text(const ProbeVerdict& verdict);
 /// @throws std::runtime_error for a text that to_text did not make
-Verdict verdict_from_text(const std::string& text);
+ProbeVerdict verdict_from_text(const std::string& text);
 
 /// One thing that is wrong with an answer.
 struct Finding {
   std::string level;     ///< empty for an error
   std::string kind;      ///< missed, spurious or error
-  std::string how = {};  ///< of an error, as in Verdict
+  std::string how = {};  ///< of an error, as in ProbeVerdict
   /// Missed triangles that share more than a point: a touching pair in their place would be
   /// another defect.
   bool crossing = false;
@@ -48,13 +48,13 @@ bool names_triangles(const Finding& finding);
 
 /// What is wrong in `verdict` at that level and of that kind (where these are not empty), the
 /// finest level first; none where the detector agrees with the truth.
-std::optional<Finding> finding_of(const Verdict& verdict, const std::string& level,
+std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,
                                   const std::string& kind);
 
 /// True when `verdict` has the same defect.
-bool shows(const Verdict& verdict, const Finding& finding);
+bool shows(const ProbeVerdict& verdict, const Finding& finding);
 
 /// The disagreement that shows it. @pre shows(verdict, finding), no error
-const Disagreement& disagreement_of(const Verdict& verdict, const Finding& finding);
+const Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding);
 
 }  // namespace contactcheck

@@ -44,8 +44,8 @@ std::string fcl_findings(const Json& results) {
       "It tries the separating axes of two triangles in plain double, without a bound on the error "
       "(a known defect of FCL 0.7, its issue 502). Pairs that are apart by less than the rounding "
       "of that test may be reported: neighbours of a corner, an edge or a plane where bodies just "
-      "touch. Every spurious pair of the rows below is closer than 1e-12 metres; the oracle, which "
-      "is exact, says that it does not touch.",
+      "touch. Every spurious pair of the rows below is closer than 1e-12 metres (rounding, unless "
+      "bodies themselves are as small); the oracle, which is exact, says that it does not touch.",
       {{"scene", true, ""},
        {"detector", true, ""},
        {"reported", false, ""},

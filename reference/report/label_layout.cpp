@@ -37,23 +37,23 @@ double side_of(const PicturePoint& a, const PicturePoint& b, const PicturePoint&
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-bool cross(const Segment& a, const Segment& b) {
+bool cross(const PictureSegment& a, const PictureSegment& b) {
   return side_of(a.from, a.to, b.from) * side_of(a.from, a.to, b.to) <= 0.0 &&
          side_of(b.from, b.to, a.from) * side_of(b.from, b.to, a.to) <= 0.0;
 }
 
-bool cross(const Segment& s, const Box& b) {
+bool cross(const PictureSegment& s, const Box& b) {
   const PicturePoint corners[] = {
       {b.x, b.y}, {b.right(), b.y}, {b.right(), b.bottom()}, {b.x, b.bottom()}};
   for (int i = 0; i < 4; ++i)
-    if (cross(s, Segment{corners[i], corners[(i + 1) % 4]})) return true;
+    if (cross(s, PictureSegment{corners[i], corners[(i + 1) % 4]})) return true;
   return false;
 }
 
 class Layout {
  public:
   Layout(const std::vector<LabelledPoint>& points, const Box& area, double radius,
-         const std::vector<Segment>& lines)
+         const std::vector<PictureSegment>& lines)
       : points_(points), area_(area), radius_(radius), lines_(lines), places_(points.size()) {
     for (const LabelledPoint& p : points)
       markers_.push_back({p.x - radius, p.y - radius, 2 * radius, 2 * radius});
@@ -112,7 +112,7 @@ class Layout {
     return true;
   }
 
-  Segment leader_of(std::size_t i, const LabelPlace& place) const {
+  PictureSegment leader_of(std::size_t i, const LabelPlace& place) const {
     return {{points_[i].x, points_[i].y}, *place.leader};
   }
 
@@ -138,14 +138,14 @@ class Layout {
 
   double covered_lines(const Box& box) const {
     double count = 0;
-    for (const Segment& line : lines_) count += cross(line, box);
+    for (const PictureSegment& line : lines_) count += cross(line, box);
     return count;
   }
 
   const std::vector<LabelledPoint>& points_;
   Box area_;
   double radius_;
-  const std::vector<Segment>& lines_;
+  const std::vector<PictureSegment>& lines_;
   std::vector<Box> markers_;
   std::vector<std::optional<LabelPlace>> places_;
   double least_ = 0.0, cost_ = 0.0;
@@ -162,7 +162,7 @@ bool overlap(const Box& a, const Box& b) {
 // not.)
 std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelledPoint>& points,
                                                     const Box& area, double radius,
-                                                    const std::vector<Segment>& lines) {
+                                                    const std::vector<PictureSegment>& lines) {
   std::mt19937 random(1);
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -26,7 +26,7 @@ struct PicturePoint {
   double x = 0, y = 0;
 };
 
-struct Segment {
+struct PictureSegment {
   PicturePoint from, to;
 };
 
@@ -43,6 +43,6 @@ struct LabelPlace {
 /// points give the same places.
 std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelledPoint>& points,
                                                     const Box& area, double radius,
-                                                    const std::vector<Segment>& lines = {});
+                                                    const std::vector<PictureSegment>& lines = {});
 
 }  // namespace contactcheck

@@ -244,7 +244,7 @@ class SpeedErrorPlot {
   LogAxis time_;
   ErrorAxis error_;
   std::vector<LegendEntry> legend_;
-  std::vector<Segment> fronts_;
+  std::vector<PictureSegment> fronts_;
   double top_;
   Svg svg_;
 };

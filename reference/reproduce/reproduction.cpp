@@ -81,7 +81,7 @@ Json steps_of(const Json& results, const PaperTables& tables, const std::string&
   Json out = Json::array();
   for (const char* method : kMethods) {
     Json row = {{"method", method}, {"paper_reports", paper_times(tables, paper_scene, method)}};
-    for (const Reading& reading : kReadings) {
+    for (const MethodReading& reading : kReadings) {
       const Json run =
           find_run(results, scene_of_paper(paper_scene), method + std::string(reading.suffix));
       row[reading.id] = timed(run) ? our_times(run) : Json(nullptr);
@@ -141,7 +141,7 @@ Json ratios_of(const Json& results, const PaperTables& tables, const std::string
   for (const Comparison& c : kComparisons) {
     Json row = {
         {"before", c.before}, {"after", c.after}, {"paper_reports", paper_ratio(tables, scene, c)}};
-    for (const Reading& reading : kReadings) {
+    for (const MethodReading& reading : kReadings) {
       const Json before =
           find_run(results, scene_of_paper(scene), c.before + std::string(reading.suffix));
       const Json after =

@@ -11,17 +11,18 @@
 namespace contactcheck {
 
 /// One way to read the paper's method, as the end of a detector's name.
-struct Reading {
+struct MethodReading {
   const char* id;      ///< key in the document
   const char* suffix;  ///< after the method's id
   const char* says;    ///< for a report
 };
 
 /// Headlines are at `safe`; `paper` stands beside it with what it missed.
-inline constexpr std::array<Reading, 3> kReadings = {
-    Reading{"safe", ":bounds=safe", "bounds that contain what they bound, node against plane"},
-    Reading{"paper", "", "as the paper is written, node against plane"},
-    Reading{"exact", "+tri", "safe bounds, exact triangle test"}};
+inline constexpr std::array<MethodReading, 3> kReadings = {
+    MethodReading{"safe", ":bounds=safe",
+                  "bounds that contain what they bound, node against plane"},
+    MethodReading{"paper", "", "as the paper is written, node against plane"},
+    MethodReading{"exact", "+tri", "safe bounds, exact triangle test"}};
 
 /// Methods in the paper's order: no spheres, one level, two, N.
 inline constexpr std::array<const char*, 4> kMethods = {"ffd-aabb", "ffd-aabb-sphere",

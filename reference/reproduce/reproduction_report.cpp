@@ -64,7 +64,7 @@ std::string times_table(const Json& steps) {
           time_line(text(row.at("method")),
                     fmt::format("paper, {}, {}", text(paper.at("table")), text(paper.at("device"))),
                     paper, false);
-    for (const Reading& reading : kReadings)
+    for (const MethodReading& reading : kReadings)
       out += time_line(text(row.at("method")), fmt::format("ours, {}", reading.id),
                        row.at(reading.id), true);
   }
@@ -81,7 +81,7 @@ std::string ratios_table(const Json& ratios) {
       out += table_line({from, to, "paper, " + text(paper.at("table")),
                          fmt::format("{:.2f}x", paper.at("test").get<double>()),
                          fmt::format("{:.3f}x", paper.at("total").get<double>()), "-", "-"});
-    for (const Reading& reading : kReadings) {
+    for (const MethodReading& reading : kReadings) {
       const Json& ours = row.at(reading.id);
       if (ours.is_null()) continue;
       out += table_line({from, to, fmt::format("ours, {}", reading.id),
@@ -176,7 +176,7 @@ std::string introduction(const Json& reproduction) {
       "- contactcheck {}\n\nReadings of the method:\n\n",
       text(reproduction.at("command")), text(machine.at("cpu")), format_count(machine.at("cores")),
       text(machine.at("isa")), text(machine.at("os")), text(reproduction.at("version")));
-  for (const Reading& reading : kReadings)
+  for (const MethodReading& reading : kReadings)
     out += fmt::format("- `{}`: {}\n", reading.id, reading.says);
   return out +
          "\nMSS is the deformation with gravity and ground; CELL maps every vertex and updates the "

@@ -19,8 +19,8 @@ MinimalCase minimal_case(const Finding& finding) {
   return out;
 }
 
-Verdict verdict(const Finding& finding) {
-  Verdict v;
+ProbeVerdict verdict(const Finding& finding) {
+  ProbeVerdict v;
   Disagreement d;
   d.level = finding.level;
   d.kind = finding.kind;
@@ -80,7 +80,7 @@ TEST(AnswersOf, SayWhatIsTrueAtEveryLevel) {
 }
 
 TEST(AnswersOf, AnErrorSayHowItEnded) {
-  Verdict v;
+  ProbeVerdict v;
   v.status = RunStatus::kError;
   v.how = "threw";
   v.message = "stack overflow in tree";

@@ -16,17 +16,17 @@ using testing::ElementsAre;
 
 constexpr std::size_t kPlenty = 100'000;
 
-ContactSet truth_of(const Candidate& candidate) {
+ContactSet truth_of(const CaseCandidate& candidate) {
   const Snapshot snapshot = snapshot_of(candidate);
   std::vector<std::vector<Vec3>> vertices;
   for (const TriangleMesh& mesh : candidate.meshes) vertices.push_back(mesh.vertices);
   return Oracle(snapshot.bodies).judge(make_frame(0, 0.0, snapshot.nodes, vertices), {}).surface;
 }
 
-bool touches(const Candidate& candidate) { return !truth_of(candidate).triangles.empty(); }
+bool touches(const CaseCandidate& candidate) { return !truth_of(candidate).triangles.empty(); }
 
 /// Every coordinate is a whole number of one figure.
-bool small_whole_numbers(const Candidate& candidate) {
+bool small_whole_numbers(const CaseCandidate& candidate) {
   for (const double x : coordinates_of(candidate))
     if (x != std::nearbyint(x) || std::abs(x) > 9.0) return false;
   return true;
@@ -45,7 +45,7 @@ TEST(Reduce, WhateverTouchesToTwoTrianglesOfSmallWholeNumbers) {
 
 // As a detector that is wrong where three triangles of a body are in play.
 TEST(Reduce, KeepsAllTrianglesThatItTakes) {
-  const auto shows = [](const Candidate& c) {
+  const auto shows = [](const CaseCandidate& c) {
     return c.meshes[0].triangles.size() >= 3 && touches(c);
   };
   const auto reduction = reduce(two_boxes(), std::nullopt, shows, kPlenty);
@@ -56,7 +56,7 @@ TEST(Reduce, KeepsAllTrianglesThatItTakes) {
 }
 
 TEST(Reduce, KeepsTheNumbersThatItTakes) {
-  const auto shows = [](const Candidate& c) {
+  const auto shows = [](const CaseCandidate& c) {
     const std::vector<double> all = coordinates_of(c);
     return touches(c) && *std::max_element(all.begin(), all.end()) > 1.3 &&
            *std::min_element(all.begin(), all.end()) == 0.1;
@@ -68,10 +68,10 @@ TEST(Reduce, KeepsTheNumbersThatItTakes) {
 }
 
 TEST(Reduce, StartsWithThePairAlone) {
-  const Candidate boxes = two_boxes();
+  const CaseCandidate boxes = two_boxes();
   const ElementPair pair = truth_of(boxes).triangles.front();
   std::vector<std::size_t> sizes;
-  const auto shows = [&](const Candidate& c) {
+  const auto shows = [&](const CaseCandidate& c) {
     sizes.push_back(c.triangles());
     return touches(c);
   };
@@ -80,10 +80,10 @@ TEST(Reduce, StartsWithThePairAlone) {
 }
 
 TEST(Reduce, GrowsThePairUntilItShows) {
-  const Candidate boxes = two_boxes(4);
+  const CaseCandidate boxes = two_boxes(4);
   const ElementPair pair = truth_of(boxes).triangles.front();
   std::vector<std::size_t> sizes;
-  const auto shows = [&](const Candidate& c) {
+  const auto shows = [&](const CaseCandidate& c) {
     sizes.push_back(c.triangles());
     return c.triangles() >= 7 && touches(c);
   };
@@ -94,7 +94,7 @@ TEST(Reduce, GrowsThePairUntilItShows) {
 }
 
 TEST(Reduce, TakesALatticeWhereItNeedsOne) {
-  const auto shows = [](const Candidate& c) { return c.on_nodes && touches(c); };
+  const auto shows = [](const CaseCandidate& c) { return c.on_nodes && touches(c); };
   const auto reduction = reduce(two_boxes(), std::nullopt, shows, kPlenty);
   ASSERT_TRUE(reduction);
   EXPECT_TRUE(reduction->result.on_nodes);
@@ -103,7 +103,7 @@ TEST(Reduce, TakesALatticeWhereItNeedsOne) {
 
 TEST(Reduce, GivesNothingWhereNoStartShows) {
   EXPECT_FALSE(reduce(
-      two_boxes(), TrianglePair{0, 0}, [](const Candidate&) { return false; }, kPlenty));
+      two_boxes(), TrianglePair{0, 0}, [](const CaseCandidate&) { return false; }, kPlenty));
 }
 
 TEST(Reduce, GivesTheSameEveryTime) {
@@ -116,7 +116,7 @@ TEST(Reduce, GivesTheSameEveryTime) {
 
 TEST(Reduce, AsksNoMoreThanTheBudgetAndNothingTwice) {
   std::size_t asked = 0;
-  const auto shows = [&](const Candidate& c) {
+  const auto shows = [&](const CaseCandidate& c) {
     ++asked;
     return touches(c);
   };
@@ -130,18 +130,18 @@ TEST(Reduce, AsksNoMoreThanTheBudgetAndNothingTwice) {
 
 TEST(Reduce, DoesNotFlattenTriangles) {
   // A segment and a triangle, apart.
-  const Candidate start = two_triangles({0.3, 0.1, 0.7, 1.3, 0.1, 0.7, 2.3, 0.1, 0.7,  //
-                                         5.1, 0.2, 0.3, 6.4, 0.2, 0.3, 5.1, 7.7, 0.3});
+  const CaseCandidate start = two_triangles({0.3, 0.1, 0.7, 1.3, 0.1, 0.7, 2.3, 0.1, 0.7,  //
+                                             5.1, 0.2, 0.3, 6.4, 0.2, 0.3, 5.1, 7.7, 0.3});
   ASSERT_THAT(dimensions_of(start), ElementsAre(1, 2));
   const auto reduction = reduce(
-      start, std::nullopt, [](const Candidate& c) { return !touches(c); }, kPlenty);
+      start, std::nullopt, [](const CaseCandidate& c) { return !touches(c); }, kPlenty);
   ASSERT_TRUE(reduction);
   EXPECT_THAT(dimensions_of(reduction->result), ElementsAre(1, 2));
 }
 
 TEST(WithPieces, KeepsTheOrderOfTrianglesAndDropsUnusedVertices) {
-  const Candidate boxes = two_boxes(1);
-  const Candidate part = with_pieces(boxes, {{0, 4}, {0, 7}, {1, 11}});
+  const CaseCandidate boxes = two_boxes(1);
+  const CaseCandidate part = with_pieces(boxes, {{0, 4}, {0, 7}, {1, 11}});
   ASSERT_EQ(part.meshes[0].triangles.size(), 2u);
   EXPECT_EQ(part.meshes[1].vertices.size(), 3u);
   const auto corners = [](const TriangleMesh& mesh, std::size_t t) {
@@ -156,7 +156,7 @@ TEST(WithPieces, KeepsTheOrderOfTrianglesAndDropsUnusedVertices) {
 
 TEST(SnapshotOf, PutsTheVerticesWhereTheyAreWithAndWithoutALattice) {
   for (const bool on_nodes : {false, true}) {
-    Candidate boxes = two_boxes();
+    CaseCandidate boxes = two_boxes();
     boxes.on_nodes = on_nodes;
     const Snapshot snapshot = snapshot_of(boxes);
     EXPECT_EQ(snapshot.bodies[0].shape->lattice.has_value(), on_nodes);
@@ -173,9 +173,9 @@ Snapshot two_cells() {
 
 TEST(CellCandidates, HaveTheNodesOfTheirCellsBitForBit) {
   const Snapshot cells = two_cells();
-  const std::vector<Candidate> candidates = cell_candidates(cells, {0, 0});
+  const std::vector<CaseCandidate> candidates = cell_candidates(cells, {0, 0});
   ASSERT_EQ(candidates.size(), 144u);
-  for (const Candidate& c : candidates) {
+  for (const CaseCandidate& c : candidates) {
     const Snapshot alone = snapshot_of(c);
     for (std::size_t b = 0; b < 2; ++b) {
       ASSERT_EQ(alone.bodies[b].shape->lattice->cells.size(), 1u);
@@ -186,7 +186,7 @@ TEST(CellCandidates, HaveTheNodesOfTheirCellsBitForBit) {
 
 TEST(Reduce, StartsWithTheCellsAloneAndKeepsAllTheirNodes) {
   const Snapshot cells = two_cells();
-  const auto boxes_overlap = [](const Candidate& c) {
+  const auto boxes_overlap = [](const CaseCandidate& c) {
     const Snapshot s = snapshot_of(c);
     WantedTruth wanted;
     wanted.boxes = true;

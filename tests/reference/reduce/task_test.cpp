@@ -106,7 +106,7 @@ TEST_F(Case, WithoutARecordingIsItsTwoTriangles) {
   scratch_.write("cases/0001.json", c.dump());
   const ReductionTask task = read_case(file_);
   EXPECT_EQ(task.pair, (TrianglePair{0, 0}));
-  const Candidate pair = candidate_of(task.snapshot);
+  const CaseCandidate pair = candidate_of(task.snapshot);
   EXPECT_EQ(pair.names[1], "moving");
   for (std::size_t side = 0; side < 2; ++side) {
     const Triangle& t = scene_.bodies[side].shape->mesh.triangles[side == 0 ? 5 : 17];

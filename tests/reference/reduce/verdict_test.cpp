@@ -13,8 +13,8 @@ Disagreement disagreement(const std::string& level, const std::string& kind) {
   return d;
 }
 
-Verdict missed_and_spurious() {
-  Verdict v;
+ProbeVerdict missed_and_spurious() {
+  ProbeVerdict v;
   v.levels[Level::kTriangle] = {9, 8, 7, 2, 1};
   v.not_judged[Level::kVertex] = "not judged: open";
   v.missed_length = 0.1;
@@ -23,8 +23,8 @@ Verdict missed_and_spurious() {
   return v;
 }
 
-TEST(Verdict, ReadsBackFromItsText) {
-  const Verdict v = verdict_from_text(to_text(missed_and_spurious()));
+TEST(ProbeVerdict, ReadsBackFromItsText) {
+  const ProbeVerdict v = verdict_from_text(to_text(missed_and_spurious()));
   EXPECT_EQ(v.status, RunStatus::kOk);
   EXPECT_EQ(v.levels.at(Level::kTriangle).missed, 2u);
   EXPECT_EQ(v.levels.at(Level::kTriangle).truth, 9u);
@@ -35,18 +35,18 @@ TEST(Verdict, ReadsBackFromItsText) {
   EXPECT_EQ(v.disagreements[1].kind, "missed");
 }
 
-TEST(Verdict, OfAnErrorKeepsTextThatIsNoUtf8) {
-  Verdict v;
+TEST(ProbeVerdict, OfAnErrorKeepsTextThatIsNoUtf8) {
+  ProbeVerdict v;
   v.status = RunStatus::kError;
   v.how = "threw";
   v.message = "caf\xe9";
-  const Verdict again = verdict_from_text(to_text(v));
+  const ProbeVerdict again = verdict_from_text(to_text(v));
   EXPECT_EQ(again.status, RunStatus::kError);
   EXPECT_EQ(again.how, "threw");
   EXPECT_EQ(again.message.substr(0, 3), "caf");
 }
 
-TEST(Verdict, RefusesTextOfAnotherKind) {
+TEST(ProbeVerdict, RefusesTextOfAnotherKind) {
   EXPECT_THROW(verdict_from_text("hello"), std::runtime_error);
   EXPECT_THROW(verdict_from_text("{}"), std::runtime_error);
 }
@@ -64,11 +64,11 @@ TEST(FindingOf, TakesWhatIsAskedFor) {
             "spurious at level triangle");
   EXPECT_FALSE(finding_of(missed_and_spurious(), "body", "missed"));
   EXPECT_FALSE(finding_of(missed_and_spurious(), "cell", ""));
-  EXPECT_FALSE(finding_of(Verdict(), "", ""));
+  EXPECT_FALSE(finding_of(ProbeVerdict(), "", ""));
 }
 
 TEST(FindingOf, AnErrorIsOneUnlessALevelIsAskedFor) {
-  Verdict v;
+  ProbeVerdict v;
   v.status = RunStatus::kError;
   v.how = "signal 11 (Segmentation fault)";
   EXPECT_EQ(described(*finding_of(v, "", "")), "error: signal 11 (Segmentation fault)");
@@ -77,7 +77,7 @@ TEST(FindingOf, AnErrorIsOneUnlessALevelIsAskedFor) {
 }
 
 TEST(Shows, TheSameDefectAndNoOther) {
-  Verdict v = missed_and_spurious();
+  ProbeVerdict v = missed_and_spurious();
   const Finding crossing = *finding_of(v, "triangle", "missed");
   EXPECT_TRUE(shows(v, crossing));
   v.missed_length = 0.0;  // what is missed now only touches
@@ -87,7 +87,7 @@ TEST(Shows, TheSameDefectAndNoOther) {
 }
 
 TEST(Shows, AnErrorOnlyOfTheSameWay) {
-  Verdict v;
+  ProbeVerdict v;
   v.status = RunStatus::kError;
   v.how = "time limit";
   EXPECT_TRUE(shows(v, Finding{"", "error", "time limit"}));

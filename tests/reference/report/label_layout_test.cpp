@@ -84,7 +84,7 @@ TEST(LabelLayout, LeadersJoinBoxesThatStandAway) {
 }
 
 TEST(LabelLayout, KeepsALineFree) {
-  const Segment line{{0, 200}, {900, 200}};
+  const PictureSegment line{{0, 200}, {900, 200}};
   const Places places = place_labels({{400, 200, 100, 12}}, kArea, kRadius, {line});
   EXPECT_TRUE(places[0]->box.bottom() < 200 || places[0]->box.y > 200);
 }

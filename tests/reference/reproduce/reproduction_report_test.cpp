@@ -59,7 +59,7 @@ TEST(ReproductionMarkdown, BeginsWithTheRunAndItsReadings) {
   EXPECT_THAT(text, testing::StartsWith("# The paper's tables beside ours\n"));
   EXPECT_THAT(text, HasSubstr("- command: `contactcheck reproduce`\n"));
   EXPECT_THAT(text, HasSubstr("- machine: a cpu, 2 cores, avx2, an os\n- contactcheck 1.2.3\n"));
-  for (const Reading& reading : kReadings)
+  for (const MethodReading& reading : kReadings)
     EXPECT_THAT(text, HasSubstr(std::string("- `") + reading.id + "`: " + reading.says + "\n"));
 }
 

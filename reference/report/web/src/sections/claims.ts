@@ -76,7 +76,7 @@ function fclFinding(report: Report): Child[] {
   return claim("FCL takes gaps below rounding for contact",
     "It tries the separating axes of two triangles in plain double, without a bound on the error (a known defect of FCL 0.7, its issue 502). Pairs "
     + "that are apart by less than the rounding of that test may be reported: neighbours of a corner, an edge or a plane where bodies just touch. "
-    + "Every spurious pair of the rows below is closer than 1e-12 metres; the oracle, which is exact, says that it does not touch.",
+    + "Every spurious pair of the rows below is closer than 1e-12 metres (rounding, unless bodies themselves are as small); the oracle, which is exact, says that it does not touch.",
     [left("scene"), left("detector"), right("reported"), right("spurious"), right("farthest apart, mm")], rows);
 }
 

@@ -20,6 +20,7 @@
 #include <algorithm>
 
 #include "reference/oracle/exact_tests.h"
+#include "reference/oracle/point_box.h"
 
 namespace contactcheck::oracle {
 namespace {

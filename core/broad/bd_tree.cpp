@@ -61,14 +61,14 @@ BdTreeOf<T>::BdTreeOf(std::shared_ptr<const BdModel> model, const BdSettings& se
       vertices_(vertex_frame_.size()) {}
 
 template <typename T>
-void BdTreeOf<T>::begin_frame(std::span<const Vec3> nodes) {
+void BdTreeOf<T>::begin_frame(std::span<const Vec3> nodes, const Vec3& origin) {
   const std::vector<Vec3>& rest = model_->reference.rest();
   CONTACTCHECK_INVARIANT(nodes.size() == rest.size(), "one position per node");
   ++frame_;
   evaluated_spheres_ = mapped_vertices_ = 0;
   nodes_ = nodes;
   largest_ = largest_coordinate(nodes);
-  const AffineMap map = model_->reference.fit(settings_.reference, nodes);
+  const AffineMap map = model_->reference.fit(settings_.reference, nodes, origin);
   stretch_ = spectral_norm_bound(map.linear);
   const double error =
       16.0 * 0x1p-53 * (model_->reference.largest_value(map) + largest_) + 0x1p-1000;

@@ -52,9 +52,8 @@
 // - a vertex is mapped from local coordinates rounded to floats, by at most v / 2 each, and along
 //   each axis its exact image changes by at most 2 M over the cell: 3 v M; mapping_error_bound() of
 //   floats on top
-// - the centre errs by v M when it is rounded to floats, and by less than the smallest float when
-// it
-//   is below their range
+// - the centre errs by v M when it is rounded to floats, and by less than the smallest float where
+//   it is below their range
 // The radius is rounded up. M is at most kSingleLimit, so no centre overflows; a radius does to
 // infinity. collide_safe() has the constants of floats.
 //
@@ -94,9 +93,11 @@ class BdTreeOf {
 
   /// Fits the reference map and measures the displacements: O(lattice nodes). Reads nothing of an
   /// earlier call. The nodes must outlive what is asked about them.
+  /// @param origin  what was subtracted from the nodes; it decides how tight ReferenceKind::kNone
+  ///                is, and no sphere's soundness
   /// @pre one finite position per lattice node; T float: every coordinate is one, within
   /// kSingleLimit (local_origin.h)
-  void begin_frame(std::span<const Vec3> nodes);
+  void begin_frame(std::span<const Vec3> nodes, const Vec3& origin = Vec3::Zero());
 
   const TriangleTree& tree() const { return model_->tree; }
   const SphereOf<T>& sphere(std::uint32_t node) const {

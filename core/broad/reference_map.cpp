@@ -55,12 +55,13 @@ ReferenceFit::ReferenceFit(std::vector<Vec3> rest) : rest_(std::move(rest)) {
   inverse_moment_ = moment.inverse();
 }
 
-AffineMap ReferenceFit::fit(ReferenceKind kind, std::span<const Vec3> nodes) const {
+AffineMap ReferenceFit::fit(ReferenceKind kind, std::span<const Vec3> nodes,
+                            const Vec3& origin) const {
   AffineMap map;
   map.origin = center_;
   if (kind == ReferenceKind::kNone) {
     map.linear.setIdentity();
-    map.offset = center_;
+    map.offset = center_ - origin;
   } else {
     map.offset = mean_of(nodes);
     map.linear = fitted_linear(kind, nodes, map.offset);

@@ -16,7 +16,7 @@ namespace contactcheck {
 enum class ReferenceKind {
   kAffine,  ///< least squares over the nodes
   kRigid,   ///< the least-squares rotation and translation
-  kNone     ///< the identity: displacements are counted from where the body was at rest
+  kNone     ///< a translation: displacements are counted from where the body was at rest
 };
 
 /// T(x) = linear * (x - origin) + offset. Its doubles are its definition.
@@ -47,8 +47,11 @@ class ReferenceFit {
 
   /// The map of the kind asked for; the zero map (linear and offset 0) where that could overflow:
   /// T(rest node) and its difference from the node are always finite.
+  /// @param origin  what was subtracted from the nodes and not from the rest (local_origin.h);
+  ///                kNone takes it off, too, the others find it by themselves
   /// @pre `nodes`: one per rest node, finite
-  AffineMap fit(ReferenceKind kind, std::span<const Vec3> nodes) const;
+  AffineMap fit(ReferenceKind kind, std::span<const Vec3> nodes,
+                const Vec3& origin = Vec3::Zero()) const;
 
   /// Not below the largest |coordinate| of any intermediate value of T(rest node).
   double largest_value(const AffineMap& map) const;

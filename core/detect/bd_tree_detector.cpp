@@ -3,10 +3,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/detect/fed_vertices.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
-#include "core/types/local_origin.h"
 
 namespace contactcheck {
 namespace {
@@ -42,23 +42,21 @@ template <typename T>
 void BdTreeDetectorOf<T>::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == trees_.size(), "one state per prepared body");
   constexpr bool kSingle = std::is_same_v<T, float>;
-  if constexpr (kSingle) round_nodes(frame);
+  const Vec3 origin = kSingle ? local_origin(frame) : Vec3(Vec3::Zero());
+  if constexpr (kSingle) round_nodes(frame, origin);
   for (std::size_t body = 0; body < trees_.size(); ++body)
-    trees_[body].begin_frame(kSingle ? std::span<const Vec3>(rounded_[body])
-                                     : frame.bodies[body].nodes);
+    trees_[body].begin_frame(
+        kSingle ? std::span<const Vec3>(rounded_[body]) : frame.bodies[body].nodes, origin);
 }
 
 // As doubles again: spheres are computed from them in doubles.
 template <typename T>
-void BdTreeDetectorOf<T>::round_nodes(const Frame& frame) {
-  const Vec3 origin = local_origin(frame);
+void BdTreeDetectorOf<T>::round_nodes(const Frame& frame, const Vec3& origin) {
+  round_bodies(frame, &BodyState::nodes, origin, floats_);
   rounded_.resize(trees_.size());
-  std::vector<Vec3f> floats;
   for (std::size_t body = 0; body < trees_.size(); ++body) {
-    floats.resize(frame.bodies[body].nodes.size());
-    round_to_local(frame.bodies[body].nodes, origin, floats);
     rounded_[body].clear();
-    for (const Vec3f& node : floats) rounded_[body].push_back(node.cast<double>());
+    for (const Vec3f& node : floats_[body]) rounded_[body].push_back(node.cast<double>());
   }
 }
 

@@ -37,7 +37,7 @@ class BdTreeDetectorOf : public Detector {
   struct Leaves {
     std::uint32_t body_a, body_b, leaf_a, leaf_b;
   };
-  void round_nodes(const Frame& frame);
+  void round_nodes(const Frame& frame, const Vec3& origin);
   /// Calls `visit(Leaves)` for every two leaves whose spheres overlap; true: the rest of these two
   /// bodies is skipped.
   template <typename Visit>
@@ -51,8 +51,10 @@ class BdTreeDetectorOf : public Detector {
   BdSettings settings_;
   Semantics semantics_;
   std::vector<BdTreeOf<T>> trees_;
-  std::vector<std::vector<Vec3>> rounded_;  // nodes, per body; empty in doubles
-  std::vector<std::uint64_t> triangles_;    // per body
+  // Nodes in single precision, per body: as floats, and these as doubles. Empty in doubles.
+  std::vector<std::vector<Vec3f>> floats_;
+  std::vector<std::vector<Vec3>> rounded_;
+  std::vector<std::uint64_t> triangles_;  // per body
   std::vector<NodePair> stack_;
   std::uint64_t visited_ = 0;  // pairs of spheres compared by the last traversal
 };

@@ -11,6 +11,19 @@
 
 namespace contactcheck {
 
+/// `part` of every body, its nodes or its vertices, about `origin` in floats. `out` keeps its
+/// memory from frame to frame.
+/// @throws RefusedInput when a coordinate is beyond single precision (round_to_local)
+inline void round_bodies(const Frame& frame, std::span<const Vec3> BodyState::*part,
+                         const Vec3& origin, std::vector<std::vector<Vec3f>>& out) {
+  out.resize(frame.bodies.size());
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    const std::span<const Vec3> points = frame.bodies[b].*part;
+    out[b].resize(points.size());
+    round_to_local(points, origin, out[b]);
+  }
+}
+
 template <typename T>
 class FedVertices {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, float>);
@@ -23,7 +36,7 @@ class FedVertices {
       spans_.clear();
       for (const BodyState& body : frame.bodies) spans_.push_back(body.vertices);
     } else {
-      round(frame);
+      round_bodies(frame, &BodyState::vertices, local_origin(frame), rounded_);
       spans_.assign(rounded_.begin(), rounded_.end());
     }
   }
@@ -31,15 +44,6 @@ class FedVertices {
   const std::vector<std::span<const Vec3Of<T>>>& spans() const { return spans_; }
 
  private:
-  void round(const Frame& frame) {
-    const Vec3 origin = local_origin(frame);
-    rounded_.resize(frame.bodies.size());
-    for (std::size_t b = 0; b < rounded_.size(); ++b) {
-      rounded_[b].resize(frame.bodies[b].vertices.size());
-      round_to_local(frame.bodies[b].vertices, origin, rounded_[b]);
-    }
-  }
-
   std::vector<std::vector<Vec3Of<T>>> rounded_;  // empty in doubles
   std::vector<std::span<const Vec3Of<T>>> spans_;
 };

@@ -33,7 +33,7 @@ inline constexpr Precision kPrecision =
     std::is_same_v<T, float> ? Precision::kSingle : Precision::kDouble;
 
 /// What a detector claims that tests triangle pairs exactly. In single precision the triangles are
-/// those of vertices rounded about the local origin: it is not exact.
+/// those of vertices, or of nodes, rounded about the local origin: it is not exact.
 inline Semantics exact_triangle_semantics(Precision precision = Precision::kDouble) {
   Semantics s;
   s.levels = {Level::kBody, Level::kTriangle};

@@ -118,6 +118,16 @@ void check_bd_tree(const BodyFrame& body, MutantFindings& out) {
   }
 }
 
+// All nodes in one point: all that a sphere of floats has to hold is the rounding of the mapping.
+void check_single_bd_tree(const BodyFrame& body, MutantFindings& out) {
+  enter(out, body, "bd-tree in floats", "spheres");
+  BdTreeOf<float> tree(make_bd_model(body.shape, 4), {});
+  const std::vector<Vec3> nodes(body.nodes.size(), Vec3f(0.1f, 0.2f, 0.3f).cast<double>());
+  tree.begin_frame(nodes);
+  const std::string fault = tree.validate();
+  out.expect(fault.empty(), fault);
+}
+
 void check_mapped_leaves(const BodyFrame& body, MutantFindings& out) {
   enter(out, body, "ffd-lazy", "mapping");
   const LatticeTree tree = make_lattice_tree(body.shape, TreeUse::kNodes);
@@ -217,7 +227,9 @@ void check_mapping(const MutantScene& scene, MutantFindings& out) {
 void check_bounds(const MutantScene& scene, MutantFindings& out) {
   for_bodies(scene, [&](const BodyFrame& body) {
     check_triangle_trees(body, out);
-    if (body.shape.lattice) check_bd_tree(body, out);
+    if (!body.shape.lattice) return;
+    check_bd_tree(body, out);
+    check_single_bd_tree(body, out);
   });
   check_lazy_bounds(scene, out);
   if (!scene.lattices) return;

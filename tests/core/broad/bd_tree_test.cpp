@@ -5,179 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "core/broad/bd_tree.h"
-#include "core/deform/mapping.h"
-#include "core/types/local_origin.h"
-#include "tests/support/random_triangles.h"
-#include "tests/support/shapes.h"
+#include "tests/core/broad/bd_deformations.h"
 
 namespace contactcheck {
 namespace {
 
+using test::deformed;
+using test::kNodeCases;
+using test::NodeCase;
+using test::sphere_body;
 using test::TriangleSource;
 
-const BdSettings kVariants[] = {{4, ReferenceKind::kAffine, false},
-                                {4, ReferenceKind::kAffine, true},
-                                {1, ReferenceKind::kRigid, true},
-                                {16, ReferenceKind::kNone, true},
-                                {1, ReferenceKind::kNone, false}};
-
-Body sphere_body(double scale = 1.0, const Vec3& at = Vec3::Zero()) {
-  TriangleMesh mesh = test::sphere_mesh(Vec3::Zero(), 1.0, 2);
-  for (Vec3& v : mesh.vertices) v = scale * v + at;
-  return test::make_body("", mesh, {3, 4, 3});
-}
-
-/// "" or the first broken promise over all variants, in one frame.
 std::string broken(const Body& body, const std::vector<Vec3>& nodes) {
-  for (const BdSettings& settings : kVariants) {
-    BdTree tree(make_bd_model(*body.shape, settings.leaf_size), settings);
-    tree.begin_frame(nodes);
-    const std::string fault = tree.validate();
-    if (!fault.empty()) return fault;
-  }
-  return "";
-}
-
-std::vector<Vec3f> in_floats(const std::vector<Vec3>& nodes) {
-  std::vector<Vec3f> out(nodes.size());
-  round_to_local(nodes, Vec3::Zero(), out);
-  return out;
-}
-
-std::vector<Vec3> in_doubles(const std::vector<Vec3f>& nodes) {
-  std::vector<Vec3> out;
-  for (const Vec3f& n : nodes) out.push_back(n.cast<double>());
-  return out;
-}
-
-/// The same in floats; nodes are rounded first.
-std::string broken_in_floats(const Body& body, const std::vector<Vec3>& exact) {
-  const std::vector<Vec3> nodes = in_doubles(in_floats(exact));
-  for (const BdSettings& settings : kVariants) {
-    BdTreeOf<float> tree(make_bd_model(*body.shape, settings.leaf_size), settings);
-    tree.begin_frame(nodes);
-    const std::string fault = tree.validate();
-    if (!fault.empty()) return fault;
-  }
-  return "";
-}
-
-using Deform = std::function<Vec3(TriangleSource&, const Vec3&)>;
-
-struct Case {
-  const char* name;
-  Deform deform;
-};
-
-const Case kCases[] = {
-    {"rest", [](TriangleSource&, const Vec3& p) -> Vec3 { return p; }},
-    {"noise", [](TriangleSource& random, const Vec3& p) -> Vec3 { return random.point(p, 0.3); }},
-    {"wild noise",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return random.point(p, 50.0); }},
-    {"one point", [](TriangleSource&, const Vec3&) -> Vec3 { return Vec3(0.1, 0.2, 0.3); }},
-    {"a plane",
-     [](TriangleSource&, const Vec3& p) -> Vec3 { return Vec3(p.x(), p.y(), 1.0 / 3.0); }},
-    {"a line",
-     [](TriangleSource&, const Vec3& p) -> Vec3 { return (p.sum() / 3.0) * Vec3(1, 2, 3); }},
-    {"mirrored", [](TriangleSource&, const Vec3& p) -> Vec3 { return Vec3(-p.x(), p.y(), p.z()); }},
-    {"mirrored noise",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 {
-       return random.point(Vec3(-1.1 * p.x(), p.z(), p.y()), 0.1);
-     }},
-    {"far away",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 {
-       return random.point(p, 0.1) + Vec3(1e8, -1e8, 1e8);
-     }},
-    {"very far away",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 {
-       return random.point(p, 0.1) + Vec3(1e15, 1, -1e15);
-     }},
-    {"1e150",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return 1e150 * random.point(p, 0.2); }},
-    {"1e200",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return 1e200 * random.point(p, 0.2); }},
-    {"1e308",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return 1.2e308 * random.point(p, 0.2); }},
-    {"1e-150",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return 1e-150 * random.point(p, 0.2); }},
-    {"1e-310",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 { return 1e-310 * random.point(p, 0.2); }},
-    {"mixed scales",
-     [](TriangleSource& random, const Vec3& p) -> Vec3 {
-       return Vec3(1e120 * p.x(), random.point(p, 0.1).y(), 1e-120 * p.z());
-     }},
-    {"one node torn off", [](TriangleSource& random, const Vec3& p) -> Vec3 {
-       return random.below(40) ? p : Vec3(p * 1e6);
-     }}};
-
-std::vector<Vec3> deformed(const Case& c, std::vector<Vec3> nodes, std::uint64_t seed) {
-  TriangleSource random(seed);
-  for (Vec3& n : nodes) n = c.deform(random, n);
-  return nodes;
+  return test::broken<double>(body, nodes);
 }
 
 TEST(BdTreeSpheres, HoldTheirVerticesHoweverTheLatticeIsDeformed) {
   const Body body = sphere_body();
   const std::vector<Vec3> rest = test::rest_nodes_at(*body.shape, Vec3::Zero());
-  for (const Case& c : kCases) {
+  for (const NodeCase& c : kNodeCases) {
     for (std::uint64_t seed : {1, 2, 3}) {
       const std::vector<Vec3> nodes = deformed(c, rest, seed);
       EXPECT_EQ(broken(body, nodes), "") << c.name;
     }
   }
-}
-
-TEST(BdTreeSpheres, OfFloatsHoldVerticesMappedInFloats) {
-  const Body body = sphere_body();
-  const std::vector<Vec3> rest = test::rest_nodes_at(*body.shape, Vec3::Zero());
-  for (const Case& c : kCases) {
-    for (std::uint64_t seed : {1, 2, 3}) {
-      const std::vector<Vec3> nodes = deformed(c, rest, seed);
-      double largest = 0.0;
-      for (const Vec3& n : nodes) largest = std::max(largest, n.cwiseAbs().maxCoeff());
-      if (largest > kSingleLimit) continue;
-      EXPECT_EQ(broken_in_floats(body, nodes), "") << c.name;
-    }
-  }
-}
-
-TEST(BdTreeSpheres, OfFloatsHoldTheirVerticesOfAnySize) {
-  for (double scale : {1e-50, 1e-44, 1e-38, 1e-19, 1e-9, 1.0, 1e9, 1e12}) {
-    const Body body = sphere_body(scale);
-    TriangleSource random(11);
-    std::vector<Vec3> nodes = test::rest_nodes_at(*body.shape, Vec3::Zero());
-    EXPECT_EQ(broken_in_floats(body, nodes), "") << scale;
-    for (Vec3& n : nodes) n = random.point(n, 0.03 * scale);
-    EXPECT_EQ(broken_in_floats(body, nodes), "") << scale;
-  }
-}
-
-// One triangle that is a point, mapped in floats: all that its sphere has to hold is rounding.
-TEST(BdTreeSpheres, OfFloatsPayForTheRoundingOfVertices) {
-  TriangleSource random(12);
-  double farthest = 0.0;
-  for (int round = 0; round < 300; ++round) {
-    const Vec3 at = random.point(Vec3::Zero(), 0.3);
-    const TriangleMesh point = test::triangle_mesh(at, at, at);
-    TriangleMesh mesh = test::unit_box_mesh(1);
-    for (Vec3& v : mesh.vertices) v -= Vec3::Constant(0.5);
-    mesh.vertices.insert(mesh.vertices.end(), point.vertices.begin(), point.vertices.end());
-    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.triangles = {{n - 3, n - 2, n - 1}};
-    const Body body = test::make_body("", mesh, {1, 1, 1});
-    BdTreeOf<float> tree(make_bd_model(*body.shape, 1), {});
-    std::vector<Vec3> nodes = test::rest_nodes_at(*body.shape, Vec3::Zero());
-    for (Vec3& node : nodes) node = random.point(node, 0.2);
-    nodes = in_doubles(in_floats(nodes));
-    tree.begin_frame(nodes);
-    EXPECT_EQ(tree.validate(), "");
-    const Vec3 off = (tree.vertex(n - 1) - tree.sphere(0).center).cast<double>();
-    farthest = std::max(farthest, off.norm());
-  }
-  EXPECT_GT(farthest, 0x1p-25) << "nothing was rounded";
 }
 
 TEST(BdTreeSpheres, HoldTheirVerticesWhereTheBodyRestsFarOutOrIsTiny) {
@@ -260,21 +112,6 @@ TEST(BdTree, MapsVerticesWithTheCanonicalBits) {
     tree.vertex(0);
     EXPECT_EQ(tree.mapped_vertices(), mapped.vertices[0].size());
   }
-}
-
-TEST(BdTree, MapsVerticesInFloatsWithTheBitsOfTheBatch) {
-  const Body body = sphere_body();
-  TriangleSource random(10);
-  std::vector<Vec3> shaken = test::rest_nodes_at(*body.shape, Vec3::Zero());
-  for (Vec3& n : shaken) n = random.point(n, 0.4);
-  const std::vector<Vec3f> floats = in_floats(shaken);
-  const std::vector<Vec3> nodes = in_doubles(floats);
-  BdTreeOf<float> tree(make_bd_model(*body.shape, 4), {});
-  tree.begin_frame(nodes);
-  const Embedding& embedding = body.shape->embedding;
-  std::vector<Vec3f> expected(body.shape->mesh.vertices.size());
-  map_vertices(*body.shape->lattice, embedding, single_local(embedding), floats, expected);
-  for (std::uint32_t v = 0; v < expected.size(); ++v) EXPECT_EQ(tree.vertex(v), expected[v]);
 }
 
 TEST(BdTree, ComputesASphereOncePerFrame) {

@@ -77,6 +77,8 @@ TEST(ReferenceFit, NoneIsTheIdentityAndOverflowTheZeroMap) {
   const AffineMap none = fit.fit(ReferenceKind::kNone, nodes);
   EXPECT_EQ(none.linear, Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
   EXPECT_EQ(none.origin, none.offset);
+  const Vec3 origin(1000, -20, 3);
+  EXPECT_EQ(fit.fit(ReferenceKind::kNone, nodes, origin).offset, Vec3(none.origin - origin));
   nodes.assign(nodes.size(), Vec3::Constant(1.7e308));
   for (ReferenceKind kind : {ReferenceKind::kAffine, ReferenceKind::kRigid}) {
     const AffineMap map = fit.fit(kind, nodes);

@@ -23,12 +23,13 @@ struct Work {
   std::uint64_t visited = 0, candidates = 0, brute_force = 0;
 };
 
+template <typename T = double>
 Work work_of(const Scene& scene, const BdSettings& settings) {
-  BdTreeDetector detector(settings);
+  BdTreeDetectorOf<T> detector(settings);
   detector.prepare(scene.bodies);
   answer(detector, scene.frames[0], Question::kTriangles);
   Work work;
-  for (const BdTree& tree : detector.trees()) {
+  for (const BdTreeOf<T>& tree : detector.trees()) {
     work.spheres += tree.evaluated_spheres();
     work.vertices += tree.mapped_vertices();
   }
@@ -84,6 +85,27 @@ TEST(BdTreeReference, TakesARigidMotionOutAndTheIdentityDoesNot) {
   EXPECT_LT(20 * affine.candidates, none.candidates);
   EXPECT_LT(20 * rigid.candidates, none.candidates);
   EXPECT_LE(affine.visited, rigid.visited + rigid.visited / 10);
+}
+
+// The local origin is no displacement: at rest far out, the identity excludes as much in floats.
+TEST(BdTreeReference, NoneVisitsAsMuchInFloatsAsInDoubles) {
+  BdSettings settings;
+  settings.paper_bound = true;
+  settings.reference = ReferenceKind::kNone;
+  for (double x : {0.0, 1000.0}) {
+    Scene scene;
+    for (double place : {x, x + 1.9, x + 5.0})
+      scene.bodies.push_back(
+          test::make_body("", test::sphere_mesh(Vec3(place, -x, 0), 1.0, 3), {4, 4, 4}));
+    std::vector<std::vector<Vec3>> rest;
+    for (const Body& body : scene.bodies)
+      rest.push_back(test::rest_nodes_at(*body.shape, Vec3::Zero()));
+    scene.frames = {test::make_frame(scene.bodies, std::move(rest))};
+    const Work doubles = work_of(scene, settings), floats = work_of<float>(scene, settings);
+    EXPECT_GT(doubles.visited, 3u) << x << ": two meet";
+    EXPECT_LT(doubles.visited, doubles.brute_force / 100) << x;
+    EXPECT_LE(floats.visited, doubles.visited + doubles.visited / 10) << x;
+  }
 }
 
 TEST(BdTreeBound, OfOursIsNeverWiderThanThePapersAndHelpsTwistedBodies) {

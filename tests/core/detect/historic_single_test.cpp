@@ -44,17 +44,8 @@ std::vector<std::string> defaults() {
 
 void expect_pairs(const std::string& name, const SingleScene& single,
                   const std::vector<std::vector<ElementPair>>& expected) {
-  const auto detector = prepared(name, single.scene);
-  for (std::size_t f = 0; f < expected.size(); ++f) {
-    const FrameData& frame = single.scene.frames[f];
-    EXPECT_EQ(answer(*detector, frame, Question::kTriangles).triangles, expected[f])
-        << name << " " << single.name << " " << f;
-    ContactSet bodies;
-    bodies.triangles = expected[f];
-    bodies.canonicalize();
-    EXPECT_EQ(answer(*detector, frame, Question::kBody).bodies, bodies.bodies)
-        << name << " " << single.name << " " << f;
-  }
+  SCOPED_TRACE(name);
+  test::expect_pairs(*prepared(name, single.scene), single, expected);
 }
 
 TEST(HistoricSingle, FindsWhatIntersectsAmongTheVerticesItIsFed) {

@@ -47,23 +47,17 @@ TEST(LazySingleScenes, HaveContact) {
     std::size_t most = 0;
     for (const auto& pairs : scene.mapped) most = std::max(most, pairs.size());
     EXPECT_GT(most, 20u) << scene.name;
+    most = 0;
+    for (const auto& pairs : scene.fed) most = std::max(most, pairs.size());
+    EXPECT_GT(most, 20u) << scene.name << ", of the vertices that are fed";
   }
 }
 
 TEST(LazySingle, FindsWhatIntersectsForEverySourceAndInstructionSet) {
   for (const SingleScene& single : test::single_scenes())
     for (const LazyConfig& config : configs()) {
-      const auto detector = prepared(config, single.scene);
-      for (std::size_t f = 0; f < single.mapped.size(); ++f) {
-        const FrameData& frame = single.scene.frames[f];
-        EXPECT_EQ(answer(*detector, frame, Question::kTriangles).triangles, single.mapped[f])
-            << single.name << " " << f << " " << name_of(config);
-        ContactSet bodies;
-        bodies.triangles = single.mapped[f];
-        bodies.canonicalize();
-        EXPECT_EQ(answer(*detector, frame, Question::kBody).bodies, bodies.bodies)
-            << single.name << " " << f << " " << name_of(config);
-      }
+      SCOPED_TRACE(name_of(config));
+      test::expect_pairs(*prepared(config, single.scene), single, single.mapped);
     }
 }
 

@@ -1,6 +1,6 @@
 #include "tests/core/detect/single_scenes.h"
 
-#include <algorithm>
+#include <gmock/gmock.h>
 
 #include "core/deform/mapping.h"
 #include "core/narrow/triangle_triangle.h"
@@ -131,6 +131,20 @@ const std::vector<SingleScene>& single_scenes() {
       single("soups", soups(Vec3(1e6, 0, -1e5))),
       single("needles", needles())};
   return all;
+}
+
+void expect_pairs(Detector& detector, const SingleScene& single,
+                  const std::vector<std::vector<ElementPair>>& expected) {
+  for (std::size_t f = 0; f < expected.size(); ++f) {
+    const FrameData& frame = single.scene.frames[f];
+    EXPECT_EQ(answer(detector, frame, Question::kTriangles).triangles, expected[f])
+        << single.name << " " << f;
+    ContactSet bodies;
+    bodies.triangles = expected[f];
+    bodies.canonicalize();
+    EXPECT_EQ(answer(detector, frame, Question::kBody).bodies, bodies.bodies)
+        << single.name << " " << f;
+  }
 }
 
 }  // namespace contactcheck::test

@@ -34,4 +34,8 @@ struct SingleScene {
 /// With and without lattices, near and far, tiny and large, degenerate; made once.
 const std::vector<SingleScene>& single_scenes();
 
+/// That the prepared detector finds these pairs of triangles, per frame, and their bodies.
+void expect_pairs(Detector& detector, const SingleScene& single,
+                  const std::vector<std::vector<ElementPair>>& expected);
+
 }  // namespace contactcheck::test

@@ -41,6 +41,16 @@ TYPED_TEST(TriangleBatches, DecideGenericPairsOfEveryScaleWithinTheFilter) {
   }
 }
 
+TYPED_TEST(TriangleBatches, DecideGenericPairsAThousandTimesTheirSizeAway) {
+  for (double scale : this->ranges.decided) {
+    const Tally tally = this->judge(602, 150, [&](TriangleSource& random) {
+      return moved(generic_pair(random), scale, scale * random.point(Vec3::Zero(), 1e3));
+    });
+    EXPECT_LT(100 * tally.unknown, tally.pairs) << scale;
+    EXPECT_GT(tally.met, 50) << scale;
+  }
+}
+
 TYPED_TEST(TriangleBatches, AreNeverWrongAtAnyScaleAndOffset) {
   for (double scale : this->ranges.scales)
     for (double offset : this->ranges.offsets) {
@@ -74,7 +84,7 @@ TYPED_TEST(TriangleBatches, AreNeverWrongWhereCornersAreSingleUlpsFromFeatures) 
 
 TYPED_TEST(TriangleBatches, AreNeverWrongOnGridsOfTouchingAndDegenerateTriangles) {
   for (int limit : {1, 2, 4})
-    for (double scale : this->ranges.powers) {
+    for (double scale : this->ranges.grids) {
       const Tally tally = this->judge(607, 300, [&](TriangleSource& random) {
         return moved({random.grid_triangle(limit), random.grid_triangle(limit)}, scale,
                      Vec3::Zero());
@@ -186,18 +196,20 @@ std::vector<DoublePair> touching_pairs() {
 }
 
 TYPED_TEST(TriangleBatches, SeeCommonCornersAtEveryScale) {
-  this->in_every_lane(pairs_with_a_common_corner(),
-                      [](const BatchVerdict& verdict, std::size_t lane) {
-                        EXPECT_EQ(verdict.meet >> lane, 1u);
-                        EXPECT_EQ(verdict.unknown >> lane, 0u);
-                      });
+  const auto certain = [](const BatchVerdict& verdict, std::size_t lane) {
+    EXPECT_EQ(verdict.meet >> lane, 1u);
+    EXPECT_EQ(verdict.unknown >> lane, 0u);
+  };
+  this->in_every_lane(this->ranges.powers, pairs_with_a_common_corner(), certain);
+  this->in_every_lane({this->ranges.farthest}, pairs_with_a_common_corner(), certain);
 }
 
 TYPED_TEST(TriangleBatches, LeavePairsThatMeetWithoutCrossingToTheExactTest) {
-  this->in_every_lane(touching_pairs(), [](const BatchVerdict& verdict, std::size_t lane) {
-    EXPECT_EQ(verdict.unknown >> lane, 1u);
-    EXPECT_EQ(verdict.meet >> lane, 0u);
-  });
+  this->in_every_lane(this->ranges.powers, touching_pairs(),
+                      [](const BatchVerdict& verdict, std::size_t lane) {
+                        EXPECT_EQ(verdict.unknown >> lane, 1u);
+                        EXPECT_EQ(verdict.meet >> lane, 0u);
+                      });
 }
 
 TYPED_TEST(TriangleBatches, DecideEachLaneForItself) {

@@ -29,6 +29,8 @@ struct Ranges {
   std::vector<double> widths = {0x1p-1074, 1e-200, 1e-17, 1e-12};
   std::vector<double> gaps = {0.0, 1e-17, 1e-16, 1e-15, 1e-12, 1e-6};
   std::vector<double> powers = {0x1p-1070, 0x1p-332, 0x1p-100, 1.0, 0x1p100, 0x1p300};
+  double farthest = 0x1p1000;  // products are infinite and no numbers
+  std::vector<double> grids = {0x1p-1070, 0x1p-332, 1.0, 0x1p300, 0x1p1000};
   std::vector<int> underflow = {-360, -354, -348, -342, -336, -330};  // of products of three
   std::vector<int> tiny = {-900, -600, -300}, huge = {520, 600, 700};
 };
@@ -42,6 +44,9 @@ struct Ranges<float> {
   std::vector<double> widths = {0x1p-149, 1e-20, 1e-7, 1e-4};
   std::vector<double> gaps = {0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-3};
   std::vector<double> powers = {0x1p-140, 0x1p-40, 1.0, 0x1p20, 0x1p36};
+  double farthest = 0x1p37;  // times 8: kSingleLimit
+  // At 0x1p38 those of limit 4 have corners at kSingleLimit, and differences twice as large.
+  std::vector<double> grids = {0x1p-149, 0x1p-60, 1.0, 0x1p38};
   std::vector<int> underflow = {-60, -53, -49, -45, -39, -33};
   std::vector<int> tiny = {-145, -100, -50}, huge = {20, 30, 38};
 };
@@ -125,10 +130,12 @@ class TriangleBatches : public ::testing::Test {
     return tally;
   }
 
-  // One pair alone, in each lane of each instruction set, at powers of two.
+  // One pair alone, in each lane of each instruction set, at `scales`, powers of two.
   template <typename Check>
-  void in_every_lane(const std::vector<DoublePair>& pairs, const Check& check) const;
+  static void in_every_lane(const std::vector<double>& scales, const std::vector<DoublePair>& pairs,
+                            const Check& check);
 };
+
 inline DoublePair moved(DoublePair pair, double scale, const Vec3& offset) {
   for (TrianglePoints* t : {&pair.first, &pair.second})
     for (Vec3& p : *t) p = scale * p + offset;
@@ -137,10 +144,11 @@ inline DoublePair moved(DoublePair pair, double scale, const Vec3& offset) {
 
 template <typename Real>
 template <typename Check>
-void TriangleBatches<Real>::in_every_lane(const std::vector<DoublePair>& pairs,
-                                          const Check& check) const {
+void TriangleBatches<Real>::in_every_lane(const std::vector<double>& scales,
+                                          const std::vector<DoublePair>& pairs,
+                                          const Check& check) {
   for (const std::string& isa : lazy_isas())
-    for (double scale : ranges.powers)
+    for (double scale : scales)
       for (std::size_t lane = 0; lane < kBatchWidth; ++lane)
         for (const DoublePair& pair : pairs) {
           Batch batch{};

@@ -85,7 +85,7 @@ void add_tune(CommandLine& line) {
   tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
       ->check(CLI::Range(1, 1000));
   CLI::Option* most = tune->add_option("--most", arguments->most,
-                                       "configurations measured at most (default: no limit)")
+                                       "measurements at most, those that are made again too (default: no limit)")
                           ->check(CLI::Range(1, 1000000));
   tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
       ->excludes(most);

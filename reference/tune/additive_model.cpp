@@ -9,13 +9,14 @@
 
 namespace contactcheck {
 
-AdditiveModel::AdditiveModel(const std::vector<Candidate>& candidates, const EffectPriors& priors)
+AdditiveModel::AdditiveModel(const std::vector<TuneCandidate>& candidates,
+                             const EffectPriors& priors)
     : noise_(priors.noise) {
   std::map<std::string, Eigen::Index> columns;
   const auto column = [&](const std::string& name) {
     return columns.emplace(name, static_cast<Eigen::Index>(columns.size())).first->second;
   };
-  for (const Candidate& candidate : candidates) {
+  for (const TuneCandidate& candidate : candidates) {
     auto& row = features_.emplace_back();
     const std::string& detector = candidate.choices.front().value;
     row.emplace_back(column(detector), priors.detector);

@@ -26,7 +26,7 @@ struct EffectPriors {
 class AdditiveModel {
  public:
   /// `candidates` must outlive it.
-  AdditiveModel(const std::vector<Candidate>& candidates, const EffectPriors& priors);
+  AdditiveModel(const std::vector<TuneCandidate>& candidates, const EffectPriors& priors);
 
   /// Forgets earlier fits. @pre as many values as indices, at least one, all finite
   void fit(std::span<const std::size_t> measured, std::span<const double> values);

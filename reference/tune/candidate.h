@@ -14,17 +14,18 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
-/// Of a step of a simulation, without its collision test (step_cost.h).
-struct StepCost {
+/// Of a frame, or of a step of a simulation.
+struct Cost {
   double ms = 0.0;
-  double low_ms = 0.0, high_ms = 0.0;  ///< 95 % interval beside the scene's own deformer
+  double low_ms = 0.0, high_ms = 0.0;  ///< 95 % interval
 };
 
-struct Candidate {
+/// (`Candidate` is what reference/reduce tries.)
+struct TuneCandidate {
   std::string detector;  ///< canonical name, options included
   double lattice = 1.0;  ///< times the scene's own number of kept cells
   std::string deformer;  ///< of a simulated scene; empty: the scene's own, which is not varied
-  StepCost step;         ///< of the simulation with this deformer
+  Cost step;             ///< of the simulation with this deformer, without its collision test
   /// The first is the detector's id, on the axis "detector"; then options, lattice and deformer.
   std::vector<Choice> choices;
   bool usual = false;  ///< every option at its default, the scene's own lattice and deformer

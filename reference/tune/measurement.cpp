@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdlib>
 
+#include "reference/tune/paired_cost.h"
+
 namespace contactcheck {
 namespace {
 
 std::array<double, 6> badness(const Measurement& m) {
-  return {m.cost_ms,
+  return {m.cost().ms,
           static_cast<double>(m.missed),
           static_cast<double>(m.spurious),
           m.hover.value_or(0.0),
@@ -16,6 +18,13 @@ std::array<double, 6> badness(const Measurement& m) {
 }
 
 }  // namespace
+
+Cost Measurement::cost() const {
+  if (!failure.empty()) return {};
+  const ModelCost shared = model ? *model : ModelCost{};
+  const Ratio own = product(shared.anchor_ms, beside_anchor);
+  return {own.ratio + shared.step.ms, own.low + shared.step.low_ms, own.high + shared.step.high_ms};
+}
 
 bool Limits::met_by(const Measurement& m) const {
   if (!m.failure.empty()) return false;
@@ -26,8 +35,12 @@ bool Limits::met_by(const Measurement& m) const {
 }
 
 bool as_cheap_within_noise(const Measurement& a, const Measurement& b) {
-  return a.failure.empty() && b.failure.empty() && a.cost_low_ms <= b.cost_high_ms &&
-         b.cost_low_ms <= a.cost_high_ms;
+  if (!a.failure.empty() || !b.failure.empty()) return false;
+  if (a.model == b.model)
+    return a.beside_anchor.low <= b.beside_anchor.high &&
+           b.beside_anchor.low <= a.beside_anchor.high;
+  const Cost first = a.cost(), second = b.cost();
+  return first.low_ms <= second.high_ms && second.low_ms <= first.high_ms;
 }
 
 bool dominates(const Measurement& a, const Measurement& b) {

@@ -2,20 +2,38 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "reference/compare/run_result.h"
+#include "reference/tune/candidate.h"
+
 namespace contactcheck {
+
+/// What all measurements in one model (a lattice, a deformer) share. Where it is uncertain, all of
+/// them are too dear or too cheap together.
+struct ModelCost {
+  Ratio anchor_ms{1.0, 1.0, 1.0};  ///< what the anchor takes for a frame of it
+  Cost step;                       ///< TuneCandidate::step
+};
 
 struct Measurement {
   std::string failure;  ///< not empty: it gave no answer or no time, and nothing else is set
-  /// Per frame: map, update and query with cold caches; and Candidate::step.
-  double cost_ms = 0.0;
-  double cost_low_ms = 0.0, cost_high_ms = 0.0;  ///< 95 % interval of it (paired_cost.h)
-  std::uint64_t missed = 0, spurious = 0;        ///< at the level of the question, over all frames
-  std::optional<double> hover;                   ///< metres; none without an episode
+  /// Map, update and query with cold caches, in times what the anchor takes in the same model; 95 %
+  /// interval (paired_cost.h).
+  Ratio beside_anchor;
+  /// One object for all measurements in a model, which later runs correct. None: the anchor takes
+  /// 1 ms, and a step nothing.
+  std::shared_ptr<const ModelCost> model;
+  std::uint64_t missed = 0, spurious = 0;  ///< at the level of the question, over all frames
+  std::optional<double> hover;             ///< metres; none without an episode
   std::optional<long> late_frames;
   double deviation = 0.0;  ///< metres: how far the model takes a vertex from where the scene's does
+
+  /// Per frame, TuneCandidate::step included; its interval has the uncertainty of the model too. By
+  /// what is known of the model now; 0 of a failure.
+  Cost cost() const;
 };
 
 /// Nothing set: nothing asked for.
@@ -27,8 +45,9 @@ struct Limits {
   bool met_by(const Measurement& m) const;
 };
 
-/// Their intervals of the cost overlap: which of them is cheaper is not known. A failure costs
-/// nothing that could be compared.
+/// Which of them is cheaper is not known: intervals overlap, those beside the anchor within a
+/// model, where the rest is the same for both, and those of the whole cost across models. A failure
+/// costs nothing that could be compared.
 bool as_cheap_within_noise(const Measurement& a, const Measurement& b);
 
 /// No dearer and no more wrong in anything, and better in something. A failure dominates nothing.

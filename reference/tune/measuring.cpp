@@ -69,16 +69,18 @@ Measurement errors_of(const Json& run, const std::string& level) {
 
 }  // namespace
 
-Measuring::Measuring(const std::vector<Candidate>& candidates, MeasuringRequest request)
+Measuring::Measuring(const std::vector<TuneCandidate>& candidates, MeasuringRequest request)
     : candidates_(candidates), request_(std::move(request)), anchor_(request_.anchor) {
   const std::string id = load_any_scene(request_.scene_file, request_.settings.frames).id;
   models_[{}] = {request_.scene_file, id, 0.0};
-  for (const Candidate& candidate : candidates_)
-    if (const ModelKey key = key_of(candidate); !models_.contains(key))
-      models_[key] = make_model(key);
+  for (const TuneCandidate& candidate : candidates_) {
+    const ModelKey key = key_of(candidate);
+    if (!models_.contains(key)) models_[key] = make_model(key);
+    book_.add_model(key, candidate.step);
+  }
 }
 
-Measuring::ModelKey Measuring::key_of(const Candidate& candidate) const {
+ModelKey Measuring::key_of(const TuneCandidate& candidate) const {
   const bool own = !request_.other_deformers.contains(candidate.deformer);
   return {candidate.lattice, own ? "" : candidate.deformer};
 }
@@ -101,7 +103,7 @@ Measuring::Model Measuring::make_model(const ModelKey& key) const {
   return model;
 }
 
-std::filesystem::path Measuring::scene_of(const Candidate& candidate) const {
+std::filesystem::path Measuring::scene_of(const TuneCandidate& candidate) const {
   return models_.at(key_of(candidate)).file;
 }
 
@@ -121,14 +123,15 @@ SceneTask Measuring::task_of(const ModelKey& key, const std::vector<std::size_t>
 }
 
 std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& batch) {
-  std::set<ModelKey> keys = {ModelKey{}};
-  for (const std::size_t i : batch) keys.insert(key_of(candidates_[i]));
+  std::set<ModelKey> all = {ModelKey{}};
+  for (const std::size_t i : batch) all.insert(key_of(candidates_[i]));
+  const std::vector<ModelKey> keys(all.begin(), all.end());
   Times times;
-  const Json runs = run({keys.begin(), keys.end()}, batch, times);
-  if (!(anchor_ms_ > 0.0)) choose_anchor(runs, batch);
-  for (const ModelKey& key : keys) take_scale(key, times);
+  const Json runs = run(keys, batch, times);
+  if (!book_.has_unit()) choose_anchor(runs, batch);
+  take_times(keys, batch, times);
   std::vector<Measurement> found;
-  for (const std::size_t i : batch) found.push_back(read(i, runs, times));
+  for (const std::size_t i : batch) found.push_back(read(i, runs));
   return found;
 }
 
@@ -163,51 +166,32 @@ void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& 
     const auto time = run == nullptr ? std::nullopt : time_of(*run, name_of(request_.question));
     if (!time || run->at("status") != "ok" || !(*time > 0.0)) continue;
     anchor_ = name;
-    anchor_ms_ = *time;
+    book_.set_unit(*time);
     return;
   }
 }
 
-void Measuring::take_scale(const ModelKey& key, const Times& times) {
-  if (key == ModelKey{}) return;
-  const PairedRun run = paired(found_in(times, models_.at(key).id, anchor_),
-                               found_in(times, own_model().id, anchor_));
-  if (!run.empty()) scales_[key].push_back(relative_cost({run}));
+void Measuring::take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
+                           const Times& times) {
+  for (const ModelKey& key : keys)
+    book_.take_anchor(key, paired(found_in(times, models_.at(key).id, anchor_),
+                                  found_in(times, own_model().id, anchor_)));
+  for (const std::size_t i : batch) {
+    const std::string& scene = models_.at(key_of(candidates_[i])).id;
+    book_.take(i, paired(found_in(times, scene, candidates_[i].detector),
+                         found_in(times, scene, anchor_)));
+  }
 }
 
-// None where the candidate or the anchor was not timed.
-std::optional<Ratio> Measuring::ratio_of(std::size_t index, const Times& times) {
-  const Candidate& candidate = candidates_[index];
+Measurement Measuring::read(std::size_t index, const Json& runs) const {
+  const TuneCandidate& candidate = candidates_[index];
   const ModelKey key = key_of(candidate);
-  const std::string& scene = models_.at(key).id;
-  PairedRun run =
-      paired(found_in(times, scene, candidate.detector), found_in(times, scene, anchor_));
-  if (run.empty()) return std::nullopt;
-  std::vector<PairedRun>& all = paired_[index];
-  all.push_back(std::move(run));
-  const Ratio ratio = relative_cost(all);
-  if (key == ModelKey{}) return ratio;
-  const auto scale = scales_.find(key);
-  if (scale == scales_.end()) return std::nullopt;
-  return product(ratio, middle_of(scale->second));
-}
-
-Measurement Measuring::read(std::size_t index, const Json& runs, const Times& times) {
-  const Candidate& candidate = candidates_[index];
-  const Model& model = models_.at(key_of(candidate));
-  const Json* run = row_of(runs, model.id, candidate.detector);
+  const Json* run = row_of(runs, models_.at(key).id, candidate.detector);
   CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
   Measurement m = errors_of(*run, name_of(level_of(request_.question)));
-  m.deviation = model.deviation;
-  if (!m.failure.empty()) return m;
-  const std::optional<Ratio> ratio = ratio_of(index, times);
-  if (!ratio) {
+  m.deviation = models_.at(key).deviation;
+  if (m.failure.empty() && !book_.price(index, key, m))
     m.failure = std::string("not timed in the question ") + name_of(request_.question);
-    return m;
-  }
-  m.cost_ms = anchor_ms_ * ratio->ratio + candidate.step.ms;
-  m.cost_low_ms = anchor_ms_ * ratio->low + candidate.step.low_ms;
-  m.cost_high_ms = anchor_ms_ * ratio->high + candidate.step.high_ms;
   return m;
 }
 

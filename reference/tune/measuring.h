@@ -2,26 +2,23 @@
 // worker.
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/types/semantics.h"
 #include "reference/run/suite_run.h"
 #include "reference/tune/candidate.h"
-#include "reference/tune/measurement.h"
-#include "reference/tune/paired_cost.h"
+#include "reference/tune/cost_book.h"
 
 namespace contactcheck {
 
 struct MeasuringRequest {
   std::filesystem::path scene_file;
-  /// Recordings of the same scene moved by other deformers, by Candidate::deformer.
+  /// Recordings of the same scene moved by other deformers, by TuneCandidate::deformer.
   std::map<std::string, std::filesystem::path> other_deformers;
   Question question = Question::kBody;
   RunSettings settings;
@@ -34,13 +31,12 @@ struct MeasuringRequest {
 };
 
 /// The machine may be faster in one run than in the next, and for a moment busy with something
-/// else. So the first detector that answers stays for all runs as what costs are taken against: a
-/// candidate costs its ratio to it (paired_cost.h), times what the first run took for it. In other
-/// lattices, or moved by another deformer, the anchor itself takes another time: how many times its
-/// own is what all runs so far say of it in the middle. What is measured again is pooled.
+/// else. So the first detector that answers stays for all runs as what costs are taken against, and
+/// all that the runs say is kept in one book (cost_book.h). What a run could not time costs what
+/// earlier ones say.
 class Measuring {
  public:
-  Measuring(const std::vector<Candidate>& candidates, MeasuringRequest request);
+  Measuring(const std::vector<TuneCandidate>& candidates, MeasuringRequest request);
 
   /// Measures candidates in one run; as many answers in the same order, out of all that was ever
   /// measured of each.
@@ -51,15 +47,9 @@ class Measuring {
   const std::string& anchor() const { return anchor_; }
 
   /// The scene of a candidate: the given one, one in other lattices, or moved by another deformer.
-  std::filesystem::path scene_of(const Candidate& candidate) const;
+  std::filesystem::path scene_of(const TuneCandidate& candidate) const;
 
  private:
-  struct ModelKey {
-    double lattice = 1.0;
-    std::string deformer;  ///< empty: the scene's own
-
-    auto operator<=>(const ModelKey&) const = default;
-  };
   struct Model {
     std::filesystem::path file;
     std::string id;  ///< of its scene
@@ -69,24 +59,22 @@ class Measuring {
   /// What one run timed, by scene and detector.
   using Times = std::map<std::pair<std::string, std::string>, ProcessSamples>;
 
-  ModelKey key_of(const Candidate& candidate) const;
+  ModelKey key_of(const TuneCandidate& candidate) const;
   const Model& own_model() const { return models_.at({}); }
   SceneTask task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const;
   Model make_model(const ModelKey& key) const;
   nlohmann::ordered_json run(const std::vector<ModelKey>& keys,
                              const std::vector<std::size_t>& batch, Times& times) const;
   void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
-  void take_scale(const ModelKey& key, const Times& times);
-  Measurement read(std::size_t index, const nlohmann::ordered_json& runs, const Times& times);
-  std::optional<Ratio> ratio_of(std::size_t index, const Times& times);
+  void take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
+                  const Times& times);
+  Measurement read(std::size_t index, const nlohmann::ordered_json& runs) const;
 
-  const std::vector<Candidate>& candidates_;
+  const std::vector<TuneCandidate>& candidates_;
   MeasuringRequest request_;
-  std::string anchor_;      ///< name of the detector that costs are taken against
-  double anchor_ms_ = 0.0;  ///< its time in the first run
+  std::string anchor_;  ///< name of the detector that costs are taken against
   std::map<ModelKey, Model> models_;
-  std::map<ModelKey, std::vector<Ratio>> scales_;         ///< of the anchor, one of each run
-  std::map<std::size_t, std::vector<PairedRun>> paired_;  ///< by candidate
+  CostBook book_;
 };
 
 }  // namespace contactcheck

@@ -16,7 +16,7 @@ constexpr std::size_t kShareOfMeasurements = 5, kFewMeasurements = 24;
 
 class Search {
  public:
-  Search(const std::vector<Candidate>& candidates, const Limits& limits,
+  Search(const std::vector<TuneCandidate>& candidates, const Limits& limits,
          const SearchSettings& settings, const Measure& measure)
       : candidates_(candidates),
         limits_(limits),
@@ -111,7 +111,7 @@ class Search {
       const Measurement& m = tried.measurement;
       judged.push_back(tried.candidate);
       met.push_back(limits_.met_by(m) ? 1.0 : -1.0);
-      const double detecting = m.cost_ms - candidates_[tried.candidate].step.ms;
+      const double detecting = m.cost().ms - candidates_[tried.candidate].step.ms;
       if (!m.failure.empty() || !(detecting > 0.0)) continue;
       timed.push_back(tried.candidate);
       log_cost.push_back(std::log(detecting));
@@ -142,7 +142,7 @@ class Search {
       const double doubt = doubt_of(i);
       const double at_best = std::exp(cost.mean - doubt * cost.deviation) + candidates_[i].step.ms;
       if (accuracy.mean + doubt * accuracy.deviation <= 0.0) continue;
-      if (out_.best && at_best >= out_.tried[*out_.best].measurement.cost_ms) continue;
+      if (out_.best && at_best >= out_.tried[*out_.best].measurement.cost().ms) continue;
       // Before anything meets the limits, what does so is looked for.
       ranked.emplace_back(out_.best ? at_best : -accuracy.mean, i);
     }
@@ -152,7 +152,7 @@ class Search {
     return order;
   }
 
-  const std::vector<Candidate>& candidates_;
+  const std::vector<TuneCandidate>& candidates_;
   const Limits& limits_;
   const SearchSettings& settings_;
   const Measure& measure_;
@@ -169,7 +169,7 @@ std::optional<std::size_t> cheapest(const std::vector<Tried>& tried, const Limit
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < tried.size(); ++i)
     if (limits.met_by(tried[i].measurement) &&
-        (!best || tried[i].measurement.cost_ms < tried[*best].measurement.cost_ms))
+        (!best || tried[i].measurement.cost().ms < tried[*best].measurement.cost().ms))
       best = i;
   return best;
 }
@@ -182,12 +182,12 @@ std::vector<std::size_t> as_cheap_as(std::size_t best, const std::vector<Tried>&
         as_cheap_within_noise(tried[i].measurement, tried[best].measurement))
       found.push_back(i);
   std::sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
-    return tried[a].measurement.cost_ms < tried[b].measurement.cost_ms;
+    return tried[a].measurement.cost().ms < tried[b].measurement.cost().ms;
   });
   return found;
 }
 
-SearchOutcome search(const std::vector<Candidate>& candidates, const Limits& limits,
+SearchOutcome search(const std::vector<TuneCandidate>& candidates, const Limits& limits,
                      const SearchSettings& settings, const Measure& measure) {
   return Search(candidates, limits, settings, measure).run();
 }
@@ -201,7 +201,7 @@ std::vector<std::size_t> pareto_front(const std::vector<Tried>& tried) {
     if (!beaten && tried[i].measurement.failure.empty()) front.push_back(i);
   }
   std::sort(front.begin(), front.end(), [&](std::size_t a, std::size_t b) {
-    return tried[a].measurement.cost_ms < tried[b].measurement.cost_ms;
+    return tried[a].measurement.cost().ms < tried[b].measurement.cost().ms;
   });
   return front;
 }

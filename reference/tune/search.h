@@ -22,8 +22,8 @@ namespace contactcheck {
 
 struct SearchSettings {
   std::size_t batch = 4;  ///< measured together
-  /// Measurements at most, those of a race too; 0: as many as there are candidates, and no race
-  /// beyond a fifth of that, or 24 where there are few.
+  /// Measurements at most, those of a race too. 0: whatever may be cheaper is measured, and races
+  /// only while all measurements are within a fifth of the candidates, or 24 where there are few.
   std::size_t most = 0;
   std::size_t races = 3;  ///< rounds of measuring again at most
   /// Standard deviations by which a guess may be wrong; twice as many beside the best one.
@@ -48,7 +48,7 @@ struct SearchOutcome {
 using Measure = std::function<std::vector<Measurement>(const std::vector<std::size_t>&)>;
 
 /// @pre candidates is not empty; each has a choice on the axis "detector"
-SearchOutcome search(const std::vector<Candidate>& candidates, const Limits& limits,
+SearchOutcome search(const std::vector<TuneCandidate>& candidates, const Limits& limits,
                      const SearchSettings& settings, const Measure& measure);
 
 /// Index of the cheapest that meets the limits; none does.

@@ -62,7 +62,7 @@ class Models {
     StepCostSettings settings;
     settings.repeats = request_.settings.repeats;
     settings.sweep_bytes = request_.settings.sweep_bytes;
-    const std::vector<StepCost> costs = step_costs(scenes_, catalog_, settings, [](std::size_t) {});
+    const std::vector<Cost> costs = step_costs(scenes_, catalog_, settings, [](std::size_t) {});
     std::size_t next = 0;
     for (SimulatedModel& model : models_)
       if (model.failure.empty()) model.step = costs[next++];

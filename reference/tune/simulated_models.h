@@ -18,7 +18,7 @@ struct SimulatedModel {
   std::string deformer;        ///< "finite-elements"
   std::filesystem::path file;  ///< the scene that is moved by it
   FrameSplit split;            ///< recordings of its motion
-  StepCost step;               ///< see step_cost.h; 0: not measured
+  Cost step;                   ///< see step_cost.h; 0: not measured
   std::string failure;         ///< not empty: its simulation ended with this
 };
 

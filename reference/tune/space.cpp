@@ -51,7 +51,7 @@ class Space {
   Space(const DetectorCatalog& catalog, const SpaceRequest& request)
       : catalog_(catalog), request_(request) {}
 
-  std::vector<Candidate> make() {
+  std::vector<TuneCandidate> make() {
     if (request_.detectors.empty()) {
       for (const DetectorInfo& info : catalog_.all())
         if (info.absent_because.empty()) add(info.id, false);
@@ -90,9 +90,9 @@ class Space {
   }
 
   void add_models(const DetectorInfo& info, const DetectorSpec& spec) {
-    const Candidate plain = candidate_of(info, spec);
+    const TuneCandidate plain = candidate_of(info, spec);
     for (const double lattice : request_.lattices) {
-      Candidate candidate = plain;
+      TuneCandidate candidate = plain;
       candidate.lattice = lattice;
       candidate.choices.push_back({"lattice", shortest(lattice)});
       candidate.usual &= lattice == request_.lattices.front();
@@ -103,8 +103,8 @@ class Space {
   }
 
   // In the scene's own model, of which nothing is said yet.
-  Candidate candidate_of(const DetectorInfo& info, const DetectorSpec& spec) const {
-    Candidate candidate;
+  TuneCandidate candidate_of(const DetectorInfo& info, const DetectorSpec& spec) const {
+    TuneCandidate candidate;
     candidate.choices.push_back({"detector", spec.id});
     candidate.usual = true;
     std::string options;
@@ -119,7 +119,7 @@ class Space {
     return candidate;
   }
 
-  Candidate with(const DeformerChoice& deformer, Candidate candidate) const {
+  TuneCandidate with(const DeformerChoice& deformer, TuneCandidate candidate) const {
     candidate.deformer = deformer.name;
     candidate.step = deformer.step;
     candidate.choices.push_back({"deformer", deformer.name});
@@ -130,7 +130,7 @@ class Space {
   const DetectorCatalog& catalog_;
   const SpaceRequest& request_;
   std::set<std::string> given_;  ///< of the name that is varied
-  std::vector<Candidate> candidates_;
+  std::vector<TuneCandidate> candidates_;
 };
 
 }  // namespace
@@ -146,8 +146,8 @@ Level level_of(Question question) {
   }
 }
 
-std::vector<Candidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request) {
-  std::vector<Candidate> candidates = Space(catalog, request).make();
+std::vector<TuneCandidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request) {
+  std::vector<TuneCandidate> candidates = Space(catalog, request).make();
   if (candidates.empty())
     throw InputError(std::string("no detector answers the question \"") +
                      name_of(request.question) + "\"");

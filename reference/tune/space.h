@@ -15,14 +15,15 @@ Level level_of(Question question);
 
 struct DeformerChoice {
   std::string name;
-  StepCost step = {};
+  Cost step = {};
 };
 
 struct SpaceRequest {
   Question question = Question::kBody;
   /// Names of detectors; an option given in a name is not varied. Empty: all that are there.
   std::vector<std::string> detectors;
-  std::vector<double> lattices = {1.0};  ///< see Candidate::lattice; the first is the scene's own
+  std::vector<double> lattices = {
+      1.0};  ///< see TuneCandidate::lattice; the first is the scene's own
   /// The first is the scene's own; empty: the deformer is not varied.
   std::vector<DeformerChoice> deformers;
 };
@@ -32,6 +33,6 @@ struct SpaceRequest {
 /// itself", stays). The instruction set and the number of threads are the machine's, and not
 /// varied.
 /// @throws InputError for unknown detectors, and for one that was named and does not answer
-std::vector<Candidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request);
+std::vector<TuneCandidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request);
 
 }  // namespace contactcheck

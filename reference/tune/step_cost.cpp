@@ -58,8 +58,8 @@ double steady_now_ms() {
   return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
 }
 
-std::vector<StepCost> step_costs(const std::vector<Scene>& scenes, const DetectorCatalog& catalog,
-                                 const StepCostSettings& settings, const OnStep& on_step) {
+std::vector<Cost> step_costs(const std::vector<Scene>& scenes, const DetectorCatalog& catalog,
+                             const StepCostSettings& settings, const OnStep& on_step) {
   std::vector<std::unique_ptr<StepTimer>> timers;
   for (const Scene& scene : scenes)
     timers.push_back(std::make_unique<StepTimer>(scene, catalog, settings, on_step));
@@ -72,7 +72,7 @@ std::vector<StepCost> step_costs(const std::vector<Scene>& scenes, const Detecto
       }
   if (timers.empty()) return {};
   const double unit = timers.front()->mean();
-  std::vector<StepCost> costs;
+  std::vector<Cost> costs;
   for (const auto& timer : timers) {
     const Ratio ratio = timer->beside(*timers.front());
     costs.push_back({unit * ratio.ratio, unit * ratio.low, unit * ratio.high});

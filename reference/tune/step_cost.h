@@ -29,7 +29,7 @@ struct StepCostSettings {
 /// by what the deformers differ by, and not by what the machine did meanwhile. Intervals are those
 /// of these ratios: the first one's is the unit, and has none.
 /// @pre the scenes are simulated, and their drivers have driven them
-std::vector<StepCost> step_costs(const std::vector<Scene>& scenes, const DetectorCatalog& catalog,
-                                 const StepCostSettings& settings, const OnStep& on_step);
+std::vector<Cost> step_costs(const std::vector<Scene>& scenes, const DetectorCatalog& catalog,
+                             const StepCostSettings& settings, const OnStep& on_step);
 
 }  // namespace contactcheck

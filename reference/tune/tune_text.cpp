@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace contactcheck {
 namespace {
@@ -13,17 +14,17 @@ constexpr std::size_t kNamed = 3;  ///< of those that are as cheap, for a termin
 
 std::string millimetres(double metres) { return fmt::format("{:.3g}", 1e3 * metres); }
 
-bool varies_lattices(const std::vector<Candidate>& candidates) {
+bool varies_lattices(const std::vector<TuneCandidate>& candidates) {
   return std::any_of(candidates.begin(), candidates.end(),
-                     [](const Candidate& c) { return c.lattice != 1.0; });
+                     [](const TuneCandidate& c) { return c.lattice != 1.0; });
 }
 
-bool varies_deformers(const std::vector<Candidate>& candidates) {
+bool varies_deformers(const std::vector<TuneCandidate>& candidates) {
   return !candidates.empty() && !candidates.front().deformer.empty();
 }
 
 // With deformers a frame is a step of the simulation.
-Row header_of(const std::vector<Candidate>& candidates) {
+Row header_of(const std::vector<TuneCandidate>& candidates) {
   const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
   Row row = {deformers ? "ms/step" : "ms/frame",
              "95 % interval",
@@ -39,16 +40,18 @@ Row header_of(const std::vector<Candidate>& candidates) {
   return row;
 }
 
-std::string interval_of(const Measurement& m) {
-  return fmt::format("{:.3g} to {:.3g}", m.cost_low_ms, m.cost_high_ms);
+std::string interval_of(const Cost& cost) {
+  if (!std::isfinite(cost.high_ms)) return "not known";
+  return fmt::format("{:.3g} to {:.3g}", cost.low_ms, cost.high_ms);
 }
 
-Row row_of(const Tried& tried, const std::vector<Candidate>& candidates) {
-  const Candidate& candidate = candidates[tried.candidate];
+Row row_of(const Tried& tried, const std::vector<TuneCandidate>& candidates) {
+  const TuneCandidate& candidate = candidates[tried.candidate];
   const Measurement& m = tried.measurement;
   const bool failed = !m.failure.empty();
-  Row row = {fmt::format("{:.3g}", m.cost_ms),
-             interval_of(m),
+  const Cost cost = m.cost();
+  Row row = {fmt::format("{:.3g}", cost.ms),
+             interval_of(cost),
              fmt::format("{}", m.missed),
              fmt::format("{}", m.spurious),
              m.hover ? millimetres(*m.hover) : "-",
@@ -91,7 +94,7 @@ std::string markdown(const std::vector<Row>& rows) {
 }
 
 std::vector<Row> rows_of(const std::vector<Tried>& tried,
-                         const std::vector<Candidate>& candidates) {
+                         const std::vector<TuneCandidate>& candidates) {
   std::vector<Row> rows = {header_of(candidates)};
   for (const Tried& each : tried) rows.push_back(row_of(each, candidates));
   return rows;
@@ -127,7 +130,7 @@ std::string heading(const Tuning& tuning, const TuningRequest& request) {
                      outcome.exhausted ? " (as many as were allowed)" : "");
 }
 
-std::string model_in_words(const Candidate& candidate) {
+std::string model_in_words(const TuneCandidate& candidate) {
   if (!candidate.deformer.empty()) return " with " + candidate.deformer;
   return candidate.lattice == 1.0 ? ""
                                   : fmt::format(" in {:g} times as many cells", candidate.lattice);
@@ -160,7 +163,7 @@ std::string as_cheap_in_words(const Tuning& tuning, std::size_t most_named) {
   std::string words = "As cheap within noise: ";
   const std::size_t named = std::min(others.size(), most_named);
   for (std::size_t i = 0; i < named; ++i) {
-    const Candidate& other = tuning.candidates[others[i]];
+    const TuneCandidate& other = tuning.candidates[others[i]];
     words += (i == 0 ? "" : "; ") + other.detector + model_in_words(other);
   }
   if (others.size() > named) words += fmt::format("; and {} more (tune.md)", others.size() - named);
@@ -174,12 +177,12 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request, std::siz
                : fmt::format("No configuration meets the limits on the {} held-out frames.\n",
                              tuning.held_out_frames);
   const Tried& chosen = tuning.confirmed[*tuning.chosen];
-  const Candidate& candidate = tuning.candidates[chosen.candidate];
+  const TuneCandidate& candidate = tuning.candidates[chosen.candidate];
+  const Cost cost = chosen.measurement.cost();
   std::string text =
       fmt::format("Chosen: {}{}, {:.3g} ms a {} ({}) on {} held-out frames.\n", candidate.detector,
-                  model_in_words(candidate), chosen.measurement.cost_ms,
-                  tuning.varies_deformers() ? "step" : "frame", interval_of(chosen.measurement),
-                  tuning.held_out_frames) +
+                  model_in_words(candidate), cost.ms, tuning.varies_deformers() ? "step" : "frame",
+                  interval_of(cost), tuning.held_out_frames) +
       as_cheap_in_words(tuning, most_named);
   if (!tuning.within_budget(request.budget_ms))
     text += fmt::format("That is more than the {:g} ms that are allowed.\n", *request.budget_ms);

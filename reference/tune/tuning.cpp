@@ -36,7 +36,7 @@ std::vector<std::size_t> by_cost(const std::vector<Tried>& tried, const Limits& 
   for (std::size_t i = 0; i < tried.size(); ++i)
     if (limits.met_by(tried[i].measurement)) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tried[a].measurement.cost_ms < tried[b].measurement.cost_ms;
+    return tried[a].measurement.cost().ms < tried[b].measurement.cost().ms;
   });
   for (std::size_t& i : order) i = tried[i].candidate;
   return order;
@@ -59,12 +59,10 @@ class Teller {
     progress_(now_);
   }
   void take(const std::vector<std::size_t>& batch, const std::vector<Measurement>& found) {
-    for (std::size_t i = 0; i < batch.size(); ++i)
-      if (limits_.met_by(found[i]) && (best_ms_ < 0.0 || found[i].cost_ms < best_ms_)) {
-        best_ms_ = found[i].cost_ms;
-        now_.best = tuning_.candidates[batch[i]].detector;
-      }
-    now_.measured += batch.size();
+    for (std::size_t i = 0; i < batch.size(); ++i) remember({batch[i], found[i]});
+    const auto best = cheapest(known_, limits_);
+    now_.best = best ? tuning_.candidates[known_[*best].candidate].detector : "";
+    now_.measured = known_.size();
     progress_(now_);
   }
   void confirms() {
@@ -73,11 +71,21 @@ class Teller {
   }
 
  private:
+  // What is measured again counts once, for what is known of it last.
+  void remember(const Tried& tried) {
+    const auto at = std::find_if(known_.begin(), known_.end(),
+                                 [&](const Tried& t) { return t.candidate == tried.candidate; });
+    if (at == known_.end())
+      known_.push_back(tried);
+    else
+      *at = tried;
+  }
+
   const Tuning& tuning_;
   const Limits& limits_;
   const std::function<void(const TuningProgress&)>& progress_;
   TuningProgress now_;
-  double best_ms_ = -1.0;
+  std::vector<Tried> known_;
 };
 
 SearchOutcome measure_all(std::size_t count, const Limits& limits, const Measure& measure) {
@@ -93,7 +101,7 @@ SearchOutcome measure_all(std::size_t count, const Limits& limits, const Measure
   return out;
 }
 
-std::vector<std::size_t> told_from_none(const Tuning& tuning, const Limits& limits) {
+std::vector<std::size_t> as_cheap_as_chosen(const Tuning& tuning, const Limits& limits) {
   std::vector<std::size_t> found;
   for (const std::size_t i : as_cheap_as(*tuning.chosen, tuning.confirmed, limits))
     found.push_back(tuning.confirmed[i].candidate);
@@ -126,8 +134,8 @@ void confirm(const TuningRequest& request, const FrameSplit& split, const std::s
     tuning.chosen = cheapest(tuning.confirmed, request.limits);
   }
   if (!tuning.chosen) return;
-  tuning.as_cheap = told_from_none(tuning, request.limits);
-  const Candidate& chosen = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate];
+  tuning.as_cheap = as_cheap_as_chosen(tuning, request.limits);
+  const TuneCandidate& chosen = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate];
   tuning.chosen_scene = request.target;
   if (chosen.lattice != 1.0) tuning.chosen_scene = measuring.scene_of(chosen).string();
   for (std::size_t i = 1; i < tuning.models.size(); ++i)
@@ -177,7 +185,7 @@ std::size_t count_frames(const SceneFrames& part) {
 }  // namespace
 
 bool Tuning::within_budget(const std::optional<double>& budget_ms) const {
-  return chosen && (!budget_ms || confirmed[*chosen].measurement.cost_ms <= *budget_ms);
+  return chosen && (!budget_ms || confirmed[*chosen].measurement.cost().ms <= *budget_ms);
 }
 
 Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,

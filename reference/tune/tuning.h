@@ -47,7 +47,7 @@ struct TuningProgress {
 struct Tuning {
   std::string scene;
   std::vector<SimulatedModel> models;  ///< of a simulated scene, its own first
-  std::vector<Candidate> candidates;
+  std::vector<TuneCandidate> candidates;
   SearchOutcome outcome;
   std::vector<std::size_t> front;  ///< indices into outcome.tried, by cost
   /// The cheapest that met the limits, measured again on the held-out frames, until one holds.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "reference/tune/tuning.h"
@@ -12,23 +13,25 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-Json to_json(const Candidate& candidate) {
+Json to_json(const TuneCandidate& candidate) {
   Json json = {{"detector", candidate.detector}, {"lattice", candidate.lattice}};
   if (!candidate.deformer.empty()) json["deformer"] = candidate.deformer;
   return json;
 }
 
-Json to_json(const Tried& tried, const std::vector<Candidate>& candidates) {
-  const Candidate& candidate = candidates[tried.candidate];
+Json to_json(const Tried& tried, const std::vector<TuneCandidate>& candidates) {
+  const TuneCandidate& candidate = candidates[tried.candidate];
   Json json = to_json(candidate);
   const Measurement& m = tried.measurement;
   if (!m.failure.empty()) {
     json["failure"] = m.failure;
     return json;
   }
-  json["cost_ms"] = m.cost_ms;
-  json["cost_ms_low"] = m.cost_low_ms;
-  json["cost_ms_high"] = m.cost_high_ms;
+  const Cost cost = m.cost();
+  json["cost_ms"] = cost.ms;
+  const bool known = std::isfinite(cost.high_ms);
+  json["cost_ms_low"] = known ? Json(cost.low_ms) : Json();
+  json["cost_ms_high"] = known ? Json(cost.high_ms) : Json();
   json["times"] = tried.times;
   if (!candidate.deformer.empty()) json["step_ms"] = candidate.step.ms;
   json["missed"] = m.missed;

@@ -9,7 +9,7 @@
 namespace contactcheck::test {
 
 struct Grid {
-  std::vector<Candidate> candidates;
+  std::vector<TuneCandidate> candidates;
   std::vector<Measurement> truth;  ///< of each
 
   Measure measure() const {
@@ -24,7 +24,8 @@ struct Grid {
   std::optional<std::size_t> best(const Limits& limits) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < truth.size(); ++i)
-      if (limits.met_by(truth[i]) && (!best || truth[i].cost_ms < truth[*best].cost_ms)) best = i;
+      if (limits.met_by(truth[i]) && (!best || truth[i].cost().ms < truth[*best].cost().ms))
+        best = i;
     return best;
   }
 };
@@ -52,7 +53,7 @@ inline Grid random_grid(std::uint64_t seed) {
   Grid grid;
   for (std::size_t i = 0; i < 200; ++i) {
     const std::size_t value[] = {i / 40, i / 20 % 2, i / 4 % 5, i % 4};
-    Candidate candidate;
+    TuneCandidate candidate;
     double log_cost = own[value[0]][value[2]][value[1]] + 0.01 * normal(random);
     for (std::size_t a = 0; a < 4; ++a) {
       candidate.choices.push_back({names[a], axes[a][value[a]]});
@@ -61,7 +62,8 @@ inline Grid random_grid(std::uint64_t seed) {
     candidate.detector = axes[0][value[0]] + ":" + std::to_string(i);
     candidate.usual = value[1] == 0 && value[2] == 0 && value[3] == 0;
     Measurement m;
-    m.cost_ms = m.cost_low_ms = m.cost_high_ms = std::exp(log_cost);
+    const double cost = std::exp(log_cost);
+    m.beside_anchor = {cost, cost, cost};
     m.missed = value[1] == 1 || value[0] >= 3 ? 7 : 0;
     grid.candidates.push_back(candidate);
     grid.truth.push_back(m);

@@ -77,7 +77,7 @@ class NoisyMachine {
   double true_ms(std::size_t candidate, std::size_t frame) const {
     const double in_contact = 1.0 + static_cast<double>(candidate % 4);
     const double share = (frame % 3 == 0 ? in_contact : 1.0) / ((2.0 + in_contact) / 3.0);
-    return grid_.truth[candidate].cost_ms * share;
+    return grid_.truth[candidate].cost().ms * share;
   }
 
   const Grid& grid_;

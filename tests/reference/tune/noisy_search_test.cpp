@@ -1,7 +1,7 @@
 // The search on a machine that spoils times, whose true costs are known.
 #include <gtest/gtest.h>
 
-#include "reference/tune/paired_cost.h"
+#include "reference/tune/cost_book.h"
 #include "tests/reference/tune/noisy_machine.h"
 
 namespace contactcheck {
@@ -32,21 +32,21 @@ Samples run_beside_anchor(NoisyMachine& machine, const std::vector<std::size_t>&
 }
 
 Measurement with_cost(Measurement m, const Ratio& cost) {
-  m.cost_ms = cost.ratio;
-  m.cost_low_ms = cost.low;
-  m.cost_high_ms = cost.high;
+  m.beside_anchor = cost;
   return m;
 }
 
-// As Measuring does it: pooled with what was measured before.
+// As Measuring does it.
 Measure paired(const Grid& grid, NoisyMachine& machine) {
-  return [&grid, &machine, all = std::map<std::size_t, std::vector<PairedRun>>()](
-             const std::vector<std::size_t>& batch) mutable {
+  CostBook book;
+  book.set_unit(1.0);
+  return [&grid, &machine, book](const std::vector<std::size_t>& batch) mutable {
     const Samples samples = run_beside_anchor(machine, batch);
     std::vector<Measurement> found;
     for (const std::size_t i : batch) {
-      all[i].push_back(pair_up(samples.at(i), samples.at(0)));
-      found.push_back(with_cost(grid.truth[i], relative_cost(all[i])));
+      book.take(i, pair_up(samples.at(i), samples.at(0)));
+      found.push_back(grid.truth[i]);
+      book.price(i, {}, found.back());
     }
     return found;
   };
@@ -72,9 +72,9 @@ struct Score {
 };
 
 bool is_right(const Grid& grid, std::size_t candidate) {
-  const double best = grid.truth[*grid.best(nothing_missed())].cost_ms;
+  const double best = grid.truth[*grid.best(nothing_missed())].cost().ms;
   return nothing_missed().met_by(grid.truth[candidate]) &&
-         grid.truth[candidate].cost_ms <= kSame * best;
+         grid.truth[candidate].cost().ms <= kSame * best;
 }
 
 template <class MakeMeasure>

@@ -12,8 +12,8 @@
 namespace contactcheck::test {
 
 /// The choices that a name stands for are read off the catalogue.
-inline Candidate recorded_candidate(const nlohmann::json& row, const DetectorCatalog& catalog) {
-  Candidate candidate;
+inline TuneCandidate recorded_candidate(const nlohmann::json& row, const DetectorCatalog& catalog) {
+  TuneCandidate candidate;
   candidate.detector = row.at("detector");
   candidate.lattice = row.at("lattice");
   const DetectorSpec spec = catalog.parse(candidate.detector);
@@ -28,9 +28,7 @@ inline Measurement recorded_measurement(const nlohmann::json& row) {
   Measurement m;
   m.failure = row.value("failure", "");
   if (!m.failure.empty()) return m;
-  m.cost_ms = row.at("cost_ms");
-  m.cost_low_ms = row.at("cost_ms_low");
-  m.cost_high_ms = row.at("cost_ms_high");
+  m.beside_anchor = {row.at("cost_ms"), row.at("cost_ms_low"), row.at("cost_ms_high")};
   m.missed = row.at("missed");
   m.spurious = row.at("spurious");
   if (!row.at("hover_gap_max").is_null()) m.hover = row.at("hover_gap_max").get<double>();

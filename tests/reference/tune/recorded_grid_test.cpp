@@ -39,8 +39,8 @@ constexpr double kTooDear = 1.1;           ///< however wide the intervals of a 
 // The cheapest of a record is one of several that the next run may order otherwise. As good as
 // found is what the record itself cannot tell from it, or what is hardly dearer.
 bool as_cheap_as(const Measurement& best, const Measurement& answer) {
-  return answer.cost_ms <= kNotWorthASearch * best.cost_ms ||
-         (as_cheap_within_noise(answer, best) && answer.cost_ms <= kTooDear * best.cost_ms);
+  return answer.cost().ms <= kNotWorthASearch * best.cost().ms ||
+         (as_cheap_within_noise(answer, best) && answer.cost().ms <= kTooDear * best.cost().ms);
 }
 
 TEST_P(RecordedGrid, IsSearchedWithAFifthOfTheMeasurements) {
@@ -51,8 +51,8 @@ TEST_P(RecordedGrid, IsSearchedWithAFifthOfTheMeasurements) {
   const std::size_t best = *grid().best(limits);
   EXPECT_TRUE(limits.met_by(answer.measurement));
   EXPECT_TRUE(as_cheap_as(grid().truth[best], answer.measurement))
-      << grid().candidates[answer.candidate].detector << " at " << answer.measurement.cost_ms
-      << " and not " << grid().candidates[best].detector << " at " << grid().truth[best].cost_ms;
+      << grid().candidates[answer.candidate].detector << " at " << answer.measurement.cost().ms
+      << " and not " << grid().candidates[best].detector << " at " << grid().truth[best].cost().ms;
   EXPECT_LE(found.measurements, grid().candidates.size() / 5) << "races included";
   EXPECT_FALSE(found.exhausted);
   RecordProperty("measurements", static_cast<int>(found.measurements));
@@ -66,9 +66,9 @@ test::Grid recorded_again(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   for (Measurement& m : again.truth) {
-    m.cost_ms *= std::exp(kNoise * normal(random));
-    m.cost_low_ms = m.cost_ms * std::exp(-kNormal95 * kNoise);
-    m.cost_high_ms = m.cost_ms * std::exp(kNormal95 * kNoise);
+    const double cost = m.beside_anchor.ratio * std::exp(kNoise * normal(random));
+    m.beside_anchor = {cost, cost * std::exp(-kNormal95 * kNoise),
+                       cost * std::exp(kNormal95 * kNoise)};
   }
   return again;
 }

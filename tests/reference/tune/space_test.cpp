@@ -21,9 +21,9 @@ DetectorCatalog core_catalog() {
   return catalog;
 }
 
-std::vector<std::string> names(const std::vector<Candidate>& candidates) {
+std::vector<std::string> names(const std::vector<TuneCandidate>& candidates) {
   std::vector<std::string> out;
-  for (const Candidate& c : candidates) out.push_back(c.detector);
+  for (const TuneCandidate& c : candidates) out.push_back(c.detector);
   return out;
 }
 
@@ -35,7 +35,7 @@ TEST(Space, VariesChoicesAndNumbers) {
               UnorderedElementsAre("ffd-aabb", "ffd-aabb:cell=0.5", "ffd-aabb:cell=2",
                                    "ffd-aabb:bounds=safe", "ffd-aabb:bounds=safe,cell=0.5",
                                    "ffd-aabb:bounds=safe,cell=2"));
-  for (const Candidate& c : candidates) EXPECT_EQ(c.usual, c.detector == "ffd-aabb");
+  for (const TuneCandidate& c : candidates) EXPECT_EQ(c.usual, c.detector == "ffd-aabb");
 }
 
 TEST(Space, LeavesWhatTheNameSetsAndWhatIsTheMachines) {
@@ -67,7 +67,7 @@ TEST(Space, TakesEveryDetectorThatAnswers) {
   SpaceRequest request;
   request.question = Question::kCells;
   std::set<std::string> ids;
-  for (const Candidate& c : make_space(core_catalog(), request))
+  for (const TuneCandidate& c : make_space(core_catalog(), request))
     ids.insert(c.choices.front().value);
   EXPECT_THAT(ids, UnorderedElementsAre("ffd-grid", "ffd-aabb", "ffd-aabb-sphere",
                                         "ffd-aabb-sphere2", "ffd-aabb-sphereN"));

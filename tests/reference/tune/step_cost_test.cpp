@@ -23,10 +23,10 @@ TEST(StepCost, OfManySubstepsIsHigherThanOfFew) {
   StepCostSettings settings;
   settings.steps = 3;
   std::size_t steps = 0;
-  const std::vector<StepCost> costs =
+  const std::vector<Cost> costs =
       step_costs({few, many}, catalog, settings, [&](std::size_t) { ++steps; });
   ASSERT_EQ(costs.size(), 2u);
-  EXPECT_THAT(costs, Each(Field(&StepCost::ms, Gt(0.0))));
+  EXPECT_THAT(costs, Each(Field(&Cost::ms, Gt(0.0))));
   EXPECT_GT(costs[1].ms, 10.0 * costs[0].ms);
   EXPECT_GT(steps, 6u);
 }
@@ -59,8 +59,7 @@ TEST(StepCost, IsToldFromTheFirstScenesOnAMachineThatSlowsDown) {
   settings.steps = 2;
   MadeUpClock clock(settings.steps);
   settings.now_ms = [&] { return clock.now_ms(); };
-  const std::vector<StepCost> costs =
-      step_costs({scene, scene}, catalog, settings, [](std::size_t) {});
+  const std::vector<Cost> costs = step_costs({scene, scene}, catalog, settings, [](std::size_t) {});
   EXPECT_NEAR(costs[1].ms, 3.0 * costs[0].ms, 1e-9);
   EXPECT_EQ(costs[0].low_ms, costs[0].high_ms) << "the unit";
   EXPECT_LT(costs[1].low_ms, costs[1].ms) << "two pairs of five were spoiled";

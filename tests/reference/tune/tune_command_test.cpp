@@ -1,4 +1,6 @@
 // contactcheck tune, as it is run.
+#include <sstream>
+
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/tune/tune_program.h"
 
@@ -55,6 +57,17 @@ TEST_F(TuneCommand, SaysHowSureACostIsAndWhatIsAsCheap) {
           : "As cheap within noise: " + json["as_cheap"][0]["detector"].get<std::string>();
   EXPECT_THAT(tuned.out, HasSubstr(words));
   EXPECT_THAT(page(), HasSubstr(words));
+}
+
+// What is measured again is not another configuration.
+TEST_F(TuneCommand, TellsOnTheWayHowManyConfigurationsWereMeasured) {
+  const Outcome tuned = tune({"--detector", "ffd-aabb:precision=double"});
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+  std::istringstream lines(tuned.err);
+  std::size_t last = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("configurations measured") != std::string::npos) last = std::stoul(line);
+  EXPECT_EQ(last, result()["measured"].size());
 }
 
 TEST_F(TuneCommand, MeasuresEveryConfigurationWhenTold) {

@@ -84,9 +84,10 @@ void add_tune(CommandLine& line) {
       ->check(CLI::Range(4, 100000));
   tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
       ->check(CLI::Range(1, 1000));
-  CLI::Option* most = tune->add_option("--most", arguments->most,
-                                       "measurements at most, those that are made again too (default: no limit)")
-                          ->check(CLI::Range(1, 1000000));
+  CLI::Option* most =
+      tune->add_option("--most", arguments->most,
+                       "measurements at most, those that are made again too (default: no limit)")
+          ->check(CLI::Range(1, 1000000));
   tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
       ->excludes(most);
   add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");

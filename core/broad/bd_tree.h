@@ -93,8 +93,8 @@ class BdTreeOf {
 
   /// Fits the reference map and measures the displacements: O(lattice nodes). Reads nothing of an
   /// earlier call. The nodes must outlive what is asked about them.
-  /// @param origin  what was subtracted from the nodes; it decides how tight ReferenceKind::kNone
-  ///                is, and no sphere's soundness
+  /// `origin`: what was subtracted from the nodes; it decides how tight ReferenceKind::kNone is,
+  /// and no sphere's soundness.
   /// @pre one finite position per lattice node; T float: every coordinate is one, within
   /// kSingleLimit (local_origin.h)
   void begin_frame(std::span<const Vec3> nodes, const Vec3& origin = Vec3::Zero());

@@ -47,8 +47,8 @@ class ReferenceFit {
 
   /// The map of the kind asked for; the zero map (linear and offset 0) where that could overflow:
   /// T(rest node) and its difference from the node are always finite.
-  /// @param origin  what was subtracted from the nodes and not from the rest (local_origin.h);
-  ///                kNone takes it off, too, the others find it by themselves
+  /// `origin`: what was subtracted from the nodes and not from the rest (local_origin.h); kNone
+  /// takes it off, too, the others find it by themselves.
   /// @pre `nodes`: one per rest node, finite
   AffineMap fit(ReferenceKind kind, std::span<const Vec3> nodes,
                 const Vec3& origin = Vec3::Zero()) const;

@@ -30,4 +30,8 @@ const Json* RowIndex::scene(const std::string& id) const {
 
 bool RowIndex::has_scene(const std::string& id) const { return scenes_.count(id) > 0; }
 
+std::string text_at(const nlohmann::ordered_json& object, const char* key) {
+  return object.at(key).get<std::string>();
+}
+
 }  // namespace contactcheck

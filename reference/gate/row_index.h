@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 
@@ -28,8 +28,6 @@ class RowIndex {
 };
 
 /// @throws nlohmann::json::exception when there is no such text
-inline std::string text_at(const nlohmann::ordered_json& object, const char* key) {
-  return object.at(key).get<std::string>();
-}
+std::string text_at(const nlohmann::ordered_json& object, const char* key);
 
 }  // namespace contactcheck

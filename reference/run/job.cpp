@@ -54,6 +54,7 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"settings", to_json(job.settings)},
             {"skip", job.skip},
             {"process", job.process},
+            {"unjudged", job.unjudged},
             {"order", job.order},
             {"prefixes", job.prefixes},
             {"answer_file", job.answer_file.string()},
@@ -79,6 +80,7 @@ Job read_job(const std::filesystem::path& file) {
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
   j.at("process").get_to(job.process);
+  j.at("unjudged").get_to(job.unjudged);
   j.at("order").get_to(job.order);
   j.at("prefixes").get_to(job.prefixes);
   job.answer_file = j.at("answer_file").get<std::string>();

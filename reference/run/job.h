@@ -45,6 +45,9 @@ struct Job {
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   std::size_t process = 0;          ///< 0 judges and times, others only time
+  /// Why the oracle cannot judge the scene, as an earlier try has shown; empty: it can. All
+  /// detectors end in this error.
+  std::string unjudged;
   /// For processes above 0, out of process 0's answer: the order of frames, and per detector how
   /// many of them are timed (0: not timed).
   std::vector<std::size_t> order, prefixes;

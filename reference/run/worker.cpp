@@ -47,7 +47,9 @@ void work(WorkerState& worker) {
   add_entries(worker);
   worker.judged = judge_scene(worker.scene, worker.judges(), worker.progress);
   if (!worker.judged.refused.empty()) {
-    refuse_all(worker);
+    end_all(worker, RunStatus::kRefused, worker.judged.refused);
+  } else if (!worker.job.unjudged.empty()) {
+    end_all(worker, RunStatus::kError, worker.job.unjudged);
   } else if (worker.judges()) {
     judge_and_plan(worker);
   } else {

@@ -53,11 +53,11 @@ void add_entries(WorkerState& worker) {
     if (std::find(skip.begin(), skip.end(), i) == skip.end()) add_entry(i, worker);
 }
 
-void refuse_all(WorkerState& worker) {
+void end_all(WorkerState& worker, RunStatus status, const std::string& message) {
   for (WorkerEntry& entry : worker.entries) {
     if (!entry.usable()) continue;
-    entry.result.status = RunStatus::kRefused;
-    entry.result.message = worker.judged.refused;
+    entry.result.status = status;
+    entry.result.message = message;
   }
 }
 

@@ -8,8 +8,8 @@ namespace contactcheck {
 /// All detectors of the job but those that it skips; one that is absent says so already.
 void add_entries(WorkerState& worker);
 
-/// Where the scene itself was refused, so is every detector that could have run.
-void refuse_all(WorkerState& worker);
+/// Of a scene that was refused or cannot be judged: so ends every detector that could have run.
+void end_all(WorkerState& worker, RunStatus status, const std::string& message);
 
 /// Every usable detector is made, runs over all frames and is judged (accuracy.h, hover.h).
 /// Without timing nobody asks it again, and it is dismissed at once.

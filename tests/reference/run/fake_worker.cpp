@@ -22,6 +22,8 @@
 namespace contactcheck {
 namespace {
 
+void begin(ProgressWriter& progress) { progress.enter(1, 7, Phase::kUpdate); }
+
 // Dies by the signal itself, also where a sanitizer has taken its handler over.
 void die(int number) {
   signal(number, SIG_DFL);
@@ -79,6 +81,20 @@ void flood() {
   sleep(60);
 }
 
+void write_fake_answer(const Job& job, const nlohmann::ordered_json& runs,
+                       const nlohmann::ordered_json& truth_contacts = nullptr) {
+  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
+  nlohmann::ordered_json answer = {
+      {"scene", {{"id", "fake"}, {"frames", 9}, {"contact_frames", 4}}},
+      {"contact_frames", empty},
+      {"order", empty},
+      {"prefixes", empty},
+      {"runs", runs},
+      {"oracle_disagreements", empty}};
+  if (!truth_contacts.is_null()) answer["truth_contacts"] = truth_contacts;
+  std::ofstream(job.answer_file) << answer;
+}
+
 // The answer of a worker whose detector 0 refused the scene and whose others were left out.
 void write_answer(const Job& job) {
   RunResult run;
@@ -88,13 +104,7 @@ void write_answer(const Job& job) {
   const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
   const nlohmann::ordered_json entry = {
       {"position", 0}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}};
-  std::ofstream(job.answer_file) << nlohmann::ordered_json{
-      {"scene", {{"id", "fake"}, {"frames", 9}, {"contact_frames", 4}}},
-      {"contact_frames", empty},
-      {"order", empty},
-      {"prefixes", empty},
-      {"runs", {entry}},
-      {"oracle_disagreements", empty}};
+  write_fake_answer(job, nlohmann::ordered_json::array({entry}));
 }
 
 // The answer of a worker whose detectors all worked; each missed triangles 2 and 5 in frame 3.
@@ -114,14 +124,23 @@ void write_listed_answer(const Job& job) {
                        {"disagreements", empty},
                        {"contacts", detector_contacts(run)}});
   }
-  std::ofstream(job.answer_file) << nlohmann::ordered_json{
-      {"scene", {{"id", "fake"}, {"frames", 9}, {"contact_frames", 4}}},
-      {"contact_frames", empty},
-      {"order", empty},
-      {"prefixes", empty},
-      {"runs", entries},
-      {"oracle_disagreements", empty},
-      {"truth_contacts", {{{"frame", 3}, {"count", 1}, {"pairs", {0, 2, 1, 5}}}}}};
+  write_fake_answer(job, entries, {{{"frame", 3}, {"count", 1}, {"pairs", {0, 2, 1, 5}}}});
+}
+
+// A real worker that need not judge ends every detector in the error that it was given.
+void write_unjudged_answer(const Job& job) {
+  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
+  nlohmann::ordered_json entries = empty;
+  for (std::uint32_t i = 0; i < job.settings.detectors.size(); ++i) {
+    RunResult run;
+    run.scene = "fake";
+    run.detector = job.settings.detectors[i];
+    run.status = RunStatus::kError;
+    run.message = job.unjudged;
+    entries.push_back(
+        {{"position", i}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}});
+  }
+  write_fake_answer(job, entries);
 }
 
 int act(const std::string& what, ProgressWriter& progress) {
@@ -154,9 +173,16 @@ int act(const std::string& what, ProgressWriter& progress) {
   return 0;
 }
 
+int act_as_oracle(const Job& job, ProgressWriter& progress) {
+  progress.enter(SharedProgress::kNoDetector, 3, Phase::kTruth);
+  if (job.unjudged.empty()) die(SIGKILL);
+  write_unjudged_answer(job);
+  return act("answer", progress);
+}
+
 // What a job's scene is called: "outside" dies outside detectors unless detector 1 is left out,
 // "always" dies whatever is left out, "later" dies in detector 1 in the second process, "refuse"
-// says that the input is bad.
+// says that the input is bad, "oracle" dies where the oracle works, before any detector.
 int act_for_suite(const Job& job, ProgressWriter& progress) {
   const std::string what = job.scene_file.stem().string();
   if (what == "refuse") {
@@ -164,6 +190,8 @@ int act_for_suite(const Job& job, ProgressWriter& progress) {
     std::fputs("contactcheck: the scene is bad\n", stderr);
     return 2;
   }
+  if (what == "oracle") return act_as_oracle(job, progress);
+  begin(progress);
   const bool skipped = std::find(job.skip.begin(), job.skip.end(), 1u) != job.skip.end();
   if (what == "later") {
     if (job.process == 1 && !skipped) return act("crash", progress);
@@ -180,6 +208,7 @@ int act_on_job(const std::string& job_file, ProgressWriter& progress) {
   std::ifstream in(job_file);
   std::getline(in, what);
   if (what.rfind('{', 0) == 0) return act_for_suite(read_job(job_file), progress);
+  begin(progress);
   if (what == "crash with child") {
     leave_child(job_file);
     die(SIGSEGV);
@@ -207,6 +236,5 @@ int main(int argc, char** argv) {
   SharedProgress* shared = join_supervisor(std::atoi(argv[4]), &none);
   if (shared == &none) return 65;
   ProgressWriter progress(shared);
-  progress.enter(1, 7, Phase::kUpdate);
   return act_on_job(argv[2], progress);
 }

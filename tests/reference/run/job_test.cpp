@@ -34,6 +34,7 @@ Job full_job() {
   job.settings.memory_limit = std::uint64_t{1} << 40;
   job.skip = {1, 4};
   job.process = 2;
+  job.unjudged = "the oracle, frame 3";
   job.order = {3, 0, 2};
   job.prefixes = {3, 0};
   job.answer_file = "/tmp/answer";
@@ -52,6 +53,7 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.text->name, out.text->name);
   EXPECT_EQ(in.text->folder, out.text->folder);
   EXPECT_EQ(in.settings.detectors, out.settings.detectors);
+  EXPECT_EQ(in.unjudged, out.unjudged);
   EXPECT_EQ(in.settings.frames, 7u);
   EXPECT_EQ(in.settings.repeats, 9u);
   EXPECT_EQ(in.settings.processes, 3u);

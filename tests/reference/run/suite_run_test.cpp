@@ -78,6 +78,21 @@ TEST(SuiteRun, DeathThatGoesOnWithoutItsDetectorEndsTheRunWithASentence) {
   }
 }
 
+TEST(SuiteRun, DeathOfTheOracleCostsItsSceneNotTheRun) {
+  const Scratch scratch;
+  SuiteOutcome outcome;
+  const auto results = run(request_for(scratch, "oracle"), &outcome);
+  EXPECT_TRUE(outcome.unlisted_error);
+  ASSERT_EQ(results.at("runs").size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& row = results.at("runs").at(i);
+    EXPECT_EQ(row.at("status"), "error") << i;
+    EXPECT_EQ(row.at("message"),
+              "scene fake, frame 3, phase truth: signal 9 (Killed), before any detector: the "
+              "oracle cannot judge this scene");
+  }
+}
+
 TEST(SuiteRun, BadInputIsOneSentenceWithTheWorkersOwnWords) {
   const Scratch scratch;
   SuiteOutcome outcome;

@@ -1,0 +1,24 @@
+// One scene of a run: its worker processes, one after the other, and what becomes of those that
+// die.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "reference/run/partial_results.h"
+#include "reference/run/suite_run.h"
+#include "reference/run/supervisor.h"
+
+namespace contactcheck {
+
+/// Judges (and times) one scene of a request. A worker that dies in a detector is started again
+/// without it, and one that dies while the oracle judges is started again without the oracle: its
+/// detectors all end in that error.
+/// @param scratch  an existing folder for jobs, answers and cases
+/// @throws std::runtime_error when a worker dies in another way in the suite's own code;
+/// InputError when it refuses the scene
+FinishedScene run_scene(const SuiteRequest& request, const SceneTask& task,
+                        const std::filesystem::path& scratch, const SuiteListener& listener,
+                        const ProgressCallback& on_progress);
+
+}  // namespace contactcheck

@@ -17,7 +17,9 @@ struct Range {
     high = std::max(high.value_or(value), value);
   }
   std::string text() const {
-    return low ? format_number(*low) + " to " + format_number(*high) + "x" : "-";
+    if (!low) return "-";
+    const std::string from = format_number(*low), to = format_number(*high);
+    return (from == to ? from : from + " to " + to) + "x";
   }
 };
 

@@ -27,8 +27,8 @@ Sums over scenes; speed-ups are the smallest and the largest of any scene.
 
 | detector | scenes | level | truth | recall | missed | spurious | body m/s | hover mm | question | vs fcl-aabb | vs fcl-obbrss | vs embree |
 |---|--:|---|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|
-| fcl-aabb | 1 | triangle | 200000 | 1 | 0 | 0 | 0/0 | 0 | triangles | 1.00 to 1.00x | - | - |
-| ffd-aabb-sphere2+tri | 1 | triangle | 200000 | 0.99999 | 1 | 2 | 0/2 | 2.10 | triangles | 4.00 to 4.00x | - | - |
+| fcl-aabb | 1 | triangle | 200000 | 1 | 0 | 0 | 0/0 | 0 | triangles | 1.00x | - | - |
+| ffd-aabb-sphere2+tri | 1 | triangle | 200000 | 0.99999 | 1 | 2 | 0/2 | 2.10 | triangles | 4.00x | - | - |
 | fcl-obbrss | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - |
 | embree | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - |
 | ffd-grid | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - |

@@ -10,7 +10,9 @@ const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
 
 function rangeText(line: SummaryLine, reference: string): string {
   const range = speedupRange(line, reference);
-  return range ? `${number(range[0])} to ${number(range[1])}x` : "-";
+  if (!range) return "-";
+  const [from, to] = range.map(number);
+  return from === to ? `${from}x` : `${from} to ${to}x`;
 }
 
 export const summary: Section = {

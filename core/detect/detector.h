@@ -45,8 +45,9 @@ struct StageTrace {
 
 /// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
 /// frames may come in any order and repeat. A detector holds no state that changes the answer to a
-/// later frame. Two detectors (also of one kind) may be used by two threads at once. Exceptions are
-/// recorded as status `error` (RefusedInput: `refused`).
+/// later frame. Two detectors (also of one kind) may be used by two threads at once. An exception
+/// is recorded as status `error` (RefusedInput: `refused`); after it the detector is only
+/// destroyed.
 class Detector {
  public:
   Detector() = default;

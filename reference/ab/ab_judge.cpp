@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "core/types/median.h"
 #include "reference/ab/paired_ratio.h"
 #include "reference/diff/results_diff.h"
 
@@ -49,8 +50,8 @@ void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJud
       ++judgement.untimed;
       continue;
     }
-    AbTime time = {row.scene,       row.detector,    paired_ratio(base, head),
-                   median_of(base), median_of(head), AbVerdict::kPass};
+    AbTime time = {row.scene,    row.detector, paired_ratio(base, head),
+                   median(base), median(head), AbVerdict::kPass};
     time.verdict = verdict_of(time, limits);
     judgement.times.push_back(std::move(time));
   }

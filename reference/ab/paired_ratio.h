@@ -7,9 +7,6 @@
 
 namespace contactcheck {
 
-/// Of an even number, the mean of the two in the middle. @pre at least one
-double median_of(std::vector<double> values);
-
 /// The median over rounds of head / base, with a percentile bootstrap 95 % interval (2000 draws of
 /// rounds with replacement, fixed seed). The two times of a round ran one after the other: what
 /// slows the machine for a while slows both, and one slow round moves the median little.

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/types/check.h"
+#include "core/types/median.h"
 
 namespace contactcheck {
 namespace {
@@ -118,14 +119,6 @@ PhaseTimes phase_times(const ProcessSamples& processes, const std::vector<std::s
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  CONTACTCHECK_INVARIANT(!values.empty(), "a median of something");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 QuestionTimes summarize_times(const ProcessSamples& processes,
                               const std::vector<bool>& contact_frames) {

@@ -47,6 +47,4 @@ std::optional<Speedup> compute_speedup(const ProcessSamples& reference,
                                        const ProcessSamples& detector,
                                        const std::vector<bool>& contact_frames);
 
-double median(std::vector<double> values);
-
 }  // namespace contactcheck

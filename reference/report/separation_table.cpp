@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "core/types/median.h"
 #include "reference/report/format.h"
 #include "reference/report/markdown_table.h"
 
@@ -25,15 +26,12 @@ std::vector<Json> values_at(const Json& run, const char* key, std::size_t separa
   return {first, first + static_cast<std::ptrdiff_t>(orientations)};
 }
 
-// The upper one of two in the middle.
 std::string median_time(const std::vector<Json>& values) {
   std::vector<double> times;
   for (const Json& value : values)
     if (value.is_number()) times.push_back(value.get<double>());
   if (times.empty()) return "-";
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return format_number(*middle);
+  return format_number(median(std::move(times)));
 }
 
 std::string sum_text(const std::vector<Json>& values) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/types/check.h"
+#include "core/types/median.h"
 
 namespace contactcheck {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "reference/compare/speedup.h"
+#include "core/types/median.h"
 #include "reference/run/timing.h"
 #include "reference/simulate/driven_simulation.h"
 #include "reference/tune/paired_cost.h"

@@ -9,10 +9,10 @@
 #include <string>
 
 #include "core/deform/mapping.h"
+#include "core/types/median.h"
 #include "tests/bench/bench_bodies.h"
 #include "tests/bench/plain_gather.h"
 #include "tests/bench/register.h"
-#include "tests/bench/statistics.h"
 #include "tests/bench/stopwatch.h"
 
 namespace contactcheck::bench {

@@ -18,12 +18,12 @@
 #include <vector>
 
 #include "core/types/check.h"
+#include "core/types/median.h"
 #include "reference/adapters/register.h"
 #include "reference/run/timing.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "tests/bench/register.h"
-#include "tests/bench/statistics.h"
 
 namespace contactcheck::bench {
 namespace {

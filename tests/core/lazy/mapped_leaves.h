@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/detect/triangle_pair_detector.h"
 #include "tests/core/lazy/one_body.h"
 
 namespace contactcheck::test {
@@ -18,10 +19,6 @@ inline std::vector<ShapePtr> leaf_shapes() {
   return {make_shape(ball, {1, 1, 1}), make_shape(ball, {10, 10, 10}), make_bare_shape(ball),
           make_shape(long_triangles(5, 33), {6, 6, 6}), make_shape(sheet(1), {1, 1, 1})};
 }
-
-template <typename Real>
-inline constexpr Precision kPrecisionOf =
-    std::is_same_v<Real, float> ? Precision::kSingle : Precision::kDouble;
 
 template <typename Real>
 const LeafCacheOf<Real>& mapped_leaf(const LazyKernels& kernels, OneBody& body,
@@ -41,7 +38,7 @@ void for_each_mapped_leaf(std::uint64_t seed, std::span<const Deformation> defor
   TriangleSource random(seed);
   for (const ShapePtr& shape : leaf_shapes())
     for (bool from_vertices : {false, true}) {
-      OneBody body(shape, from_vertices, kPrecisionOf<Real>);
+      OneBody body(shape, from_vertices, kPrecision<Real>);
       for (const Deformation& how : deformations)
         for (const std::string& isa : lazy_isas()) {
           SCOPED_TRACE(isa);

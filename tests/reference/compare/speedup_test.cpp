@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kMillisecond = 1e6;  // nanoseconds
 
-TEST(Median, OfOddEvenAndSingle) {
-  EXPECT_EQ(median({5.0}), 5.0);
-  EXPECT_EQ(median({9.0, 1.0, 4.0}), 4.0);
-  EXPECT_EQ(median({8.0, 2.0, 4.0, 100.0}), 6.0);
-  EXPECT_EQ(median({3.0, 3.0, 1.0, 3.0}), 3.0);
-}
-
 // Whole-frame times in milliseconds, spent in `update`; hot is half of cold.
 FrameSamples updates(const std::vector<double>& milliseconds) {
   FrameSamples out;

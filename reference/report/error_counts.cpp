@@ -15,8 +15,7 @@ std::optional<double> share(std::int64_t part, std::int64_t whole) {
 
 }  // namespace
 
-bool ErrorCounts::add(const nlohmann::ordered_json& run) {
-  const std::string level = run.at("per_frame").value("level", "");
+bool ErrorCounts::add(const nlohmann::ordered_json& run, const std::string& level) {
   const auto& levels = run.at("levels");
   if (!levels.contains(level) || levels.at(level).value("informative", false)) return false;
   const auto& counts = levels.at(level);

@@ -58,7 +58,7 @@ std::vector<LevelSum> sums_of(const std::vector<const Json*>& runs) {
       sum->detector = detector;
       sum->level = level;
     }
-    sum->add(*run);
+    sum->add(*run, level);
   }
   return sums;
 }

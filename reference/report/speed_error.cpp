@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "reference/report/format.h"
+#include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
@@ -78,13 +79,24 @@ std::optional<double> mean_frame_ms(const Runs& runs) {
   return std::isfinite(mean) && mean > 0.0 ? std::optional(mean) : std::nullopt;
 }
 
-// In alphabetical order.
-std::string levels_of(const Runs& runs) {
-  std::set<std::string> levels;
-  for (const Json* run : runs) levels.insert(run->at("per_frame").value("level", ""));
-  std::string text;
-  for (const std::string& level : levels) text += (text.empty() ? "" : ", ") + level;
-  return text;
+bool claims(const Json& run, const std::string& level) {
+  const Json& levels = run.at("levels");
+  return levels.contains(level) && !levels.at(level).value("informative", false);
+}
+
+// Counts of different levels do not add up: where the finest one is not the same in all scenes, the
+// finest that the detector claims in all of them; "" where there is none.
+std::string common_level(const Runs& runs) {
+  std::set<std::string> finest;
+  for (const Json* run : runs)
+    if (const std::string level = finest_level(*run); !level.empty()) finest.insert(level);
+  if (finest.size() == 1) return *finest.begin();
+  std::string common;  // results have levels coarse before fine
+  for (const auto& [level, counts] : runs.front()->at("levels").items())
+    if (std::all_of(runs.begin(), runs.end(),
+                    [&name = level](const Json* run) { return claims(*run, name); }))
+      common = level;
+  return common;
 }
 
 /// A point, or why there is none.
@@ -99,13 +111,13 @@ Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scen
   const auto ms = mean_frame_ms(runs);
   if (!ms) return {{}, "not timed"};
   SpeedErrorPoint point;
+  point.level = common_level(runs);
   bool judged = false;
-  for (const Json* run : runs) judged = point.add(*run) || judged;
+  for (const Json* run : runs) judged = point.add(*run, point.level) || judged;
   const auto error = point.worse_share();
   if (!judged || !error) return {{}, "nothing to judge"};
   point.detector = detector;
   point.question = runs.front()->at("time_ms").at("question").get<std::string>();
-  point.level = levels_of(runs);
   point.ms = *ms;
   point.error = *error;
   return {std::move(point), ""};

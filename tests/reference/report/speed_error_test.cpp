@@ -93,6 +93,20 @@ TEST(SpeedError, LevelsThatAreNoClaimDoNotCount) {
   EXPECT_EQ(chart.left_out[0].why, "nothing to judge");
 }
 
+TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
+  Json results = two_scenes();
+  Json& second = results["runs"][6];
+  ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
+  second["per_frame"]["level"] = "body";
+  second["levels"].erase("triangle");
+  const SpeedErrorPoint& p = speed_error(results).points[1];
+  EXPECT_EQ(p.level, "body");
+  EXPECT_EQ(p.truth, 26) << "13 pairs of bodies in either scene";
+  EXPECT_EQ(p.spurious, 4);
+  second["levels"].erase("body");
+  EXPECT_EQ(speed_error(results).left_out.front().why, "nothing to judge") << "in common";
+}
+
 TEST(SpeedError, WithoutTimesThereIsNothingToCompare) {
   Json results = sample_results();
   for (int i : {0, 1}) results["runs"][i]["time_ms"] = Json::object();

@@ -72,6 +72,12 @@ test("a level leaves out who does not claim it", async () => {
   assert.deepEqual((await labels(page))[4][1], "missed 0 of 3, spurious 1 of 4 (level body)");
 });
 
+test("counts of different levels are not added up: the finest in all scenes counts", async () => {
+  const {page} = await mixed.open();
+  const point = (await labels(page)).find(([first]) => first.startsWith("ffd-aabb:"));
+  assert.equal(point[1], "missed 0 of 3, spurious 0 of 3 (level body)");
+});
+
 test("one scene and hot caches have times of their own", async () => {
   const {page} = await report.open();
   await choose(page, "Scenes", {label: "<script>alert(1)</script>"});

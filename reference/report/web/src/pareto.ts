@@ -1,5 +1,5 @@
 // The points of the chart of speed against error, and the front of those that no other beats.
-import {kFinest, levelOf, finestLevel, type Report} from "./report";
+import {commonLevel, kFinest, levelOf, type Report} from "./report";
 import {countsAt, meanFrameMs, missedShare, spuriousShare, worseShare, type Counts} from "./sums";
 import type {Run, Scene} from "./results";
 
@@ -16,7 +16,7 @@ export interface Point {
   detector: string;
   options: Record<string, string>;
   question: string;
-  /** Of the counts; several where a detector's finest level is not the same in all scenes. */
+  /** Of the counts. */
   level: string;
   ms: number;
   error: number;
@@ -43,12 +43,12 @@ function whyNot(runs: (Run | null)[], choice: Choice): string {
 }
 
 function pointOf(detector: string, runs: Run[], choice: Choice): Point | null {
-  const ms = meanFrameMs(runs, choice.part), counts = countsAt(runs, choice.level);
+  const level = choice.level === kFinest ? commonLevel(runs) : choice.level;
+  const ms = meanFrameMs(runs, choice.part), counts = countsAt(runs, level);
   const error = counts && kShares[choice.measure](counts);
   if (ms === null || !counts || error === null) return null;
-  const levels = choice.level === kFinest ? new Set(runs.map(finestLevel)) : [choice.level];
   return {detector, options: runs[0].options, question: runs[0].time_ms.question ?? "",
-          level: [...levels].join(", "), ms, error, counts, onFront: false};
+          level, ms, error, counts, onFront: false};
 }
 
 /** Marks points that none of the same question beats in time without being worse in error. */

@@ -77,9 +77,20 @@ export function levelOf(run: Run, level: string): Level | null {
   return found && !found.informative ? found : null;
 }
 
+const kLevels = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
+
+/**
+ * Counts of different levels do not add up: where a detector's finest one is not the same in all
+ * runs, the finest that it claims in all of them; "" where there is none.
+ */
+export function commonLevel(runs: Run[]): string {
+  const finest = new Set(runs.map(finestLevel).filter((level) => level !== ""));
+  if (finest.size === 1) return [...finest][0];
+  return kLevels.filter((level) => runs.every((run) => levelOf(run, level))).pop() ?? "";
+}
+
 /** Levels that some detector claims, coarse before fine. */
 export function judgedLevels(runs: Run[]): string[] {
-  const order = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
   const seen = new Set(runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)));
-  return order.filter((level) => seen.has(level));
+  return kLevels.filter((level) => seen.has(level));
 }

@@ -71,6 +71,7 @@ SightingsOfRun sightings_of(const Json& results) {
   SightingsOfRun out;
   for (const Json& run : results.at("runs")) {
     const Json& scene = scene_of(results, run);
+    if (scene.contains("unjudged")) continue;  // no detector was asked
     const bool family = scene.contains("family");
     const Json values = family ? scene.at("family").at("values") : Json::array();
     const bool answered = run.at("status") == "ok";

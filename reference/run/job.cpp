@@ -54,7 +54,6 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"settings", to_json(job.settings)},
             {"skip", job.skip},
             {"process", job.process},
-            {"unjudged", job.unjudged},
             {"order", job.order},
             {"prefixes", job.prefixes},
             {"answer_file", job.answer_file.string()},
@@ -62,6 +61,7 @@ void write_job(const std::filesystem::path& file, const Job& job) {
   if (job.text)
     j["text"] = {
         {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
+  if (job.unjudged) j["unjudged"] = {{"why", job.unjudged->why}, {"frame", job.unjudged->frame}};
   if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
   write_file_atomically(file, j.dump());
 }
@@ -77,10 +77,12 @@ Job read_job(const std::filesystem::path& file) {
     job.text = SceneText{j.at("text").at("text").get<std::string>(),
                          j.at("text").at("name").get<std::string>(),
                          j.at("text").at("folder").get<std::string>()};
+  if (j.contains("unjudged"))
+    job.unjudged = Unjudged{j.at("unjudged").at("why").get<std::string>(),
+                            j.at("unjudged").at("frame").get<std::uint32_t>()};
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
   j.at("process").get_to(job.process);
-  j.at("unjudged").get_to(job.unjudged);
   j.at("order").get_to(job.order);
   j.at("prefixes").get_to(job.prefixes);
   job.answer_file = j.at("answer_file").get<std::string>();

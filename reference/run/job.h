@@ -37,6 +37,12 @@ struct RunSettings {
 
 nlohmann::json to_json(const RunSettings& settings);
 
+/// A scene that passes a limit while the oracle is at work.
+struct Unjudged {
+  std::string why;  ///< with the place
+  std::uint32_t frame = 0;
+};
+
 /// One worker's job: one scene.
 struct Job {
   std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
@@ -45,9 +51,9 @@ struct Job {
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   std::size_t process = 0;          ///< 0 judges and times, others only time
-  /// Why the oracle cannot judge the scene, as an earlier try has shown; empty: it can. All
-  /// detectors end in this error.
-  std::string unjudged;
+  /// Where an earlier try has shown that the oracle cannot judge the scene: it is not asked again,
+  /// and all detectors end in this error.
+  std::optional<Unjudged> unjudged;
   /// For processes above 0, out of process 0's answer: the order of frames, and per detector how
   /// many of them are timed (0: not timed).
   std::vector<std::size_t> order, prefixes;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +18,7 @@ using BrokenDetectors = std::map<std::uint32_t, WorkerOutcome>;
 
 using SampleListener = decltype(SuiteListener::samples);
 
+/// References to what the caller keeps for the call.
 struct SceneAnswers {
   const SceneTask& task;
   const std::vector<nlohmann::ordered_json>& answers;  ///< per process, the one that judged first

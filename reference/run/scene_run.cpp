@@ -80,18 +80,19 @@ class SceneRun {
     return outcome.detector || by_itself ? outcome.detector : outcome.last_detector;
   }
 
-  // It costs its scene, not the run: a frame may hold more work than the limits allow.
-  static bool is_the_oracle(const WorkerOutcome& outcome) {
-    return outcome.phase == Phase::kTruth && !outcome.last_detector &&
-           outcome.exit_code != kExitBadInput;
+  // It costs its scene, not the run: a frame may hold more work than the limits allow. Random pairs
+  // are made to be judged, and a process that only times does not judge.
+  bool is_too_much_to_judge(const WorkerOutcome& outcome) const {
+    return outcome.over_limit && outcome.phase == Phase::kTruth && !outcome.last_detector &&
+           job_.process == 0 && !job_.pairs && !job_.unjudged;
   }
 
   void book(const WorkerOutcome& outcome) {
-    const std::optional<std::uint32_t> detector = suspect(outcome);
-    if (!detector && is_the_oracle(outcome) && job_.unjudged.empty()) {
+    if (is_too_much_to_judge(outcome)) {
       leave_unjudged(outcome);
       return;
     }
+    const std::optional<std::uint32_t> detector = suspect(outcome);
     // One that did not run again cannot have died again: then the worker's page is no witness.
     if (!detector || broken_.count(*detector)) throw_for_scene(outcome);
     show_last_words(task_.detectors[*detector], outcome.error_text);
@@ -100,10 +101,9 @@ class SceneRun {
   }
 
   void leave_unjudged(const WorkerOutcome& outcome) {
-    const std::string words = printable_line(outcome.error_text);
-    job_.unjudged = place_of(task_.id, outcome) +
-                    ", before any detector: the oracle cannot judge this scene" +
-                    (words.empty() ? "" : ": " + words);
+    job_.unjudged = Unjudged{
+        place_of(task_.id, outcome) + ", before any detector: the oracle cannot judge this scene",
+        outcome.frame};
   }
 
   // All of it: of a sanitizer's report the first line says little.

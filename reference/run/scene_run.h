@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
 #include "reference/run/partial_results.h"
 #include "reference/run/suite_run.h"
@@ -12,8 +11,8 @@
 namespace contactcheck {
 
 /// Judges (and times) one scene of a request. A worker that dies in a detector is started again
-/// without it, and one that dies while the oracle judges is started again without the oracle: its
-/// detectors all end in that error.
+/// without it, and one that passes a limit while the oracle judges is started again without the
+/// oracle: its detectors all end in that error.
 /// @param scratch  an existing folder for jobs, answers and cases
 /// @throws std::runtime_error when a worker dies in another way in the suite's own code;
 /// InputError when it refuses the scene

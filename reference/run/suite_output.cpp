@@ -30,11 +30,17 @@ bool says_of_the_list(const DefectComparison& comparison, const Json& results) {
                      });
 }
 
+bool any_unjudged(const Json& results) {
+  const Json& scenes = results.at("scenes");
+  return std::any_of(scenes.begin(), scenes.end(),
+                     [](const Json& scene) { return scene.contains("unjudged"); });
+}
+
 // Where nothing could have shown a defect, there is nothing to say about them.
 void add_known_defects(const KnownDefects& known, Json& results, SuiteOutcome* outcome) {
   const DefectComparison comparison =
       compare_defects(known, sightings_of(results), versions_in(results));
-  outcome->unlisted_error = any_unlisted_error(comparison);
+  outcome->unlisted_error = any_unlisted_error(comparison) || any_unjudged(results);
   const Json& scenes = results.at("scenes");
   const bool families = std::any_of(scenes.begin(), scenes.end(),
                                     [](const Json& scene) { return scene.contains("family"); });

@@ -75,7 +75,7 @@ struct SuiteListener {
 };
 
 struct SuiteOutcome {
-  bool unlisted_error = false;     ///< some detector ended in an `error` that is no known defect
+  bool unlisted_error = false;     ///< some `error` is no known defect of its detector
   std::uint64_t oracle_wrong = 0;  ///< random pairs on which rational arithmetic contradicts it
 };
 

@@ -154,6 +154,7 @@ WorkerOutcome outcome_of(const SharedProgress& progress, const RunSettings& sett
   out.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   out.killed = WIFSIGNALED(status);
   if (out.done) return out;
+  out.over_limit = !limit.empty();
   out.reason = limit.empty() ? describe_status(status) : limit;
   out.detector = checked(progress.detector, settings);
   out.last_detector = checked(progress.last_detector, settings);

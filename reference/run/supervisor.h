@@ -12,10 +12,11 @@
 namespace contactcheck {
 
 struct WorkerOutcome {
-  bool done = false;    ///< the answer file is complete
-  int exit_code = 0;    ///< of a worker that ended by itself
-  bool killed = false;  ///< by a signal, its own or the supervisor's
-  std::string reason;   ///< why it is not done: "signal 11 (Segmentation fault)", ...
+  bool done = false;        ///< the answer file is complete
+  int exit_code = 0;        ///< of a worker that ended by itself
+  bool killed = false;      ///< by a signal, its own or the supervisor's
+  bool over_limit = false;  ///< for a limit of the job that it passed
+  std::string reason;       ///< why it is not done: "signal 11 (Segmentation fault)", ...
   /// Where it was when it died; no detector: in the suite's own code.
   std::optional<std::uint32_t> detector;
   /// The detector that had run last before it died; none: it died before any had run.

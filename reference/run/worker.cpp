@@ -42,20 +42,28 @@ void judge_and_plan(WorkerState& worker) {
   plan_timing(worker);
 }
 
-void work(WorkerState& worker) {
-  arrange_scene(worker);
-  add_entries(worker);
+// Not even mapped: what passed a limit once would pass it again.
+void leave_unjudged(WorkerState& worker) {
+  worker.judged.scene = &worker.scene;
+  end_all(worker, RunStatus::kError, worker.job.unjudged->why, worker.job.unjudged->frame);
+}
+
+void judge_and_time(WorkerState& worker) {
   worker.judged = judge_scene(worker.scene, worker.judges(), worker.progress);
   if (!worker.judged.refused.empty()) {
     end_all(worker, RunStatus::kRefused, worker.judged.refused);
-  } else if (!worker.job.unjudged.empty()) {
-    end_all(worker, RunStatus::kError, worker.job.unjudged);
   } else if (worker.judges()) {
     judge_and_plan(worker);
   } else {
     prepare_detectors(worker);
   }
   if (worker.job.settings.timing) time_detectors(worker);
+}
+
+void work(WorkerState& worker) {
+  arrange_scene(worker);
+  add_entries(worker);
+  worker.job.unjudged ? leave_unjudged(worker) : judge_and_time(worker);
   dismiss_all(worker);
   worker.surroundings.restore();
   write_answer(worker);

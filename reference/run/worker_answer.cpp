@@ -38,6 +38,7 @@ class AnswerWriter {
                    {"order", job.order},
                    {"prefixes", job.prefixes},
                    {"oracle_disagreements", oracle_cases()}};
+    if (job.unjudged) answer["scene"]["unjudged"] = job.unjudged->why;
     if (lists_contacts()) answer["truth_contacts"] = truth_contacts(worker_.judged);
     std::string text = text_of(answer);
     text.back() = ',';
@@ -89,9 +90,10 @@ class AnswerWriter {
     return written_cases(wrong);
   }
 
-  // Random pairs are far too many for pictures; a refused scene has no truth.
+  // Random pairs are far too many for pictures; a scene that is refused or not judged has no truth.
   bool lists_contacts() const {
-    return worker_.judges() && !worker_.scene.pairs && worker_.judged.refused.empty();
+    return worker_.judges() && !worker_.scene.pairs && worker_.judged.refused.empty() &&
+           !worker_.job.unjudged;
   }
 
   const WorkerState& worker_;

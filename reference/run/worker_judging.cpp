@@ -53,10 +53,12 @@ void add_entries(WorkerState& worker) {
     if (std::find(skip.begin(), skip.end(), i) == skip.end()) add_entry(i, worker);
 }
 
-void end_all(WorkerState& worker, RunStatus status, const std::string& message) {
+void end_all(WorkerState& worker, RunStatus status, const std::string& message,
+             std::optional<std::size_t> failed_frame) {
   for (WorkerEntry& entry : worker.entries) {
     if (!entry.usable()) continue;
     entry.result.status = status;
+    entry.result.failed_frame = failed_frame;
     entry.result.message = message;
   }
 }

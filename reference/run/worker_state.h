@@ -42,8 +42,8 @@ struct WorkerState {
   WorkerState(const WorkerState&) = delete;
   WorkerState& operator=(const WorkerState&) = delete;
 
-  /// The job's first process judges, if the scene can be; the others only time.
-  bool judges() const { return job.process == 0 && job.unjudged.empty(); }
+  /// The job's first process judges; the others only time.
+  bool judges() const { return job.process == 0; }
 
   Job job;
   const DetectorCatalog& catalog;

@@ -48,6 +48,12 @@ PairedRun paired(const ProcessSamples* own, const ProcessSamples* anchor) {
 }
 
 // Errors; the cost is still missing.
+// Without truth there is nothing to choose by.
+void expect_judged(const Json& scenes) {
+  for (const Json& scene : scenes)
+    if (scene.contains("unjudged")) throw InputError(scene.at("unjudged").get<std::string>());
+}
+
 Measurement errors_of(const Json& run, const std::string& level) {
   Measurement m;
   if (run.at("status") != "ok") {
@@ -153,7 +159,9 @@ Json Measuring::run(const std::vector<ModelKey>& keys, const std::vector<std::si
     if (samples.front().question == request_.question) times[{scene, detector}] = samples;
   };
   SuiteOutcome outcome;
-  return run_suite(suite, listener, &outcome).at("runs");
+  const Json results = run_suite(suite, listener, &outcome);
+  expect_judged(results.at("scenes"));
+  return results.at("runs");
 }
 
 void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& batch) {

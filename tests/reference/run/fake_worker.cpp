@@ -136,7 +136,8 @@ void write_unjudged_answer(const Job& job) {
     run.scene = "fake";
     run.detector = job.settings.detectors[i];
     run.status = RunStatus::kError;
-    run.message = job.unjudged;
+    run.message = job.unjudged->why;
+    run.failed_frame = job.unjudged->frame;
     entries.push_back(
         {{"position", i}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}});
   }
@@ -173,16 +174,18 @@ int act(const std::string& what, ProgressWriter& progress) {
   return 0;
 }
 
-int act_as_oracle(const Job& job, ProgressWriter& progress) {
+int act_as_oracle(const std::string& what, const Job& job, ProgressWriter& progress) {
   progress.enter(SharedProgress::kNoDetector, 3, Phase::kTruth);
-  if (job.unjudged.empty()) die(SIGKILL);
+  if (what == "judge") die(SIGSEGV);
+  if (!job.unjudged) allocate_for_ever();
   write_unjudged_answer(job);
   return act("answer", progress);
 }
 
 // What a job's scene is called: "outside" dies outside detectors unless detector 1 is left out,
 // "always" dies whatever is left out, "later" dies in detector 1 in the second process, "refuse"
-// says that the input is bad, "oracle" dies where the oracle works, before any detector.
+// says that the input is bad, "oracle" and "judge" take too much memory and
+// die where the oracle works, before any detector.
 int act_for_suite(const Job& job, ProgressWriter& progress) {
   const std::string what = job.scene_file.stem().string();
   if (what == "refuse") {
@@ -190,7 +193,7 @@ int act_for_suite(const Job& job, ProgressWriter& progress) {
     std::fputs("contactcheck: the scene is bad\n", stderr);
     return 2;
   }
-  if (what == "oracle") return act_as_oracle(job, progress);
+  if (what == "oracle" || what == "judge") return act_as_oracle(what, job, progress);
   begin(progress);
   const bool skipped = std::find(job.skip.begin(), job.skip.end(), 1u) != job.skip.end();
   if (what == "later") {

@@ -34,7 +34,7 @@ Job full_job() {
   job.settings.memory_limit = std::uint64_t{1} << 40;
   job.skip = {1, 4};
   job.process = 2;
-  job.unjudged = "the oracle, frame 3";
+  job.unjudged = Unjudged{"the oracle, frame 3", 3};
   job.order = {3, 0, 2};
   job.prefixes = {3, 0};
   job.answer_file = "/tmp/answer";
@@ -53,7 +53,9 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.text->name, out.text->name);
   EXPECT_EQ(in.text->folder, out.text->folder);
   EXPECT_EQ(in.settings.detectors, out.settings.detectors);
-  EXPECT_EQ(in.unjudged, out.unjudged);
+  ASSERT_TRUE(in.unjudged);
+  EXPECT_EQ(in.unjudged->why, out.unjudged->why);
+  EXPECT_EQ(in.unjudged->frame, 3u);
   EXPECT_EQ(in.settings.frames, 7u);
   EXPECT_EQ(in.settings.repeats, 9u);
   EXPECT_EQ(in.settings.processes, 3u);

@@ -78,19 +78,28 @@ TEST(SuiteRun, DeathThatGoesOnWithoutItsDetectorEndsTheRunWithASentence) {
   }
 }
 
-TEST(SuiteRun, DeathOfTheOracleCostsItsSceneNotTheRun) {
+TEST(SuiteRun, WhatTheOracleCannotJudgeCostsItsSceneNotTheRun) {
   const Scratch scratch;
   SuiteOutcome outcome;
-  const auto results = run(request_for(scratch, "oracle"), &outcome);
+  SuiteRequest request = request_for(scratch, "oracle");
+  request.settings.memory_limit = std::uint64_t{300} << 20;
+  const auto results = run(request, &outcome);
   EXPECT_TRUE(outcome.unlisted_error);
   ASSERT_EQ(results.at("runs").size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto& row = results.at("runs").at(i);
-    EXPECT_EQ(row.at("status"), "error") << i;
+  for (const auto& row : results.at("runs")) {
+    EXPECT_EQ(row.at("status"), "error");
+    EXPECT_EQ(row.at("failed_frame"), 3);
     EXPECT_EQ(row.at("message"),
-              "scene fake, frame 3, phase truth: signal 9 (Killed), before any detector: the "
-              "oracle cannot judge this scene");
+              "scene fake, frame 3, phase truth: more than 300 MiB resident (memory limit), before "
+              "any detector: the oracle cannot judge this scene");
   }
+}
+
+TEST(SuiteRun, DeathOfTheOracleByItselfIsAnErrorOfTheSuite) {
+  const Scratch scratch;
+  SuiteOutcome outcome;
+  EXPECT_THAT([&] { run(request_for(scratch, "judge"), &outcome); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("outside any detector")));
 }
 
 TEST(SuiteRun, BadInputIsOneSentenceWithTheWorkersOwnWords) {

@@ -19,7 +19,7 @@ nlohmann::json answer_of(const Scratch& scratch, std::size_t process) {
   job.scene_file = scratch.write("tiny.json", test::tiny_scene());
   job.settings.detectors = {"ffd-lazy", "fcl-aabb"};
   job.process = process;
-  job.unjudged = "the oracle, frame 3";
+  job.unjudged = Unjudged{"the oracle, frame 3", 3};
   job.answer_file = scratch.folder() / "answer";
   job.recording_file = scratch.folder() / "tiny.ccr";
   write_job(scratch.folder() / "job", job);
@@ -36,11 +36,13 @@ void expect_errors_and_nothing_else(std::size_t process) {
   EXPECT_THAT(answer.at("contact_frames"), IsEmpty());
   EXPECT_EQ(answer.at("scene").at("frames"), 5);
   EXPECT_THAT(answer.at("scene").at("truth"), IsEmpty());
+  EXPECT_EQ(answer.at("scene").at("unjudged"), "the oracle, frame 3");
   EXPECT_FALSE(std::filesystem::exists(scratch.folder() / "tiny.ccr"));
   ASSERT_EQ(answer.at("runs").size(), 2u);
   for (const auto& entry : answer.at("runs")) {
     EXPECT_EQ(entry.at("run").at("status"), "error");
     EXPECT_EQ(entry.at("run").at("message"), "the oracle, frame 3");
+    EXPECT_EQ(entry.at("run").at("failed_frame"), 3);
     EXPECT_THAT(entry.at("samples"), IsEmpty());
   }
 }

@@ -33,6 +33,19 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
   });
 });
 
+const unjudged = useReport("two_scenes.json", {change(results) {
+  results.scenes[1].unjudged = "scene second: no progress";
+  for (const run of results.runs) if (run.scene === results.scenes[1].id) run.status = "error";
+}});
+
+test("a scene that could not be judged is nobody's error", async () => {
+  const {page} = await unjudged.open();
+  const said = await findings(page);
+  assert.equal(said["Not judged"], "scene second: no progress.");
+  assert.equal(said["Ended in an error"], "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).");
+  assert.match(await page.locator("h1").textContent(), /made no error in 1 scene$/);
+});
+
 test("command, machine and libraries are told", async () => {
   const {page} = await report.shared();
   const facts = page.locator("#machine");

@@ -2,7 +2,7 @@
 import {grouped, listed, number, percent, plural, shortList} from "./format";
 import type {Report} from "./report";
 import {meanFrameMs, missedShare, spuriousShare, verdictOf, type Counts, type Verdict} from "./sums";
-import type {KnownDefects, Run} from "./results";
+import type {KnownDefects, Run, Scene} from "./results";
 
 export interface Finding {
   topic: string;
@@ -15,9 +15,14 @@ interface Judged extends Verdict {
   crashed: boolean;
 }
 
+/** Runs that ended so by their detector's own doing: in a scene that was not judged, none was asked. */
+function runsThat(report: Report, status: string): Run[] {
+  const unjudged = new Set(report.results.scenes.filter((s) => s.unjudged).map((s) => s.id));
+  return report.results.runs.filter((run) => run.status === status && !unjudged.has(run.scene));
+}
+
 function verdicts(report: Report): Judged[] {
-  const crashed = new Set(
-    report.results.runs.filter((run) => run.status === "error").map((run) => run.detector));
+  const crashed = new Set(runsThat(report, "error").map((run) => run.detector));
   const scenes = [...report.scenes, ...report.families];
   return report.detectors.map((detector) => verdictOf(report, detector, scenes))
     .filter((verdict) => verdict !== null)
@@ -28,9 +33,10 @@ function verdicts(report: Report): Judged[] {
 const flawless = (verdict: Judged): boolean => verdict.exact && !verdict.crashed;
 
 export function placesText(report: Report): string {
-  const cases = report.families.reduce((sum, scene) => sum + scene.family!.values.length, 0);
-  const parts = [];
-  if (report.scenes.length > 0) parts.push(plural(report.scenes.length, "scene"));
+  const judged = (all: Scene[]): Scene[] => all.filter((scene) => !scene.unjudged);
+  const cases = judged(report.families).reduce((sum, scene) => sum + scene.family!.values.length, 0);
+  const parts = [], scenes = judged(report.scenes).length;
+  if (scenes > 0) parts.push(plural(scenes, "scene"));
   if (cases > 0) parts.push(plural(cases, "hard case"));
   return listed(parts);
 }
@@ -146,10 +152,15 @@ function defectsFinding(report: Report): Finding[] {
 }
 
 function statusFinding(report: Report, status: string, topic: string): Finding[] {
-  const runs = report.results.runs.filter((run) => run.status === status);
+  const runs = runsThat(report, status);
   if (runs.length === 0) return [];
   const texts = runs.map((run) => `${run.detector} in ${run.scene} (${run.message})`);
   return [{topic, sentence: `${shortList(texts, 3)}.`}];
+}
+
+function unjudgedFinding(report: Report): Finding[] {
+  const whys = report.results.scenes.flatMap((scene) => scene.unjudged ?? []);
+  return whys.length > 0 ? [{topic: "Not judged", sentence: `${shortList(whys, 3)}.`}] : [];
 }
 
 function absentFinding(report: Report): Finding[] {
@@ -185,6 +196,7 @@ export function findings(report: Report): Finding[] {
     ...exactFindings(all), ...fastestFinding(report, all), ...wrongFinding(all, "missed"),
     ...wrongFinding(all, "spurious"), ...statusFinding(report, "error", "Ended in an error"),
     ...statusFinding(report, "refused", "Refused the input"), ...absentFinding(report),
+    ...unjudgedFinding(report),
     ...defectsFinding(report), ...oracleFinding(report), ...goalsFinding(report),
   ];
 }

@@ -40,6 +40,8 @@ export interface Scene {
   contact_frames: number;
   truth: Record<string, number | string>;
   bodies: Body[];
+  /** Why the oracle did not get through it; then no detector was asked. */
+  unjudged?: string;
   /** Per frame, metres; 0 where surfaces touch. */
   separation?: number[];
   family?: Family;

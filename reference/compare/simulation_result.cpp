@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double median_of(const StepTimes& times, double StepSum::*part) {
+double per_step(const StepTimes& times, double StepSum::*part) {
   std::vector<double> values;
   for (const StepSum& sum : times.sums) values.push_back(sum.*part);
   return median(std::move(values)) / static_cast<double>(times.steps);
@@ -20,8 +20,8 @@ double median_of(const StepTimes& times, double StepSum::*part) {
 }  // namespace
 
 StepSum StepTimes::mean() const {
-  return {median_of(*this, &StepSum::mss), median_of(*this, &StepSum::cell),
-          median_of(*this, &StepSum::test), median_of(*this, &StepSum::response)};
+  return {per_step(*this, &StepSum::mss), per_step(*this, &StepSum::cell),
+          per_step(*this, &StepSum::test), per_step(*this, &StepSum::response)};
 }
 
 Json to_json(const ClosedLoop& loop) {

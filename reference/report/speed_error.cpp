@@ -84,19 +84,23 @@ bool claims(const Json& run, const std::string& level) {
   return levels.contains(level) && !levels.at(level).value("informative", false);
 }
 
-// Counts of different levels do not add up: where the finest one is not the same in all scenes, the
-// finest that the detector claims in all of them; "" where there is none.
+// Counts of different levels do not add up: where the finest one is not the same in all scenes that
+// were judged, it is the finest that the detector claims in each of them; "" where there is none.
 std::string common_level(const Runs& runs) {
+  Runs judged;
   std::set<std::string> finest;
-  for (const Json* run : runs)
-    if (const std::string level = finest_level(*run); !level.empty()) finest.insert(level);
+  for (const Json* run : runs) {
+    if (!claims(*run, finest_level(*run))) continue;
+    judged.push_back(run);
+    finest.insert(finest_level(*run));
+  }
   if (finest.size() == 1) return *finest.begin();
-  std::string common;  // results have levels coarse before fine
-  for (const auto& [level, counts] : runs.front()->at("levels").items())
-    if (std::all_of(runs.begin(), runs.end(),
-                    [&name = level](const Json* run) { return claims(*run, name); }))
-      common = level;
-  return common;
+  // As the judge has it, from fine to coarse (compare/judge.h).
+  for (const char* level : {"triangle", "near", "vertex", "cell", "box", "body"})
+    if (std::all_of(judged.begin(), judged.end(),
+                    [&](const Json* run) { return claims(*run, level); }))
+      return level;
+  return "";
 }
 
 /// A point, or why there is none.

@@ -13,7 +13,7 @@ namespace contactcheck {
 struct SpeedErrorPoint : ErrorCounts {
   std::string detector;
   std::string question;  ///< that was timed; times of different questions do not compare
-  /// Of the counts: the finest that the detector claims in all scenes.
+  /// Of the counts: the finest that the detector claims in every scene that was judged.
   std::string level;
   double ms = 0.0;  ///< per frame: map + update + query, cold, the mean over all frames; positive
   /// worse_share(); in [0, 1].

@@ -230,9 +230,8 @@ class SpeedErrorPlot {
          "Time: mapping, update and query, cold caches, mean over all frames. Errors: share of "
          "contacts missed or of reports spurious (the worse),");
     line(76,
-         "at the finest level that a detector claims in all of them. Dashed: the Pareto front of "
-         "each "
-         "question; no other is faster without being worse.");
+         "at the finest level judged in every scene. Dashed: the Pareto front of each question; no "
+         "other is faster without being worse.");
     line(94, "Measured on " + machine_ + "." +
                  (nameless == 0 ? ""
                                 : fmt::format(" No room for the names of {} of {} points.",

@@ -61,9 +61,8 @@ std::string speed_error_markdown(const Json& results) {
              "## Speed against error\n\n![Every detector as a point: time per frame against share "
              "of errors]({})\n\nOver {}. A time is that of mapping, update and query with cold "
              "caches, the mean over all frames. An error is the share of contacts missed or of "
-             "reports spurious, whichever is worse, at the finest level that a detector claims in "
-             "all of them. On the front: no other that answers the same question is faster without "
-             "being "
+             "reports spurious, whichever is worse, at the finest level judged in every scene. "
+             "On the front: no other that answers the same question is faster without being "
              "worse.\n\n",
              kSpeedErrorFile, chart.scenes) +
          table_head(columns()) + rows + "\n" + left_out_line(chart);

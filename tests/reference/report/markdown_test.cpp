@@ -37,7 +37,7 @@ Sums over scenes; speed-ups are the smallest and the largest of any scene.
 
 ![Every detector as a point: time per frame against share of errors](plots/speed_error.svg)
 
-Over scene hello. A time is that of mapping, update and query with cold caches, the mean over all frames. An error is the share of contacts missed or of reports spurious, whichever is worse, at the finest level that a detector claims in all of them. On the front: no other that answers the same question is faster without being worse.
+Over scene hello. A time is that of mapping, update and query with cold caches, the mean over all frames. An error is the share of contacts missed or of reports spurious, whichever is worse, at the finest level judged in every scene. On the front: no other that answers the same question is faster without being worse.
 
 | detector | question timed | ms/frame | level | truth | missed | reported | spurious | error | on the front |
 |---|---|--:|---|--:|--:|--:|--:|--:|---|

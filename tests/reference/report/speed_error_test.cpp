@@ -103,8 +103,28 @@ TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
   EXPECT_EQ(p.level, "body");
   EXPECT_EQ(p.truth, 26) << "13 pairs of bodies in either scene";
   EXPECT_EQ(p.spurious, 4);
-  second["levels"].erase("body");
+  second["per_frame"]["level"] = "near";
+  second["levels"] = {{"near", second["levels"]["body"]}};
   EXPECT_EQ(speed_error(results).left_out.front().why, "nothing to judge") << "in common";
+}
+
+// The judge's order, which is not that of the results: containment is never the finest.
+TEST(SpeedError, BodiesThatTouchComeBeforeBodiesThatHold) {
+  Json results = two_scenes();
+  for (const int i : {1, 6})
+    results["runs"][i]["levels"]["containment"] = results["runs"][i]["levels"]["body"];
+  results["runs"][6]["per_frame"]["level"] = "body";
+  results["runs"][6]["levels"].erase("triangle");
+  EXPECT_EQ(speed_error(results).points[1].level, "body");
+}
+
+TEST(SpeedError, ScenesWithNothingToJudgeDoNotCoarsenTheOthers) {
+  Json results = two_scenes();
+  results["runs"][6]["per_frame"].erase("level");
+  results["runs"][6]["levels"] = Json::object();
+  const SpeedErrorPoint& p = speed_error(results).points[1];
+  EXPECT_EQ(p.level, "triangle");
+  EXPECT_EQ(p.truth, 200000);
 }
 
 TEST(SpeedError, WithoutTimesThereIsNothingToCompare) {

@@ -77,20 +77,23 @@ export function levelOf(run: Run, level: string): Level | null {
   return found && !found.informative ? found : null;
 }
 
-const kLevels = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
+// As the judge has it (compare/judge.h).
+const kFineToCoarse = ["triangle", "near", "vertex", "cell", "box", "body"];
 
 /**
- * Counts of different levels do not add up: where a detector's finest one is not the same in all
- * runs, the finest that it claims in all of them; "" where there is none.
+ * Counts of different levels do not add up: where the finest one is not the same in all runs that
+ * were judged, it is the finest that the detector claims in each of them; "" where there is none.
  */
 export function commonLevel(runs: Run[]): string {
-  const finest = new Set(runs.map(finestLevel).filter((level) => level !== ""));
+  const judged = runs.filter((run) => levelOf(run, kFinest));
+  const finest = new Set(judged.map(finestLevel));
   if (finest.size === 1) return [...finest][0];
-  return kLevels.filter((level) => runs.every((run) => levelOf(run, level))).pop() ?? "";
+  return kFineToCoarse.find((level) => judged.every((run) => levelOf(run, level))) ?? "";
 }
 
 /** Levels that some detector claims, coarse before fine. */
 export function judgedLevels(runs: Run[]): string[] {
+  const order = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
   const seen = new Set(runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)));
-  return kLevels.filter((level) => seen.has(level));
+  return order.filter((level) => seen.has(level));
 }

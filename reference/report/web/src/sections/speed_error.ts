@@ -147,7 +147,7 @@ function leftOutText(leftOut: LeftOut[]): Child {
 
 function levelOptions(report: Report): Option[] {
   const levels = judgedLevels(report.results.runs).map((level): Option => [level, level]);
-  return [[kFinest, "each detector's finest"], ...levels];
+  return [[kFinest, "finest in every scene"], ...levels];
 }
 
 // All scenes where most detectors ran in all, else the first scene: a point needs every scene.

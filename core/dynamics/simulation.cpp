@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "core/types/shortest.h"
 
 namespace contactcheck {
 namespace {
@@ -52,10 +53,9 @@ void Simulation::choose_substeps(std::size_t body) {
   constexpr double kMost = 10'000.0;
   if (needed > std::min(kMost, settings_.substeps ? settings_.substeps : kMost)) {
     throw InputError(
-        "body \"" + bodies_[body].name + "\" is too stiff for its mass: " + std::to_string(stable) +
+        "body \"" + bodies_[body].name + "\" is too stiff for its mass: " + shortest(stable) +
         " s is the longest stable step, the scene allows " +
-        std::to_string(settings_.time_step / (settings_.substeps ? settings_.substeps : kMost)) +
-        " s.");
+        shortest(settings_.time_step / (settings_.substeps ? settings_.substeps : kMost)) + " s.");
   }
   substeps_ = std::max({static_cast<std::uint32_t>(needed), settings_.substeps, substeps_});
 }

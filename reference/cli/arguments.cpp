@@ -1,6 +1,7 @@
 #include "reference/cli/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <utility>
 
 namespace contactcheck {
@@ -43,6 +44,20 @@ void describe_program(CommandLine& line) {
   for (const auto& add : kSubcommands) add(line);
 }
 
+CLI::Validator whole_in(std::uint64_t least, std::uint64_t most) {
+  const std::string low = std::to_string(least), high = std::to_string(most);
+  const auto fault = [=](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
+      return "Value " + text + " not in range " + low + " to " + high;
+    if (text.size() > 1 && text.front() == '0')
+      return "Value " + text + " begins with 0; it must be a decimal number";
+    return "";
+  };
+  return CLI::Validator(fault, "UINT in [" + low + " - " + high + "]");
+}
+
 void choose(CLI::App& command, CommandLine& line, std::function<int()> what) {
   command.callback([&line, what = std::move(what)] { line.chosen = what; });
 }
@@ -70,7 +85,7 @@ void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
       .add_option("--memory-limit", mib,
                   "resident memory of a worker process (default 4096); the detector that passes it "
                   "has ended in an error")
-      ->check(CLI::Range(64, 1 << 30))
+      ->check(whole_in(64, 1 << 30))
       ->type_name("MIB");
 }
 

@@ -11,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace contactcheck {
 
@@ -53,6 +54,10 @@ void add_commands(CLI::App& command, std::vector<std::string>& detectors);
 /// `allowed`. (CLI11's own checks, 2.1, let NaN pass.)
 std::function<std::string(const std::string&)> number_in(double least, double most,
                                                          const std::string& allowed);
+
+/// What CLI11 asks of a whole number: decimal digits from `least` to `most`. (CLI11's own range
+/// takes a leading 0 for octal: --frames 010 would be 8.)
+CLI::Validator whole_in(std::uint64_t least, std::uint64_t most);
 
 /// --call-limit and --memory-limit: what ends a detector that goes astray.
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,

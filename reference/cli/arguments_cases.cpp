@@ -28,7 +28,7 @@ void add_reduce(CommandLine& line) {
                    "NNNN.min.json beside the case; of a scene in out/cases)")
       ->type_name("FILE");
   reduce->add_option("--budget", arguments->budget, "candidates that may be tried (default 20000)")
-      ->check(CLI::Range(1, 100000000))
+      ->check(whole_in(1, 100000000))
       ->type_name("N");
   add_limits(*reduce, arguments->call_limit, arguments->memory_limit_mib, "10");
   reduce->footer(
@@ -51,11 +51,11 @@ void add_export(CommandLine& line) {
                    "suites, scenes, families or files (.json scene or suite, .ccr recording)")
       ->required();
   exported->add_option("--frames", arguments->frames, "frames per scene, same duration")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_in(1, 100000));
   exported
       ->add_option("--every", arguments->every,
                    "of the frames, write only the first of every so many (default 1)")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_in(1, 100000));
   exported->add_option("--out", arguments->out,
                        "folder for a folder per scene: surfaces (PLY), certificates, check.py "
                        "(default out/export)");

@@ -43,11 +43,11 @@ void add_ab(CommandLine& line) {
   ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
       ->allow_extra_args(false);
   ab->add_option("--rounds", arguments->rounds, "how often each of them runs (default 7)")
-      ->check(CLI::Range(3, 1000));
+      ->check(whole_in(3, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_in(1, 100000));
   ab->add_option("--repeat", arguments->repeats, "timed repeats per frame and round (default 3)")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_in(1, 1000));
   add_ab_limits(*ab, *arguments);
   ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)");
   ab->add_flag("--quiet", arguments->quiet, "no progress");

@@ -26,7 +26,7 @@ void add_threads(CLI::App& command, std::uint32_t& threads) {
       .add_option("--threads", threads,
                   "threads of detectors that can use them, and that deform the bodies of "
                   "simulated scenes (default 1); results do not depend on it, times do")
-      ->check(CLI::Range(1, 256));
+      ->check(whole_in(1, 256));
 }
 
 void add_pairs(CLI::App& run, RunWords& words) {
@@ -36,10 +36,10 @@ void add_pairs(CLI::App& run, RunWords& words) {
              "so many random hard pairs of triangles as a scene of their own, random-pairs, "
              "beside the targets or alone; the oracle is held against rational arithmetic "
              "on each; detectors: those of the suite hard")
-          ->check(CLI::Range(std::uint64_t{1}, kMostPairs))
+          ->check(whole_in(1, kMostPairs))
           ->type_name("N");
   run.add_option("--seed", words.pair_seed, "of the random pairs (default 1)")
-      ->check(CLI::Range(std::uint64_t{0}, kLargestPairSeed))
+      ->check(whole_in(0, kLargestPairSeed))
       ->type_name("S")
       ->needs(pairs);
 }
@@ -69,11 +69,11 @@ void add_run(CommandLine& line) {
       ->allow_extra_args(false);
   add_commands(*run, arguments.commands);
   run->add_option("--frames", arguments.frames, "frames per scene, same duration")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_in(1, 100000));
   run->add_option("--repeat", arguments.repeats, "timed repeats per frame (default 5)")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_in(1, 1000));
   run->add_option("--processes", arguments.processes, "fresh processes that are timed (default 1)")
-      ->check(CLI::Range(1, 100));
+      ->check(whole_in(1, 100));
   run->add_option("--out", arguments.out,
                   "folder for results.json, reports, cases, contacts, recordings "
                   "(default out)");
@@ -122,9 +122,9 @@ void add_reproduce(CommandLine& line) {
   reproduce->add_option("scenes", arguments->targets,
                         "some of its scenes; default: the suite paper");
   reproduce->add_option("--frames", arguments->frames, "frames per scene, same step")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_in(1, 100000));
   reproduce->add_option("--repeat", arguments->repeats, "timed repeats per step (default 5)")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_in(1, 1000));
   add_threads(*reproduce, arguments->threads);
   reproduce->add_option("--out", arguments->out,
                         "folder for reproduction.md, reproduction.json and all that run writes "

@@ -14,11 +14,11 @@ void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
   tune.add_option("--max-missed", arguments.max_missed,
                   "contacts that may be missed, over all frames, at the question's level (default "
                   "0)")
-      ->check(CLI::Range(std::uint64_t{0}, kMostContacts))
+      ->check(whole_in(0, kMostContacts))
       ->type_name("N");
   tune.add_option("--max-spurious", arguments.max_spurious,
                   "contacts that may be reported and are not there (default: any number)")
-      ->check(CLI::Range(std::uint64_t{0}, kMostContacts))
+      ->check(whole_in(0, kMostContacts))
       ->type_name("N");
   tune.add_option("--max-hover", arguments.max_hover,
                   "true distance, in metres, at which contact may first be reported (default: any)")
@@ -26,7 +26,7 @@ void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
       ->type_name("METRES");
   tune.add_option("--max-late", arguments.max_late,
                   "frames that a first report may be late or early (default: any number)")
-      ->check(CLI::Range(0, 1000000))
+      ->check(whole_in(0, 1000000))
       ->type_name("N");
   tune.add_option(
           "--max-deviation", arguments.max_deviation,
@@ -81,13 +81,13 @@ void add_tune(CommandLine& line) {
           "--frames", arguments->frames,
           "frames to choose by (default: the scene's, at most 30; of a simulated scene half of "
           "its own); the choice is confirmed on others")
-      ->check(CLI::Range(4, 100000));
+      ->check(whole_in(4, 100000));
   tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_in(1, 1000));
   CLI::Option* most =
       tune->add_option("--most", arguments->most,
                        "measurements at most, those that are made again too (default: no limit)")
-          ->check(CLI::Range(1, 1000000));
+          ->check(whole_in(1, 1000000));
   tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
       ->excludes(most);
   add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");

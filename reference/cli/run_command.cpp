@@ -23,6 +23,7 @@
 #include "reference/run/worker.h"
 #include "reference/scene/any_scene.h"
 #include "reference/scene/scene.h"
+#include "reference/simulate/simulate_scene.h"
 
 namespace contactcheck {
 namespace {
@@ -30,7 +31,16 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void read_scene(std::size_t frames, SceneTask& task) {
+void check_simulation_of(const SceneTask& task, const DetectorCatalog& catalog,
+                         const Scene& scene) {
+  try {
+    check_simulation(catalog, scene);
+  } catch (const InputError& e) {
+    throw InputError((task.file.empty() ? "" : task.file.string() + ": ") + e.what());
+  }
+}
+
+void read_scene(std::size_t frames, const DetectorCatalog& catalog, SceneTask& task) {
   if (task.pairs) {
     task.id = kPairsSceneId;
     task.content = content_of(*task.pairs);
@@ -39,16 +49,18 @@ void read_scene(std::size_t frames, SceneTask& task) {
   }
   const Scene scene =
       task.text ? load_scene_text(*task.text, frames) : load_any_scene(task.file, frames);
+  check_simulation_of(task, catalog, scene);
   task.id = scene.id;
   task.frames = scene.frames;
   task.content = task.text ? content_of(*task.text, scene) : content_of(task.file, scene);
 }
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
-void check_scenes(std::size_t frames, std::vector<SceneTask>& tasks) {
+void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
+                  std::vector<SceneTask>& tasks) {
   std::set<std::string> ids;
   for (SceneTask& task : tasks) {
-    read_scene(frames, task);
+    read_scene(frames, catalog, task);
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
   }
@@ -157,7 +169,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
-  check_scenes(arguments.frames, request.tasks);
+  check_scenes(arguments.frames, own.catalog, request.tasks);
   if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
   save_scene(arguments.save_scene, request.shard ? request.shard->run : request.tasks);

@@ -5,16 +5,6 @@
 namespace contactcheck {
 namespace {
 
-std::vector<NodeState> start_of(const Scene& scene) {
-  std::vector<NodeState> start;
-  const std::vector<std::vector<Vec3>> nodes = scene.nodes_at(0.0);
-  for (std::size_t b = 0; b < nodes.size(); ++b) {
-    const Vec3& velocity = scene.simulation->velocities[b];
-    start.push_back({nodes[b], std::vector<Vec3>(nodes[b].size(), velocity)});
-  }
-  return start;
-}
-
 const Semantics& prepared(Detector& detector, const Scene& scene) {
   detector.prepare(scene.bodies);
   const std::string fault = why_no_driver(detector.semantics());
@@ -31,6 +21,16 @@ ContactVolume volume_of(const Semantics& semantics) {
 }
 
 }  // namespace
+
+std::vector<NodeState> start_of(const Scene& scene) {
+  std::vector<NodeState> start;
+  const std::vector<std::vector<Vec3>> nodes = scene.nodes_at(0.0);
+  for (std::size_t b = 0; b < nodes.size(); ++b) {
+    const Vec3& velocity = scene.simulation->velocities[b];
+    start.push_back({nodes[b], std::vector<Vec3>(nodes[b].size(), velocity)});
+  }
+  return start;
+}
 
 std::string why_no_driver(const Semantics& semantics) {
   if (semantics.answers(Question::kTriangles) || semantics.answers(Question::kCells)) return "";

@@ -17,6 +17,10 @@ namespace contactcheck {
 /// contact), or "".
 std::string why_no_driver(const Semantics& semantics);
 
+/// The nodes of all bodies where they begin, with their velocities.
+/// @pre scene.simulation has a value
+std::vector<NodeState> start_of(const Scene& scene);
+
 class DrivenSimulation {
  public:
   /// Prepares the detector. Scene and detector outlive this.

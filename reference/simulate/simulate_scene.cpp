@@ -22,6 +22,17 @@ void keep_frame(const DrivenSimulation& driven, SimulatedMotion& motion) {
   motion.reported.push_back(driven.contacts().bodies);
 }
 
+std::string place_of(const Scene& scene) {
+  return "scene \"" + scene.id + "\", driver " + scene.simulation->driver + ": ";
+}
+
+DetectorSpec parsed_driver(const DetectorCatalog& catalog, const Scene& scene) {
+  DetectorSpec spec = catalog.parse(scene.simulation->driver);
+  const std::string& absent_because = catalog.find(spec.id)->absent_because;
+  if (!absent_because.empty()) throw InputError(absent_because);
+  return spec;
+}
+
 }  // namespace
 
 SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& on_step) {
@@ -56,15 +67,22 @@ std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& dri
   return states;
 }
 
+void check_simulation(const DetectorCatalog& catalog, const Scene& scene) {
+  if (!scene.simulation) return;
+  try {
+    parsed_driver(catalog, scene);
+    const Simulation at_rest(scene.bodies, scene.simulation->materials, scene.simulation->settings,
+                             start_of(scene));
+  } catch (const InputError& e) {
+    throw InputError(place_of(scene) + e.what());
+  }
+}
+
 void record_simulation(const DetectorCatalog& catalog, const OnStep& on_step, Scene& scene) {
   if (!scene.simulation) return;
-  const std::string& driver_name = scene.simulation->driver;
-  const std::string place = "scene \"" + scene.id + "\", driver " + driver_name + ": ";
+  const std::string place = place_of(scene);
   try {
-    const DetectorSpec spec = catalog.parse(driver_name);
-    const std::string& absent_because = catalog.find(spec.id)->absent_because;
-    if (!absent_because.empty()) throw InputError(absent_because);
-    const std::unique_ptr<Detector> driver = catalog.make(spec);
+    const std::unique_ptr<Detector> driver = catalog.make(parsed_driver(catalog, scene));
     scene.recorded = simulate(scene, *driver, on_step).frames;
   } catch (const InputError& e) {
     throw InputError(place + e.what());

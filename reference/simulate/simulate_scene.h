@@ -37,6 +37,11 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
 std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& driver,
                                                std::size_t wanted, const OnStep& on_step);
 
+/// What can be told without a step; nothing to do for scenes that are not simulated. The driver is
+/// not made: a library's code runs in workers alone.
+/// @throws InputError, one sentence with the scene: no such driver, or a body too stiff
+void check_simulation(const DetectorCatalog& catalog, const Scene& scene);
+
 /// Fills scene.recorded by the scene's own driver; nothing to do for scenes that are not simulated.
 /// @throws InputError, one sentence with the scene: no such driver, one that cannot drive, a body
 /// too stiff, or the motion diverged

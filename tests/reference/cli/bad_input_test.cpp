@@ -85,6 +85,24 @@ TEST_F(BadInput, SceneFileThatIsNotThere) {
   expect_run_refused({"/nonexistent/scene.json"}, {"/nonexistent/scene.json"});
 }
 
+// Before the scenes beside it have run.
+TEST_F(BadInput, SimulationThatCannotStart) {
+  const auto simulated = [&](const std::string& name, const std::string& material,
+                             const std::string& driver) {
+    return scratch_.write(name, R"({"id": "falls", "frames": 2, "levels": ["triangle"], "bodies": [
+      {"name": "a", "mesh": {"shape": "box"}, "lattice": {"cells": [2, 2, 2]},
+       "material": {"model": "mass-spring", )" +
+                                    material + R"(}, "motion": {"position": [0, 3, 0]}},
+      {"name": "b", "mesh": {"shape": "box"}, "lattice": {"cells": [2, 2, 2]}}],
+      "simulation": {"driver": ")" + driver +
+                                    R"("}})");
+  };
+  expect_run_refused({scene(), simulated("driver.json", R"("mass": 1)", "nope")},
+                     {"driver.json", "scene \"falls\"", "unknown detector \"nope\""});
+  expect_run_refused({scene(), simulated("stiff.json", R"("mass": 1e-300)", "ffd-lazy")},
+                     {"stiff.json", "body \"a\" is too stiff"});
+}
+
 TEST_F(BadInput, UnknownDetector) {
   expect_run_refused({scene(), "--detector", "fcl-magic"}, {"\"fcl-magic\"", "list"});
 }
@@ -110,6 +128,13 @@ TEST_F(BadInput, ZeroAndNegativeFrames) {
   expect_run_refused({scene(), "--frames", "0"}, {"--frames", "0"});
   expect_run_refused({scene(), "--frames", "-3"}, {"--frames", "-3"});
   expect_run_refused({scene(), "--frames", "many"}, {"--frames", "many"});
+}
+
+TEST_F(BadInput, NumbersAreDecimal) {
+  expect_run_refused({scene(), "--frames", "010"}, {"--frames", "010"});
+  expect_run_refused({scene(), "--frames", "0x10"}, {"--frames", "0x10"});
+  expect_run_refused({scene(), "--repeat", "08"}, {"--repeat", "08"});
+  expect_run_refused({scene(), "--repeat", "3.0"}, {"--repeat", "3.0"});
 }
 
 TEST_F(BadInput, LimitsOutOfRange) {

@@ -101,6 +101,8 @@ std::string terminal_tables(const Json& results, bool color) {
     for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
       lines.push_back(result_cells(run));
     out += scene_head(scene, color) + table(result_columns(), lines, color);
+    if (scene.contains("sweep"))
+      out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.at("scenes").size() > 1)
     out += paint("all scenes", kBold, color) +

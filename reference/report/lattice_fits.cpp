@@ -1,8 +1,12 @@
 #include "reference/report/lattice_fits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "reference/report/format.h"
@@ -22,20 +26,43 @@ double overall_rms(const std::vector<double>& frames) {
   return largest * std::sqrt(sum / static_cast<double>(frames.size()));
 }
 
-std::string row(const Json& fit) {
-  const auto rms = fit.at("rms").get<std::vector<double>>();
-  const auto max = fit.at("max").get<std::vector<double>>();
-  if (rms.empty() || max.empty()) return "";
-  const auto worst = std::max_element(max.begin(), max.end());
-  return table_line({fit.at("body").get<std::string>(), format_millimetres(overall_rms(rms)),
-                     format_millimetres(*worst), format_count(worst - max.begin())});
+struct BodyFit {
+  std::string body;
+  double rms = 0.0, max = 0.0;  ///< metres, over all frames
+  std::ptrdiff_t frame = 0;     ///< where max is
+};
+
+// Bodies without a frame have no error to tell.
+std::vector<BodyFit> fits_of(const Json& scene) {
+  std::vector<BodyFit> out;
+  for (const Json& fit : scene.value("fits", Json::array())) {
+    const auto rms = fit.at("rms").get<std::vector<double>>();
+    const auto max = fit.at("max").get<std::vector<double>>();
+    if (rms.empty() || max.empty()) continue;
+    const auto worst = std::max_element(max.begin(), max.end());
+    out.push_back(
+        {fit.at("body").get<std::string>(), overall_rms(rms), *worst, worst - max.begin()});
+  }
+  return out;
 }
 
 }  // namespace
 
+std::string fits_line(const Json& scene) {
+  const std::vector<BodyFit> fits = fits_of(scene);
+  if (fits.empty()) return "";
+  const BodyFit& worst = *std::max_element(
+      fits.begin(), fits.end(), [](const BodyFit& a, const BodyFit& b) { return a.max < b.max; });
+  return fmt::format(
+      "judged with lattices fitted to recordings: vertices at most {} mm off (body {}, frame {})",
+      format_millimetres(worst.max), worst.body, worst.frame);
+}
+
 std::string fits_markdown(const Json& scene) {
   std::string rows;
-  for (const Json& fit : scene.value("fits", Json::array())) rows += row(fit);
+  for (const BodyFit& fit : fits_of(scene))
+    rows += table_line({fit.body, format_millimetres(fit.rms), format_millimetres(fit.max),
+                        format_count(fit.frame)});
   return titled_table(
       "Lattices fitted to recordings: all detectors were given the fitted surface, whose vertices "
       "lie so far from the recorded ones (mm):",

@@ -6,6 +6,10 @@
 
 namespace contactcheck {
 
+/// "judged with lattices fitted to recordings: vertices at most 1.20 mm off (body cloth, frame 7)",
+/// of the vertex farthest from where it was recorded. Empty for scenes without a fitted lattice.
+std::string fits_line(const nlohmann::ordered_json& scene);
+
 /// Markdown: per body the error over all frames and the worst frame. Empty for scenes without a
 /// fitted lattice.
 std::string fits_markdown(const nlohmann::ordered_json& scene);

@@ -9,6 +9,7 @@
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/lattice_fits.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
@@ -76,12 +77,14 @@ std::string table(const std::vector<Column>& columns, const std::vector<Line>& l
 std::string scene_head(const Json& scene, bool color) {
   std::int64_t triangles = 0;
   for (const Json& body : scene.at("bodies")) triangles += whole_number(body.at("triangles"));
-  const std::string pairs = pairs_line(scene);
+  std::string more;
+  for (const std::string& line : {pairs_line(scene), fits_line(scene)})
+    if (!line.empty()) more += "  " + line + "\n";
   return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n{}",
                      paint(scene.at("id").get<std::string>(), kBold, color),
                      scene.at("title").get<std::string>(), scene.at("bodies").size(), triangles,
                      whole_number(scene.at("frames")), whole_number(scene.at("contact_frames")),
-                     pairs.empty() ? "" : "  " + pairs + "\n");
+                     more);
 }
 
 std::string legend() {

@@ -15,6 +15,8 @@ constexpr NumberRange kSmoothingRange = {1e-12, false, 1.0, false};
 
 // Said aloud in the file, because it changes what all detectors are given.
 void parse_fit(const JsonField& field, LatticeSpec& spec) {
+  if (!field.has("fit"))
+    field.fail("has no \"fit\"; beside a recording it must be true: the lattice is fitted to it");
   const JsonField fit = field.at("fit");
   if (!fit.is(JsonValue::Kind::kBool) || !fit.value().boolean)
     fit.refuse("true: beside a recording a lattice is fitted to it");

@@ -31,7 +31,7 @@ std::vector<fs::path> files_of(const std::vector<std::string>& targets) {
       continue;
     }
     for (const SuiteScene& scene : load_suite(target.file).scenes)
-      files.push_back(find_scene(scene.id, fixtures));
+      files.push_back(file_of(scene, fixtures));
   }
   return files;
 }

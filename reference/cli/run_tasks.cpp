@@ -102,7 +102,7 @@ class TaskMaker {
 
   void add_suite(const Suite& suite) {
     for (const SuiteScene& scene : suite.scenes)
-      add_scene(find_scene(scene.id, fixtures_),
+      add_scene(file_of(scene, fixtures_),
                 scene.detectors.empty() ? suite.detectors : scene.detectors);
     for (SuiteGoal goal : suite.goals) {
       goal.detector = catalog_.parse(goal.detector).name;

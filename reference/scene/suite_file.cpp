@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 #include "reference/scene/json_field.h"
 
 namespace contactcheck {
 namespace {
+
+namespace fs = std::filesystem;
 
 void require_new(const JsonField& field, const std::string& name,
                  const std::vector<std::string>& names) {
@@ -24,20 +27,44 @@ std::vector<std::string> parse_detectors(const JsonField& field) {
   return names;
 }
 
-// "ID", or an object where the scene has detectors of its own.
-SuiteScene parse_scene(const JsonField& field) {
-  if (!field.is(JsonValue::Kind::kObject)) return {parse_id(field), {}};
-  field.only_keys({"scene", "detectors"});
-  return {parse_id(field.at("scene")), parse_detectors(field.at("detectors"))};
+// The folder as it is, so that a ".." in `path` leads out of it even where a link led in.
+fs::path beside(const fs::path& suite, const fs::path& path) {
+  return (fs::canonical(fs::absolute(suite).parent_path()) / path).lexically_normal();
 }
 
-std::vector<SuiteScene> parse_scenes(const JsonField& field) {
+fs::path parse_scene_path(const JsonField& field, const fs::path& suite) {
+  const fs::path path = field.text();
+  if (path.extension() != ".json" && path.extension() != ".ccr")
+    field.refuse("the path of a scene file (.json) or of a recording (.ccr)");
+  return beside(suite, path);
+}
+
+// "ID", or an object where the scene has detectors of its own or is a file.
+SuiteScene parse_scene(const JsonField& field, const fs::path& suite) {
+  SuiteScene scene;
+  if (!field.is(JsonValue::Kind::kObject)) {
+    scene.id = parse_id(field);
+    return scene;
+  }
+  field.only_keys({"scene", "file", "detectors"});
+  const bool by_file = field.exactly_one_of({"scene", "file"}) == "file";
+  if (by_file)
+    scene.file = parse_scene_path(field.at("file"), suite);
+  else
+    scene.id = parse_id(field.at("scene"));
+  if (!by_file || field.has("detectors")) scene.detectors = parse_detectors(field.at("detectors"));
+  return scene;
+}
+
+std::vector<SuiteScene> parse_scenes(const JsonField& field, const fs::path& suite) {
   std::vector<SuiteScene> scenes;
-  std::vector<std::string> ids;
+  std::vector<std::string> names;
   for (const JsonField& item : field.items(1)) {
-    scenes.push_back(parse_scene(item));
-    require_new(item, scenes.back().id, ids);
-    ids.push_back(scenes.back().id);
+    scenes.push_back(parse_scene(item, suite));
+    const SuiteScene& scene = scenes.back();
+    const std::string name = scene.file.empty() ? scene.id : scene.file.string();
+    require_new(item, name, names);
+    names.push_back(name);
   }
   return scenes;
 }
@@ -68,7 +95,7 @@ SuiteGoal parse_goal(const JsonField& field) {
 
 }  // namespace
 
-Suite load_suite(const std::filesystem::path& file) {
+Suite load_suite(const fs::path& file) {
   const std::string document = "suite file " + in_quotes(file.string());
   const JsonValue value = parse_json(read_file_bytes(file, "suite file"), document);
   const JsonField root(value, document);
@@ -76,11 +103,15 @@ Suite load_suite(const std::filesystem::path& file) {
   Suite suite;
   suite.id = parse_id(root.at("id"));
   suite.title = root.has("title") ? root.at("title").text() : suite.id;
-  suite.scenes = parse_scenes(root.at("scenes"));
+  suite.scenes = parse_scenes(root.at("scenes"), file);
   suite.detectors = parse_detectors(root.at("detectors"));
   if (root.has("goals"))
     for (const JsonField& item : root.at("goals").items(1)) suite.goals.push_back(parse_goal(item));
   return suite;
+}
+
+fs::path file_of(const SuiteScene& scene, const fs::path& fixtures) {
+  return scene.file.empty() ? find_scene(scene.id, fixtures) : scene.file;
 }
 
 }  // namespace contactcheck

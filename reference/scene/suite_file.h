@@ -11,7 +11,8 @@ namespace contactcheck {
 /// Names of detectors are as on the command line, all different. Whether they exist is the
 /// registry's business.
 struct SuiteScene {
-  std::string id;
+  std::string id;                      ///< of a scene or family that comes along; or empty, and:
+  std::filesystem::path file;          ///< a scene file or recording, absolute
   std::vector<std::string> detectors;  ///< empty: those of the suite
 };
 
@@ -38,7 +39,12 @@ struct Suite {
   std::vector<SuiteGoal> goals;
 };
 
+/// A scene is "ID", {"scene": ID, "detectors": [...]} or {"file": PATH}, with detectors where
+/// wanted; PATH (.json, .ccr) is relative to the suite's own file, and goals do not know its scene.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Suite load_suite(const std::filesystem::path& file);
+
+/// Where a suite's scene is read. @throws InputError for an id that is none of `fixtures`
+std::filesystem::path file_of(const SuiteScene& scene, const std::filesystem::path& fixtures);
 
 }  // namespace contactcheck

@@ -250,6 +250,15 @@ TEST(SuiteFile, DefectsAreRefusedWithOneSentence) {
             "scenes[1] is an object; it must be named once only.");
   EXPECT_EQ(refusal(R"({"id": "u", "scenes": [{"scene": "a"}], "detectors": ["d"]})"),
             "scenes[0].detectors is missing.");
+  EXPECT_EQ(refusal(R"({"id": "u", "scenes": [{"scene": "a", "file": "a.json"}],
+                        "detectors": ["d"]})"),
+            "scenes[0] has both \"scene\" and \"file\"; exactly one of scene, file is allowed.");
+  EXPECT_EQ(refusal(R"({"id": "u", "scenes": [{"file": "a.obj"}], "detectors": ["d"]})"),
+            "scenes[0].file is \"a.obj\"; it must be the path of a scene file (.json) or of a "
+            "recording (.ccr).");
+  EXPECT_EQ(refusal(R"({"id": "u", "scenes": [{"file": "a.json"}, {"file": "b/../a.json"}],
+                        "detectors": ["d"]})"),
+            "scenes[1] is an object; it must be named once only.");
 }
 
 TEST(SuiteFile, DefectsOfGoalsAreRefusedWithOneSentence) {
@@ -299,6 +308,25 @@ TEST(SuiteFile, HoldsScenesWithDetectorsOfTheirOwnAndGoals) {
   EXPECT_EQ(suite.goals[2].kind, SuiteGoal::Kind::kPerPair);
   EXPECT_EQ(suite.goals[2].part, "contact_frames");
   EXPECT_EQ(suite.goals[2].at_most, 0.5);
+}
+
+TEST(SuiteFile, FindsSceneFilesAndRecordingsBesideItself) {
+  const Scratch scratch;
+  const std::filesystem::path home = std::filesystem::canonical(scratch.folder());
+  const std::string text = R"({"id": "u", "detectors": ["d"], "scenes": [
+    "a", {"file": "../b.json"}, {"file": "c.ccr", "detectors": ["e"]}, {"file": "/d.json"}]})";
+  const Suite suite = load_suite(scratch.write("suites/u.json", text));
+  ASSERT_EQ(suite.scenes.size(), 4u);
+  EXPECT_TRUE(suite.scenes[0].file.empty());
+  EXPECT_EQ(file_of(suite.scenes[1], ""), home / "b.json");
+  EXPECT_TRUE(suite.scenes[1].detectors.empty());
+  EXPECT_EQ(file_of(suite.scenes[2], ""), home / "suites" / "c.ccr");
+  EXPECT_EQ(suite.scenes[2].detectors, std::vector<std::string>{"e"});
+  EXPECT_EQ(file_of(suite.scenes[3], ""), "/d.json");
+  // ".." leads out of the folder that the file is in, by whatever link that was reached.
+  scratch.write("elsewhere/deep/readme", "");
+  std::filesystem::create_directory_symlink(home / "suites", home / "elsewhere" / "deep" / "link");
+  EXPECT_EQ(load_suite(home / "elsewhere/deep/link/u.json").scenes[1].file, home / "b.json");
 }
 
 }  // namespace

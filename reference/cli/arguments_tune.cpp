@@ -91,7 +91,8 @@ void add_tune(CommandLine& line) {
   tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
       ->excludes(most);
   add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");
-  tune->add_option("--out", arguments->out, "folder for tune.json and tune.md (default out)");
+  tune->add_option("--out", arguments->out,
+                   "folder for tune.json, tune.md and chosen.json, which run takes (default out)");
   tune->add_flag("--quiet", arguments->quiet, "no progress, no tables");
   tune->footer(
       "Exit code 1 when nothing meets the limits.\n"

@@ -11,6 +11,7 @@
 #include "reference/cli/own_detectors.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
+#include "reference/tune/chosen_file.h"
 #include "reference/tune/tune_text.h"
 
 namespace contactcheck {
@@ -102,6 +103,13 @@ void show(const TuningProgress& progress) {
   std::fflush(stderr);
 }
 
+// What tune.json names is there before it.
+void write_files(const Tuning& tuning, const TuningRequest& request) {
+  if (tuning.chosen) write_file_atomically(chosen_file(request), chosen_suite(tuning, request));
+  write_file_atomically(request.out / "tune.json", to_json(tuning, request).dump(1) + "\n");
+  write_file_atomically(request.out / "tune.md", tuning_markdown(tuning, request));
+}
+
 }  // namespace
 
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog) {
@@ -113,11 +121,11 @@ int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog)
     if (!arguments.quiet) show(progress);
   });
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
-  write_file_atomically(arguments.out / "tune.json", to_json(tuning, request).dump(1) + "\n");
-  write_file_atomically(arguments.out / "tune.md", tuning_markdown(tuning, request));
+  write_files(tuning, request);
   if (!arguments.quiet) std::printf("%s\n", tuning_text(tuning, request).c_str());
-  std::printf("%s  %s\n", (arguments.out / "tune.json").c_str(),
-              (arguments.out / "tune.md").c_str());
+  std::printf("%s  %s%s%s\n", (arguments.out / "tune.json").c_str(),
+              (arguments.out / "tune.md").c_str(), tuning.chosen ? "  " : "",
+              tuning.chosen ? chosen_file(request).c_str() : "");
   return tuning.within_budget(request.budget_ms) ? 0 : 1;
 }
 

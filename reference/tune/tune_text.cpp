@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/scene/shell_word.h"
+#include "reference/tune/chosen_file.h"
+
 namespace contactcheck {
 namespace {
 
@@ -40,8 +43,10 @@ Row header_of(const std::vector<TuneCandidate>& candidates) {
   return row;
 }
 
+// Of the anchor itself there is none: it is what costs are measured in.
 std::string interval_of(const Cost& cost) {
   if (!std::isfinite(cost.high_ms)) return "not known";
+  if (cost.low_ms == cost.high_ms) return "the anchor";
   return fmt::format("{:.3g} to {:.3g}", cost.low_ms, cost.high_ms);
 }
 
@@ -156,10 +161,27 @@ std::string in_markdown(std::string lines) {
   return lines + "\n";
 }
 
+// What intervals in milliseconds do not tell.
+std::string costs_in_words(const Tuning& tuning) {
+  if (tuning.anchor.empty()) return "";
+  std::string words =
+      "Costs were measured as ratios to the time of one detector, the anchor: " + tuning.anchor +
+      ".";
+  const bool lattices = varies_lattices(tuning.candidates), deformers = tuning.varies_deformers();
+  if (lattices || deformers)
+    words += fmt::format(
+        " Within one {} these ratios are compared; the intervals in ms also hold how well {} is "
+        "known, the same for all of them, and may overlap all the same.",
+        deformers ? "deformer" : "lattice",
+        deformers ? "the time of a step and of the anchor" : "the anchor's own time");
+  return words + "\n";
+}
+
 // Whether the choice is one by its cost at all.
 std::string as_cheap_in_words(const Tuning& tuning, std::size_t most_named) {
   const std::vector<std::size_t>& others = tuning.as_cheap;
-  if (others.empty()) return "Nothing else that was measured is as cheap within noise.\n";
+  if (others.empty())
+    return "Nothing else that was measured and meets the limits is as cheap within noise.\n";
   std::string words = "As cheap within noise: ";
   const std::size_t named = std::min(others.size(), most_named);
   for (std::size_t i = 0; i < named; ++i) {
@@ -189,16 +211,34 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request, std::siz
   return text;
 }
 
-std::string command_of(const Tuning& tuning, const TuningRequest& request) {
-  if (!tuning.chosen) return "";
+// The words of a command line that bring the chosen detector along and name it.
+std::string detector_in_words(const Tuning& tuning, const TuningRequest& request) {
   const std::string& name = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate].detector;
   const std::string id = name.substr(0, name.find(':'));
-  std::string words = "contactcheck run " + tuning.chosen_scene;
+  std::string words;
   if (const auto own = request.commands.find(id); own != request.commands.end())
     words += " --detector-cmd \"" + own->second + "\"";
   const auto library = request.libraries.find(id);
   return words + " --detector " +
          (library == request.libraries.end() ? name : library->second + name.substr(id.size()));
+}
+
+/// How the chosen configuration is run.
+struct HowToRun {
+  std::string words;  ///< one line
+  std::vector<std::string> commands;
+};
+
+HowToRun how_to_run(const Tuning& tuning, const TuningRequest& request) {
+  const std::string file = chosen_file(request).string(), run = "contactcheck run ";
+  const std::string detector = detector_in_words(tuning, request);
+  if (chosen_from_outside(tuning, request))
+    return {file +
+                " names scene and detector, but a file cannot bring in a detector from outside; "
+                "the command line does:",
+            {run + in_shell(file) + detector}};
+  return {"It is written to " + file + "; run it by either of:",
+          {run + in_shell(file), run + in_shell(tuning.chosen_scene) + detector}};
 }
 
 }  // namespace
@@ -210,18 +250,25 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
   if (!tuning.confirmed.empty())
     text += fmt::format("On {} held-out frames\n", tuning.held_out_frames) +
             aligned(rows_of(tuning.confirmed, tuning.candidates)) + "\n";
-  text += verdict(tuning, request, kNamed);
-  const std::string command = command_of(tuning, request);
-  return command.empty() ? text : text + "  " + command + "\n";
+  text += costs_in_words(tuning) + verdict(tuning, request, kNamed);
+  if (!tuning.chosen) return text;
+  const HowToRun how = how_to_run(tuning, request);
+  text += how.words + "\n";
+  for (const std::string& command : how.commands) text += "  " + command + "\n";
+  return text;
 }
 
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
   std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
                      ".\n\n" + in_markdown(deformers_of(tuning)) +
                      verdict(tuning, request, tuning.as_cheap.size());
-  const std::string command = command_of(tuning, request);
-  if (!command.empty()) text += "\n    " + command + "\n";
-  text += "\n## Pareto front\n\n" + markdown(rows_of(front_of(tuning), tuning.candidates));
+  if (tuning.chosen) {
+    const HowToRun how = how_to_run(tuning, request);
+    text += "\n" + how.words + "\n\n";
+    for (const std::string& command : how.commands) text += "    " + command + "\n";
+  }
+  text += "\n## Pareto front\n\n" + costs_in_words(tuning) + "\n" +
+          markdown(rows_of(front_of(tuning), tuning.candidates));
   if (!tuning.confirmed.empty())
     text += fmt::format("\n## On {} held-out frames\n\n", tuning.held_out_frames) +
             markdown(rows_of(tuning.confirmed, tuning.candidates));

@@ -1,9 +1,12 @@
 #include "reference/tune/tuning.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "core/types/check.h"
 #include "reference/scene/any_scene.h"
+#include "reference/tune/chosen_file.h"
 
 namespace contactcheck {
 namespace {
@@ -29,6 +32,21 @@ MeasuringRequest measuring_request(const TuningRequest& request, const Tuning& t
   measuring.known_defects = request.known_defects;
   return measuring;
 }
+
+/// OUT/tune, for scenes that are made and for recordings; where none is, it does not stay.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& out) : path_(out / "tune") { fs::create_directories(path_); }
+  ~WorkFolder() {
+    rmdir((path_ / "scenes").c_str());  // fails, as it should, where something is inside
+    rmdir(path_.c_str());
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+ private:
+  fs::path path_;
+};
 
 // The cheapest first, those alone that met the limits.
 std::vector<std::size_t> by_cost(const std::vector<Tried>& tried, const Limits& limits) {
@@ -119,10 +137,9 @@ std::vector<std::size_t> as_cheap_as_chosen(const Tuning& tuning, const Limits& 
 }
 
 // Beside one another, since the cheapest differ by little; the next ones where none of them holds.
-void confirm(const TuningRequest& request, const FrameSplit& split, const std::string& anchor,
-             Tuning& tuning) {
+void confirm(const TuningRequest& request, const FrameSplit& split, Tuning& tuning) {
   MeasuringRequest held_out = measuring_request(request, tuning, split, &FrameSplit::held_out);
-  held_out.anchor = anchor;
+  held_out.anchor = tuning.anchor;
   Measuring measuring(tuning.candidates, std::move(held_out));
   const std::vector<std::size_t> order = by_cost(tuning.outcome.tried, request.limits);
   for (std::size_t first = 0; first < order.size() && !tuning.chosen; first += kFinalists) {
@@ -193,7 +210,8 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
   Tuning tuning;
   // Before a simulation that would be for nothing: are the words about detectors right?
   tuning.candidates = make_space(catalog, request.space);
-  fs::create_directories(request.out / "tune");
+  remove_old_choice(request);
+  const WorkFolder work(request.out);
   Teller teller(tuning, request.limits, progress);
   const FrameSplit split =
       split_of(request, load_any_scene(request.scene_file), catalog, teller, tuning);
@@ -213,8 +231,9 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
                        ? measure_all(tuning.candidates.size(), request.limits, measure)
                        : search(tuning.candidates, request.limits, request.search, measure);
   tuning.front = pareto_front(tuning.outcome.tried);
+  tuning.anchor = measuring.anchor();
   teller.confirms();
-  confirm(request, split, measuring.anchor(), tuning);
+  confirm(request, split, tuning);
   return tuning;
 }
 

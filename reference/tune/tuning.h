@@ -28,7 +28,8 @@ struct TuningRequest {
   bool exhaustive = false;  ///< measure every candidate
   std::size_t frames = 0;   ///< to choose by; 0: see split_frames
   RunSettings settings;
-  std::filesystem::path out;  ///< existing; tune.json and tune.md and scenes in other lattices
+  /// Existing; for tune.json, tune.md, chosen.json and, in tune/, scenes and recordings.
+  std::filesystem::path out;
   std::filesystem::path executable;
   KnownDefects known_defects;
   std::string command;  ///< for the record
@@ -48,6 +49,7 @@ struct Tuning {
   std::string scene;
   std::vector<SimulatedModel> models;  ///< of a simulated scene, its own first
   std::vector<TuneCandidate> candidates;
+  std::string anchor;  ///< name of the detector that costs are taken against
   SearchOutcome outcome;
   std::vector<std::size_t> front;  ///< indices into outcome.tried, by cost
   /// The cheapest that met the limits, measured again on the held-out frames, until one holds.
@@ -67,6 +69,8 @@ struct Tuning {
   bool within_budget(const std::optional<double>& budget_ms) const;
 };
 
+/// What an earlier run chose is gone from `out` before anything is measured.
+/// @throws InputError for what cannot be tuned
 Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
             const std::function<void(const TuningProgress&)>& progress);
 

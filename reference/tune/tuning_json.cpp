@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reference/tune/chosen_file.h"
 #include "reference/tune/tuning.h"
 
 namespace contactcheck {
@@ -74,7 +75,8 @@ Json to_json(const Tuning& tuning, const TuningRequest& request) {
                {"frames", tuning.frames},
                {"held_out_frames", tuning.held_out_frames},
                {"measurements", tuning.outcome.measurements},
-               {"exhausted", tuning.outcome.exhausted}};
+               {"exhausted", tuning.outcome.exhausted},
+               {"anchor", tuning.anchor}};
   if (tuning.varies_deformers()) {
     json["deformers"] = Json::array();
     for (const SimulatedModel& model : tuning.models) json["deformers"].push_back(to_json(model));
@@ -90,7 +92,10 @@ Json to_json(const Tuning& tuning, const TuningRequest& request) {
     json["confirmed"].push_back(to_json(tried, tuning.candidates));
   json["chosen"] =
       tuning.chosen ? to_json(tuning.confirmed[*tuning.chosen], tuning.candidates) : Json();
-  if (tuning.chosen) json["chosen"]["scene"] = tuning.chosen_scene;
+  if (tuning.chosen) {
+    json["chosen"]["scene"] = tuning.chosen_scene;
+    json["chosen"]["file"] = chosen_file(request).filename().string();
+  }
   json["as_cheap"] = Json::array();
   for (const std::size_t i : tuning.as_cheap)
     json["as_cheap"].push_back(to_json(tuning.candidates[i]));

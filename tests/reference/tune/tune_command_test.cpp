@@ -53,7 +53,7 @@ TEST_F(TuneCommand, SaysHowSureACostIsAndWhatIsAsCheap) {
   EXPECT_THAT(tuned.out, HasSubstr("95 % interval"));
   const std::string words =
       json["as_cheap"].empty()
-          ? "Nothing else that was measured is as cheap within noise."
+          ? "Nothing else that was measured and meets the limits is as cheap within noise."
           : "As cheap within noise: " + json["as_cheap"][0]["detector"].get<std::string>();
   EXPECT_THAT(tuned.out, HasSubstr(words));
   EXPECT_THAT(page(), HasSubstr(words));

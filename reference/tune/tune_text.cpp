@@ -170,8 +170,8 @@ std::string costs_in_words(const Tuning& tuning) {
   const bool lattices = varies_lattices(tuning.candidates), deformers = tuning.varies_deformers();
   if (lattices || deformers)
     words += fmt::format(
-        " Within one {} these ratios are compared; the intervals in ms also hold how well {} is "
-        "known, the same for all of them, and may overlap all the same.",
+        "\nWithin one {} these ratios are compared. The intervals in ms also hold how well {} is "
+        "known, which all there share: they may overlap where the ratios do not.",
         deformers ? "deformer" : "lattice",
         deformers ? "the time of a step and of the anchor" : "the anchor's own time");
   return words + "\n";

@@ -24,7 +24,8 @@ void check_frames(const Scene& scene, std::size_t frames) {
   if (frames < kFewestFrames)
     throw InputError("scene " + scene.id +
                      ": to choose by some frames and confirm on others, at "
-                     "least 4 are needed");
+                     "least 4 are needed, and it has " +
+                     std::to_string(frames));
 }
 
 }  // namespace
@@ -38,7 +39,7 @@ FrameSplit split_frames(const fs::path& file, std::size_t frames, const fs::path
                      " has recorded frames; tune takes every other one of them");
   if (!scene.scripted()) return split_recorded(scene, work);
   const std::size_t count = frames > 0 ? frames : std::min(scene.frames, kUsualFrames);
-  check_frames(scene, std::min(count, scene.frames));
+  check_frames(scene, count);
   return {{file, count}, {file, count - 1}};
 }
 

@@ -8,6 +8,7 @@
 #include "reference/scene/assimp_reader.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/mesh_check.h"
+#include "reference/scene/polygon_split.h"
 #include "reference/scene/soup_guard.h"
 
 namespace contactcheck {
@@ -65,19 +66,38 @@ void refuse_bad_values(const PolygonSoup& soup, const std::string& name) {
   }
 }
 
-// Fans round each polygon's first corner.
-LoadedMesh triangulated(const PolygonSoup& soup) {
+std::vector<Triangle> triangles_of(const PolygonSoup& soup, std::size_t face,
+                                   const std::string& name, std::size_t& concave) {
+  const std::vector<std::uint32_t>& polygon = soup.polygons[face];
+  auto split = split_polygon(soup.points, polygon);
+  if (!split) {
+    const std::string place = name + ": face " + std::to_string(face) + ", a polygon of " +
+                              std::to_string(polygon.size()) + " corners, ";
+    if (polygon.size() > kMostConcaveCorners)
+      throw InputError(place + "is concave; concave polygons may have at most " +
+                       std::to_string(kMostConcaveCorners) + " corners.");
+    throw InputError(place + "crosses or folds back on itself and cannot be split into triangles.");
+  }
+  concave += split->concave ? 1 : 0;
+  return std::move(split->triangles);
+}
+
+LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {
   LoadedMesh out;
   out.mesh.vertices = soup.points;
-  std::size_t split = 0, dropped = 0;
-  for (const std::vector<std::uint32_t>& polygon : soup.polygons) {
-    split += polygon.size() > 3 ? 1 : 0;
-    dropped += polygon.size() < 3 ? 1 : 0;
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-      out.mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
-    }
+  std::size_t split = 0, concave = 0, dropped = 0;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const std::size_t corners = soup.polygons[f].size();
+    split += corners > 3 ? 1 : 0;
+    dropped += corners < 3 ? 1 : 0;
+    if (corners < 3) continue;
+    const std::vector<Triangle> triangles = triangles_of(soup, f, name, concave);
+    out.mesh.triangles.insert(out.mesh.triangles.end(), triangles.begin(), triangles.end());
   }
-  if (split > 0) add_note(out.notes, std::to_string(split) + " polygons split into triangles");
+  if (split > 0)
+    add_note(out.notes,
+             std::to_string(split) + " polygons split into triangles" +
+                 (concave > 0 ? ", " + std::to_string(concave) + " of them concave" : ""));
   if (dropped > 0) {
     add_note(out.notes, std::to_string(dropped) + " faces with fewer than three corners left out");
   }
@@ -107,7 +127,7 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
   }
   refuse_lost_parts(format, bytes, name, soup);
   refuse_bad_values(soup, name);
-  LoadedMesh out = triangulated(soup);
+  LoadedMesh out = triangulated(soup, name);
   if (out.mesh.triangles.empty()) throw InputError(name + " holds no triangle.");
   if (format == SoupFormat::kStl) add_note(out.notes, "STL: corners at equal places joined");
   return out;

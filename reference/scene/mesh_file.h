@@ -18,9 +18,9 @@ struct LoadedMesh {
 void add_note(std::string& notes, const std::string& note);
 
 /// Reads OBJ, OFF, PLY and STL by their extension (any case) with doubles and indices kept, and
-/// every other extension through assimp as floats. Polygons become fans of triangles; for STL,
-/// corners at equal coordinates become one vertex. All coordinates are finite and all indices in
-/// range.
+/// every other extension through assimp as floats. Polygons become triangles (polygon_split.h); for
+/// STL, corners at equal coordinates become one vertex. All coordinates are finite and all indices
+/// in range.
 /// @throws InputError, one sentence: file, what, and the vertex, face or line where it is known
 LoadedMesh read_mesh_file(const std::filesystem::path& file);
 

@@ -107,6 +107,21 @@ TEST(MeshFile, PolygonsBecomeFansAndAreNoted) {
   EXPECT_EQ(loaded.notes, "1 polygons split into triangles");
 }
 
+TEST(MeshFile, ConcavePolygonsAreFilledAndNoted) {
+  const Scratch scratch;
+  const LoadedMesh loaded = read_mesh_file(scratch.write(
+      "l.obj", "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n"));
+  EXPECT_EQ(loaded.notes, "1 polygons split into triangles, 1 of them concave");
+  double area = 0.0;
+  for (const Triangle& t : loaded.mesh.triangles) {
+    const std::vector<Vec3>& v = loaded.mesh.vertices;
+    const double part = 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).z();
+    EXPECT_GT(part, 0.0);
+    area += part;
+  }
+  EXPECT_EQ(area, 3.0);
+}
+
 TEST(MeshFile, OffIsReadWithoutItsColoursWhereverTheyEnd) {
   const Scratch scratch;
   for (const char* const colour : {"", " 7", " 0.5 0.5", " 255 0 0", " 1 0 0 1"}) {
@@ -229,6 +244,10 @@ INSTANTIATE_TEST_SUITE_P(
                 " cannot be read as PLY."},
         BadMesh{"PlyIndicesOfFloats", "a.ply", with(kPly, "list uchar int", "list uchar float"),
                 " cannot be read as PLY."},
+        BadMesh{"PolygonThatCrossesItself", "a.off",
+                "OFF\n4 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n",
+                ": face 1, a polygon of 4 corners, crosses or folds back on itself and cannot be "
+                "split into triangles."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),
     [](const auto& test) { return test.param.name; });

@@ -5,6 +5,7 @@
 
 #include "core/types/check.h"
 #include "reference/scene/file_text.h"
+#include "reference/scene/words.h"
 
 namespace contactcheck {
 namespace {
@@ -53,6 +54,10 @@ std::string topology_fault(const TriangleMesh& frame, const TriangleMesh& mesh) 
          triangle_text(*other);
 }
 
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
 }  // namespace
 
 std::string RecordingSpec::file_of(std::size_t frame) const {
@@ -60,6 +65,19 @@ std::string RecordingSpec::file_of(std::size_t frame) const {
   std::string number = std::to_string(number_of(frame));
   if (number.size() < digits) number.insert(0, digits - number.size(), '0');
   return before_number + number + after_number;
+}
+
+std::optional<std::size_t> RecordingSpec::frame_of(const std::string& name) const {
+  const std::string before = fs::path(before_number).filename().string();
+  if (name.size() <= before.size() + after_number.size() || !name.starts_with(before) ||
+      !name.ends_with(after_number))
+    return std::nullopt;
+  const auto number = whole_number<std::size_t>(std::string_view(name).substr(
+      before.size(), name.size() - before.size() - after_number.size()));
+  if (!number || *number < first || (*number - first) % step != 0) return std::nullopt;
+  const std::size_t frame = (*number - first) / step;
+  if (fs::path(file_of(frame)).filename().string() != name) return std::nullopt;
+  return frame;
 }
 
 void RecordingSpec::place(std::vector<Vec3>& vertices) const {
@@ -106,12 +124,28 @@ std::size_t RecordedFrames::available(std::size_t most) const {
     count = std::min(most, (cache_->samples() - spec_.first - 1) / spec_.step + 1);
   } else if (!cache_) {
     while (count < most && fs::is_regular_file(spec_.file_of(count), ignored)) ++count;
+    if (count > 0 && count < most) refuse_gap(count, most);
   }
   if (count == 0 && cache_)
     field_.at("first").refuse("below " + std::to_string(cache_->samples()) +
                               ", the number of samples");
   if (count == 0) field_.fail("has no frame: there is no file " + in_quotes(spec_.file_of(0)));
   return count;
+}
+
+// A later file says that this one is lost, and not that the recording ends before it.
+void RecordedFrames::refuse_gap(std::size_t missing, std::size_t most) const {
+  const fs::path lost = spec_.file_of(missing);
+  std::error_code ignored;
+  std::optional<std::size_t> later;
+  for (const auto& entry : fs::directory_iterator(folder_of(lost), ignored)) {
+    const std::optional<std::size_t> frame = spec_.frame_of(entry.path().filename().string());
+    if (!frame || *frame <= missing || *frame >= most || !entry.is_regular_file(ignored)) continue;
+    later = std::min(later.value_or(*frame), *frame);
+  }
+  if (later)
+    field_.fail("has a gap: there is no file " + in_quotes(lost.string()) + ", but there is " +
+                in_quotes(spec_.file_of(*later)));
 }
 
 LoadedMesh RecordedFrames::first_mesh() const {

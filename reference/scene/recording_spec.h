@@ -28,6 +28,8 @@ struct RecordingSpec {
   /// Which file or sample a frame is.
   std::size_t number_of(std::size_t frame) const { return first + frame * step; }
   std::string file_of(std::size_t frame) const;
+  /// The frame whose numbered file has this name in its folder; nothing for other names.
+  std::optional<std::size_t> frame_of(const std::string& name) const;
   /// Every frame's vertices, and those at rest. Bits stay where nothing is asked for.
   void place(std::vector<Vec3>& vertices) const;
 };
@@ -42,7 +44,7 @@ class RecordedFrames {
   RecordedFrames(RecordingSpec spec, const JsonField& field);
 
   /// Frames that there are: samples from the first one on, or numbered files without a gap. At most
-  /// `most`. @throws InputError when there is none
+  /// `most`. @throws InputError when there is none, and for a gap before a later file
   std::size_t available(std::size_t most) const;
   /// The mesh of the first of the numbered files. @pre the spec is numbered
   LoadedMesh first_mesh() const;
@@ -57,6 +59,7 @@ class RecordedFrames {
  private:
   std::vector<Vec3> numbered_positions(std::size_t frame, const TriangleMesh& mesh) const;
   std::vector<Vec3> cached_positions(std::size_t frame, const TriangleMesh& mesh) const;
+  void refuse_gap(std::size_t missing, std::size_t most) const;
   [[noreturn]] void fail_at(std::size_t frame, const std::string& what) const;
 
   RecordingSpec spec_;

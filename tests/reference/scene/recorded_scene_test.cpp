@@ -124,6 +124,30 @@ TEST_F(RecordedScene, IsReplayedFromARecordingOfItself) {
   EXPECT_EQ(load_recording(scratch_.folder() / "s.ccr").recorded, scene.recorded);
 }
 
+TEST_F(RecordedScene, AGapInTheNumbersIsNoEnd) {
+  for (const char* name : {"g_0000.obj", "g_0001.obj", "g_0003.obj", "g_0007.obj"})
+    scratch_.write(name, test::obj_text(test::unit_box_mesh(1)));
+  const std::string whole = R"("recording": {"frames": "g_%04d.obj"})", any = R"("title": "t")";
+  const auto in_folder = [&](const char* name) {
+    return '"' + (scratch_.folder() / name).string() + '"';
+  };
+  EXPECT_THAT(sentence(whole, any),
+              HasSubstr("bodies[0].recording has a gap: there is no file " +
+                        in_folder("g_0002.obj") + ", but there is " + in_folder("g_0003.obj")));
+  EXPECT_THAT(sentence(whole, R"("frames": 8)"), HasSubstr("has a gap: there is no file"));
+  // What is not asked for does not matter, nor do other names.
+  EXPECT_EQ(load(whole, R"("frames": 2)").frames, 2u);
+  const std::string odd = R"("recording": {"frames": "g_%04d.obj", "first": 1, "step": 2})";
+  EXPECT_THAT(sentence(odd, any),
+              HasSubstr(in_folder("g_0005.obj") + ", but there is " + in_folder("g_0007.obj")));
+  for (const char* name :
+       {"g_9.obj", "g_0009.objx", "g_+009.obj", "xg_0009.obj", "g_00091.obj.bak"})
+    scratch_.write(name, "");
+  std::filesystem::remove(scratch_.folder() / "g_0003.obj");
+  std::filesystem::remove(scratch_.folder() / "g_0007.obj");
+  EXPECT_EQ(load(whole, any).frames, 2u);
+}
+
 struct Wrong {
   std::string body, head, sentence;
 };

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "reference/scene/file_text.h"
@@ -61,6 +62,20 @@ std::string keyword_vertex_fault(const std::string& keyword, const std::string& 
     return fault.empty();
   });
   return fault;
+}
+
+// What is wrong with the vertex of a corner, "7" or "7/1/3"; empty when nothing is. A negative
+// index counts back from the last vertex so far.
+std::string corner_fault(const std::string& word, std::size_t so_far, std::size_t in_all) {
+  std::string_view index = std::string_view(word).substr(0, word.find('/'));
+  if (index.size() > 1 && index[0] == '+' && index[1] != '-') index.remove_prefix(1);
+  const auto value = whole_number<std::int64_t>(index);
+  if (!value) return "has the vertex index " + in_quotes(word, 40) + ", which is no whole number";
+  const auto bound = static_cast<std::int64_t>(*value < 0 ? so_far : in_all);
+  if (*value != 0 && -bound <= *value && *value <= bound) return "";
+  const std::string place = "names the vertex " + std::to_string(*value) + "; ";
+  if (*value == 0) return place + "they count from 1";
+  return place + "the file has " + std::to_string(bound) + (*value < 0 ? " before that line" : "");
 }
 
 bool is_off_keyword(const std::string& word) {
@@ -162,6 +177,25 @@ std::optional<SoupCounts> claimed_counts(SoupFormat format, const std::string& b
   if (format == SoupFormat::kOff) return off_counts(bytes);
   if (format == SoupFormat::kPly) return ply_counts(bytes);
   return std::nullopt;
+}
+
+std::string face_index_fault(SoupFormat format, const std::string& bytes) {
+  if (format != SoupFormat::kObj) return "";
+  std::size_t in_all = 0, so_far = 0, face = 0;
+  for_lines(bytes, [&](const Line& line) { return in_all += line.words[0] == "v", true; });
+  std::string fault;
+  for_lines(bytes, [&](const Line& line) {
+    so_far += line.words[0] == "v" ? 1 : 0;
+    if (line.words[0] != "f") return true;
+    for (std::size_t k = 1; k < line.words.size() && fault.empty(); ++k)
+      fault = corner_fault(line.words[k], so_far, in_all);
+    if (!fault.empty())
+      fault =
+          "face " + std::to_string(face) + " (line " + std::to_string(line.number) + ") " + fault;
+    ++face;
+    return fault.empty();
+  });
+  return fault;
 }
 
 std::size_t face_line_fault(SoupFormat format, const std::string& bytes, const PolygonSoup& soup) {

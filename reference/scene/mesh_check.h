@@ -23,6 +23,11 @@ struct SoupCounts {
 /// other formats and for headers of another form.
 std::optional<SoupCounts> claimed_counts(SoupFormat format, const std::string& bytes);
 
+/// The first OBJ face with an index that is no whole number or no vertex of the file, as the end of
+/// a sentence: "face 2 (line 10) names the vertex 5; the file has 4". Empty when there is none, or
+/// for other formats. CGAL's OBJ reader takes 1.9 for 1 and 0 for the vertex after the last.
+std::string face_index_fault(SoupFormat format, const std::string& bytes);
+
 /// The first OBJ face line whose number of corners is not what was read: its line number. Zero when
 /// all agree, or for other formats. CGAL's OBJ reader stops silently in the middle of a face.
 std::size_t face_line_fault(SoupFormat format, const std::string& bytes, const PolygonSoup& soup);

@@ -118,6 +118,8 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
     const std::string fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
   }
+  const std::string index_fault = face_index_fault(format, bytes);
+  if (!index_fault.empty()) throw InputError(name + ": " + index_fault + ".");
   PolygonSoup soup;
   const std::optional<std::string> guarded = guarded_bytes(format, bytes);
   if (!guarded || !read_polygon_soup(format, *guarded, soup)) {

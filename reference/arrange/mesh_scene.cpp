@@ -42,8 +42,11 @@ std::string free_name(const std::string& wanted, const std::vector<BodyPlan>& bo
 
 // From the folder, through no link: a link's ".." is not the folder that names it.
 std::string path_from(const fs::path& folder, const fs::path& mesh) {
-  std::error_code ignored;
-  const fs::path to = fs::weakly_canonical(fs::absolute(mesh), ignored);
+  std::error_code ignored, error;
+  const fs::path to = fs::weakly_canonical(fs::absolute(mesh), error);
+  if (error)
+    throw InputError("--mesh " + in_quotes(mesh.string()) +
+                     " cannot be followed to a file: " + error.message());
   const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
   return to.lexically_proximate(from).string();
 }

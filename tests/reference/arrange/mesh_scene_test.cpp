@@ -153,6 +153,15 @@ TEST_F(MeshScene, ReadsFromTheFolderThatItIsKeptIn) {
   EXPECT_EQ(kept.nodes_of_frame(17), given.nodes_of_frame(17));
 }
 
+TEST_F(MeshScene, NamesTheLinkThatLeadsNowhere) {
+  fs::create_symlink(file("loop"), file("loop"));
+  EXPECT_EQ(sentence_of([&] {
+              mesh_scene(request({"loop", "loop"}), scratch_.folder());
+            }),
+            "--mesh \"" + file("loop").string() +
+                "\" cannot be followed to a file: Too many levels of symbolic links");
+}
+
 TEST_F(MeshScene, RefusesWhatCannotBeOne) {
   const auto sentence = [&](const MeshSceneRequest& request) {
     return sentence_of([&] { scene(request); });

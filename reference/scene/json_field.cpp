@@ -85,6 +85,8 @@ std::vector<JsonField> JsonField::items(std::size_t fewest) const {
 
 std::string JsonField::text() const {
   if (!is(JsonValue::Kind::kText) || value_->text.empty()) refuse("a text that is not empty");
+  // The name of a file would end there, and another one be opened.
+  if (value_->text.find('\0') != std::string::npos) refuse("a text without the character U+0000");
   return value_->text;
 }
 

@@ -20,6 +20,14 @@ std::string shown_token(const std::string& token) {
   return !token.empty() && token[0] == '"' ? token.substr(0, 40) : in_quotes(token, 40);
 }
 
+std::string place_of(std::size_t at, const std::string& text) {
+  const std::string before = text.substr(0, at);
+  const std::size_t line_end = before.rfind('\n');
+  const std::size_t column = line_end == std::string::npos ? at + 1 : at - line_end;
+  return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
+         ", column " + std::to_string(column);
+}
+
 // Builds the value bottom-up: open arrays and objects wait on a stack.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -67,12 +75,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::json::exception&) override {
     const std::size_t at = std::min(position > 0 ? position - 1 : 0, text_.size());
-    const std::string before = text_.substr(0, at);
-    const std::size_t line_end = before.rfind('\n');
-    const std::size_t column = line_end == std::string::npos ? at + 1 : at - line_end;
-    const std::string place = "line " +
-                              std::to_string(1 + std::count(before.begin(), before.end(), '\n')) +
-                              ", column " + std::to_string(column);
+    const std::string place = place_of(at, text_);
     if (at == text_.size()) {
       throw InputError(document_ + " is not valid JSON: it ends too early, at " + place + ".");
     }
@@ -138,6 +141,9 @@ const JsonValue* JsonValue::find(const std::string& key) const {
 }
 
 JsonValue parse_json(const std::string& text, const std::string& document) {
+  // nlohmann would take it for the end and what follows for nothing.
+  if (const std::size_t at = text.find('\0'); at != std::string::npos)
+    throw InputError(document + " is not valid JSON at " + place_of(at, text) + ": a NUL byte.");
   Builder builder(text, document);
   nlohmann::json::sax_parse(text, &builder);
   return builder.take();

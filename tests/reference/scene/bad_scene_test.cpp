@@ -1,6 +1,8 @@
 // Every kind of defect of scene and suite files: the whole sentence.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "reference/scene/scene.h"
 #include "reference/scene/suite_file.h"
 #include "tests/reference/scene/scratch.h"
@@ -41,6 +43,24 @@ TEST_P(BadScene, IsRefusedWithOneSentence) {
   const std::size_t folder = expected.find("FOLDER");
   if (folder != std::string::npos) expected.replace(folder, 6, scratch.folder().string());
   EXPECT_EQ(sentence_of([&] { load_scene(file); }), expected);
+}
+
+TEST(SceneDefects, ANulByteEndsNothing) {
+  const Scratch scratch;
+  const auto after = [&](const std::string& bytes) {
+    const std::filesystem::path file = scratch.write("s.json", bytes);
+    const std::string sentence = sentence_of([&] { load_scene(file); });
+    return sentence.substr(std::min(sentence.size(), file.string().size() + 13));
+  };
+  EXPECT_EQ(after(kGood + '\0'), " is not valid JSON at line 11, column 2: a NUL byte.");
+  EXPECT_EQ(after(kGood + "\n" + '\0' + "more"),
+            " is not valid JSON at line 12, column 1: a NUL byte.");
+  scratch.write("t.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  std::string text = kGood;
+  const std::string box = R"("shape": "box")";
+  EXPECT_EQ(after(text.replace(text.find(box), box.size(), R"("file": "t.off\u0000zz")")),
+            ": bodies[0].mesh.file is \"t.off?zz\"; it must be a text without the character "
+            "U+0000.");
 }
 
 TEST(SceneDefects, TheSceneWithoutThemLoads) {

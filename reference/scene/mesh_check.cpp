@@ -173,6 +173,18 @@ std::string coordinate_fault(SoupFormat format, const std::string& bytes) {
   return "";
 }
 
+std::string bytes_beyond_stl(const std::string& bytes) {
+  if (bytes.size() < kStlHeader) return "";
+  // The header of a binary file may begin with "solid", too, but no text has a zero byte.
+  const std::string head = bytes.substr(0, kStlHeader);
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (head.find('\0') == std::string::npos && head.find("solid") == first) return "";
+  const std::size_t triangles = little_endian(bytes, 80);
+  if (bytes.size() <= kStlHeader + kStlFacet * triangles) return "";
+  return " has " + std::to_string(bytes.size() - kStlHeader - kStlFacet * triangles) +
+         " bytes more than its " + std::to_string(triangles) + " triangles";
+}
+
 std::optional<SoupCounts> claimed_counts(SoupFormat format, const std::string& bytes) {
   if (format == SoupFormat::kOff) return off_counts(bytes);
   if (format == SoupFormat::kPly) return ply_counts(bytes);

@@ -15,6 +15,10 @@ namespace contactcheck {
 /// STL, names triangle and corner. Empty when none is found. Assumes one vertex per line.
 std::string coordinate_fault(SoupFormat format, const std::string& bytes);
 
+/// How a sentence goes on after the name of a binary STL file that is longer than its triangles:
+/// " has 50 bytes more than its 4 triangles". Empty for others. (Readers drop what follows.)
+std::string bytes_beyond_stl(const std::string& bytes);
+
 struct SoupCounts {
   std::size_t vertices = 0, faces = 0;
 };

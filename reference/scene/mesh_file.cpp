@@ -115,13 +115,17 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
   refuse_lying_counts(format, bytes, name);
   // Checked first: CGAL would weld a NaN of a binary STL to any other vertex.
   if (format == SoupFormat::kStl) {
+    const std::string more = bytes_beyond_stl(bytes);
+    if (!more.empty()) throw InputError(name + more + ".");
     const std::string fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
   }
   const std::string index_fault = face_index_fault(format, bytes);
   if (!index_fault.empty()) throw InputError(name + ": " + index_fault + ".");
   PolygonSoup soup;
-  const std::optional<std::string> guarded = guarded_bytes(format, bytes);
+  std::string guard_fault;
+  const std::optional<std::string> guarded = guarded_bytes(format, bytes, guard_fault);
+  if (!guard_fault.empty()) throw InputError(name + guard_fault + ".");
   if (!guarded || !read_polygon_soup(format, *guarded, soup)) {
     const std::string fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");

@@ -1,14 +1,17 @@
 #include "reference/scene/ply_guard.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "reference/scene/file_text.h"
 #include "reference/scene/words.h"
 
 namespace contactcheck {
@@ -96,8 +99,12 @@ std::optional<Header> read_header(std::istream& in) {
   return std::nullopt;
 }
 
+bool is_vertex(const Element& element) {
+  return element.name == "vertex" || element.name == "vertices";
+}
+
 bool is_coordinate(const Element& element, const Property& property) {
-  return (element.name == "vertex" || element.name == "vertices") &&
+  return is_vertex(element) &&
          (property.name == "x" || property.name == "y" || property.name == "z");
 }
 
@@ -118,6 +125,17 @@ bool names_have_their_types(const Header& header) {
         return false;
     }
   return true;
+}
+
+// A file of flat things may leave z out, but then nobody knows where they are.
+std::string missing_coordinate(const Header& header) {
+  for (const Element& element : header.elements)
+    for (const char* name : {"x", "y", "z"})
+      if (is_vertex(element) &&
+          std::none_of(element.properties.begin(), element.properties.end(),
+                       [&](const Property& property) { return property.name == name; }))
+        return std::string(" has vertices without a property ") + name;
+  return "";
 }
 
 std::string plain_header(const Header& header) {
@@ -180,6 +198,24 @@ class Values {
   Values(std::istream& in, const std::string& format)
       : in_(in), ascii_(format == "ascii"), big_(format == "binary_big_endian") {}
 
+  // What stands behind the last property on the line of a text's element.
+  std::string rest_of_line() {
+    std::string rest;
+    if (ascii_) std::getline(in_, rest);
+    const std::size_t first = rest.find_first_not_of(" \t\r");
+    return first == std::string::npos ? "" : rest.substr(first);
+  }
+
+  // What stands behind the last element: words of a text, or how many bytes; white space may.
+  std::string beyond() {
+    const std::string rest{std::istreambuf_iterator<char>(in_), {}};
+    const std::size_t first = rest.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos) return "";
+    if (!ascii_) return " has " + std::to_string(rest.size()) + " bytes more than its header says";
+    const std::string line = rest.substr(first, rest.find_first_of("\r\n", first) - first);
+    return " goes on after the last element of its header: " + in_quotes(line, 40);
+  }
+
   bool skip(const Property& property) {
     if (!property.length) return skip_item(*property.item);
     const auto length =
@@ -215,25 +251,40 @@ class Values {
   std::string word_;
 };
 
-bool holds_its_values(const Header& header, std::istream& in, std::size_t size) {
-  Values values(in, header.format);
-  for (const Element& element : header.elements) {
-    if (element.count > size) return false;
-    for (std::size_t i = 0; i < element.count; ++i)
-      for (const Property& property : element.properties)
-        if (!values.skip(property)) return false;
+// Steps over the elements of one kind. False where a value is missing or is none of its type, or,
+// with a fault, where a line holds more.
+bool holds_elements(const Element& element, Values& values, std::string& fault) {
+  for (std::size_t i = 0; i < element.count; ++i) {
+    for (const Property& property : element.properties)
+      if (!values.skip(property)) return false;
+    const std::string rest = values.rest_of_line();
+    if (rest.empty()) continue;
+    fault = ": " + element.name + " " + std::to_string(i) +
+            " has more on its line than its properties: " + in_quotes(rest, 40);
+    return false;
   }
   return true;
 }
 
+bool holds_its_values(const Header& header, std::istream& in, std::size_t size,
+                      std::string& fault) {
+  Values values(in, header.format);
+  for (const Element& element : header.elements)
+    if (element.count > size || !holds_elements(element, values, fault)) return false;
+  fault = values.beyond();
+  return fault.empty();
+}
+
 }  // namespace
 
-std::optional<std::string> plain_ply(const std::string& bytes) {
+std::optional<std::string> plain_ply(const std::string& bytes, std::string& fault) {
   std::istringstream in(bytes, std::ios::in | std::ios::binary);
   const std::optional<Header> header = read_header(in);
   if (!header || !names_have_their_types(*header)) return std::nullopt;
+  fault = missing_coordinate(*header);
+  if (!fault.empty()) return std::nullopt;
   const std::streamoff body = in.tellg();
-  if (!holds_its_values(*header, in, bytes.size())) return std::nullopt;
+  if (!holds_its_values(*header, in, bytes.size(), fault)) return std::nullopt;
   return plain_header(*header) + bytes.substr(static_cast<std::size_t>(body));
 }
 

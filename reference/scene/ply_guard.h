@@ -9,7 +9,9 @@ namespace contactcheck {
 
 /// The same values under a header of our own, in which only x, y, z and the vertex indices keep
 /// their names. Nothing when a value is missing or does not fit its type, a coordinate is not
-/// float or double, or vertex indices are not int or uint.
-std::optional<std::string> plain_ply(const std::string& bytes);
+/// float or double, or vertex indices are not int or uint; and when x, y or z is missing or the
+/// file goes on after its values, which `fault` then says as guarded_bytes does. In text each
+/// element has a line of its own.
+std::optional<std::string> plain_ply(const std::string& bytes, std::string& fault);
 
 }  // namespace contactcheck

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/scene/file_text.h"
 #include "reference/scene/ply_guard.h"
 #include "reference/scene/words.h"
 
@@ -55,7 +56,29 @@ std::optional<std::size_t> face_words(const Words& words) {
   return *corners + 1;
 }
 
-std::optional<std::string> plain_off(const std::string& bytes) {
+std::string index_fault(const Words& words, std::size_t count, std::size_t face,
+                        std::size_t vertices) {
+  for (std::size_t i = 1; i < count; ++i)
+    if (whole_number<std::size_t>(words[i]).value_or(vertices) >= vertices)
+      return ": face " + std::to_string(face) + " names the vertex " + words[i] +
+             "; the file has " + std::to_string(vertices) + ", counted from 0";
+  return "";
+}
+
+// What follows the last face; white space and comments may.
+std::string lines_beyond(std::istream& in, std::size_t vertices, std::size_t faces) {
+  const Words first = next_words(in);
+  if (first.empty()) return "";
+  std::size_t count = 1;
+  while (!next_words(in).empty()) ++count;
+  std::string line;
+  for (const std::string& word : first) line += (line.empty() ? "" : " ") + word;
+  return " has " + std::to_string(count) + (count == 1 ? " line" : " lines") +
+         " more than its header's " + std::to_string(vertices) + " vertices and " +
+         std::to_string(faces) + " faces: " + in_quotes(line, 40);
+}
+
+std::optional<std::string> plain_off(const std::string& bytes, std::string& fault) {
   std::istringstream in(bytes);
   const auto header = off_header(in);
   if (!header) return std::nullopt;
@@ -67,16 +90,22 @@ std::optional<std::string> plain_off(const std::string& bytes) {
     if (words.empty()) return out;  // the reader finds that the end is missing
     const std::optional<std::size_t> count = line < vertices ? 3 : face_words(words);
     if (!count) return std::nullopt;
+    if (line >= vertices) fault = index_fault(words, *count, line - vertices, vertices);
+    if (!fault.empty()) return std::nullopt;
     append_line(words, *count, out);
   }
+  fault = lines_beyond(in, vertices, faces);
+  if (!fault.empty()) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
-std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes) {
-  if (format == SoupFormat::kOff) return plain_off(bytes);
-  if (format == SoupFormat::kPly) return plain_ply(bytes);
+std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes,
+                                         std::string& fault) {
+  fault.clear();
+  if (format == SoupFormat::kOff) return plain_off(bytes, fault);
+  if (format == SoupFormat::kPly) return plain_ply(bytes, fault);
   return bytes;
 }
 

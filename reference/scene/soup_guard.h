@@ -12,7 +12,10 @@ namespace contactcheck {
 
 /// The bytes to read: OFF without normals, colours and texture coordinates, PLY with only what is
 /// wanted under its name, other formats as they are. Nothing when OFF or PLY names a size that the
-/// file does not hold, and for OFF that is binary or not three-dimensional.
-std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes);
+/// file does not hold or holds more than it names, and for OFF that is binary or not
+/// three-dimensional. `fault` is then, where it is known, how a sentence goes on after the file's
+/// name: " has 1 line more than its 4 vertices and 4 faces".
+std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes,
+                                         std::string& fault);
 
 }  // namespace contactcheck

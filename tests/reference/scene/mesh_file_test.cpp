@@ -56,6 +56,19 @@ std::string binary_stl(float first) {
   return bytes;
 }
 
+// One triangle of floats.
+std::string binary_ply() {
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+      "property float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+    append(bytes, std::bit_cast<std::uint32_t>(x));
+  bytes += '\3';
+  for (const std::uint32_t corner : {0u, 1u, 2u}) append(bytes, corner);
+  return bytes;
+}
+
 std::string with(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
@@ -173,6 +186,17 @@ TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
   EXPECT_EQ(loaded.notes, "read as float by assimp; 2 vertices at equal places joined");
 }
 
+TEST(MeshFile, WhiteSpaceAndCommentsMayFollow) {
+  const Scratch scratch;
+  for (const std::string end : {"", "\n", " \t\r\n\n", "\n# the end 1 2 3\n"}) {
+    EXPECT_EQ(read_mesh_file(scratch.write("t.off", kOff + end)).mesh.triangles.size(), 4u);
+    if (end.find('#') != std::string::npos) continue;
+    EXPECT_EQ(read_mesh_file(scratch.write("t.ply", kPly + end)).mesh.triangles.size(), 4u);
+    EXPECT_EQ(read_mesh_file(scratch.write("b.ply", binary_ply() + end)).mesh.vertices[1],
+              Vec3(1, 0, 0));
+  }
+}
+
 struct BadMesh {
   std::string name, file, bytes, sentence;  // the sentence after: mesh file "PATH"
 };
@@ -214,7 +238,26 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"BinaryStlNan", "a.stl", binary_stl(std::numeric_limits<float>::quiet_NaN()),
                 ": corner 0 of triangle 0 has the coordinate nan; coordinates must be finite "
                 "numbers."},
-        BadMesh{"OffIndex", "a.off", with(kOff, "3 0 3 2", "3 0 3 9"), " cannot be read as OFF."},
+        BadMesh{"OffIndex", "a.off", with(kOff, "3 0 3 2", "3 0 3 9"),
+                ": face 3 names the vertex 9; the file has 4, counted from 0."},
+        BadMesh{"OffMoreFaces", "a.off", with(kOff, "4 4 0", "4 2 0") + " \n# the end\n",
+                " has 2 lines more than its header's 4 vertices and 2 faces: \"3 1 2 3\"."},
+        BadMesh{"OffOneLineMore", "a.off", kOff + "7",
+                " has 1 line more than its header's 4 vertices and 4 faces: \"7\"."},
+        BadMesh{"StlMoreBytes", "a.stl", binary_stl(0.25f) + std::string(50, '\0'),
+                " has 50 bytes more than its 4 triangles."},
+        BadMesh{"StlMoreBytesThoughSolid", "a.stl", "solid" + binary_stl(0.25f).substr(5) + "x",
+                " has 1 bytes more than its 4 triangles."},
+        BadMesh{"PlyWithoutZ", "a.ply", with(kPly, "property double z\n", ""),
+                " has vertices without a property z."},
+        BadMesh{"PlyWithoutXOfItsName", "a.ply", with(kPly, "double x", "double X"),
+                " has vertices without a property x."},
+        BadMesh{"PlyMoreNumbersOnALine", "a.ply", with(kPly, "\n1 0 0", "\n1 0 0 5 5"),
+                ": vertex 1 has more on its line than its properties: \"5 5\"."},
+        BadMesh{"PlyMoreFaces", "a.ply", kPly + "3 0 1 2\n",
+                " goes on after the last element of its header: \"3 0 1 2\"."},
+        BadMesh{"PlyMoreBytes", "a.ply", binary_ply() + "wxyz",
+                " has 4 bytes more than its header says."},
         BadMesh{"ObjIndex", "a.obj", with(kObj, "f 2 3 4", "f 2 3 5"),
                 ": face 2 (line 10) names the vertex 5; the file has 4."},
         BadMesh{"ObjIndexFarOut", "a.obj", with(kObj, "f 2 3 4", "f 2 3 4294967298"),

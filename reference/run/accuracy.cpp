@@ -52,6 +52,8 @@ class AccuracyPass {
   AccuracyOutcome run() {
     prepare();
     make_judges();
+    for (const Question question : result_.semantics.questions)
+      outcome_.answers.push_back({question, {}});
     for (std::size_t f = 0; f < scene_.frames; ++f) add_frame(f);
     finish();
     return outcome_;
@@ -110,7 +112,14 @@ class AccuracyPass {
     note_environment(guard_, "query", result_);
     contacts_.canonicalize();
     check(contacts_);
+    remember(own(), contacts_);
     add_counts();
+  }
+
+  void remember(Question question, const ContactSet& answer) {
+    for (JudgedQuestion& judged : outcome_.answers)
+      if (judged.question == question)
+        judged.frames.push_back(print_of(answer, {question, question == own()}));
   }
 
   void add_counts() {
@@ -127,6 +136,7 @@ class AccuracyPass {
     for (Question question : result_.semantics.questions) {
       if (question == own()) continue;
       ask(detector_, question, check, other_);
+      remember(question, other_);
       note_environment(guard_, "query", result_);
       if (question == Question::kBody) contacts_.bodies = other_.bodies;
       if (question == Question::kContacts) {

@@ -5,14 +5,16 @@
 
 #include "core/detect/detector.h"
 #include "reference/compare/run_result.h"
+#include "reference/run/answer_print.h"
 #include "reference/run/judged_scene.h"
 #include "reference/run/rounded_scene.h"
 
 namespace contactcheck {
 
-/// What a detector costs per frame, roughly, from the untimed pass: picks its timed frames.
+/// What the timed pass needs to know of the untimed one.
 struct AccuracyOutcome {
-  double seconds_per_frame = 0.0;
+  double seconds_per_frame = 0.0;  ///< roughly: picks the timed frames
+  JudgedAnswers answers;           ///< to every question in every frame
 };
 
 /// Runs `detector` over all frames and fills levels, graded errors, stages, episodes, hash, memory,

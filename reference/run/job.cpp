@@ -56,8 +56,10 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"process", job.process},
             {"order", job.order},
             {"prefixes", job.prefixes},
+            {"answers", json::array()},
             {"answer_file", job.answer_file.string()},
             {"recording_file", job.recording_file.string()}};
+  for (const JudgedAnswers& answers : job.answers) j["answers"].push_back(to_json(answers));
   if (job.text)
     j["text"] = {
         {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
@@ -85,6 +87,8 @@ Job read_job(const std::filesystem::path& file) {
   j.at("process").get_to(job.process);
   j.at("order").get_to(job.order);
   j.at("prefixes").get_to(job.prefixes);
+  for (const json& answers : j.at("answers"))
+    job.answers.push_back(judged_answers_from_json(answers));
   job.answer_file = j.at("answer_file").get<std::string>();
   job.recording_file = j.at("recording_file").get<std::string>();
   return job;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/run/answer_print.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/scene/scene.h"
 
@@ -57,6 +58,7 @@ struct Job {
   /// For processes above 0, out of process 0's answer: the order of frames, and per detector how
   /// many of them are timed (0: not timed).
   std::vector<std::size_t> order, prefixes;
+  std::vector<JudgedAnswers> answers;    ///< likewise: per detector, what was judged
   std::filesystem::path answer_file;     ///< where the worker writes
   std::filesystem::path recording_file;  ///< where process 0 writes the recording; empty: nowhere
 };

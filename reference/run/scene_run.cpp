@@ -42,6 +42,7 @@ class SceneRun {
     job_.recording_file.clear();
     job_.order = first.at("order").get<std::vector<std::size_t>>();
     job_.prefixes = first.at("prefixes").get<std::vector<std::size_t>>();
+    job_.answers = answers_of(first);
     std::vector<Json> answers = {first};
     for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
       answers.push_back(run_process(p));
@@ -51,6 +52,15 @@ class SceneRun {
   }
 
  private:
+  // Of those that broke it: none.
+  std::vector<JudgedAnswers> answers_of(const Json& first) const {
+    std::vector<JudgedAnswers> answers(task_.detectors.size());
+    for (const Json& entry : first.at("runs"))
+      answers.at(entry.at("position").get<std::size_t>()) =
+          judged_answers_from_json(entry.at("answers"));
+    return answers;
+  }
+
   // Runs one process; whoever dies in a detector runs again without it.
   Json run_process(std::size_t process) {
     job_.process = process;

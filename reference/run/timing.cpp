@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <optional>
+#include <stdexcept>
 
 #include "reference/run/float_environment.h"
 #include "reference/run/printable.h"
@@ -47,12 +48,28 @@ PhaseSample run_once(const JudgedScene& judged, TimedEntry& entry, MappedFrame& 
   return sample;
 }
 
+// Both answers of a repeat. The hot one becomes canonical.
+void check_answers(const TimedEntry& entry, std::size_t index, const AnswerSizes& cold,
+                   ContactSet& hot) {
+  if (entry.judged == nullptr) return;
+  const AnswerPrint& judged = (*entry.judged)[index];
+  const Asked asked = {entry.question, entry.own};
+  std::string difference = raw_difference(cold, judged, asked);
+  if (difference.empty()) {
+    hot.canonicalize();
+    difference = answer_difference(print_of(hot, asked), judged);
+  }
+  if (!difference.empty()) throw std::runtime_error(difference);
+}
+
 void run_cold_and_hot(const JudgedScene& judged, std::size_t index, TimedEntry& entry,
                       MappedFrame& mapped, ContactSet& contacts) {
   try {
     FrameSamples& samples = entry.samples.frames[index];
     samples.cold.push_back(run_once(judged, entry, mapped, contacts));
+    const AnswerSizes cold_answer = sizes_of(contacts);
     samples.hot.push_back(run_once(judged, entry, mapped, contacts));
+    check_answers(entry, index, cold_answer, contacts);
   } catch (...) {
     entry.error = "frame " + std::to_string(index) + ", while timed: " + current_exception_text();
   }

@@ -56,6 +56,7 @@ class AnswerWriter {
       out["run"]["closed_loop"] = to_json(*entry.closed_loop);
     if (entry.usable() && entry.step_times) out["run"]["step_ms"] = to_json(*entry.step_times);
     out["samples"] = std::move(samples);
+    if (worker_.judges()) out["answers"] = to_json(entry.answers);
     out["disagreements"] = written_cases(entry.result.disagreements);
     if (lists_contacts()) out["contacts"] = detector_contacts(entry.result);
     return out;

@@ -1,6 +1,8 @@
 #include "reference/run/worker_judging.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 #include "reference/run/accuracy.h"
 #include "reference/run/guarded_call.h"
@@ -38,11 +40,22 @@ void dismiss(WorkerState& worker, WorkerEntry& entry) {
 
 void judge(JudgingTools& tools, WorkerState& worker, WorkerEntry& entry) {
   make_detector(worker, entry);
-  entry.seconds_per_frame =
-      run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.result)
-          .seconds_per_frame;
+  AccuracyOutcome outcome =
+      run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.result);
+  entry.seconds_per_frame = outcome.seconds_per_frame;
+  entry.answers = std::move(outcome.answers);
   measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.result);
   if (!worker.job.settings.timing) dismiss(worker, entry);
+}
+
+// What it is timed with here was judged in another process.
+void take_over_answers(const WorkerState& worker, WorkerEntry& entry) {
+  entry.answers = worker.job.answers[entry.position];
+  const bool same =
+      std::equal(entry.answers.begin(), entry.answers.end(),
+                 entry.result.semantics.questions.begin(), entry.result.semantics.questions.end(),
+                 [](const JudgedQuestion& judged, Question now) { return judged.question == now; });
+  if (!same) throw std::runtime_error("it answers other questions than when it was judged");
 }
 
 }  // namespace
@@ -85,6 +98,7 @@ void prepare_detectors(WorkerState& worker) {
       make_detector(worker, entry);
       entry.result.semantics = entry.detector->semantics();
       entry.detector->prepare(worker.scene.bodies);
+      take_over_answers(worker, entry);
     });
   }
 }

@@ -12,6 +12,7 @@
 #include "reference/compare/run_result.h"
 #include "reference/compare/simulation_result.h"
 #include "reference/compare/speedup.h"
+#include "reference/run/answer_print.h"
 #include "reference/run/job.h"
 #include "reference/run/judged_scene.h"
 #include "reference/run/shared_progress.h"
@@ -27,6 +28,7 @@ struct WorkerEntry {
   std::unique_ptr<Detector> detector;  ///< none: not yet made, dismissed, or not usable
   RunResult result;
   double seconds_per_frame = 0.0;  ///< see AccuracyOutcome
+  JudgedAnswers answers;           ///< the same; in a later process, the judging one's
   std::vector<QuestionSamples> samples;
   std::optional<ClosedLoop> closed_loop;
   std::optional<StepTimes> step_times;

@@ -7,13 +7,15 @@
 namespace contactcheck {
 namespace {
 
-TimedEntry timed_entry(const WorkerEntry& entry, Question question, std::size_t frames) {
+TimedEntry timed_entry(const WorkerEntry& entry, const JudgedQuestion& judged, std::size_t frames) {
   TimedEntry timed;
   timed.position = entry.position;
   timed.detector = entry.detector.get();
-  timed.question = question;
+  timed.question = judged.question;
+  timed.own = judged.question == entry.result.semantics.questions.front();
+  timed.judged = &judged.frames;
   timed.frames = frames;
-  timed.samples.question = question;
+  timed.samples.question = judged.question;
   timed.samples.lazy_map = !entry.detector->needs_vertices();
   return timed;
 }
@@ -22,7 +24,7 @@ std::vector<TimedEntry> timed_entries(const WorkerState& worker) {
   std::vector<TimedEntry> timed;
   for (const WorkerEntry& entry : worker.entries) {
     if (!entry.usable() || !entry.detector) continue;
-    for (const Question question : entry.result.semantics.questions)
+    for (const JudgedQuestion& question : entry.answers)
       timed.push_back(timed_entry(entry, question, worker.job.prefixes[entry.position]));
   }
   return timed;

@@ -10,7 +10,7 @@ namespace contactcheck {
 void plan_timing(WorkerState& worker);
 
 /// Times every usable detector with each of its questions (timing.h). One that throws meanwhile
-/// ends in an error, without samples.
+/// or answers otherwise than when it was judged ends in an error, without samples.
 void time_detectors(WorkerState& worker);
 
 }  // namespace contactcheck

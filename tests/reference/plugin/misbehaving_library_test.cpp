@@ -108,6 +108,29 @@ TEST(LibraryAtWork, CrashWhenDestroyedIsAnErrorWithTimesToo) {
   EXPECT_TRUE(run.row("fcl-aabb").contains("time_ms"));
 }
 
+// Its times would be those of another answer.
+TEST(LibraryAtWork, AnswersThatItDoesNotGiveWhileItIsTimedAreAnError) {
+  PluginRun run({"--detector", misbehaving_library("lies-once"), "--detector", "fcl-aabb"},
+                {"--repeat", "2"});
+  test::expect_row_and_nobody_disturbed(
+      run, "misbehaving:fault=lies-once",
+      {"lies-once",
+       {"while timed: it answered 0 pairs of triangles and not the 1 that were judged"}});
+  EXPECT_FALSE(run.row("misbehaving:fault=lies-once").contains("time_ms"));
+}
+
+// Only the first process sees the frames in their order.
+TEST(LibraryAtWork, AnswersThatItGivesInTheFirstProcessAloneAreAnError) {
+  for (const char* processes : {"1", "2"}) {
+    PluginRun run({"--detector", misbehaving_library("lies-in-order")},
+                  {"--repeat", "1", "--processes", processes});
+    const auto row = run.row("misbehaving:fault=lies-in-order");
+    EXPECT_EQ(row.at("status"), *processes == '1' ? "ok" : "error") << row.at("message");
+    EXPECT_EQ(row.value("message", "").find("it answered 0 pairs") != std::string::npos,
+              *processes == '2');
+  }
+}
+
 TEST(LibraryAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   PluginRun run({"--detector", misbehaving_library("lies"), "--detector",
                  misbehaving_library("repeats"), "--detector", "fcl-aabb"});

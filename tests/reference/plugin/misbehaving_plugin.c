@@ -15,7 +15,8 @@
 
 typedef struct {
   Word fault;
-  uint64_t frame;
+  uint64_t frame, first_frame, asked; /* asked: a bit per frame */
+  int updated;
 } State;
 
 static const char* at_load(void) {
@@ -79,6 +80,8 @@ static int32_t prepare(void* detector, const contactcheck_body* bodies, uint32_t
 static int32_t update(void* detector, const contactcheck_frame* frame, char* message) {
   State* const state = detector;
   state->frame = frame->index;
+  if (!state->updated) state->first_frame = frame->index;
+  state->updated = 1;
   if (is(state, "leaks")) memset(malloc(1 << 24), 1, 1 << 24);
   if (frame->index != 2) return CONTACTCHECK_OK;
   if (is(state, "crash")) die(SIGSEGV);
@@ -102,9 +105,14 @@ static void add_triangles(const contactcheck_answer* answer, uint32_t body, uint
 
 static int32_t query(void* detector, uint32_t question, const contactcheck_answer* answer,
                      char* message) {
-  const State* const state = detector;
+  State* const state = detector;
+  const uint64_t bit = UINT64_C(1) << (state->frame % 64);
+  const int asked = (state->asked & bit) != 0;
   (void)message;
+  state->asked |= bit;
   if (is(state, "always-lies")) add_triangles(answer, 1, 0, 1);
+  if (is(state, "lies-once") && !asked) add_triangles(answer, 1, 0, 1);
+  if (is(state, "lies-in-order") && state->first_frame == 0) add_triangles(answer, 1, 0, 1);
   if (state->frame != 2) return CONTACTCHECK_OK;
   if (is(state, "no-such-body")) add_triangles(answer, 7, 0, 1);
   if (is(state, "no-such-triangle")) add_triangles(answer, 1, 1000000, 1);
@@ -123,6 +131,8 @@ static int32_t query(void* detector, uint32_t question, const contactcheck_answe
 
 static const char* const kFaults[] = {"none",
                                       "always-lies",
+                                      "lies-once",
+                                      "lies-in-order",
                                       "create-fails",
                                       "unknown-level",
                                       "no-question",

@@ -102,8 +102,11 @@ void write_answer(const Job& job) {
   run.detector = job.settings.detectors.front();
   run.status = RunStatus::kRefused;
   const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
-  const nlohmann::ordered_json entry = {
-      {"position", 0}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}};
+  const nlohmann::ordered_json entry = {{"position", 0},
+                                        {"run", to_json(run)},
+                                        {"samples", empty},
+                                        {"answers", empty},
+                                        {"disagreements", empty}};
   write_fake_answer(job, nlohmann::ordered_json::array({entry}));
 }
 
@@ -121,6 +124,7 @@ void write_listed_answer(const Job& job) {
     entries.push_back({{"position", i},
                        {"run", to_json(run)},
                        {"samples", empty},
+                       {"answers", empty},
                        {"disagreements", empty},
                        {"contacts", detector_contacts(run)}});
   }
@@ -138,8 +142,11 @@ void write_unjudged_answer(const Job& job) {
     run.status = RunStatus::kError;
     run.message = job.unjudged->why;
     run.failed_frame = job.unjudged->frame;
-    entries.push_back(
-        {{"position", i}, {"run", to_json(run)}, {"samples", empty}, {"disagreements", empty}});
+    entries.push_back({{"position", i},
+                       {"run", to_json(run)},
+                       {"samples", empty},
+                       {"answers", empty},
+                       {"disagreements", empty}});
   }
   write_fake_answer(job, entries);
 }

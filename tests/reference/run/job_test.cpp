@@ -37,6 +37,8 @@ Job full_job() {
   job.unjudged = Unjudged{"the oracle, frame 3", 3};
   job.order = {3, 0, 2};
   job.prefixes = {3, 0};
+  job.answers = {{{Question::kBody, {AnswerPrint{}}}}, {}};
+  job.answers[0][0].frames[0].sizes[6] = 5;
   job.answer_file = "/tmp/answer";
   job.recording_file = "/tmp/x.ccr";
   return job;
@@ -71,6 +73,10 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.process, 2u);
   EXPECT_THAT(in.order, ElementsAre(3, 0, 2));
   EXPECT_THAT(in.prefixes, ElementsAre(3, 0));
+  ASSERT_EQ(in.answers.size(), 2u);
+  ASSERT_EQ(in.answers[0].size(), 1u);
+  EXPECT_EQ(in.answers[0][0].question, Question::kBody);
+  EXPECT_EQ(in.answers[0][0].frames.at(0).sizes[6], 5u);
   EXPECT_EQ(in.answer_file, "/tmp/answer");
   EXPECT_EQ(in.recording_file, "/tmp/x.ccr");
 }

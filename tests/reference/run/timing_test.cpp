@@ -37,11 +37,27 @@ class Diary : public Detector {
     out.bodies.push_back({0, 1});
   }
 
- private:
+ protected:
   char name_;
   bool needs_vertices_;
   std::vector<Call>& calls_;
   Semantics semantics_;
+};
+
+// Answers with the bodies named twice, and with nothing where its word says so: C in every cold
+// call, H in every hot one, L from the third query on; O names others.
+class Forgetful : public Diary {
+ public:
+  Forgetful(char word, std::vector<Call>& calls) : Diary(word, true, calls) {}
+  void query(Question, ContactSet& out) override {
+    const bool hot = queries_++ % 2 == 1;
+    if ((name_ == 'C' && !hot) || (name_ == 'H' && hot) || (name_ == 'L' && queries_ > 2)) return;
+    out.bodies = {{1, 0}, {0, 1}};
+    if (name_ == 'O') out.bodies = {{0, 2}};
+  }
+
+ private:
+  int queries_ = 0;
 };
 
 class Timing : public testing::Test {
@@ -57,6 +73,19 @@ class Timing : public testing::Test {
     e.detector = &detector;
     e.frames = frames;
     return e;
+  }
+
+  // What is wrong with one that was judged by the answer "bodies 0 and 1" to every frame.
+  std::string error_of(char word) {
+    ContactSet judged;
+    judged.bodies = {{0, 1}};
+    const std::vector<AnswerPrint> prints(3, print_of(judged, {Question::kBody, true}));
+    Forgetful detector(word, calls_);
+    std::vector<TimedEntry> entries = {entry(detector, 2)};
+    entries[0].question = Question::kBody;
+    entries[0].judged = &prints;
+    run_timing(judged_, {1, 0}, 2, 1 << 12, entries, progress_);
+    return entries[0].error;
   }
 
   std::vector<Call> calls_;
@@ -109,6 +138,20 @@ TEST_F(Timing, DetectorThatThrowsIsNotCalledAgainAndStopsNobodyElse) {
   EXPECT_THAT(entries[1].error, testing::HasSubstr("out of order"));
   EXPECT_EQ(entries[0].error, "");
   EXPECT_EQ(entries[0].samples.frames.at(0).cold.size(), 3u);
+}
+
+TEST_F(Timing, AnswerThatWasJudgedMayRepeatItself) { EXPECT_EQ(error_of('-'), ""); }
+
+TEST_F(Timing, AnswerThatWasNotJudgedEndsInAnError) {
+  const std::string missing = "it answered 0 pairs of bodies and not the 1 that were judged";
+  EXPECT_EQ(error_of('C'), "frame 1, while timed: " + missing) << "cold alone";
+  EXPECT_EQ(error_of('H'), "frame 1, while timed: " + missing) << "hot alone";
+  EXPECT_EQ(error_of('O'),
+            "frame 1, while timed: it answered 1 pairs of bodies, and others than "
+            "those that were judged");
+  calls_.clear();
+  EXPECT_EQ(error_of('L'), "frame 1, while timed: " + missing) << "later repeats";
+  EXPECT_EQ(calls_.size(), 4u) << "and it is not called again";
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+// What an answer was, without its records: enough to tell whether the answer that was timed is the
+// one that was judged.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/types/contact_set.h"
+#include "core/types/semantics.h"
+
+namespace contactcheck {
+
+/// The lists of a ContactSet, in its order.
+constexpr std::size_t kAnswerLists = 7;
+
+/// How many records each list of an answer has. Reads nothing of the records.
+using AnswerSizes = std::array<std::uint64_t, kAnswerLists>;
+AnswerSizes sizes_of(const ContactSet& contacts);
+
+/// A question, and whether it is the detector's own: then more of its answer is judged.
+struct Asked {
+  Question question = Question::kTriangles;
+  bool own = true;
+};
+
+/// Per list that an answer is judged by, how many records it has and which; nothing of the others.
+/// Of contacts the number alone, and that roughly.
+struct AnswerPrint {
+  AnswerSizes sizes = {}, hashes = {};
+};
+
+/// @pre `contacts` is canonical
+AnswerPrint print_of(const ContactSet& contacts, const Asked& asked);
+
+/// Per frame, the answers to one question.
+struct JudgedQuestion {
+  Question question = Question::kTriangles;
+  std::vector<AnswerPrint> frames;
+};
+/// In the order of the detector's questions.
+using JudgedAnswers = std::vector<JudgedQuestion>;
+
+nlohmann::json to_json(const JudgedAnswers& answers);
+JudgedAnswers judged_answers_from_json(const nlohmann::json& answers);
+
+/// Where `answer` is not `judged` (of contacts: has more than 8 where the other has less than
+/// half): "it answered 0 pairs of triangles and not the 12 that were judged"; "" where it is.
+std::string answer_difference(const AnswerPrint& answer, const AnswerPrint& judged);
+
+/// The same by the sizes of an answer that is not canonical: repeats can only make a list longer
+/// than it was judged. What it says is wrong; what it lets pass may be.
+std::string raw_difference(const AnswerSizes& answer, const AnswerPrint& judged,
+                           const Asked& asked);
+
+}  // namespace contactcheck

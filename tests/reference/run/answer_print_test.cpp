@@ -1,0 +1,126 @@
+#include "reference/run/answer_print.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace contactcheck {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Asked kOwnTriangles = {Question::kTriangles, true};
+constexpr Asked kBodyBeside = {Question::kBody, false};
+constexpr Asked kContactsBeside = {Question::kContacts, false};
+
+ContactSet two_triangles() {
+  ContactSet set;
+  set.triangles = {{0, 1, 2, 3}, {0, 1, 4, 5}};
+  set.canonicalize();
+  return set;
+}
+
+// An answer to `asked` as it would be judged, and another.
+std::string difference(const ContactSet& answer, const ContactSet& judged, const Asked& asked) {
+  return answer_difference(print_of(answer, asked), print_of(judged, asked));
+}
+
+std::string raw(const ContactSet& answer, const ContactSet& judged, const Asked& asked) {
+  return raw_difference(sizes_of(answer), print_of(judged, asked), asked);
+}
+
+TEST(AnswerPrint, SaysWhatIsMissingAndWhatIsTooMuch) {
+  const ContactSet judged = two_triangles(), nothing;
+  EXPECT_EQ(difference(judged, judged, kOwnTriangles), "");
+  EXPECT_EQ(difference(nothing, judged, kOwnTriangles),
+            "it answered 0 pairs of triangles and not the 2 that were judged");
+  EXPECT_EQ(difference(judged, nothing, kOwnTriangles),
+            "it answered 2 pairs of triangles and not the 0 that were judged");
+}
+
+TEST(AnswerPrint, SaysThatAsManyAreOthers) {
+  ContactSet others = two_triangles();
+  others.triangles[1].b = 6;
+  EXPECT_EQ(difference(others, two_triangles(), kOwnTriangles),
+            "it answered 2 pairs of triangles, and others than those that were judged");
+}
+
+TEST(AnswerPrint, EveryListThatIsJudgedCounts) {
+  const std::pair<Asked, void (*)(ContactSet&)> changes[] = {
+      {kOwnTriangles,
+       [](ContactSet& s) {
+         s.bodies.push_back({2, 3});
+       }},
+      {kOwnTriangles,
+       [](ContactSet& s) {
+         s.cells.push_back({0, 1, 0, 0});
+       }},
+      {kOwnTriangles,
+       [](ContactSet& s) {
+         s.vertices.push_back({0, 1, 0});
+       }},
+      {kOwnTriangles,
+       [](ContactSet& s) {
+         s.near.push_back({0, 1, 0, 0});
+       }},
+      {kContactsBeside, [](ContactSet& s) { s.piece_contacts.resize(9); }},
+      {kContactsBeside, [](ContactSet& s) { s.vertex_contacts.resize(9); }}};
+  for (const auto& [asked, change] : changes) {
+    ContactSet changed = two_triangles();
+    change(changed);
+    EXPECT_NE(difference(changed, two_triangles(), asked), "");
+    // Of bodies, those that are too many may be repeats.
+    if (changed.bodies.size() == 1) {
+      EXPECT_NE(raw(changed, two_triangles(), asked), "");
+    }
+  }
+}
+
+// An early-out may find another pair first.
+TEST(AnswerPrint, OfTheQuestionBodyTheBodiesAlone) {
+  ContactSet other;
+  other.triangles = {{0, 1, 9, 9}};
+  other.canonicalize();
+  EXPECT_EQ(difference(other, two_triangles(), kBodyBeside), "");
+  EXPECT_EQ(raw(other, two_triangles(), kBodyBeside), "");
+  EXPECT_THAT(difference({}, two_triangles(), kBodyBeside), HasSubstr("0 pairs of bodies"));
+}
+
+// Libraries are not sure of degenerate ones.
+TEST(AnswerPrint, OfContactsTheNumberCountsRoughly) {
+  ContactSet judged, answer;
+  judged.piece_contacts.resize(20);
+  judged.vertex_contacts.resize(2);
+  answer.piece_contacts.resize(10);
+  EXPECT_EQ(difference(answer, judged, kContactsBeside), "");
+  EXPECT_EQ(raw(answer, judged, kContactsBeside), "");
+  answer.piece_contacts.resize(9);
+  const std::string too_few = "it answered 9 contacts of pieces and not the 20 that were judged";
+  EXPECT_EQ(difference(answer, judged, kContactsBeside), too_few);
+  EXPECT_EQ(raw(answer, judged, kContactsBeside), too_few);
+  EXPECT_NE(difference(judged, {}, kContactsBeside), "");
+}
+
+TEST(AnswerPrint, RawAnswersMayRepeatThemselvesAndImplyTheirBodies) {
+  ContactSet answer;
+  answer.triangles = {{1, 0, 3, 2}, {0, 1, 2, 3}, {0, 1, 4, 5}};
+  EXPECT_EQ(raw(answer, two_triangles(), kOwnTriangles), "");
+  answer.triangles.resize(1);
+  EXPECT_EQ(raw(answer, two_triangles(), kOwnTriangles),
+            "it answered 1 pairs of triangles and not the 2 that were judged");
+}
+
+TEST(AnswerPrint, ReadsBackAsItWasWritten) {
+  const AnswerPrint print = print_of(two_triangles(), kOwnTriangles);
+  const JudgedAnswers out = {{Question::kTriangles, {print, {}}}, {Question::kBody, {}}};
+  const JudgedAnswers in = judged_answers_from_json(nlohmann::json::parse(to_json(out).dump()));
+  ASSERT_EQ(in.size(), 2u);
+  EXPECT_EQ(in[1].question, Question::kBody);
+  ASSERT_EQ(in[0].frames.size(), 2u);
+  EXPECT_EQ(answer_difference(in[0].frames[0], print), "");
+  EXPECT_EQ(answer_difference(in[0].frames[1], {}), "");
+  EXPECT_NE(answer_difference(in[0].frames[0], in[0].frames[1]), "");
+}
+
+}  // namespace
+}  // namespace contactcheck

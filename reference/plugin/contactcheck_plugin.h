@@ -273,7 +273,7 @@ typedef struct contactcheck_plugin {
   /* Of what create() made, exactly once; not called where that failed or gave NULL. */
   void (*destroy)(void* detector);
   /* Says what is claimed; asked after create(), and again after prepare(): a scale, and a margin
-   * with it, may be taken from the bodies. */
+   * with it, may be taken from the bodies. Anything else that has changed is an error. */
   int32_t (*declare)(void* detector, contactcheck_semantics* semantics, char* message);
   int32_t (*prepare)(void* detector, const contactcheck_body* bodies, uint32_t count,
                      char* message);

@@ -29,4 +29,9 @@ nlohmann::ordered_json to_json(const Declaration& declaration);
 /// scales that cannot be used; "" when nothing is.
 std::string semantics_fault(const Semantics& semantics);
 
+/// What is claimed may not depend on the bodies: a margin and a scale alone may be other after
+/// prepare. @throws InputError: `from` and the key that has changed
+void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now);
+[[noreturn]] void refuse_change(const std::string& from, const std::string& key);
+
 }  // namespace contactcheck

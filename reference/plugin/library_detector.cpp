@@ -32,7 +32,7 @@ class LibraryDetector : public Detector {
     counts_ = {};
     check(table().prepare(detector_.get(), bodies_.data(), count(bodies_), message_.data()),
           "prepare");
-    declare();
+    declare_again();
   }
 
   void update(const Frame& frame) override {
@@ -101,6 +101,14 @@ class LibraryDetector : public Detector {
       throw InputError(library_.name() + " " + e.what());
     }
     needs_vertices_ = said.needs_vertices != 0;
+  }
+
+  void declare_again() {
+    const Semantics before = semantics_;
+    const bool needed_vertices = needs_vertices_;
+    declare();
+    require_same_claims(library_.name(), before, semantics_);
+    if (needed_vertices != needs_vertices_) refuse_change(library_.name(), "needs_vertices");
   }
 
   void check(std::int32_t status, const char* function) {

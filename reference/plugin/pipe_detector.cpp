@@ -38,8 +38,10 @@ class PipeDetector : public Detector {
   void prepare(const std::vector<Body>& bodies) override {
     or_kill([&] {
       const Reply ready = ask(prepare_message(bodies, options_), "ready");
-      if (ready.root().has("semantics"))
-        declaration_.semantics = read_semantics(ready.root().at("semantics"));
+      if (!ready.root().has("semantics")) return;
+      const Semantics now = read_semantics(ready.root().at("semantics"));
+      require_same_claims(name_, declaration_.semantics, now);
+      declaration_.semantics = now;
     });
   }
 

@@ -51,7 +51,7 @@ std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t 
 
 // Only the first two fields may be read before they are known to be right.
 std::string layout_fault(const contactcheck_plugin* table) {
-  if (table == nullptr) return std::string(kEntry) + "() gave no table";
+  if (table == nullptr) return std::string("gave no table from ") + kEntry + "()";
   std::string fault = version_fault(table->abi_version);
   if (!fault.empty()) return fault;
   std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;

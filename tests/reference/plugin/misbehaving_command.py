@@ -65,6 +65,8 @@ def hello():
         OUT.flush()
     if FAULT == "version-2":
         line["protocol"] = "contactcheck-pipe/2"
+    if FAULT == "scale-later":
+        line["semantics"] = dict(HELLO["semantics"], precision="single")
     if FAULT == "bad-id":
         line["id"] = "a:b"
     if FAULT == "built-in-id":
@@ -122,6 +124,15 @@ def frame():
         write({"message": "done"})
 
 
+def ready():
+    line = {"message": "ready"}
+    if FAULT == "exact-later":
+        line["semantics"] = dict(HELLO["semantics"], exact=True)
+    if FAULT == "scale-later":
+        line["semantics"] = dict(HELLO["semantics"], precision="single", scale=2)
+    write(line)
+
+
 def query(question):
     pair = PAIR
     if FAULT == "no-such-body":
@@ -164,7 +175,7 @@ def main():
         if line["message"] == "hello":
             hello()
         elif line["message"] == "prepare":
-            write({"message": "ready"})
+            ready()
         elif line["message"] == "frame":
             index = line["index"]
             if FAULT == "leaks":

@@ -82,6 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"leaks", {"more than 400 MiB resident"}, "error", kLeakingLong},
         Fault{"closes-its-output", {"frame 2", "closed its standard output"}},
         Fault{"half-a-line", {"frame 2", "ended with exit code 0"}},
+        Fault{"exact-later", {"declares another \"exact\" after prepare than before"}},
         Fault{"wrong-message", {"message is \"ready\"; it must be \"done\""}},
         Fault{"talks-too-much", {"message is \"done\"; it must be \"contacts\""}},
         Fault{"reports-an-error", {"frame 2", "the solver did not converge"}},
@@ -102,6 +103,13 @@ TEST(CommandAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   const auto level = run.row("misbehaving").at("levels").at("triangle");
   EXPECT_EQ(level.at("reported"), 1);
   EXPECT_EQ(level.at("hit").get<int>() + level.at("missed").get<int>(), level.at("truth"));
+}
+
+TEST(CommandAtWork, MayTakeItsScaleFromTheBodies) {
+  PluginRun run({"--detector-cmd", misbehaving_command("scale-later")});
+  const auto row = run.row("misbehaving");
+  EXPECT_EQ(row.at("status"), "ok") << row.at("message");
+  EXPECT_EQ(row.at("semantics").at("scale"), 2.0);
 }
 
 TEST(CommandAtWork, OfAnotherNameThanItHadIsAnError) {

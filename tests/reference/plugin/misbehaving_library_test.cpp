@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Fault{"version", {"version 99", "this program speaks version 1"}},
         Fault{"size", {"contactcheck_body a size of", "here it has"}},
-        Fault{"no-table", {"contactcheck_plugin_entry() gave no table"}},
+        Fault{"no-table", {"cannot be used: it gave no table from contactcheck_plugin_entry()"}},
         Fault{"no-function", {"lacks one of its functions"}}, Fault{"no-id", {"has no id"}},
         Fault{"bad-id", {"id is \"two words\"", "it must be"}},
         Fault{"built-in-id", {"\"ffd-lazy\"", "another detector's name"}},
@@ -83,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"create-fails", {"create failed: no licence for this machine"}},
         Fault{"unknown-level", {"declares levels that do not exist"}},
         Fault{"no-question", {"it answers no question"}},
+        Fault{"exact-later", {"declares another \"exact\" after prepare than before"}},
+        Fault{"nodes-later", {"declares another \"needs_vertices\" after prepare"}},
         Fault{"refuses", {"bodies without a licence"}, "refused"},
         Fault{"crash", {"frame 2", "signal 11"}}, Fault{"exit", {"frame 2", "exit code "}},
         Fault{"hang", {"frame 2", "no progress for 1.5 s"}, "error", kShortCalls},
@@ -129,6 +131,13 @@ TEST(LibraryAtWork, AnswersThatItGivesInTheFirstProcessAloneAreAnError) {
     EXPECT_EQ(row.value("message", "").find("it answered 0 pairs") != std::string::npos,
               *processes == '2');
   }
+}
+
+TEST(LibraryAtWork, MayTakeItsScaleFromTheBodies) {
+  PluginRun run({"--detector", misbehaving_library("scale-later")});
+  const auto row = run.row("misbehaving:fault=scale-later");
+  EXPECT_EQ(row.at("status"), "ok") << row.at("message");
+  EXPECT_EQ(row.at("semantics").at("scale"), 2.0);
 }
 
 TEST(LibraryAtWork, LiesAreSpuriousAndSilenceIsMissed) {

@@ -16,7 +16,7 @@
 typedef struct {
   Word fault;
   uint64_t frame, first_frame, asked; /* asked: a bit per frame */
-  int updated;
+  int updated, declared;
 } State;
 
 static const char* at_load(void) {
@@ -52,14 +52,22 @@ static void destroy(void* detector) {
 }
 
 static int32_t declare(void* detector, contactcheck_semantics* s, char* message) {
-  const State* const state = detector;
+  State* const state = detector;
+  const int again = state->declared;
   (void)message;
+  state->declared = 1;
   s->levels = CONTACTCHECK_LEVEL_BODY | CONTACTCHECK_LEVEL_TRIANGLE;
   s->question_count = 1;
   s->questions[0] = CONTACTCHECK_ASK_TRIANGLES;
   if (is(state, "nan-depth")) {
     s->questions[s->question_count++] = CONTACTCHECK_ASK_CONTACTS;
     s->depth_kind = CONTACTCHECK_DEPTH_CONVEX_PAIR;
+  }
+  if (is(state, "exact-later")) s->exact = again;
+  if (is(state, "nodes-later")) s->needs_vertices = !again;
+  if (is(state, "scale-later")) {
+    s->precision = CONTACTCHECK_SINGLE;
+    s->scale = again ? 2.0 : 1.0;
   }
   if (is(state, "unknown-level")) s->levels = 1u << 20;
   if (is(state, "no-question") || strcmp(at_load(), "no-question") == 0) s->question_count = 0;
@@ -132,6 +140,9 @@ static int32_t query(void* detector, uint32_t question, const contactcheck_answe
 static const char* const kFaults[] = {"none",
                                       "always-lies",
                                       "lies-once",
+                                      "exact-later",
+                                      "nodes-later",
+                                      "scale-later",
                                       "lies-in-order",
                                       "create-fails",
                                       "unknown-level",

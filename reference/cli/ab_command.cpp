@@ -7,6 +7,7 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
 #include "reference/gate/github.h"
+#include "reference/run/out_lock.h"
 
 namespace contactcheck {
 namespace {
@@ -41,6 +42,7 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const fs::path summary = arguments.github ? required_summary_file() : "";
   const std::vector<AbSide> sides = ab_sides(arguments, catalog);
   check_out(arguments.out);
+  const OutLock lock(arguments.out);
   const std::vector<AbRound> rounds = run_rounds(sides, arguments, [&](std::size_t round) {
     if (!arguments.quiet) std::fprintf(stderr, "round %zu of %zu\n", round + 1, arguments.rounds);
   });

@@ -76,7 +76,7 @@ void add_run(CommandLine& line) {
       ->check(whole_in(1, 100));
   run->add_option("--out", arguments.out,
                   "folder for results.json, reports, cases, contacts, recordings "
-                  "(default out)");
+                  "(default out); of one run at a time");
   run->add_flag("--closed-loop", arguments.closed_loop,
                 "simulated scenes: let every detector drive the simulation too, and time whole "
                 "steps");

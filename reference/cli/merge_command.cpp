@@ -7,6 +7,7 @@
 #include "reference/cli/report_folder.h"
 #include "reference/cli/results_file.h"
 #include "reference/cli/run_and_report.h"
+#include "reference/run/out_lock.h"
 #include "reference/run/shard_merge.h"
 
 namespace contactcheck {
@@ -48,6 +49,7 @@ int merge_command(const std::vector<std::string>& files, const fs::path& out) {
     require_other_folder(shard, out);
   }
   check_out(out);
+  const OutLock lock(out);
   SuiteOutcome outcome;
   const Json results =
       merge_shards(shards, out, read_known_defects(known_defects_file()), &outcome);

@@ -58,7 +58,8 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   check_targets(arguments.targets, tables);
   arguments.closed_loop = true;
   SuiteOutcome outcome;
-  const Json results = run_and_report(arguments, catalog, &outcome).results;
+  const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
+  const Json& results = reported.results;
   const std::vector<PaperFinding> findings = check_paper(tables);
   Json reproduction = reproduce(results, tables);
   reproduction["paper"] = paper_json(tables, findings);

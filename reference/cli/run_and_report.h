@@ -6,6 +6,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/cli/commands.h"
+#include "reference/run/out_lock.h"
 #include "reference/run/suite_run.h"
 
 namespace contactcheck {
@@ -13,6 +14,7 @@ namespace contactcheck {
 struct ReportedRun {
   nlohmann::ordered_json results;  ///< as written
   std::string reports;             ///< their paths, for a person
+  OutLock lock;                    ///< of --out
 };
 
 /// @throws InputError, before anything is written, for bad arguments

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
@@ -18,6 +19,7 @@
 #include "reference/cli/run_tasks.h"
 #include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
+#include "reference/run/out_lock.h"
 #include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
 #include "reference/run/worker.h"
@@ -197,13 +199,14 @@ int exit_code_of(const SuiteOutcome& outcome) {
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
                            SuiteOutcome* outcome) {
   const SuiteRequest request = make_request(arguments, catalog);
+  OutLock lock(request.out);
   Watcher watcher(arguments);
   watcher.events.print(start_event(request));
   Json results = run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();
   const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);
-  return {std::move(results), report_paths(arguments.out, files)};
+  return {std::move(results), report_paths(arguments.out, files), std::move(lock)};
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {

@@ -9,6 +9,7 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
+#include "reference/run/out_lock.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
 #include "reference/tune/chosen_file.h"
@@ -117,6 +118,7 @@ int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog)
       bring_in(arguments.detectors, arguments.commands, settings_of(arguments), catalog);
   const TuningRequest request = make_request(arguments, own);
   check_out(arguments.out);
+  const OutLock lock(arguments.out);
   const Tuning tuning = tune(request, own.catalog, [&](const TuningProgress& progress) {
     if (!arguments.quiet) show(progress);
   });

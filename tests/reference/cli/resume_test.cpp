@@ -143,6 +143,22 @@ TEST_F(Resume, InterruptedRunTakesItsScratchFolderAway) {
   EXPECT_THAT(names_in(out() / "partial"), ElementsAre("first.partial.json"));
 }
 
+// Their results would be those of one and their recordings those of the other.
+TEST_F(Resume, SecondRunIntoAFolderIsRefusedUntilTheFirstHasEnded) {
+  RunningProgram holder(CONTACTCHECK_PROGRAM, command({"second"}));
+  const fs::path recording = out() / "recordings" / "second.ccr";
+  for (int i = 0; i < 12'000 && !holder.has_ended() && !fs::exists(recording); ++i) usleep(5'000);
+  const Outcome refused = contactcheck_program(command({"first"}));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.err, "contactcheck: --out " + out().string() +
+                             ": another run is writing there; wait for its end or name another "
+                             "folder\n");
+  ASSERT_FALSE(holder.has_ended()) << "it must hold its folder meanwhile";
+  holder.send(SIGKILL);
+  holder.outcome();
+  EXPECT_EQ(first_resumed().at("runs").size(), 2u) << "at once";
+}
+
 TEST_F(Resume, GivesWhatAnUninterruptedRunGivesWithoutRunningTheFirstSceneAgain) {
   const json whole = run(command({"first", "second"}, "whole"), "whole");
   interrupt(both());

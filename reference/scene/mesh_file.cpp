@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <optional>
 
 #include "core/types/check.h"
@@ -60,8 +61,11 @@ void refuse_bad_values(const PolygonSoup& soup, const std::string& name) {
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
     for (const std::uint32_t index : soup.polygons[f]) {
       if (index < soup.points.size()) continue;
-      throw InputError(name + ": face " + std::to_string(f) + " names a vertex outside the " +
-                       std::to_string(soup.points.size()) + " vertices of the file.");
+      const bool known = index < std::numeric_limits<std::uint32_t>::max();  // else cut off
+      throw InputError(name + ": face " + std::to_string(f) + " names " +
+                       (known ? "the vertex " + std::to_string(index) : "no vertex") +
+                       "; the file has " + std::to_string(soup.points.size()) +
+                       ", counted from 0.");
     }
   }
 }

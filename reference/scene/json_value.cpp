@@ -141,11 +141,11 @@ const JsonValue* JsonValue::find(const std::string& key) const {
 }
 
 JsonValue parse_json(const std::string& text, const std::string& document) {
-  // nlohmann would take it for the end and what follows for nothing.
-  if (const std::size_t at = text.find('\0'); at != std::string::npos)
-    throw InputError(document + " is not valid JSON at " + place_of(at, text) + ": a NUL byte.");
   Builder builder(text, document);
   nlohmann::json::sax_parse(text, &builder);
+  // nlohmann takes it for the end and what follows for nothing.
+  if (const std::size_t at = text.find('\0'); at != std::string::npos)
+    throw InputError(document + " is not valid JSON at " + place_of(at, text) + ": a NUL byte.");
   return builder.take();
 }
 

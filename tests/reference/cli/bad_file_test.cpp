@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
                     mesh("NotANumber", bytes("x.obj", "v nan 0 0\n" + kFace), {"nan"}),
                     mesh("Infinite", bytes("x.obj", "v 1e999 0 0\n" + kFace), {"1e999"}),
                     mesh("VertexThatIsNotThere", bytes("x.obj", kFace + "f 1 2 9\n"),
-                         {"cannot be read as OBJ"}),
+                         {"face 1 (line 5) names the vertex 9; the file has 3"}),
                     mesh("OnlyVertices", bytes("x.obj", "v 0 0 0\nv 1 0 0\n"),
                          {"cannot be read as OBJ"})),
     named);

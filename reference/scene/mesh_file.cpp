@@ -70,10 +70,20 @@ void refuse_bad_values(const PolygonSoup& soup, const std::string& name) {
   }
 }
 
+/// How many polygons were split in which way.
+struct SplitCounts {
+  std::size_t all = 0, concave = 0, crossing = 0, dropped = 0;
+};
+
 std::vector<Triangle> triangles_of(const PolygonSoup& soup, std::size_t face,
-                                   const std::string& name, std::size_t& concave) {
+                                   const std::string& name, SplitCounts& counts) {
   const std::vector<std::uint32_t>& polygon = soup.polygons[face];
   auto split = split_polygon(soup.points, polygon);
+  // Warped, or flat to rounding: either diagonal gives a surface of the four corners.
+  if (!split && polygon.size() == 4) {
+    ++counts.crossing;
+    return {{polygon[0], polygon[1], polygon[2]}, {polygon[0], polygon[2], polygon[3]}};
+  }
   if (!split) {
     const std::string place = name + ": face " + std::to_string(face) + ", a polygon of " +
                               std::to_string(polygon.size()) + " corners, ";
@@ -82,29 +92,34 @@ std::vector<Triangle> triangles_of(const PolygonSoup& soup, std::size_t face,
                        std::to_string(kMostConcaveCorners) + " corners.");
     throw InputError(place + "crosses or folds back on itself and cannot be split into triangles.");
   }
-  concave += split->concave ? 1 : 0;
+  counts.concave += split->concave ? 1 : 0;
   return std::move(split->triangles);
+}
+
+void add_notes(const SplitCounts& counts, std::string& notes) {
+  std::string split = std::to_string(counts.all) + " polygons split into triangles";
+  if (counts.concave > 0) split += ", " + std::to_string(counts.concave) + " of them concave";
+  if (counts.crossing > 0)
+    split += ", " + std::to_string(counts.crossing) + " of four corners cross themselves";
+  if (counts.all > 0) add_note(notes, split);
+  if (counts.dropped > 0)
+    add_note(notes,
+             std::to_string(counts.dropped) + " faces with fewer than three corners left out");
 }
 
 LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {
   LoadedMesh out;
   out.mesh.vertices = soup.points;
-  std::size_t split = 0, concave = 0, dropped = 0;
+  SplitCounts counts;
   for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
     const std::size_t corners = soup.polygons[f].size();
-    split += corners > 3 ? 1 : 0;
-    dropped += corners < 3 ? 1 : 0;
+    counts.all += corners > 3 ? 1 : 0;
+    counts.dropped += corners < 3 ? 1 : 0;
     if (corners < 3) continue;
-    const std::vector<Triangle> triangles = triangles_of(soup, f, name, concave);
+    const std::vector<Triangle> triangles = triangles_of(soup, f, name, counts);
     out.mesh.triangles.insert(out.mesh.triangles.end(), triangles.begin(), triangles.end());
   }
-  if (split > 0)
-    add_note(out.notes,
-             std::to_string(split) + " polygons split into triangles" +
-                 (concave > 0 ? ", " + std::to_string(concave) + " of them concave" : ""));
-  if (dropped > 0) {
-    add_note(out.notes, std::to_string(dropped) + " faces with fewer than three corners left out");
-  }
+  add_notes(counts, out.notes);
   return out;
 }
 
@@ -115,7 +130,9 @@ void add_note(std::string& notes, const std::string& note) {
   notes += (notes.empty() ? "" : "; ") + note;
 }
 
-LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const std::string& name) {
+namespace {
+
+PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::string& name) {
   refuse_lying_counts(format, bytes, name);
   // Checked first: CGAL would weld a NaN of a binary STL to any other vertex.
   if (format == SoupFormat::kStl) {
@@ -137,9 +154,29 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
   }
   refuse_lost_parts(format, bytes, name, soup);
   refuse_bad_values(soup, name);
-  LoadedMesh out = triangulated(soup, name);
+  return soup;
+}
+
+}  // namespace
+
+LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const std::string& name) {
+  LoadedMesh out = triangulated(read_soup(format, bytes, name), name);
   if (out.mesh.triangles.empty()) throw InputError(name + " holds no triangle.");
   if (format == SoupFormat::kStl) add_note(out.notes, "STL: corners at equal places joined");
+  return out;
+}
+
+PolygonSoup read_polygons(const std::filesystem::path& file) {
+  const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
+  PolygonSoup out;
+  if (const std::optional<SoupFormat> format = format_of(file)) {
+    out = read_soup(*format, bytes, "mesh file " + in_quotes(file.string()));
+    std::erase_if(out.polygons, [](const auto& polygon) { return polygon.size() < 3; });
+    return out;
+  }
+  const TriangleMesh mesh = read_with_assimp(file).mesh;
+  out.points = mesh.vertices;
+  for (const Triangle& t : mesh.triangles) out.polygons.emplace_back(t.begin(), t.end());
   return out;
 }
 

@@ -24,7 +24,12 @@ void add_note(std::string& notes, const std::string& note);
 /// @throws InputError, one sentence: file, what, and the vertex, face or line where it is known
 LoadedMesh read_mesh_file(const std::filesystem::path& file);
 
-/// The same for bytes in memory; `name` stands for the file in messages: "mesh file \"x.off\"".
+/// Vertices and faces (of three corners and more) as they stand in such a file: of a further frame
+/// of a mesh, whose faces are already split. @throws as read_mesh_file()
+PolygonSoup read_polygons(const std::filesystem::path& file);
+
+/// The same as read_mesh_file() for bytes in memory; `name` stands for the file in messages: "mesh
+/// file \"x.off\"".
 LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const std::string& name);
 
 }  // namespace contactcheck

@@ -132,9 +132,13 @@ std::optional<SplitPolygon> split_polygon(const std::vector<Vec3>& points,
                                           const CornerRing& corners) {
   if (corners.size() == 3) return SplitPolygon{fan_of(corners), false};
   OutlineView view = view_of(points, corners);
-  if (fan_fits(points, corners, view.axis)) return SplitPolygon{fan_of(corners), false};
-  if (corners.size() > kMostConcaveCorners) return std::nullopt;
-  if (Outline(points, corners, view).crosses_itself()) return std::nullopt;
+  const bool fits = fan_fits(points, corners, view.axis),
+             many = corners.size() > kMostConcaveCorners;
+  // A fan that winds round its corner more than once is turned one way, too; not that of a quad.
+  const bool crosses =
+      !many && (!fits || corners.size() > 4) && Outline(points, corners, view).crosses_itself();
+  if (fits && !crosses) return SplitPolygon{fan_of(corners), false};
+  if (many || crosses) return std::nullopt;
   // All ears have one turn, the polygon's own: with the other one they cannot use it up.
   for (int attempt = 0; attempt < 2; ++attempt, view.orientation = -view.orientation)
     if (auto ears = Outline(points, corners, view).clipped())

@@ -10,8 +10,8 @@
 
 namespace contactcheck {
 
-/// Looking for ears takes the square of the corners.
-inline constexpr std::size_t kMostConcaveCorners = 4096;
+/// Looking for ears takes up to the cube of the corners.
+inline constexpr std::size_t kMostConcaveCorners = 512;
 
 struct SplitPolygon {
   std::vector<Triangle> triangles;  ///< two fewer than corners, turned as the polygon
@@ -19,7 +19,8 @@ struct SplitPolygon {
 };
 
 /// Splits the polygon as it looks along the largest axis of its (Newell) normal. The fan round the
-/// first corner where no two of its triangles are turned against each other, ears cut off one by
+/// first corner where no two of its triangles are turned against each other (and, up to
+/// kMostConcaveCorners, no two edges cross), ears cut off one by
 /// one elsewhere. Nothing when the polygon crosses itself, or folds back on itself so that no ears
 /// are left, or is concave with more than kMostConcaveCorners corners.
 /// @pre at least three corners, indices of finite points

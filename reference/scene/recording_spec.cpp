@@ -38,20 +38,38 @@ std::string triangle_text(const Triangle& t) {
 }
 
 // What tells the frame's topology from that of the mesh; empty when nothing does.
-std::string topology_fault(const TriangleMesh& frame, const TriangleMesh& mesh) {
-  const auto counts = [](const TriangleMesh& m) {
-    return std::to_string(m.vertices.size()) + " vertices and " +
-           std::to_string(m.triangles.size()) + " triangles";
+// A face that is a triangle must be that one; of a polygon, one with its corners.
+bool fills(const Triangle& triangle, const std::vector<std::uint32_t>& face) {
+  if (face.size() == 3) return std::equal(face.begin(), face.end(), triangle.begin());
+  return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
+    return std::find(face.begin(), face.end(), corner) != face.end();
+  });
+}
+
+std::size_t triangles_in(const PolygonSoup& frame) {
+  std::size_t count = 0;
+  for (const auto& polygon : frame.polygons) count += polygon.size() - 2;
+  return count;
+}
+
+// Where faces are polygons, a later frame might split them otherwise by itself: what it must have
+// are the same faces, which the mesh's triangles fill, one face after the other.
+std::string topology_fault(const PolygonSoup& frame, const TriangleMesh& mesh) {
+  const auto counts = [](std::size_t vertices, std::size_t triangles) {
+    return std::to_string(vertices) + " vertices and " + std::to_string(triangles) + " triangles";
   };
-  if (frame.vertices.size() != mesh.vertices.size() ||
-      frame.triangles.size() != mesh.triangles.size())
-    return "has " + counts(frame) + ", the body's mesh has " + counts(mesh);
-  const auto [own, other] =
-      std::mismatch(frame.triangles.begin(), frame.triangles.end(), mesh.triangles.begin());
-  if (own == frame.triangles.end()) return "";
-  return "has other triangles than the body's mesh: triangle " +
-         std::to_string(own - frame.triangles.begin()) + " is " + triangle_text(*own) + ", there " +
-         triangle_text(*other);
+  const std::size_t triangles = triangles_in(frame);
+  if (frame.points.size() != mesh.vertices.size() || triangles != mesh.triangles.size())
+    return "has " + counts(frame.points.size(), triangles) + ", the body's mesh has " +
+           counts(mesh.vertices.size(), mesh.triangles.size());
+  std::size_t t = 0;
+  for (const std::vector<std::uint32_t>& face : frame.polygons)
+    for (std::size_t k = 2; k < face.size(); ++k, ++t)
+      if (!fills(mesh.triangles[t], face))
+        return "has other triangles than the body's mesh: triangle " + std::to_string(t) + " is " +
+               triangle_text({face[0], face[k - 1], face[k]}) + ", there " +
+               triangle_text(mesh.triangles[t]);
+  return "";
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -166,15 +184,15 @@ std::vector<Vec3> RecordedFrames::positions(std::size_t frame, const TriangleMes
 
 std::vector<Vec3> RecordedFrames::numbered_positions(std::size_t frame,
                                                      const TriangleMesh& mesh) const {
-  LoadedMesh loaded;
+  PolygonSoup loaded;
   try {
-    loaded = read_mesh_file(spec_.file_of(frame));
+    loaded = read_polygons(spec_.file_of(frame));
   } catch (const InputError& error) {
     fail_at(frame, "cannot be read: " + without_full_stop(error.what()));
   }
-  const std::string fault = topology_fault(loaded.mesh, mesh);
+  const std::string fault = topology_fault(loaded, mesh);
   if (!fault.empty()) fail_at(frame, fault);
-  return std::move(loaded.mesh.vertices);
+  return std::move(loaded.points);
 }
 
 std::vector<Vec3> RecordedFrames::cached_positions(std::size_t frame,

@@ -304,12 +304,20 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"PlyIndicesOfFloats", "a.ply", with(kPly, "list uchar int", "list uchar float"),
                 " cannot be read as PLY."},
         BadMesh{"PolygonThatCrossesItself", "a.off",
-                "OFF\n4 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n",
-                ": face 1, a polygon of 4 corners, crosses or folds back on itself and cannot be "
+                "OFF\n5 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n-1 0.5 0\n3 0 1 2\n5 0 1 2 3 4\n",
+                ": face 1, a polygon of 5 corners, crosses or folds back on itself and cannot be "
                 "split into triangles."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),
     [](const auto& test) { return test.param.name; });
+
+// Flat to rounding, or warped: a file is not refused for that, and the note says so.
+TEST(MeshFile, QuadsThatCrossThemselvesAreFans) {
+  const LoadedMesh loaded = read_mesh_bytes(
+      SoupFormat::kOff, "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1e-7 0\n0 -1e-7 0\n4 0 1 2 3\n", "a.off");
+  EXPECT_EQ(loaded.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(loaded.notes, "1 polygons split into triangles, 1 of four corners cross themselves");
+}
 
 TEST(MeshFile, UnknownFormatSaysThatAssimpRefused) {
   const Scratch scratch;

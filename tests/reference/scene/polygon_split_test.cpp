@@ -153,6 +153,9 @@ TEST(PolygonSplit, RefusesWhatCrossesItself) {
   for (int k = 0; k < 5; ++k)
     pentagram.push_back({std::cos(0.8 * M_PI * k), std::sin(0.8 * M_PI * k), 0.0});
   EXPECT_FALSE(split_polygon(pentagram, counted(5)));
+  // Every triangle of its fan turns one way, once and a quarter round.
+  const Points spiral = {{0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {2, 1, 0}};
+  EXPECT_FALSE(split_polygon(spiral, counted(6)));
   Points saw = {{5000, -1, 0}};
   for (int k = 5000; k >= 0; --k) saw.push_back({1.0 * k, k % 2 == 0 ? 0.0 : 1.0, 0.0});
   saw.push_back({0, -1, 0});

@@ -85,6 +85,23 @@ TEST_F(RecordedScene, HasTheFramesOfTheFilesAndTheScriptedBodiesBesideThem) {
   }
 }
 
+// Split by itself, the dart of the second frame would be cut along its other diagonal.
+TEST_F(RecordedScene, QuadsThatDeformKeepTheTrianglesOfTheFirstFrame) {
+  const auto quad = [](const std::string& third) {
+    return "v 0 0 0\nv 1 0 0\nv " + third + " 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n";
+  };
+  scratch_.write("q0.obj", quad("1 1"));
+  scratch_.write("q1.obj", quad("0.2 0.2"));
+  scratch_.write("q2.obj", quad("0.5 -0.5"));
+  const Scene scene = load(R"("recording": {"frames": "q%d.obj"})", R"("frames": 3)");
+  EXPECT_EQ(scene.bodies[0].shape->mesh.triangles,
+            (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
+  EXPECT_EQ(scene.nodes_of_frame(1)[0][2], Vec3(0.2, 0.2, 0.0));
+  scratch_.write("q1.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 5 4\nf 1 2 3\n");
+  EXPECT_THAT(sentence(R"("recording": {"frames": "q%d.obj"})", R"("frames": 3)"),
+              HasSubstr("has other triangles than the body's mesh"));
+}
+
 TEST_F(RecordedScene, FirstAndStepChooseAmongTheSamples) {
   const Scene files =
       load(R"("recording": {"frames": "box_%02d.obj", "first": 6, "step": 2})", R"("frames": 2)");

@@ -27,8 +27,8 @@ struct SceneAnswers {
 };
 
 /// The scene with one row per detector, in the task's order. A detector that broke a worker, or
-/// worked in the first process and not in a later one, has an error's row and no times.
-/// @param tell  is given each detector's samples before they are summed up
+/// worked in the first process and not in a later one, has an error's row and no times. `tell` is
+/// given each detector's samples before they are summed up.
 FinishedScene put_together(const SceneAnswers& scene, const SampleListener& tell);
 
 /// Where a worker was when it ended and why: "scene s, frame 2, phase update: signal 11 (...)".

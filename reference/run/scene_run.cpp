@@ -57,7 +57,7 @@ class SceneRun {
     std::vector<JudgedAnswers> answers(task_.detectors.size());
     for (const Json& entry : first.at("runs"))
       answers.at(entry.at("position").get<std::size_t>()) =
-          judged_answers_from_json(entry.at("answers"));
+          judged_answers_from_json(entry.value("answers", Json::array()));
     return answers;
   }
 

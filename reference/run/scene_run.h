@@ -13,7 +13,7 @@ namespace contactcheck {
 /// Judges (and times) one scene of a request. A worker that dies in a detector is started again
 /// without it, and one that passes a limit while the oracle judges is started again without the
 /// oracle: its detectors all end in that error.
-/// @param scratch  an existing folder for jobs, answers and cases
+/// Jobs, answers and cases go to `scratch`, an existing folder.
 /// @throws std::runtime_error when a worker dies in another way in the suite's own code;
 /// InputError when it refuses the scene
 FinishedScene run_scene(const SuiteRequest& request, const SceneTask& task,

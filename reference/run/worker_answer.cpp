@@ -56,7 +56,7 @@ class AnswerWriter {
       out["run"]["closed_loop"] = to_json(*entry.closed_loop);
     if (entry.usable() && entry.step_times) out["run"]["step_ms"] = to_json(*entry.step_times);
     out["samples"] = std::move(samples);
-    if (worker_.judges()) out["answers"] = to_json(entry.answers);
+    if (hands_answers_over()) out["answers"] = to_json(entry.answers);
     out["disagreements"] = written_cases(entry.result.disagreements);
     if (lists_contacts()) out["contacts"] = detector_contacts(entry.result);
     return out;
@@ -89,6 +89,12 @@ class AnswerWriter {
       d.detector = "oracle";
     }
     return written_cases(wrong);
+  }
+
+  // To the processes that only time.
+  bool hands_answers_over() const {
+    const RunSettings& settings = worker_.job.settings;
+    return worker_.judges() && settings.timing && settings.processes > 1;
   }
 
   // Random pairs are far too many for pictures; a scene that is refused or not judged has no truth.

@@ -99,7 +99,7 @@ TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
   ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
   second["per_frame"]["level"] = "body";
   second["levels"].erase("triangle");
-  const SpeedErrorPoint& p = speed_error(results).points[1];
+  const SpeedErrorPoint p = speed_error(results).points[1];
   EXPECT_EQ(p.level, "body");
   EXPECT_EQ(p.truth, 26) << "13 pairs of bodies in either scene";
   EXPECT_EQ(p.spurious, 4);
@@ -122,7 +122,7 @@ TEST(SpeedError, ScenesWithNothingToJudgeDoNotCoarsenTheOthers) {
   Json results = two_scenes();
   results["runs"][6]["per_frame"].erase("level");
   results["runs"][6]["levels"] = Json::object();
-  const SpeedErrorPoint& p = speed_error(results).points[1];
+  const SpeedErrorPoint p = speed_error(results).points[1];
   EXPECT_EQ(p.level, "triangle");
   EXPECT_EQ(p.truth, 200000);
 }

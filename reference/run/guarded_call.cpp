@@ -15,8 +15,7 @@ void add_note(const std::string& note, RunResult& result) {
 }
 
 std::string place(const WorkerState& worker) {
-  return "scene " + worker.scene.id + ", frame " + std::to_string(worker.progress.frame()) +
-         ", phase " + name_of(worker.progress.phase()) + ": ";
+  return place_text(worker.scene.id, worker.progress.frame(), worker.progress.phase()) + ": ";
 }
 
 }  // namespace

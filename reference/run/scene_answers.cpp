@@ -183,8 +183,7 @@ class Assembly {
 }  // namespace
 
 std::string place_of(const std::string& scene, const WorkerOutcome& outcome) {
-  return "scene " + scene + ", frame " + std::to_string(outcome.frame) + ", phase " +
-         name_of(outcome.phase) + ": " + outcome.reason;
+  return place_text(scene, outcome.frame, outcome.phase) + ": " + outcome.reason;
 }
 
 FinishedScene put_together(const SceneAnswers& scene, const SampleListener& tell) {

@@ -38,17 +38,16 @@ class SceneRun {
   FinishedScene finish() {
     const fs::path recording = request_.out / "recordings" / (task_.id + ".ccr");
     job_.recording_file = fs::absolute(recording);
-    const Json first = run_process(0);
+    std::vector<Json> answers;
+    answers.push_back(run_process(0));
     job_.recording_file.clear();
-    job_.order = first.at("order").get<std::vector<std::size_t>>();
-    job_.prefixes = first.at("prefixes").get<std::vector<std::size_t>>();
-    job_.answers = answers_of(first);
-    std::vector<Json> answers = {first};
+    job_.order = answers.front().at("order").get<std::vector<std::size_t>>();
+    job_.prefixes = answers.front().at("prefixes").get<std::vector<std::size_t>>();
+    job_.answers = answers_of(answers.front());
     for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
       answers.push_back(run_process(p));
-    return put_together(
-        {task_, answers, broken_, first.contains("truth_contacts") && fs::exists(recording)},
-        listener_.samples);
+    const bool recorded = answers.front().contains("truth_contacts") && fs::exists(recording);
+    return put_together({task_, answers, broken_, recorded}, listener_.samples);
   }
 
  private:

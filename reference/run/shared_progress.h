@@ -3,7 +3,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace contactcheck {
 
@@ -41,6 +43,11 @@ inline const char* name_of(Phase phase) {
       return "done";
   }
   return "unknown";
+}
+
+/// Where a worker was: "scene s, frame 2, phase update".
+inline std::string place_text(const std::string& scene, std::size_t frame, Phase phase) {
+  return "scene " + scene + ", frame " + std::to_string(frame) + ", phase " + name_of(phase);
 }
 
 /// Lives in a shared mapping; all members are lock-free atomics.

@@ -95,8 +95,8 @@ class Outline {
     return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
   }
 
-  // A triangle of the polygon's own turn that no part of the outline enters. CornerRing at the
-  // place of one of its own do not count; what leaves them into the triangle ends there or crosses
+  // A triangle of the polygon's own turn that no part of the outline enters. Corners at the place
+  // of one of its own do not count; what leaves them into the triangle ends there or crosses
   // (a, c).
   bool is_ear(std::size_t at) const {
     const std::uint32_t a = ring_[before(at)], b = ring_[at], c = ring_[next(at)];

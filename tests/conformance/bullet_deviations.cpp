@@ -4,10 +4,8 @@
 namespace contactcheck::test {
 namespace {
 
-using Names = std::vector<std::string>;
-
 std::vector<KnownDeviation> bullet_vf() {
-  const Names both = {"bullet-vf", "bullet-vf:scale=1"};
+  const DetectorNames both = {"bullet-vf", "bullet-vf:scale=1"};
   const auto seen = [](const char* source) { return Origin{"bullet", "3.24 float", source}; };
   return {
       {both,
@@ -47,7 +45,7 @@ std::vector<KnownDeviation> bullet_vf() {
 }
 
 std::vector<KnownDeviation> bullet_cl() {
-  const Names clusters = {"bullet-cl"};
+  const DetectorNames clusters = {"bullet-cl"};
   const auto seen = [](const char* source) { return Origin{"bullet", "3.24 float", source}; };
   return {
       {clusters,
@@ -65,7 +63,7 @@ std::vector<KnownDeviation> bullet_cl() {
 }
 
 std::vector<KnownDeviation> bullet_gimpact() {
-  const Names gimpact = {"bullet-gimpact"};
+  const DetectorNames gimpact = {"bullet-gimpact"};
   const auto seen = [](const char* source) { return Origin{"bullet", "3.24 float", source}; };
   return {
       {gimpact,

@@ -5,34 +5,29 @@
 namespace contactcheck::test {
 namespace {
 
-using Names = std::vector<std::string>;
+const DetectorNames kPaper = {"ffd-aabb", "ffd-aabb-sphere", "ffd-aabb-sphere2",
+                              "ffd-aabb-sphereN"};
+const DetectorNames kPaperSpheres = {"ffd-aabb-sphere", "ffd-aabb-sphere2", "ffd-aabb-sphereN"};
+const DetectorNames kPaperTriangles = {"ffd-aabb-sphere2+tri:bounds=paper"};
+const DetectorNames kSafeCells = {"ffd-aabb-sphere2:bounds=safe", "ffd-aabb:bounds=safe"};
+const DetectorNames kGrid = {"ffd-grid"};
+const DetectorNames kSmallerSpheres = {"ffd-aabb-sphere2+tri:radius=0.8"};
+const DetectorNames kOtherSpheres = {"ffd-aabb-sphere2+tri:radius=0.8",
+                                     "ffd-aabb-sphere2+tri:radius=1.25"};
+const DetectorNames kSingleFamily = {"ffd-aabb-sphere2+tri:precision=single"};
+const DetectorNames kSingle = {"ffd-aabb-sphere2+tri:precision=single", "ffd-lazy:precision=single",
+                               "full-refit:precision=single", "bd-tree:precision=single"};
 
-const Names kPaper = {"ffd-aabb", "ffd-aabb-sphere", "ffd-aabb-sphere2", "ffd-aabb-sphereN"};
-const Names kPaperSpheres = {"ffd-aabb-sphere", "ffd-aabb-sphere2", "ffd-aabb-sphereN"};
-const Names kPaperTriangles = {"ffd-aabb-sphere2+tri:bounds=paper"};
-const Names kSafeCells = {"ffd-aabb-sphere2:bounds=safe", "ffd-aabb:bounds=safe"};
-const Names kGrid = {"ffd-grid"};
-const Names kSmallerSpheres = {"ffd-aabb-sphere2+tri:radius=0.8"};
-const Names kOtherSpheres = {"ffd-aabb-sphere2+tri:radius=0.8", "ffd-aabb-sphere2+tri:radius=1.25"};
-const Names kSingleFamily = {"ffd-aabb-sphere2+tri:precision=single"};
-const Names kSingle = {"ffd-aabb-sphere2+tri:precision=single", "ffd-lazy:precision=single",
-                       "full-refit:precision=single", "bd-tree:precision=single"};
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-const Names kFamily = {"ffd-grid",
-                       "ffd-aabb",
-                       "ffd-aabb-sphere",
-                       "ffd-aabb-sphere2",
-                       "ffd-aabb-sphereN",
-                       "ffd-grid+tri",
-                       "ffd-aabb+tri",
-                       "ffd-aabb-sphere+tri",
-                       "ffd-aabb-sphere2+tri",
-                       "ffd-aabb-sphereN+tri"};
+const DetectorNames kFamily = {"ffd-grid",
+                               "ffd-aabb",
+                               "ffd-aabb-sphere",
+                               "ffd-aabb-sphere2",
+                               "ffd-aabb-sphereN",
+                               "ffd-grid+tri",
+                               "ffd-aabb+tri",
+                               "ffd-aabb-sphere+tri",
+                               "ffd-aabb-sphere2+tri",
+                               "ffd-aabb-sphereN+tri"};
 
 const Origin kHash = {"contactcheck", "bounds=paper", "Jeon et al. 2013, hashing of nodes"};
 const Origin kSphere = {"contactcheck", "bounds=paper", "Jeon et al. 2013, \"original radius\""};
@@ -49,7 +44,6 @@ const char* const kRadiusOfRest =
     "spheres keep the radius of rest when the nodes between them are pulled away";
 const char* const kTooSmall =
     "spheres a fifth smaller than what they hold do not meet where their corners touch";
-const char* const kBoxesMeet = "boxes that hold surface meet where the surfaces do not";
 const char* const kFlatBoxes =
     "the faces at the rim of a box without thickness have no plane, so it has no end there";
 const char* const kCellsMeet = "a lattice cell is wider than the surface inside it";

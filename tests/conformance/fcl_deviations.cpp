@@ -4,9 +4,8 @@
 namespace contactcheck::test {
 
 std::vector<KnownDeviation> known_deviations_of_fcl() {
-  using Names = std::vector<std::string>;
-  const Names all = {"fcl-aabb", "fcl-obbrss", "fcl-collide"};
-  const Names oriented = {"fcl-obbrss"};
+  const DetectorNames all = {"fcl-aabb", "fcl-obbrss", "fcl-collide"};
+  const DetectorNames oriented = {"fcl-obbrss"};
   const auto seen = [](const char* source) { return Origin{"fcl", "0.7.0", source}; };
   return {
       {all,

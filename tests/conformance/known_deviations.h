@@ -37,6 +37,16 @@ struct KnownDeviation {
   std::string sentence;  ///< why
 };
 
+/// Of detectors.
+using DetectorNames = std::vector<std::string>;
+inline DetectorNames operator+(DetectorNames a, const DetectorNames& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A sentence for detectors whose pieces are boxes.
+inline const char* const kBoxesMeet = "boxes that hold surface meet where the surfaces do not";
+
 /// Of the detectors of core, whose approximations are the paper's.
 std::vector<KnownDeviation> known_deviations_of_core();
 std::vector<KnownDeviation> known_deviations_of_bullet();

@@ -7,13 +7,6 @@
 namespace contactcheck::test {
 namespace {
 
-using Names = std::vector<std::string>;
-
-Names operator+(Names a, const Names& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 const char* const kVersion = "2.1 (its own files say 2.0)";
 
 const char* const kOriginOnSimplex =
@@ -22,10 +15,9 @@ const char* const kOriginOnSimplex =
 const char* const kTouchingIsNone = "MPR wants the origin inside the portal: touching is none";
 const char* const kAbsoluteTolerance =
     "tolerances are absolute: on squared lengths, pieces of a millimetre are below them";
-const char* const kBoxesMeet = "boxes that hold surface meet where the surfaces do not";
 
 std::vector<KnownDeviation> libccd_triangles() {
-  const Names gjk = {"libccd-gjk"}, mpr = {"libccd-mpr"};
+  const DetectorNames gjk = {"libccd-gjk"}, mpr = {"libccd-mpr"};
   const auto seen = [](const char* source) { return Origin{"libccd", kVersion, source}; };
   return {
       {gjk,
@@ -87,7 +79,7 @@ std::vector<KnownDeviation> libccd_triangles() {
 }
 
 std::vector<KnownDeviation> libccd_boxes() {
-  const Names gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
+  const DetectorNames gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
   const auto seen = [](const char* source) { return Origin{"libccd", kVersion, source}; };
   return {
       {gjk,
@@ -157,7 +149,7 @@ std::vector<KnownDeviation> libccd_boxes() {
 
 // The library is right about the boxes here, and the boxes are not the surface.
 std::vector<KnownDeviation> libccd_boxes_beside_the_surface() {
-  const Names gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
+  const DetectorNames gjk = {"libccd-gjk:pieces=boxes"}, mpr = {"libccd-mpr:pieces=boxes"};
   const Origin boxes = {"contactcheck", "any options", "Jeon et al. 2013, FFD-AABB"};
   return {
       {gjk + mpr,

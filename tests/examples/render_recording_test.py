@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""render_recording_test.py TEST: one test of the worked example, on a recording that was just run.
+"""Tests of the worked example, on a recording that was just run.
 
 The environment names it: CONTACTCHECK_RECORDING, and CONTACTCHECK_PRINT_VERTICES, the program that
 maps as core does.

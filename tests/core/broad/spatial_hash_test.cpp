@@ -77,7 +77,7 @@ std::vector<Item> random_items(int count) {
   return items;
 }
 
-std::vector<std::uint32_t> found(const SpatialHash& hash, const GridKey& key) {
+std::vector<std::uint32_t> owners_at(const SpatialHash& hash, const GridKey& key) {
   std::vector<std::uint32_t> ids;
   hash.for_each(key, [&](std::uint32_t id) { ids.push_back(id); });
   std::sort(ids.begin(), ids.end());
@@ -96,11 +96,11 @@ TEST(SpatialHash, FindsTheSameAtEveryTableSize) {
       std::vector<std::uint32_t> expected;
       for (const Item& item : items)
         if (item.key == wanted.key) expected.push_back(item.id);
-      EXPECT_EQ(found(hash, wanted.key), expected) << table;
+      EXPECT_EQ(owners_at(hash, wanted.key), expected) << table;
       finds += expected.size();
     }
     EXPECT_GT(finds, 2 * items.size());
-    EXPECT_TRUE(found(hash, {99, 99, 99}).empty());
+    EXPECT_TRUE(owners_at(hash, {99, 99, 99}).empty());
   }
 }
 
@@ -136,7 +136,7 @@ TEST(SpatialHash, ClearAndRebuildForgets) {
   hash.insert({1, 2, 3}, 8);
   hash.insert({-1, -2, -3}, 9);
   hash.build();
-  EXPECT_THAT(found(hash, {1, 2, 3}), UnorderedElementsAre(8u));
+  EXPECT_THAT(owners_at(hash, {1, 2, 3}), UnorderedElementsAre(8u));
 }
 
 TEST(SpatialHash, ClearTakesANewTableSize) {
@@ -146,7 +146,7 @@ TEST(SpatialHash, ClearTakesANewTableSize) {
     hash.insert({5, 6, 7}, table);
     hash.build();
     EXPECT_EQ(hash.bucket_count(), table);
-    EXPECT_THAT(found(hash, {5, 6, 7}), UnorderedElementsAre(table));
+    EXPECT_THAT(owners_at(hash, {5, 6, 7}), UnorderedElementsAre(table));
   }
 }
 
@@ -154,7 +154,7 @@ TEST(SpatialHash, EmptyTableFindsNothing) {
   for (std::uint32_t table : {0u, 16u}) {
     SpatialHash hash(table);
     hash.build();
-    EXPECT_TRUE(found(hash, {0, 0, 0}).empty());
+    EXPECT_TRUE(owners_at(hash, {0, 0, 0}).empty());
   }
 }
 

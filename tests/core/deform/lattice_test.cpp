@@ -34,7 +34,7 @@ std::vector<GridIndex> kept_by_brute_force(const TriangleMesh& mesh, const Latti
   return kept;
 }
 
-std::vector<TriangleMesh> sample_meshes() {
+std::vector<TriangleMesh> lattice_meshes() {
   std::vector<TriangleMesh> meshes = {test::sphere_mesh({0.3, -20, 7}, 2.0, 2),
                                       test::unit_box_mesh(4),
                                       test::triangle_mesh({0, 0, 0}, {1, 2, 3}, {1, 2, 3.5}),
@@ -87,7 +87,7 @@ TEST(Lattice, ScalesWithItsMesh) {
 
 TEST(Lattice, KeptCellsEqualBruteForce) {
   std::size_t kept = 0, all = 0;
-  for (const TriangleMesh& mesh : sample_meshes())
+  for (const TriangleMesh& mesh : lattice_meshes())
     for (const Resolution& r : {Resolution{1, 1, 1}, Resolution{3, 4, 5}, Resolution{8, 8, 8}})
       for (double padding : {0.02, 0.5}) {
         const Lattice lattice = make_lattice(mesh, r, padding);
@@ -115,7 +115,7 @@ TEST(Lattice, HomeOfAVertexWithoutTriangleIsKept) {
 }
 
 TEST(Lattice, NodesAreTheCornersOfKeptCellsInAscendingOrder) {
-  for (const TriangleMesh& mesh : sample_meshes()) {
+  for (const TriangleMesh& mesh : lattice_meshes()) {
     const Lattice lattice = make_lattice(mesh, {3, 5, 4}, 0.02);
     std::set<std::array<std::uint32_t, 3>> corners;  // as (z, y, x)
     for (const GridIndex& c : lattice.cells)

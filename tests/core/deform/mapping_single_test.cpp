@@ -16,7 +16,8 @@ namespace {
 
 using SingleCorners = CornersOf<float>;
 
-std::vector<Vec3f> random_nodes(test::TriangleSource& random, std::size_t count, double radius) {
+std::vector<Vec3f> random_single_nodes(test::TriangleSource& random, std::size_t count,
+                                       double radius) {
   std::vector<Vec3f> nodes;
   for (std::size_t i = 0; i < count; ++i)
     nodes.push_back(random.point(Vec3::Zero(), radius).cast<float>());
@@ -39,7 +40,7 @@ TEST(SingleMapping, BatchGivesTheBitsOfThePointVersion) {
     const test::ScopedTarget scope(target);
     test::TriangleSource random(21);
     for (double radius : {1e-38, 1e-9, 1.0, 1e6, 1e12}) {
-      const std::vector<Vec3f> nodes = random_nodes(random, shape->node_count(), radius);
+      const std::vector<Vec3f> nodes = random_single_nodes(random, shape->node_count(), radius);
       std::vector<Vec3f> mapped(shape->mesh.vertices.size(), Vec3f::Constant(-7.0f));
       map_vertices(*shape->lattice, shape->embedding, local, nodes, mapped);
       std::size_t different = 0;
@@ -54,7 +55,8 @@ TEST(SingleMapping, BatchGivesTheBitsOfThePointVersion) {
   }
 }
 
-std::vector<LocalBoxOf<float>> random_boxes(test::TriangleSource& random, std::size_t cells) {
+std::vector<LocalBoxOf<float>> random_single_boxes(test::TriangleSource& random,
+                                                   std::size_t cells) {
   std::vector<LocalBoxOf<float>> boxes(60);
   for (LocalBoxOf<float>& box : boxes) {
     box.home = static_cast<std::uint32_t>(random.below(static_cast<int>(cells)));
@@ -69,8 +71,8 @@ TEST(SingleMapping, BoxesGiveTheBitsOfThePointVersion) {
   for (std::int64_t target : test::compiled_targets()) {
     const test::ScopedTarget scope(target);
     test::TriangleSource random(26);
-    const auto boxes = random_boxes(random, shape->lattice->cells.size());
-    const auto nodes = random_nodes(random, shape->node_count(), 1.0);
+    const auto boxes = random_single_boxes(random, shape->lattice->cells.size());
+    const auto nodes = random_single_nodes(random, shape->node_count(), 1.0);
     std::vector<SingleCorners> mapped(boxes.size());
     map_boxes(*shape->lattice, boxes, nodes, mapped);
     for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -85,7 +87,7 @@ TEST(SingleMapping, BoxesGiveTheBitsOfThePointVersion) {
 }
 
 // The largest error in shares of the bound; doubles stand for exact numbers.
-double largest_error_share(test::TriangleSource& random, const Vec3& center, double radius) {
+double largest_single_error_share(test::TriangleSource& random, const Vec3& center, double radius) {
   double worst = 0.0;
   for (int round = 0; round < 3000; ++round) {
     SingleCorners corners;
@@ -108,12 +110,12 @@ TEST(SingleMapping, ErrorStaysWithinItsBound) {
   test::TriangleSource random(24);
   for (double radius : {1e-2, 1.0, 1e9})
     for (double offset : {0.0, 1.0, -1e12}) {
-      const double share = largest_error_share(random, Vec3::Constant(offset), radius);
+      const double share = largest_single_error_share(random, Vec3::Constant(offset), radius);
       EXPECT_LE(share, 1.0) << radius << " " << offset;
       EXPECT_GT(share, 0.05) << radius << " " << offset;
     }
   for (double radius : {0x1p-149, 0x1p-140, 0x1p-126})
-    EXPECT_LE(largest_error_share(random, Vec3::Zero(), radius), 1.0) << radius;
+    EXPECT_LE(largest_single_error_share(random, Vec3::Zero(), radius), 1.0) << radius;
 }
 
 }  // namespace

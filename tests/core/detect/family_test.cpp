@@ -14,14 +14,14 @@ using test::prepared;
 using test::Scene;
 using test::true_pairs;
 
-struct JudgedScene {
+struct JudgedFamilyScene {
   Scene scene;
   std::vector<std::vector<ElementPair>> truth;  // per frame
 };
 
 // Made once: brute force is the expensive part.
-const std::vector<JudgedScene>& judged_scenes() {
-  static const std::vector<JudgedScene> scenes = [] {
+const std::vector<JudgedFamilyScene>& judged_family_scenes() {
+  static const std::vector<JudgedFamilyScene> scenes = [] {
     std::vector<Scene> all;
     std::uint64_t seed = 100;
     for (double strength : {0.0, 0.3, 1.0})
@@ -29,7 +29,7 @@ const std::vector<JudgedScene>& judged_scenes() {
         all.push_back(test::approach({++seed, strength}));
     all.push_back(test::three_bodies({++seed, 0.3}));
     all.push_back(test::exact_boxes(Vec3::Zero()));
-    std::vector<JudgedScene> judged;
+    std::vector<JudgedFamilyScene> judged;
     for (Scene& scene : all) {
       judged.push_back({std::move(scene), {}});
       for (const test::FrameData& frame : judged.back().scene.frames)
@@ -43,7 +43,7 @@ const std::vector<JudgedScene>& judged_scenes() {
 // Frames that differ from the truth, over all scenes.
 int wrong_frames(const std::string& name) {
   int wrong = 0;
-  for (const JudgedScene& judged : judged_scenes()) {
+  for (const JudgedFamilyScene& judged : judged_family_scenes()) {
     const auto detector = prepared(name, judged.scene);
     for (std::size_t f = 0; f < judged.truth.size(); ++f)
       wrong += answer(*detector, judged.scene.frames[f]).triangles != judged.truth[f];
@@ -54,7 +54,7 @@ int wrong_frames(const std::string& name) {
 TEST(JudgedScenes, HaveFramesApartTouchingAndDeepInside) {
   int frames = 0, with_contact = 0;
   std::size_t most = 0;
-  for (const JudgedScene& judged : judged_scenes())
+  for (const JudgedFamilyScene& judged : judged_family_scenes())
     for (const auto& truth : judged.truth) {
       ++frames;
       with_contact += !truth.empty();
@@ -105,7 +105,7 @@ TEST(SphereRadius, LargerThanNeededEqualsBruteForceAndSmallerDoesNot) {
 TEST_P(EveryMember, OfThePaperWithTrianglesNeverInventsAPair) {
   const std::string name = GetParam() + "+tri:bounds=paper";
   std::size_t reported = 0, truth = 0;
-  for (const JudgedScene& judged : judged_scenes()) {
+  for (const JudgedFamilyScene& judged : judged_family_scenes()) {
     const auto detector = prepared(name, judged.scene);
     for (std::size_t f = 0; f < judged.truth.size(); ++f) {
       const auto found = answer(*detector, judged.scene.frames[f]).triangles;
@@ -124,7 +124,7 @@ TEST_P(EveryMember, AnswersTheBodyQuestionAsTheFullOne) {
   int touching = 0, apart = 0;
   for (const char* variant :
        {":bounds=paper", ":bounds=safe", "+tri:bounds=paper", "+tri:bounds=safe"}) {
-    for (const JudgedScene& judged : judged_scenes()) {
+    for (const JudgedFamilyScene& judged : judged_family_scenes()) {
       const auto detector = prepared(GetParam() + variant, judged.scene);
       for (const test::FrameData& frame : judged.scene.frames) {
         const ContactSet full = answer(*detector, frame);
@@ -141,7 +141,7 @@ TEST_P(EveryMember, AnswersTheBodyQuestionAsTheFullOne) {
 
 TEST_P(EveryMember, DeclaresWhatItAnswers) {
   const auto declared = [&](const std::string& variant) {
-    return prepared(GetParam() + variant, judged_scenes().front().scene)->semantics();
+    return prepared(GetParam() + variant, judged_family_scenes().front().scene)->semantics();
   };
   const Semantics tri = declared("+tri"), paper_tri = declared("+tri:bounds=paper"),
                   paper = declared(""), safe = declared(":bounds=safe");
@@ -155,7 +155,7 @@ TEST_P(EveryMember, DeclaresWhatItAnswers) {
 }
 
 TEST_P(EveryMember, NeedsVerticesOnlyForTheTriangleTest) {
-  const Scene& scene = judged_scenes().front().scene;
+  const Scene& scene = judged_family_scenes().front().scene;
   EXPECT_TRUE(prepared(GetParam() + "+tri", scene)->needs_vertices());
   const auto lazy = prepared(GetParam(), scene);
   EXPECT_FALSE(lazy->needs_vertices());

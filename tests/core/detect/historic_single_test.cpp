@@ -20,26 +20,27 @@ using test::Scene;
 using test::single_scenes;
 using test::SingleScene;
 
-const std::string kSingle = "precision=single";
+const std::string kSinglePrecision = "precision=single";
 
 // Options at both ends.
 std::vector<std::string> fed_detectors() {
-  return {"spatial-hash:" + kSingle,         "spatial-hash:cell=0.05," + kSingle,
-          "spatial-hash:table=1," + kSingle, "aabb-tree:" + kSingle,
-          "aabb-tree:leaf=1," + kSingle,     "aabb-tree:leaf=64," + kSingle,
-          "sphere-tree:" + kSingle,          "sphere-tree:leaf=1," + kSingle,
-          "sphere-tree:leaf=64," + kSingle};
+  return {"spatial-hash:" + kSinglePrecision,         "spatial-hash:cell=0.05," + kSinglePrecision,
+          "spatial-hash:table=1," + kSinglePrecision, "aabb-tree:" + kSinglePrecision,
+          "aabb-tree:leaf=1," + kSinglePrecision,     "aabb-tree:leaf=64," + kSinglePrecision,
+          "sphere-tree:" + kSinglePrecision,          "sphere-tree:leaf=1," + kSinglePrecision,
+          "sphere-tree:leaf=64," + kSinglePrecision};
 }
 
 std::vector<std::string> mapping_detectors() {
-  return {"bd-tree:" + kSingle, "bd-tree:leaf=1,reference=none," + kSingle,
-          "bd-tree:leaf=64,reference=rigid," + kSingle, "bd-tree:bound=paper," + kSingle,
-          "bd-tree:bound=paper,reference=none," + kSingle};
+  return {"bd-tree:" + kSinglePrecision, "bd-tree:leaf=1,reference=none," + kSinglePrecision,
+          "bd-tree:leaf=64,reference=rigid," + kSinglePrecision,
+          "bd-tree:bound=paper," + kSinglePrecision,
+          "bd-tree:bound=paper,reference=none," + kSinglePrecision};
 }
 
 std::vector<std::string> defaults() {
-  return {"spatial-hash:" + kSingle, "aabb-tree:" + kSingle, "sphere-tree:" + kSingle,
-          "bd-tree:" + kSingle};
+  return {"spatial-hash:" + kSinglePrecision, "aabb-tree:" + kSinglePrecision,
+          "sphere-tree:" + kSinglePrecision, "bd-tree:" + kSinglePrecision};
 }
 
 void expect_pairs(const std::string& name, const SingleScene& single,

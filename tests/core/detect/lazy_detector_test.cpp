@@ -33,14 +33,14 @@ std::string name_of(const LazyConfig& config) {
   return config.isa + " " + std::to_string(static_cast<int>(config.bounds));
 }
 
-struct JudgedScene {
+struct JudgedLazyScene {
   std::string name;
   Scene scene;
   std::vector<ContactSet> truth;  // per frame
 };
 
-JudgedScene judged(const std::string& name, Scene scene) {
-  JudgedScene out{name, std::move(scene), {}};
+JudgedLazyScene judged(const std::string& name, Scene scene) {
+  JudgedLazyScene out{name, std::move(scene), {}};
   for (const FrameData& frame : out.scene.frames) {
     out.truth.emplace_back().triangles = true_pairs(out.scene, frame);
     out.truth.back().canonicalize();
@@ -114,8 +114,8 @@ Scene at_the_largest_double() {
 }
 
 // Made once: brute force is the expensive part.
-const std::vector<JudgedScene>& scenes() {
-  static const std::vector<JudgedScene> all = {
+const std::vector<JudgedLazyScene>& scenes() {
+  static const std::vector<JudgedLazyScene> all = {
       judged("lattices and none", lattices_and_none()),
       judged("instances", instances()),
       judged("sizes", sizes()),
@@ -135,7 +135,7 @@ std::unique_ptr<LazyDetector> prepared(const LazyConfig& config, const Scene& sc
 }
 
 TEST(LazyDetectorScenes, HaveFramesWithAndWithoutContact) {
-  for (const JudgedScene& scene : scenes()) {
+  for (const JudgedLazyScene& scene : scenes()) {
     std::size_t most = 0;
     for (const ContactSet& truth : scene.truth) most = std::max(most, truth.triangles.size());
     EXPECT_GT(most, 20u) << scene.name;
@@ -144,7 +144,7 @@ TEST(LazyDetectorScenes, HaveFramesWithAndWithoutContact) {
 }
 
 TEST(LazyDetector, AgreesWithBruteForceForEverySourceAndInstructionSet) {
-  for (const JudgedScene& judged : scenes())
+  for (const JudgedLazyScene& judged : scenes())
     for (const LazyConfig& config : configs()) {
       const auto detector = prepared(config, judged.scene);
       for (std::size_t f = 0; f < judged.truth.size(); ++f) {
@@ -160,7 +160,7 @@ TEST(LazyDetector, AgreesWithBruteForceForEverySourceAndInstructionSet) {
 }
 
 TEST(LazyDetector, KeepsThePromisesOfItsBounds) {
-  for (const JudgedScene& judged : scenes())
+  for (const JudgedLazyScene& judged : scenes())
     for (const LazyConfig& config : configs()) {
       const auto detector = prepared(config, judged.scene);
       for (const FrameData& data : judged.scene.frames) {
@@ -186,7 +186,7 @@ TEST(LazyDetector, ReportsVerticesThatItsBoundsDoNotHold) {
 }
 
 TEST(LazyDetector, AnswersDoNotDependOnWhatWasAskedBefore) {
-  for (const JudgedScene& judged : {scenes()[0], scenes()[1]})
+  for (const JudgedLazyScene& judged : {scenes()[0], scenes()[1]})
     for (const LazyConfig& config : configs()) {
       const auto detector = prepared(config, judged.scene);
       for (std::size_t f : {2u, 0u, 0u, 1u, 2u, 1u}) {
@@ -204,7 +204,7 @@ TEST(LazyDetector, AnswersDoNotDependOnWhatWasAskedBefore) {
 }
 
 TEST(LazyDetector, AnswersDoNotDependOnTheOrderOfTheBodies) {
-  for (const JudgedScene& judged : {scenes()[0], scenes()[1]}) {
+  for (const JudgedLazyScene& judged : {scenes()[0], scenes()[1]}) {
     Scene turned = judged.scene;
     std::reverse(turned.bodies.begin(), turned.bodies.end());
     const auto last = static_cast<std::uint32_t>(turned.bodies.size() - 1);

@@ -18,25 +18,25 @@ using test::FrameData;
 using test::Scene;
 using test::SingleScene;
 
-constexpr Precision kSingle = Precision::kSingle;
+constexpr Precision kFloats = Precision::kSingle;
 
 LazyConfig config_of(BoundSource bounds, const std::string& isa = "best", std::size_t threads = 1) {
-  return {bounds, isa, threads, kSingle};
+  return {bounds, isa, threads, kFloats};
 }
 
-std::vector<LazyConfig> configs() {
+std::vector<LazyConfig> single_configs() {
   std::vector<LazyConfig> all;
   for (BoundSource bounds : {BoundSource::kNodes, BoundSource::kVertices, BoundSource::kCheaper})
     for (const std::string& isa : lazy_isas()) all.push_back(config_of(bounds, isa));
   return all;
 }
 
-std::string name_of(const LazyConfig& config) {
+std::string name_of_single(const LazyConfig& config) {
   return config.isa + " " + std::to_string(static_cast<int>(config.bounds)) + " " +
          std::to_string(config.threads);
 }
 
-std::unique_ptr<LazyDetector> prepared(const LazyConfig& config, const Scene& scene) {
+std::unique_ptr<LazyDetector> prepared_single(const LazyConfig& config, const Scene& scene) {
   auto detector = std::make_unique<LazyDetector>(config);
   detector->prepare(scene.bodies);
   return detector;
@@ -55,9 +55,9 @@ TEST(LazySingleScenes, HaveContact) {
 
 TEST(LazySingle, FindsWhatIntersectsForEverySourceAndInstructionSet) {
   for (const SingleScene& single : test::single_scenes())
-    for (const LazyConfig& config : configs()) {
-      SCOPED_TRACE(name_of(config));
-      test::expect_pairs(*prepared(config, single.scene), single, single.mapped);
+    for (const LazyConfig& config : single_configs()) {
+      SCOPED_TRACE(name_of_single(config));
+      test::expect_pairs(*prepared_single(config, single.scene), single, single.mapped);
     }
 }
 
@@ -66,21 +66,21 @@ TEST(LazySingle, FindsTheSameOnEveryNumberOfThreads) {
     for (BoundSource bounds : {BoundSource::kNodes, BoundSource::kVertices})
       for (std::size_t threads : {2u, 3u, 8u}) {
         const LazyConfig config = config_of(bounds, "best", threads);
-        const auto detector = prepared(config, single.scene);
+        const auto detector = prepared_single(config, single.scene);
         for (std::size_t f = 0; f < single.mapped.size(); ++f)
           EXPECT_EQ(answer(*detector, single.scene.frames[f], Question::kTriangles).triangles,
                     single.mapped[f])
-              << single.name << " " << f << " " << name_of(config);
+              << single.name << " " << f << " " << name_of_single(config);
       }
 }
 
 TEST(LazySingle, KeepsThePromisesOfItsBounds) {
   for (const SingleScene& single : test::single_scenes())
-    for (const LazyConfig& config : configs()) {
-      const auto detector = prepared(config, single.scene);
+    for (const LazyConfig& config : single_configs()) {
+      const auto detector = prepared_single(config, single.scene);
       for (const FrameData& data : single.scene.frames) {
         detector->update(data.frame());
-        EXPECT_EQ(detector->validate(data.vertices), "") << single.name << name_of(config);
+        EXPECT_EQ(detector->validate(data.vertices), "") << single.name << name_of_single(config);
       }
     }
 }
@@ -96,7 +96,7 @@ TEST(LazySingle, DiffersFromTheTruthByFewPairsWhereverTheSceneIs) {
   for (const Vec3& at : {Vec3(0, 0, 0), Vec3(1e6, -1e6, 5e5)}) {
     const Scene scene = test::approach({909, 0.3, 1.0, at}, 4);
     std::size_t found = 0, different = 0;
-    const auto detector = prepared(config_of(BoundSource::kNodes), scene);
+    const auto detector = prepared_single(config_of(BoundSource::kNodes), scene);
     for (const FrameData& frame : scene.frames) {
       const std::vector<ElementPair> truth = test::true_pairs(scene, frame);
       found += truth.size();
@@ -111,12 +111,12 @@ TEST(LazySingle, DiffersFromTheTruthByFewPairsWhereverTheSceneIs) {
 TEST(LazySingle, IsExactWhereFloatsAre) {
   for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0x1p30, -0x1p31, 0x1p29)}) {
     const Scene scene = test::exact_boxes(shift);
-    for (const LazyConfig& config : configs()) {
-      const auto detector = prepared(config, scene);
+    for (const LazyConfig& config : single_configs()) {
+      const auto detector = prepared_single(config, scene);
       for (const FrameData& frame : scene.frames)
         EXPECT_EQ(answer(*detector, frame, Question::kTriangles).triangles,
                   test::true_pairs(scene, frame))
-            << shift.transpose() << " " << name_of(config);
+            << shift.transpose() << " " << name_of_single(config);
     }
   }
 }
@@ -124,7 +124,7 @@ TEST(LazySingle, IsExactWhereFloatsAre) {
 TEST(LazySingle, SaysWhatItIs) {
   for (BoundSource bounds : {BoundSource::kNodes, BoundSource::kVertices, BoundSource::kCheaper}) {
     const LazyDetector detector(config_of(bounds));
-    EXPECT_EQ(detector.semantics().precision, kSingle);
+    EXPECT_EQ(detector.semantics().precision, kFloats);
     EXPECT_TRUE(detector.semantics().local_origin);
     EXPECT_FALSE(detector.semantics().exact);
     EXPECT_TRUE(detector.semantics().closed);
@@ -145,8 +145,8 @@ TEST(LazySingle, CountsWhatDoublesCount) {
 
 TEST(LazySingle, RefusesWhatIsBeyondTheLimitAndAnswersTheNextFrame) {
   const Scene scene = test::approach({910, 0.3}, 4);
-  for (const LazyConfig& config : configs()) {
-    const auto detector = prepared(config, scene);
+  for (const LazyConfig& config : single_configs()) {
+    const auto detector = prepared_single(config, scene);
     FrameData far = scene.frames[3];
     for (Vec3& n : far.nodes[1]) n.x() += 5e12;
     EXPECT_THROW(detector->update(far.frame()), RefusedInput);

@@ -22,7 +22,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-std::array<Vec3, 8> box_corners(const Vec3& lo, const Vec3& hi) {
+std::array<Vec3, 8> corners_of_box(const Vec3& lo, const Vec3& hi) {
   std::array<Vec3, 8> corners;
   for (int c = 0; c < 8; ++c)
     corners[c] = {(c & 1) ? hi.x() : lo.x(), (c & 2) ? hi.y() : lo.y(), (c & 4) ? hi.z() : lo.z()};
@@ -30,7 +30,7 @@ std::array<Vec3, 8> box_corners(const Vec3& lo, const Vec3& hi) {
 }
 
 TEST(NodeDepth, IsTheDistanceToTheNearestPlaneAndItsNormal) {
-  const BoxPlanes box = planes_of_box(box_corners({-2, -1, -3}, {2, 1, 3}));
+  const BoxPlanes box = planes_of_box(corners_of_box({-2, -1, -3}, {2, 1, 3}));
   for (const auto& [node, depth, normal] : {std::tuple(Vec3(1.75, 0, 0), 0.25, Vec3(1, 0, 0)),
                                             std::tuple(Vec3(-1.875, 0.5, 1), 0.125, Vec3(-1, 0, 0)),
                                             std::tuple(Vec3(0, 0.25, 0), 0.75, Vec3(0, 1, 0)),
@@ -45,7 +45,7 @@ TEST(NodeDepth, IsTheDistanceToTheNearestPlaneAndItsNormal) {
 TEST(NodeDepth, IsInMetresForLargeTinyAndTurnedBoxes) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 2).normalized()).matrix();
   for (double size : {1.0, 1e-90, 1e-155, 1e90, 1e150}) {
-    auto corners = box_corners(Vec3::Constant(-size), Vec3::Constant(size));
+    auto corners = corners_of_box(Vec3::Constant(-size), Vec3::Constant(size));
     for (Vec3& c : corners) c = turn * c;
     const NodeDepth got = node_depth(planes_of_box(corners), turn * Vec3(0, 0.75 * size, 0));
     EXPECT_NEAR(got.depth / size, 0.25, 1e-12) << size;
@@ -54,11 +54,11 @@ TEST(NodeDepth, IsInMetresForLargeTinyAndTurnedBoxes) {
 }
 
 TEST(NodeDepth, LeavesFacesWithoutAreaOut) {
-  const BoxPlanes flat = planes_of_box(box_corners({0.5, 0, 0}, {0.5, 1, 1}));
+  const BoxPlanes flat = planes_of_box(corners_of_box({0.5, 0, 0}, {0.5, 1, 1}));
   const NodeDepth on_it = node_depth(flat, {0.5, 0.25, 0.25});
   EXPECT_EQ(on_it.depth, 0.0);
   EXPECT_EQ(on_it.outward.cwiseAbs(), Vec3(1, 0, 0));
-  const BoxPlanes point = planes_of_box(box_corners(Vec3::Ones(), Vec3::Ones()));
+  const BoxPlanes point = planes_of_box(corners_of_box(Vec3::Ones(), Vec3::Ones()));
   EXPECT_EQ(node_depth(point, Vec3::Ones()).outward, Vec3(Vec3::Zero()));
 }
 

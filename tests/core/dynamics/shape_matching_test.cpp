@@ -9,7 +9,7 @@
 namespace contactcheck {
 namespace {
 
-Material jelly(std::uint32_t region) {
+Material jelly_of_regions(std::uint32_t region) {
   Material material;
   material.model = DeformableModel::kShapeMatching;
   material.relaxation_time = 0.05;
@@ -30,8 +30,8 @@ Vec3 center_of_mass(std::span<const double> masses, const std::vector<Vec3>& pos
 TEST(ShapeMatching, HasOneRegionPerCellOrOneForAll) {
   const auto shape = test::block_shape();
   const Lattice& lattice = *shape->lattice;
-  EXPECT_EQ(ShapeMatching(lattice, jelly(0)).region_count(), 1u);
-  EXPECT_EQ(ShapeMatching(lattice, jelly(1)).region_count(), 24u);
+  EXPECT_EQ(ShapeMatching(lattice, jelly_of_regions(0)).region_count(), 1u);
+  EXPECT_EQ(ShapeMatching(lattice, jelly_of_regions(1)).region_count(), 24u);
 }
 
 TEST(ShapeMatching, WideRegionsAreTheWholeBody) {
@@ -39,7 +39,8 @@ TEST(ShapeMatching, WideRegionsAreTheWholeBody) {
   const auto shape = test::block_shape();
   const NodeState start = test::disturbed(*shape, 0.1);
   NodeState one = start, many = start;
-  const ShapeMatching whole(*shape->lattice, jelly(0)), wide(*shape->lattice, jelly(3));
+  const ShapeMatching whole(*shape->lattice, jelly_of_regions(0)),
+      wide(*shape->lattice, jelly_of_regions(3));
   for (int i = 0; i < 20; ++i) {
     whole.step(0.01, Vec3::Zero(), one);
     wide.step(0.01, Vec3::Zero(), many);
@@ -52,7 +53,7 @@ TEST(ShapeMatching, WideRegionsAreTheWholeBody) {
 TEST(ShapeMatching, NodesGoToTheirGoalsAsACriticallyDampedOscillator) {
   // A uniformly blown-up body: all goals stand still, the way to them shrinks by the closed form.
   const auto shape = test::block_shape();
-  const ShapeMatching model(*shape->lattice, jelly(0));
+  const ShapeMatching model(*shape->lattice, jelly_of_regions(0));
   const std::vector<Vec3> rest = shape->lattice->rest_nodes();
   const Vec3 center = center_of_mass(model.masses(), rest);
   for (int steps : {200, 2000}) {
@@ -71,7 +72,7 @@ TEST(ShapeMatching, EveryStepIsStable) {
   const auto shape = test::block_shape();
   for (std::uint32_t region : {0u, 1u})
     for (double dt : {1e-6, 1e-3, 0.05, 1.0, 1000.0}) {
-      const ShapeMatching model(*shape->lattice, jelly(region));
+      const ShapeMatching model(*shape->lattice, jelly_of_regions(region));
       NodeState state = test::disturbed(*shape, 0.3);  // a whole cell: some are inside out
       const Vec3 center = center_of_mass(model.masses(), state.positions);
       for (int i = 0; i < 500; ++i) model.step(dt, Vec3::Zero(), state);
@@ -85,7 +86,7 @@ TEST(ShapeMatching, DriftingBodyKeepsItsShapeNearToTheBit) {
   constexpr double kAdded = 2 * 2000 * 0x1p-47;
   const auto shape = test::block_shape();
   for (std::uint32_t region : {0u, 1u}) {
-    const ShapeMatching model(*shape->lattice, jelly(region));
+    const ShapeMatching model(*shape->lattice, jelly_of_regions(region));
     NodeState state = test::at_rest(*shape);
     for (Vec3& v : state.velocities) v = Vec3(1.25, -2.5, 0.75);
     for (int i = 0; i < 1000; ++i) model.step(1.0 / 64, Vec3::Zero(), state);
@@ -100,7 +101,7 @@ TEST(ShapeMatching, RotatingBodyKeepsItsShapeUpToTheCentrifugalStretch) {
   const auto shape = test::block_shape();
   constexpr double kRate = 2.0;  // rad/s
   for (std::uint32_t region : {0u, 1u}) {
-    const ShapeMatching model(*shape->lattice, jelly(region));
+    const ShapeMatching model(*shape->lattice, jelly_of_regions(region));
     const std::vector<Vec3> rest = shape->lattice->rest_nodes();
     const Vec3 center = center_of_mass(model.masses(), rest);
     NodeState state = test::at_rest(*shape);
@@ -148,7 +149,7 @@ TEST(ShapeMatching, RegionsDoNotReachAcrossAGap) {
   const auto shape = fork_shape();
   const Lattice& lattice = *shape->lattice;
   ASSERT_EQ(lattice.cells.size(), 11u);
-  const ShapeMatching model(lattice, jelly(2));  // wide enough to reach over the gap
+  const ShapeMatching model(lattice, jelly_of_regions(2));  // wide enough to reach over the gap
   NodeState state = test::at_rest(*shape);
   for (std::uint32_t n = 0; n < lattice.nodes.size(); ++n)
     if (lattice.nodes[n][1] == 5 && lattice.nodes[n][0] <= 1) state.positions[n].z() += 0.3;

@@ -62,8 +62,8 @@ TEST_P(EveryModel, FallsFreelyInClosedForm) {
   const Vec3 start(1, 5, -2), velocity(0.5, 3, -1);
   Simulation simulation(bodies, {test::material_of(GetParam())}, {},
                         {moving(bodies[0], start, velocity)});
-  constexpr int kSteps = 60;
-  for (int i = 0; i < kSteps; ++i) simulation.advance();
+  constexpr int kOneSecond = 60;
+  for (int i = 0; i < kOneSecond; ++i) simulation.advance();
   EXPECT_EQ(simulation.state().steps, 60u);
   // One second. The parabola is exact but for the rounding of some hundred substeps.
   const Vec3 gravity(0, -9.81, 0), at = start + velocity + 0.5 * gravity;

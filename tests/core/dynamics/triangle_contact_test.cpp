@@ -19,7 +19,7 @@ double longest_edge(const TrianglePoints& t) {
   return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
 }
 
-void expect_convex(const Barycentric& w) {
+void expect_convex_weights(const Barycentric& w) {
   for (double weight : w) EXPECT_GE(weight, 0.0);
   EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-15);
 }
@@ -70,8 +70,8 @@ TEST(TriangleContact, OfDegenerateTrianglesIsFinite) {
   for (int round = 0; round < 20'000; ++round) {
     const TrianglePoints a = random.grid_triangle(1), b = random.grid_triangle(1);
     const TriangleContact c = triangle_contact(a, b);
-    expect_convex(c.on_a);
-    expect_convex(c.on_b);
+    expect_convex_weights(c.on_a);
+    expect_convex_weights(c.on_b);
     EXPECT_GE(c.depth, 0.0);
     EXPECT_LE(c.depth, std::min(longest_edge(a), longest_edge(b)));
     if (c.normal.isZero(0.0)) {
@@ -111,7 +111,7 @@ TEST(NearestOnTriangle, IsNoFartherThanAnySample) {
     const TrianglePoints t = round % 2 ? random.grid_triangle(2) : random.triangle({1, 2, 3}, 1.0);
     const Vec3 point = random.point(t[0], 2.0);
     const Barycentric w = nearest_on_triangle(point, t);
-    expect_convex(w);
+    expect_convex_weights(w);
     const double distance = (at(w, t) - point).norm();
     for (int i = 0; i <= kSteps; ++i)
       for (int j = 0; i + j <= kSteps; ++j) {

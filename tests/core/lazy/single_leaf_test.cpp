@@ -15,18 +15,18 @@ using test::for_each_mapped_leaf;
 using test::OneBody;
 using test::ShapePtr;
 
-constexpr Precision kSingle = Precision::kSingle;
+constexpr Precision kFloats = Precision::kSingle;
 
-const Deformation kDeformations[] = {{0.0},
-                                     {0.4},
-                                     {50.0},
-                                     {0.4, 1e-40},
-                                     {0.4, 1e-300},
-                                     {0.4, 1e9, {1e12, 0, 0}},
-                                     {0.4, 1.0, {1e12, -1e12, 3e11}}};
+const Deformation kLeafDeformations[] = {{0.0},
+                                         {0.4},
+                                         {50.0},
+                                         {0.4, 1e-40},
+                                         {0.4, 1e-300},
+                                         {0.4, 1e9, {1e12, 0, 0}},
+                                         {0.4, 1.0, {1e12, -1e12, 3e11}}};
 
 TEST(MapSingleLeaf, GivesTheBitsOfTheMappingInFloatsOnEveryInstructionSet) {
-  const test::BitTally tally = test::compare_bits<float>(31, kDeformations);
+  const test::BitTally tally = test::compare_bits<float>(31, kLeafDeformations);
   EXPECT_EQ(tally.different, 0u);
   EXPECT_GT(tally.vertices, 10000 * lazy_isas().size());
 }
@@ -36,7 +36,7 @@ TEST(MapSingleLeaf, GivesTheBitsOfTheBatchMapping) {
   test::TriangleSource random(32);
   for (const ShapePtr& shape : test::leaf_shapes()) {
     if (!shape->lattice) continue;
-    OneBody body(shape, false, kSingle);
+    OneBody body(shape, false, kFloats);
     body.begin(deformed_nodes(*shape, {0.4, 1.0, {1e6, 0, 0}}, random));
     std::vector<Vec3f> mapped(shape->mesh.vertices.size());
     map_vertices(*shape->lattice, shape->embedding, single_local(shape->embedding),
@@ -55,7 +55,7 @@ void expect_box(const LaneBoxes& boxes, std::uint32_t lane, const Aabb& truth) {
 TEST(MapSingleLeaf, GivesTheBoxesOfItsTrianglesAndNothingMore) {
   int empty = 0;
   for_each_mapped_leaf<float>(
-      31, kDeformations, [&](OneBody& body, std::uint32_t l, const SingleLeafCache& cache) {
+      31, kLeafDeformations, [&](OneBody& body, std::uint32_t l, const SingleLeafCache& cache) {
         const TreeLeaf& leaf = body.tree().leaves[l];
         const auto triangles = std::span(body.tree().leaf_triangles).subspan(leaf.first_triangle);
         for (std::uint32_t i = 0; i < leaf.triangles; ++i)
@@ -72,7 +72,7 @@ TEST(MapSingleLeaf, GivesTheBoxesOfItsTrianglesAndNothingMore) {
 
 TEST(MapSingleLeaf, MapsOncePerFrameAndAnewInTheNext) {
   test::TriangleSource random(33);
-  OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false, kSingle);
+  OneBody body(make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 3), {4, 4, 4}), false, kFloats);
   const LazyKernels& kernels = lazy_kernels();
   body.begin(deformed_nodes(body.shape(), {0.1}, random));
   const float* const first = kernels.map_single_leaf(body.state(), 2, body.arena()).x;
@@ -86,8 +86,8 @@ TEST(MapSingleLeaf, MapsOncePerFrameAndAnewInTheNext) {
 // Digits that floats lose beside the scene's place in the world are kept by the local origin.
 TEST(MapSingleLeaf, LosesNothingMoreFarFromTheOriginOfTheWorld) {
   test::TriangleSource random(34);
-  OneBody here(test::box_on_its_nodes(6), false, kSingle),
-      far(test::box_on_its_nodes(6), false, kSingle);
+  OneBody here(test::box_on_its_nodes(6), false, kFloats),
+      far(test::box_on_its_nodes(6), false, kFloats);
   std::vector<Vec3> nodes = deformed_nodes(here.shape(), {0.3}, random);
   const double fraction = 0x1p-19;  // a double beside 2^32 holds it, and half of it
   for (Vec3& n : nodes) n = (n / fraction).array().round().matrix() * fraction;

@@ -11,29 +11,24 @@
 #include <utility>
 
 #include "core/lazy/partition.h"
+#include "tests/core/lazy/bounds_cases.h"
 #include "tests/core/lazy/one_body.h"
 
 namespace contactcheck {
 namespace {
 
-using test::ShapePtr;
 using test::triangles_under;
-
-struct NamedShape {
-  std::string name;
-  ShapePtr shape;
-};
 
 TriangleMesh first_triangles(TriangleMesh mesh, std::size_t count) {
   mesh.triangles.resize(count);
   return mesh;
 }
 
-const std::vector<NamedShape>& shapes() {
-  static const std::vector<NamedShape> all = [] {
+const std::vector<test::NamedShape>& tree_shapes() {
+  static const std::vector<test::NamedShape> all = [] {
     const TriangleMesh ball = test::sphere_mesh(Vec3::Zero(), 1.0, 4);
     const TriangleMesh box = test::unit_box_mesh(12);
-    return std::vector<NamedShape>{
+    return std::vector<test::NamedShape>{
         {"ball, one cell", make_shape(ball, {1, 1, 1})},
         {"ball, coarse", make_shape(ball, {4, 3, 4})},
         {"ball, fine", make_shape(ball, {16, 16, 16})},
@@ -53,7 +48,7 @@ const std::vector<NamedShape>& shapes() {
 
 template <typename Check>
 void for_each_tree(Check&& check) {
-  for (const NamedShape& named : shapes()) {
+  for (const test::NamedShape& named : tree_shapes()) {
     SCOPED_TRACE(named.name);
     check(*named.shape, make_lattice_tree(*named.shape));
   }
@@ -214,7 +209,7 @@ TEST(LatticeTree, QuantisesLocalCoordinatesOutward) {
 
 TEST(LatticeTree, QuantisesByAboutOneStep) {
   constexpr double kStep = 1.001 / PieceLanes::kSteps;
-  const ShapePtr shape = make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {1, 1, 1});
+  const test::ShapePtr shape = make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {1, 1, 1});
   const LatticeTree tree = make_lattice_tree(*shape);
   for (const TreeBlock& block : tree.blocks) {
     ASSERT_EQ(block.end, block.begin + 1);
@@ -256,8 +251,9 @@ TEST(LatticeTree, GivesTheFirstLanesToTheChildrenAndPacksTheOthers) {
 }
 
 TEST(LatticeTree, FillsItsLeavesUnderACoarseLattice) {
-  for (const ShapePtr& shape : {make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 6), {5, 5, 5}),
-                                make_shape(test::unit_box_mesh(41), {4, 4, 4})}) {
+  for (const test::ShapePtr& shape :
+       {make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 6), {5, 5, 5}),
+        make_shape(test::unit_box_mesh(41), {4, 4, 4})}) {
     const LatticeTree tree = make_lattice_tree(*shape);
     const auto triangles = static_cast<double>(shape->mesh.triangles.size());
     ASSERT_GT(triangles, 20000);
@@ -288,11 +284,12 @@ TEST(LatticeTree, IsTheSameEveryTime) {
   for_each_tree([](const BodyShape& shape, const LatticeTree& tree) {
     EXPECT_TRUE(same(tree, make_lattice_tree(shape)));
   });
-  EXPECT_FALSE(same(make_lattice_tree(*shapes()[0].shape), make_lattice_tree(*shapes()[1].shape)));
+  EXPECT_FALSE(
+      same(make_lattice_tree(*tree_shapes()[0].shape), make_lattice_tree(*tree_shapes()[1].shape)));
 }
 
 TEST(PartitionTriangles, IsAPermutationOfRangesThatNestAndFollow) {
-  for (const NamedShape& named : shapes()) {
+  for (const test::NamedShape& named : tree_shapes()) {
     const Partition partition = partition_triangles(*named.shape);
     std::vector<std::uint32_t> sorted = partition.order;
     std::sort(sorted.begin(), sorted.end());

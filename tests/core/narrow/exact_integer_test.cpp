@@ -6,11 +6,10 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/range_ends.h"
+
 namespace contactcheck {
 namespace {
-
-constexpr double kMax = std::numeric_limits<double>::max();
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 
 ExactInteger integer(double value) { return ExactInteger::from_double(value, 0); }
 
@@ -20,10 +19,10 @@ TEST(LowestBitExponent, OfPowersOddNumbersAndDenormals) {
   EXPECT_EQ(lowest_bit_exponent(1.0), 0);
   EXPECT_EQ(lowest_bit_exponent(-12.0), 2);
   EXPECT_EQ(lowest_bit_exponent(0.75), -2);
-  EXPECT_EQ(lowest_bit_exponent(kDenormal), -1074);
-  EXPECT_EQ(lowest_bit_exponent(6 * kDenormal), -1073);
+  EXPECT_EQ(lowest_bit_exponent(test::kSmallestDouble), -1074);
+  EXPECT_EQ(lowest_bit_exponent(6 * test::kSmallestDouble), -1073);
   EXPECT_EQ(lowest_bit_exponent(std::numeric_limits<double>::min()), -1022);
-  EXPECT_EQ(lowest_bit_exponent(kMax), 971);
+  EXPECT_EQ(lowest_bit_exponent(test::kLargestDouble), 971);
   EXPECT_EQ(lowest_bit_exponent(std::nextafter(1.0, 2.0)), -52);
 }
 
@@ -67,8 +66,8 @@ TEST(ExactInteger, CarryAndBorrowRunThroughEveryLimb) {
 }
 
 TEST(ExactInteger, LargestAndSmallestDoubleTogether) {
-  const ExactInteger large = ExactInteger::from_double(kMax, -1074);
-  const ExactInteger small = ExactInteger::from_double(kDenormal, -1074);
+  const ExactInteger large = ExactInteger::from_double(test::kLargestDouble, -1074);
+  const ExactInteger small = ExactInteger::from_double(test::kSmallestDouble, -1074);
   EXPECT_TRUE(equal(small, integer(1.0)));
   EXPECT_EQ((large + small - large).sign(), 1);
   EXPECT_EQ((large - small - large).sign(), -1);
@@ -76,7 +75,7 @@ TEST(ExactInteger, LargestAndSmallestDoubleTogether) {
 }
 
 TEST(ExactInteger, WidestDeterminantFits) {
-  const ExactInteger span = ExactInteger::from_double(kMax, -1074) * integer(2.0);
+  const ExactInteger span = ExactInteger::from_double(test::kLargestDouble, -1074) * integer(2.0);
   const ExactInteger minor = span * span + span * span;
   const ExactInteger sum = minor * span + minor * span + minor * span;
   EXPECT_EQ(sum.sign(), 1);
@@ -84,7 +83,7 @@ TEST(ExactInteger, WidestDeterminantFits) {
 }
 
 TEST(ExactInteger, WiderThanAnyDeterminantAborts) {
-  const ExactInteger wide = ExactInteger::from_double(kMax, -1074);
+  const ExactInteger wide = ExactInteger::from_double(test::kLargestDouble, -1074);
   EXPECT_DEATH(wide * wide * wide * wide, "wider than any predicate");
 }
 

@@ -7,12 +7,10 @@
 #include <limits>
 
 #include "tests/support/random_triangles.h"
+#include "tests/support/range_ends.h"
 
 namespace contactcheck {
 namespace {
-
-constexpr double kMax = std::numeric_limits<double>::max();
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 
 const Vec3 kOrigin(0, 0, 0), kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
@@ -40,8 +38,8 @@ TEST(Orient3d, OneUlpOffTheDiagonalPlane) {
 }
 
 TEST(Orient3d, EveryScaleFromDenormalToHuge) {
-  for (double scale :
-       {kDenormal, 1e-320, 0x1p-1022, 1e-160, 1e-104, 1e-9, 1e9, 1e100, 1e160, kMax}) {
+  for (double scale : {test::kSmallestDouble, 1e-320, 0x1p-1022, 1e-160, 1e-104, 1e-9, 1e9, 1e100,
+                       1e160, test::kLargestDouble}) {
     const Vec3 x = scale * kX, y = scale * kY, z = scale * kZ;
     EXPECT_EQ(orient3d(kOrigin, x, y, z), 1) << scale;
     EXPECT_EQ(orient3d(x, y, z, kOrigin), -1) << scale;
@@ -51,16 +49,20 @@ TEST(Orient3d, EveryScaleFromDenormalToHuge) {
 }
 
 TEST(Orient3d, DenormalOffsetBesideTheLargestCoordinates) {
-  const Vec3 a(-kMax, -kMax, 0), b(kMax, -kMax, 0), c(0, kMax, 0);
-  EXPECT_EQ(orient3d(a, b, c, Vec3(0, 0, kDenormal)), 1);
-  EXPECT_EQ(orient3d(a, b, c, Vec3(0, 0, -kDenormal)), -1);
+  const Vec3 a(-test::kLargestDouble, -test::kLargestDouble, 0),
+      b(test::kLargestDouble, -test::kLargestDouble, 0), c(0, test::kLargestDouble, 0);
+  EXPECT_EQ(orient3d(a, b, c, Vec3(0, 0, test::kSmallestDouble)), 1);
+  EXPECT_EQ(orient3d(a, b, c, Vec3(0, 0, -test::kSmallestDouble)), -1);
   EXPECT_EQ(orient3d(a, b, c, Vec3(1, 2, 0)), 0);
 }
 
 TEST(Orient3d, AllThreeAxesAtBothEndsOfTheRange) {
-  // Nothing to strip: the widest determinant there is. x + y + z = kMax and a denormal beside it.
-  const Vec3 a(kMax, kDenormal, kDenormal), b(kDenormal, kMax, kDenormal);
-  const Vec3 c(kDenormal, kDenormal, kMax), d(-kMax, -kMax, -kMax);
+  // Nothing to strip: the widest determinant there is. x + y + z = test::kLargestDouble and a
+  // denormal beside it.
+  const Vec3 a(test::kLargestDouble, test::kSmallestDouble, test::kSmallestDouble),
+      b(test::kSmallestDouble, test::kLargestDouble, test::kSmallestDouble);
+  const Vec3 c(test::kSmallestDouble, test::kSmallestDouble, test::kLargestDouble),
+      d(-test::kLargestDouble, -test::kLargestDouble, -test::kLargestDouble);
   EXPECT_EQ(orient3d(a, b, c, d), -1);
   EXPECT_EQ(orient3d(a, c, b, d), 1);
 }
@@ -162,7 +164,8 @@ TEST(Orient2d, ClassicNearCollinearPointsAroundOneHalf) {
 }
 
 TEST(Orient2d, EveryScaleFromDenormalToHuge) {
-  for (double scale : {kDenormal, 1e-320, 1e-160, 1e-9, 1e9, 1e160, kMax}) {
+  for (double scale :
+       {test::kSmallestDouble, 1e-320, 1e-160, 1e-9, 1e9, 1e160, test::kLargestDouble}) {
     EXPECT_EQ(orient2d(kOrigin, scale * kX, scale * kY, 2), 1) << scale;
     EXPECT_EQ(orient2d(-scale * kX, scale * kX, scale * kY, 2), 1) << scale;
     EXPECT_EQ(orient2d(scale * kY, scale * kX, -scale * kX, 2), -1) << scale;
@@ -183,7 +186,7 @@ TEST(Collinear, OnLinesPointsAndOneUlpBeside) {
   EXPECT_TRUE(collinear(kX, kX, kY));
   EXPECT_TRUE(collinear(kX, kX, kX));
   EXPECT_FALSE(collinear(Vec3(1, 2, 3), Vec3(2, 4, 6), Vec3(-3, -6, std::nextafter(-9.0, 0.0))));
-  EXPECT_FALSE(collinear(kOrigin, kX, Vec3(5, 0, kDenormal)));
+  EXPECT_FALSE(collinear(kOrigin, kX, Vec3(5, 0, test::kSmallestDouble)));
 }
 
 }  // namespace

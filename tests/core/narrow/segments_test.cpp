@@ -7,7 +7,7 @@
 namespace contactcheck {
 namespace {
 
-const Vec3 kOrigin(0, 0, 0);
+const Vec3 kZero(0, 0, 0);
 
 Segment segment(const Vec3& a, const Vec3& b) { return ordered_segment(a, b); }
 
@@ -18,7 +18,7 @@ TEST(Before, ComparesCoordinatesInOrder) {
   EXPECT_TRUE(before(Vec3(0, 9, 9), Vec3(1, 0, 0)));
   EXPECT_TRUE(before(Vec3(0, 0, 9), Vec3(0, 1, 0)));
   EXPECT_TRUE(before(Vec3(0, 0, 0), Vec3(0, 0, 1)));
-  EXPECT_FALSE(before(kOrigin, kOrigin));
+  EXPECT_FALSE(before(kZero, kZero));
   EXPECT_FALSE(before(Vec3(0.0, 0, 0), Vec3(-0.0, 0, 0)));
 }
 
@@ -44,7 +44,7 @@ TEST(PointOnTriangle, CornerEdgeFaceOutsideAndOffThePlane) {
 TEST(SegmentsMeet, CrossingTouchingAndSkew) {
   const Segment s = segment(Vec3(-1, -1, -1), Vec3(1, 1, 1));
   EXPECT_TRUE(segments_meet(s, segment(Vec3(1, -1, 0), Vec3(-1, 1, 0))));
-  EXPECT_TRUE(segments_meet(s, segment(kOrigin, Vec3(0, 0, 7))));
+  EXPECT_TRUE(segments_meet(s, segment(kZero, Vec3(0, 0, 7))));
   EXPECT_TRUE(segments_meet(s, segment(Vec3(1, 1, 1), Vec3(0, 0, 7))));
   EXPECT_FALSE(segments_meet(s, segment(Vec3(1, -1, 0), Vec3(-1, 1, 5e-324))));
   EXPECT_FALSE(segments_meet(s, segment(Vec3(2, 2, 2), Vec3(0, 0, 7))));
@@ -52,7 +52,7 @@ TEST(SegmentsMeet, CrossingTouchingAndSkew) {
 }
 
 TEST(SegmentsMeet, CollinearOverlapTouchAndGap) {
-  const Segment s = segment(kOrigin, Vec3(2, 4, 6));
+  const Segment s = segment(kZero, Vec3(2, 4, 6));
   EXPECT_TRUE(segments_meet(s, segment(Vec3(1, 2, 3), Vec3(5, 10, 15))));
   EXPECT_TRUE(segments_meet(s, segment(Vec3(2, 4, 6), Vec3(5, 10, 15))));
   EXPECT_TRUE(segments_meet(segment(Vec3(-1, -2, -3), Vec3(5, 10, 15)), s));

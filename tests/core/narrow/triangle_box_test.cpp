@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/support/range_ends.h"
+
 namespace contactcheck {
 namespace {
-
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 
 Aabb box(const Vec3& lo, const Vec3& hi) {
   Aabb result;
@@ -89,14 +89,15 @@ TEST(TriangleMeetsBox, FlatBoxes) {
   EXPECT_FALSE(triangle_meets_box(in_plane, bar));
   EXPECT_TRUE(triangle_meets_box(in_plane, point));
   EXPECT_TRUE(triangle_meets_box({Vec3(.5, 0, -1), Vec3(.5, 0, 1), Vec3(.5, 9, 0)}, bar));
-  EXPECT_FALSE(
-      triangle_meets_box({Vec3(.5, kDenormal, -1), Vec3(.5, kDenormal, 1), Vec3(.5, 9, 0)}, bar));
+  EXPECT_FALSE(triangle_meets_box(
+      {Vec3(.5, test::kSmallestDouble, -1), Vec3(.5, test::kSmallestDouble, 1), Vec3(.5, 9, 0)},
+      bar));
   EXPECT_FALSE(triangle_meets_box({Vec3(2, 0, 0), Vec3(0, above(2), 0), Vec3(3, 3, 0)}, point));
 }
 
 TEST(TriangleMeetsBox, SameAnswersAtEveryScale) {
   for (double scale :
-       {kDenormal, 0x1p-1022, 0x1p-532, 0x1p-30, 0x1p30, 0x1p332, 0x1p532, 0x1p1021}) {
+       {test::kSmallestDouble, 0x1p-1022, 0x1p-532, 0x1p-30, 0x1p30, 0x1p332, 0x1p532, 0x1p1021}) {
     const Aabb scaled_box = box(Vec3::Zero(), Vec3::Constant(scale));
     const Vec3 x(3 * scale, 0, 0), y(0, 3 * scale, 0), z(0, 0, 3 * scale);
     EXPECT_TRUE(triangle_meets_box({x, y, z}, scaled_box)) << scale;

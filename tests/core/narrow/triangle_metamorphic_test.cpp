@@ -29,12 +29,12 @@ TrianglePoints mirrored_x(TrianglePoints t) {
   return t;
 }
 
-TrianglePoints scaled(TrianglePoints t, double power_of_two) {
+TrianglePoints scaled_exactly(TrianglePoints t, double power_of_two) {
   for (Vec3& corner : t) corner *= power_of_two;
   return t;
 }
 
-TrianglePoints moved(TrianglePoints t, const Vec3& offset) {
+TrianglePoints moved_exactly(TrianglePoints t, const Vec3& offset) {
   for (Vec3& corner : t) corner += offset;
   return t;
 }
@@ -54,8 +54,9 @@ void expect_invariant(const Pair& pair) {
   expect_order_does_not_matter(pair, expected);
   EXPECT_EQ(triangles_intersect(turned_axes(p), turned_axes(q)), expected);
   EXPECT_EQ(triangles_intersect(mirrored_x(p), mirrored_x(q)), expected);
-  EXPECT_EQ(triangles_intersect(scaled(p, 0x1p-340), scaled(q, 0x1p-340)), expected);
-  EXPECT_EQ(triangles_intersect(scaled(p, 0x1p340), scaled(q, 0x1p340)), expected);
+  EXPECT_EQ(triangles_intersect(scaled_exactly(p, 0x1p-340), scaled_exactly(q, 0x1p-340)),
+            expected);
+  EXPECT_EQ(triangles_intersect(scaled_exactly(p, 0x1p340), scaled_exactly(q, 0x1p340)), expected);
 }
 
 TEST(TrianglesIntersectRelations, GenericTriangles) {
@@ -78,7 +79,7 @@ TEST(TrianglesIntersectRelations, SmallIntegerGrid) {
     expect_invariant(pair);
     hits += triangles_intersect(pair.p, pair.q);
     const Vec3 offset(1e6, -1e6, 3e6);  // exact for integers
-    EXPECT_EQ(triangles_intersect(moved(pair.p, offset), moved(pair.q, offset)),
+    EXPECT_EQ(triangles_intersect(moved_exactly(pair.p, offset), moved_exactly(pair.q, offset)),
               triangles_intersect(pair.p, pair.q));
   }
   EXPECT_GT(hits, 1000);
@@ -102,7 +103,7 @@ TEST(TrianglesIntersectRelations, AnyPointOfATriangleMeetsIt) {
   test::TriangleSource source(34);
   for (int i = 0; i < 500; ++i) {
     TrianglePoints p = source.grid_triangle(4);
-    p = scaled(p, 4.0);  // the middle of every edge and its middle are integers
+    p = scaled_exactly(p, 4.0);  // the middle of every edge and its middle are integers
     const Vec3 edge_middle = 0.5 * (p[0] + p[1]), inner = 0.5 * (edge_middle + p[2]);
     EXPECT_TRUE(triangles_intersect(p, {edge_middle, edge_middle, edge_middle}));
     EXPECT_TRUE(triangles_intersect(p, {inner, inner + Vec3(0, 3, 1), inner + Vec3(1, 0, 5)}));

@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "tests/support/range_ends.h"
+
 namespace contactcheck {
 namespace {
-
-constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
 
 /// Both orders must agree.
 bool meet(const TrianglePoints& p, const TrianglePoints& q) {
@@ -40,7 +40,7 @@ TEST(TrianglesIntersect, PiercingAndPassing) {
 
 TEST(TrianglesIntersect, Parallel) {
   EXPECT_FALSE(meet(kBase, moved(kBase, Vec3(0, 0, 1))));
-  EXPECT_FALSE(meet(kBase, moved(kBase, Vec3(0, 0, kDenormal))));
+  EXPECT_FALSE(meet(kBase, moved(kBase, Vec3(0, 0, test::kSmallestDouble))));
 }
 
 TEST(TrianglesIntersect, VertexTouchesVertex) {
@@ -50,7 +50,7 @@ TEST(TrianglesIntersect, VertexTouchesVertex) {
 
 TEST(TrianglesIntersect, VertexTouchesFace) {
   EXPECT_TRUE(meet(kBase, {Vec3(1, 1, 0), Vec3(1, 2, 3), Vec3(2, 1, 3)}));
-  EXPECT_FALSE(meet(kBase, {Vec3(1, 1, kDenormal), Vec3(1, 2, 3), Vec3(2, 1, 3)}));
+  EXPECT_FALSE(meet(kBase, {Vec3(1, 1, test::kSmallestDouble), Vec3(1, 2, 3), Vec3(2, 1, 3)}));
   EXPECT_FALSE(meet(kBase, {Vec3(3, 3, 0), Vec3(1, 2, 3), Vec3(2, 1, 3)}));
 }
 
@@ -63,7 +63,7 @@ TEST(TrianglesIntersect, VertexTouchesEdge) {
 TEST(TrianglesIntersect, EdgeTouchesEdge) {
   // No vertex in the other's plane: the two edges meet in (2, 0, 0) only.
   EXPECT_TRUE(meet(kBase, {Vec3(2, 0, -1), Vec3(2, 0, 1), Vec3(2, -3, 2)}));
-  const double beside = -kDenormal;
+  const double beside = -test::kSmallestDouble;
   EXPECT_FALSE(meet(kBase, {Vec3(2, beside, -1), Vec3(2, beside, 1), Vec3(2, -3, 2)}));
   EXPECT_TRUE(meet(kBase, {Vec3(1, 3, -1), Vec3(3, 1, 1), Vec3(5, 5, 7)}));
 }
@@ -124,7 +124,7 @@ TEST(TrianglesIntersect, PointTriangle) {
   const auto point = [](const Vec3& p) { return TrianglePoints{p, p, p}; };
   EXPECT_TRUE(meet(kBase, point(Vec3(1, 1, 0))));
   EXPECT_TRUE(meet(kBase, point(Vec3(2, 2, 0))));
-  EXPECT_FALSE(meet(kBase, point(Vec3(1, 1, kDenormal))));
+  EXPECT_FALSE(meet(kBase, point(Vec3(1, 1, test::kSmallestDouble))));
   EXPECT_FALSE(meet(kBase, point(Vec3(3, 3, 0))));
   const TrianglePoints s = {Vec3(0, 0, 0), Vec3(2, 2, 2), Vec3(1, 1, 1)};
   EXPECT_TRUE(meet(s, point(Vec3(1.5, 1.5, 1.5))));
@@ -162,7 +162,8 @@ std::vector<ScaledCase> scaled_cases() {
 }
 
 TEST(TrianglesIntersect, SameAnswersAtEveryScale) {
-  for (double scale : {kDenormal, 1e-320, 1e-160, 1e-104, 1e-9, 1.0, 1e9, 1e100, 1e160, 1e307}) {
+  for (double scale :
+       {test::kSmallestDouble, 1e-320, 1e-160, 1e-104, 1e-9, 1.0, 1e9, 1e100, 1e160, 1e307}) {
     const double power = scale < 1e-300 ? scale : std::exp2(std::floor(std::log2(scale)));
     for (const ScaledCase& c : scaled_cases())
       EXPECT_EQ(meet(scaled(c.p, power), scaled(c.q, power)), c.expected) << scale;

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-World two_spheres() {
+World two_soft_spheres() {
   return World({sphere_mesh(Vec3(0, 0, 0), 1, 3), sphere_mesh(Vec3(1.53, 0.31, 0.17), 0.9, 3)});
 }
 
@@ -67,7 +67,7 @@ TEST_P(BulletSoft, IsFedInSinglePrecision) {
 }
 
 TEST_P(BulletSoft, ApartIsNoContactAndTogetherIs) {
-  World world = two_spheres();
+  World world = two_soft_spheres();
   const auto detector = prepared(name(), world);
   EXPECT_THAT(answer(*detector).bodies, ElementsAre(BodyPair{0, 1}));
   shift(world, 1, Vec3(0.5, 0.5, 0.5));
@@ -76,7 +76,7 @@ TEST_P(BulletSoft, ApartIsNoContactAndTogetherIs) {
 }
 
 TEST_P(BulletSoft, RepeatedQueriesAndUpdatesGiveTheSameAnswer) {
-  const World world = two_spheres();
+  const World world = two_soft_spheres();
   const auto detector = prepared(name(), world);
   const Answer first = answer(*detector);
   EXPECT_EQ(answer(*detector), first);
@@ -86,7 +86,7 @@ TEST_P(BulletSoft, RepeatedQueriesAndUpdatesGiveTheSameAnswer) {
 }
 
 TEST_P(BulletSoft, FramesBeforeLeaveNoTrace) {
-  const World start = two_spheres();
+  const World start = two_soft_spheres();
   const auto moved = prepared(name(), start);
   const Answer before = answer(*moved);
   World away = start;
@@ -102,7 +102,7 @@ TEST_P(BulletSoft, FramesBeforeLeaveNoTrace) {
 TEST_P(BulletSoft, PrepareAgainForgetsTheFirstScene) {
   const World first({sphere_mesh(Vec3(0, 0, 0), 1e-3, 3), sphere_mesh(Vec3(0, 0, 0), 1, 2),
                      sphere_mesh(Vec3(0, 0, 0), 1, 2)});
-  const World second = two_spheres();
+  const World second = two_soft_spheres();
   const auto detector = prepared(name(), first);
   EXPECT_EQ(detector->semantics().scale, 512.0);
   detector->prepare(second.bodies);
@@ -120,7 +120,7 @@ TEST_P(BulletSoft, EmptySceneAndOneBodyAreAnswered) {
 TEST_P(BulletSoft, QueryAppendsToWhatIsThere) {
   ContactSet out;
   out.bodies.push_back({7, 8});
-  prepared(name(), two_spheres())->query(Question::kBody, out);
+  prepared(name(), two_soft_spheres())->query(Question::kBody, out);
   EXPECT_THAT(out.bodies, ElementsAre(BodyPair{7, 8}, BodyPair{0, 1}));
 }
 
@@ -136,7 +136,7 @@ TEST_P(BulletSoft, BothQuestionsAgreeOnManyBodies) {
 }
 
 TEST_P(BulletSoft, CoordinateBeyondFloatsIsRefused) {
-  World world = two_spheres();
+  World world = two_soft_spheres();
   const auto detector = prepared(name(), world);
   world.vertices[1][5].y() = 1e300;
   EXPECT_THROW(detector->update(world.frame()), RefusedInput);
@@ -154,7 +154,7 @@ TEST_P(BulletSoft, CoordinateBeyondFloatsIsRefused) {
 }
 
 TEST_P(BulletSoft, TwoDetectorsWorkInTwoThreads) {
-  const World start = two_spheres();
+  const World start = two_soft_spheres();
   const auto run = [&](std::vector<Answer>& answers) {
     World world = start;
     const auto detector = prepared(name(), world);

@@ -28,7 +28,7 @@ std::vector<ElementPair> triangles(const World& world) {
   return ask(kEmbree, world, Question::kTriangles).triangles;
 }
 
-World two_spheres() {
+World embree_spheres() {
   return World({sphere_mesh(Vec3(0, 0, 0), 1, 3), sphere_mesh(Vec3(1.1, 0.3, 0.2), 0.9, 3)});
 }
 
@@ -74,13 +74,13 @@ TEST(Embree, VersionIsThatOfTheHeaders) {
 }
 
 TEST(Embree, OverlappingSpheresGiveExactlyTheTruePairs) {
-  const World world = two_spheres();
+  const World world = embree_spheres();
   ASSERT_THAT(true_pairs(world), SizeIs(Gt(50u)));
   EXPECT_EQ(compare(world, triangles(world)), "");
 }
 
 TEST(Embree, SwappedBodiesGiveTheSwappedPairs) {
-  const World world = two_spheres();
+  const World world = embree_spheres();
   World swapped = world;
   std::swap(swapped.bodies[0], swapped.bodies[1]);
   std::swap(swapped.vertices[0], swapped.vertices[1]);
@@ -180,7 +180,7 @@ TEST(Embree, TwoTrianglesThatCrossAreFoundAtAnyScale) {
 
 TEST(Embree, FarFromTheOriginIsExact) {
   for (const double offset : {1e3, 1e7, 1e9}) {
-    World world = two_spheres();
+    World world = embree_spheres();
     for (std::vector<Vec3>& body : world.vertices)
       for (Vec3& v : body) v += Vec3(offset, -offset, offset);
     EXPECT_EQ(compare(world, triangles(world)), "") << offset;
@@ -232,7 +232,7 @@ TEST(Embree, FewTrianglesWithoutExtentAreAnswered) {
 TEST(Embree, VertexThatIsNotFiniteIsRefused) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    World world = two_spheres();
+    World world = embree_spheres();
     const auto detector = prepared(kEmbree, world);
     world.vertices[1][7].y() = bad;
     EXPECT_THROW(detector->update(world.frame()), RefusedInput) << bad;
@@ -257,7 +257,7 @@ TEST(Embree, UpdatesGiveTheAnswersOfAFreshDetector) {
 }
 
 TEST(Embree, EarlierFramesLeaveNoTrace) {
-  const World start = two_spheres();
+  const World start = embree_spheres();
   World world = start;
   const auto detector = prepared(kEmbree, start);
   const ContactSet before = ask(*detector, Question::kTriangles);
@@ -272,7 +272,7 @@ TEST(Embree, EarlierFramesLeaveNoTrace) {
 
 TEST(Embree, PrepareAgainForgetsTheFirstScene) {
   const World first({unit_box_mesh(2), unit_box_mesh(2), unit_box_mesh(3)});
-  const World second = two_spheres();
+  const World second = embree_spheres();
   const auto detector = prepared(kEmbree, first);
   detector->prepare(second.bodies);
   detector->update(second.frame());
@@ -280,7 +280,7 @@ TEST(Embree, PrepareAgainForgetsTheFirstScene) {
 }
 
 TEST(Embree, RepeatedQueriesGiveTheSameAnswerAndAppend) {
-  const World world = two_spheres();
+  const World world = embree_spheres();
   const auto detector = prepared(kEmbree, world);
   const ContactSet first = ask(*detector, Question::kTriangles);
   ContactSet out;
@@ -305,7 +305,7 @@ TEST(Embree, EightInstancesOfOneShapeAnswerAllQuestionsAlike) {
 
 // Bodies whose boxes meet and whose surfaces do not: candidates, no contact.
 TEST(Embree, StagesKeepAllTruePairs) {
-  World world = two_spheres();
+  World world = embree_spheres();
   const auto detector = prepared(kEmbree, world);
   const StageTrace trace = detector->trace();
   ASSERT_THAT(trace.stages, SizeIs(2));
@@ -323,7 +323,7 @@ TEST(Embree, StagesKeepAllTruePairs) {
 
 // A third body, none of whose candidates may turn up as those of the other two.
 TEST(Embree, CandidatesAreThoseOfTheirOwnBodies) {
-  const World pair = two_spheres();
+  const World pair = embree_spheres();
   const TriangleMesh third = sphere_mesh(Vec3(0.6, 0.1, 0), 0.4, 2);
   const World three({third, pair.bodies[0].shape->mesh, pair.bodies[1].shape->mesh});
   std::vector<ElementPair> alone = prepared(kEmbree, pair)->trace().stages.at(0).elements;
@@ -336,7 +336,7 @@ TEST(Embree, CandidatesAreThoseOfTheirOwnBodies) {
 TEST(Embree, LeavesTheFloatingPointStateAlone) {
 #if defined(__SSE__)
   constexpr unsigned kSticky = 0x3fu;  // exception flags
-  const World world = two_spheres();
+  const World world = embree_spheres();
   const unsigned before = _mm_getcsr() & ~kSticky;
   const auto detector = prepared(kEmbree, world);
   EXPECT_EQ(_mm_getcsr() & ~kSticky, before);
@@ -354,13 +354,13 @@ TEST(Embree, LeavesTheProcessItsThreads) {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   };
   const std::size_t before = limit();
-  const auto detector = prepared(kEmbree, two_spheres());
+  const auto detector = prepared(kEmbree, embree_spheres());
   EXPECT_EQ(limit(), before);
 }
 
 TEST(Embree, DetectorsOnTwoThreadsAnswerAsAlone) {
-  const World first = two_spheres();
-  World second = two_spheres();
+  const World first = embree_spheres();
+  World second = embree_spheres();
   for (Vec3& v : second.vertices[1]) v += Vec3(0.2, -0.1, 0.3);
   const auto expected_first = triangles(first), expected_second = triangles(second);
   ASSERT_NE(expected_first, expected_second);

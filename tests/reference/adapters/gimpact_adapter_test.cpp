@@ -21,11 +21,11 @@ using ::testing::SizeIs;
 
 constexpr const char* kGimpact = "bullet-gimpact";
 
-World two_spheres() {
+World two_gimpact_spheres() {
   return World({sphere_mesh(Vec3(0, 0, 0), 1, 3), sphere_mesh(Vec3(1.1, 0.3, 0.2), 0.9, 3)});
 }
 
-std::vector<ElementPair> triangles(const World& world, const std::string& name = kGimpact) {
+std::vector<ElementPair> gimpact_triangles(const World& world, const std::string& name = kGimpact) {
   return ask(name, world, Question::kTriangles).triangles;
 }
 
@@ -86,15 +86,15 @@ TEST(BulletScale, IsAtLeast1AndAtMost2To20) {
 }
 
 TEST(Gimpact, FindsAllCrossingPairsOfTwoSpheres) {
-  const World world = two_spheres();
+  const World world = two_gimpact_spheres();
   ASSERT_THAT(true_pairs(world), SizeIs(Gt(50u)));
   EXPECT_THAT(missed(world), IsEmpty());
   EXPECT_THAT(missed(world, "bullet-gimpact:scale=100"), IsEmpty());
 }
 
 TEST(Gimpact, SmallMeshesAreSeenAtTheAutomaticScale) {
-  const World world({moved(two_spheres().bodies[0].shape->mesh, 1e-4),
-                     moved(two_spheres().bodies[1].shape->mesh, 1e-4)});
+  const World world({moved(two_gimpact_spheres().bodies[0].shape->mesh, 1e-4),
+                     moved(two_gimpact_spheres().bodies[1].shape->mesh, 1e-4)});
   ASSERT_THAT(true_pairs(world), SizeIs(Gt(50u)));
   EXPECT_THAT(missed(world), IsEmpty());
 }
@@ -110,7 +110,7 @@ TEST(Gimpact, SeparatedAndContainedBodiesAreNotInContact) {
   for (const World& world : {World({sphere, moved(sphere, 1, Vec3(5, 0, 0))}),
                              World({sphere, moved(sphere, 1, Vec3(1.3, 1.3, 1.3))}),
                              World({sphere, moved(sphere, 0.5)})}) {
-    EXPECT_THAT(triangles(world), IsEmpty());
+    EXPECT_THAT(gimpact_triangles(world), IsEmpty());
     EXPECT_THAT(ask(kGimpact, world, Question::kBody).bodies, IsEmpty());
   }
 }
@@ -122,14 +122,15 @@ TEST(Gimpact, ReportsTrianglesThatLieBackToBackButNotFaceToFace) {
       moved(triangle_mesh(Vec3(0, 0, 0), Vec3(4, 0, 4), Vec3(0, 4, 0)), 1.0, Vec3(-0.25, 0, 0.25));
   const World back_to_back({below, above});
   ASSERT_THAT(true_pairs(back_to_back), IsEmpty());
-  EXPECT_THAT(triangles(back_to_back), ElementsAre(ElementPair{0, 1, 0, 0}));
-  EXPECT_THAT(triangles(World({moved(below, 1.0, Vec3(-0.5, 0, 0.5)), above})), IsEmpty());
+  EXPECT_THAT(gimpact_triangles(back_to_back), ElementsAre(ElementPair{0, 1, 0, 0}));
+  EXPECT_THAT(gimpact_triangles(World({moved(below, 1.0, Vec3(-0.5, 0, 0.5)), above})), IsEmpty());
 }
 
 TEST(Gimpact, MarginReportsMore) {
-  const World world = two_spheres();
-  const std::vector<ElementPair> without_margin = triangles(world);
-  const std::vector<ElementPair> with_margin = triangles(world, "bullet-gimpact:margin=0.05");
+  const World world = two_gimpact_spheres();
+  const std::vector<ElementPair> without_margin = gimpact_triangles(world);
+  const std::vector<ElementPair> with_margin =
+      gimpact_triangles(world, "bullet-gimpact:margin=0.05");
   EXPECT_GT(with_margin.size(), without_margin.size() + 40);
   EXPECT_THAT(without(without_margin, with_margin), IsEmpty());
 }
@@ -142,8 +143,8 @@ TEST(Gimpact, MarginIsInMetresAndCountsTwice) {
   const World world({plate, above});
   for (const char* scale : {"1", "256"}) {
     const std::string tail = std::string(",scale=") + scale;
-    EXPECT_THAT(triangles(world, "bullet-gimpact:margin=0.03" + tail), IsEmpty());
-    EXPECT_THAT(triangles(world, "bullet-gimpact:margin=0.033" + tail), SizeIs(1));
+    EXPECT_THAT(gimpact_triangles(world, "bullet-gimpact:margin=0.03" + tail), IsEmpty());
+    EXPECT_THAT(gimpact_triangles(world, "bullet-gimpact:margin=0.033" + tail), SizeIs(1));
     const ContactSet contacts =
         ask("bullet-gimpact:margin=0.033" + tail, world, Question::kContacts);
     EXPECT_THAT(contacts.triangles, SizeIs(1));
@@ -171,7 +172,7 @@ TEST(Gimpact, ContactsHaveTheDepthAndTheWayOutOfTheSecondBody) {
 }
 
 TEST(Gimpact, ContactsAreThePairsOfTheOtherQuestionWithUnitNormals) {
-  const World world = two_spheres();
+  const World world = two_gimpact_spheres();
   const auto detector = prepared(kGimpact, world);
   const ContactSet contacts = ask(*detector, Question::kContacts);
   EXPECT_EQ(contacts.triangles, ask(*detector, Question::kTriangles).triangles);
@@ -189,14 +190,14 @@ TEST(Gimpact, IdsAreThoseOfTheInputAndSwapWithTheBodies) {
   std::swap(swapped.bodies[0], swapped.bodies[1]);
   std::swap(swapped.vertices[0], swapped.vertices[1]);
   std::vector<ElementPair> expected;
-  for (const ElementPair& p : triangles(world)) {
+  for (const ElementPair& p : gimpact_triangles(world)) {
     EXPECT_LT(p.a, 12u);
     EXPECT_LT(p.b, 512u);
     expected.push_back({0, 1, p.b, p.a});
   }
   canonicalize(expected);
   EXPECT_THAT(expected, SizeIs(Gt(10u)));
-  EXPECT_EQ(triangles(swapped), expected);
+  EXPECT_EQ(gimpact_triangles(swapped), expected);
 }
 
 TEST(Gimpact, QuestionsAgreeOnManyBodies) {
@@ -224,7 +225,7 @@ TEST(Gimpact, BodiesThatMoveFarKeepTheirContacts) {
         world.vertices[b][v] = start.vertices[b][v] + Vec3(offset, 0, -offset);
     const std::vector<ElementPair> truth = true_pairs(fed(world, 1.0));
     ASSERT_THAT(truth, SizeIs(Gt(100u)));
-    const std::vector<ElementPair> got = triangles(world, "bullet-gimpact:scale=1");
+    const std::vector<ElementPair> got = gimpact_triangles(world, "bullet-gimpact:scale=1");
     EXPECT_THAT(without(truth, got), IsEmpty()) << offset;
     EXPECT_THAT(without(got, truth), SizeIs(::testing::Lt(10u))) << offset;
   }
@@ -255,7 +256,7 @@ TEST(Gimpact, BodiesVeryFarAwayAreStillToldApartByTheirTrees) {
 }
 
 TEST(Gimpact, EarlierFramesLeaveNoTrace) {
-  const World start = two_spheres();
+  const World start = two_gimpact_spheres();
   World world = start;
   const auto detector = prepared(kGimpact, start);
   const ContactSet before = ask(*detector, Question::kContacts);
@@ -267,7 +268,7 @@ TEST(Gimpact, EarlierFramesLeaveNoTrace) {
     detector->update(world.frame());
     const ContactSet there = ask(*detector, Question::kTriangles);
     EXPECT_THAT(there.triangles, SizeIs(Gt(50u))) << offset;
-    EXPECT_EQ(there.triangles, triangles(world)) << offset;
+    EXPECT_EQ(there.triangles, gimpact_triangles(world)) << offset;
   }
   for (int again = 0; again < 2; ++again) {
     detector->update(start.frame());
@@ -279,11 +280,11 @@ TEST(Gimpact, EarlierFramesLeaveNoTrace) {
 
 TEST(Gimpact, PrepareAgainForgetsTheFirstScene) {
   const World first({unit_box_mesh(2), unit_box_mesh(2), unit_box_mesh(3)});
-  const World second = two_spheres();
+  const World second = two_gimpact_spheres();
   const auto detector = prepared(kGimpact, first);
   detector->prepare(second.bodies);
   detector->update(second.frame());
-  EXPECT_EQ(ask(*detector, Question::kTriangles).triangles, triangles(second));
+  EXPECT_EQ(ask(*detector, Question::kTriangles).triangles, gimpact_triangles(second));
 }
 
 TEST(Gimpact, DegenerateTrianglesAreNotSeenAndNoted) {
@@ -292,13 +293,13 @@ TEST(Gimpact, DegenerateTrianglesAreNotSeenAndNoted) {
   const auto detector = prepared(kGimpact, World({plate, segment}));
   EXPECT_THAT(ask(*detector, Question::kTriangles).triangles, IsEmpty());
   EXPECT_THAT(detector->notes(), ElementsAre(::testing::HasSubstr("without area")));
-  EXPECT_THAT(prepared(kGimpact, two_spheres())->notes(), IsEmpty());
+  EXPECT_THAT(prepared(kGimpact, two_gimpact_spheres())->notes(), IsEmpty());
 }
 
 TEST(Gimpact, ValuesThatAreNotFiniteAsFloatsAreRefused) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e39}) {
-    World world = two_spheres();
+    World world = two_gimpact_spheres();
     const auto detector = prepared(kGimpact, world);
     world.vertices[1][7].y() = bad;
     EXPECT_THROW(detector->update(world.frame()), RefusedInput) << bad;
@@ -308,20 +309,20 @@ TEST(Gimpact, ValuesThatAreNotFiniteAsFloatsAreRefused) {
 }
 
 TEST(Gimpact, SingleTrianglesAndSingleBodiesAreAnswered) {
-  EXPECT_THAT(triangles(spike_over_floor(-0.125)), SizeIs(1));
-  EXPECT_THAT(triangles(spike_over_floor(0.125)), IsEmpty());
-  EXPECT_THAT(triangles(World({unit_box_mesh(1)})), IsEmpty());
-  EXPECT_THAT(triangles(World({})), IsEmpty());
+  EXPECT_THAT(gimpact_triangles(spike_over_floor(-0.125)), SizeIs(1));
+  EXPECT_THAT(gimpact_triangles(spike_over_floor(0.125)), IsEmpty());
+  EXPECT_THAT(gimpact_triangles(World({unit_box_mesh(1)})), IsEmpty());
+  EXPECT_THAT(gimpact_triangles(World({})), IsEmpty());
 }
 
 TEST(Gimpact, DetectorsOnTwoThreadsAnswerAsAlone) {
-  const World first = two_spheres();
-  World second = two_spheres();
+  const World first = two_gimpact_spheres();
+  World second = two_gimpact_spheres();
   for (Vec3& v : second.vertices[1]) v += Vec3(0.2, -0.1, 0.3);
-  const auto expected_first = triangles(first), expected_second = triangles(second);
+  const auto expected_first = gimpact_triangles(first), expected_second = gimpact_triangles(second);
   ASSERT_NE(expected_first, expected_second);
   const auto run = [](const World& world, const std::vector<ElementPair>& expected, int& wrong) {
-    for (int round = 0; round < 20; ++round) wrong += triangles(world) != expected;
+    for (int round = 0; round < 20; ++round) wrong += gimpact_triangles(world) != expected;
   };
   int wrong_first = 0, wrong_second = 0;
   std::thread other([&] { run(second, expected_second, wrong_second); });

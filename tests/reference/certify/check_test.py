@@ -7,6 +7,7 @@ the checksum is what the test is about: the proofs must hold by themselves.
 import json
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -29,15 +30,24 @@ CONTACT_FRAME = "truth/frame_0001.json"
 
 
 class CheckExport(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.exported = pathlib.Path(scratch.name)
+        (cls.exported / "tiny.json").write_text(json.dumps(SCENE))
+        cls.contactcheck("export", cls.exported / "tiny.json", "--out", cls.exported)
+
     def setUp(self):
+        """Every test breaks a copy of its own."""
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
-        self.scratch = pathlib.Path(scratch.name)
-        (self.scratch / "tiny.json").write_text(json.dumps(SCENE))
-        self.contactcheck("export", self.scratch / "tiny.json", "--out", self.scratch)
+        self.scratch = pathlib.Path(scratch.name) / "export"
+        shutil.copytree(self.exported, self.scratch)
         self.folder = self.scratch / "tiny"
 
-    def contactcheck(self, *words):
+    @staticmethod
+    def contactcheck(*words):
         subprocess.run([os.environ["CONTACTCHECK_PROGRAM"], *words], check=True,
                        stdout=subprocess.DEVNULL)
 

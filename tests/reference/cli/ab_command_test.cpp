@@ -203,23 +203,9 @@ TEST_F(AbCommand, BadNumbersAreRefused) {
   }
 }
 
-/// Of this process and its children, until the end of the test.
-class Environment {
- public:
-  Environment(const char* name, const std::string& value) : name_(name) {
-    setenv(name, value.c_str(), 1);
-  }
-  ~Environment() { unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  const char* name_;
-};
-
 TEST_F(AbCommand, GithubGetsAnnotationsAndASummaryBehindWhatIsThere) {
   const fs::path summary = scratch_.write("summary.md", "# Before\n");
-  const Environment environment("GITHUB_STEP_SUMMARY", summary.string());
+  const test::Environment environment("GITHUB_STEP_SUMMARY", summary.string());
   const Outcome outcome = ab(noisy_base(), noisy_head(1.3), {"--github"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.out, HasSubstr("\n::error title=contactcheck ab::slower than 1.10x: hello  "

@@ -35,7 +35,9 @@ TEST_P(BadFiles, AreRefusedWithOneSentence) {
   test::expect_refused(GetParam().command, scratch);
 }
 
-std::string named(const testing::TestParamInfo<BadFile>& test) { return test.param.command.name; }
+std::string file_case(const testing::TestParamInfo<BadFile>& test) {
+  return test.param.command.name;
+}
 
 Prepare bytes(const std::string& file, const std::string& content) {
   return [=](const Scratch& scratch) { scratch.write(file, content); };
@@ -101,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
               {"line 1, column 14", "\"duration\": I"}),
         scene("Hexadecimal", bytes("x.json", R"({"frames": 0x10})"), {"line 1, column 13"}),
         scene("Comment", bytes("x.json", "// a scene\n{}"), {"line 1, column 1"})),
-    named);
+    file_case);
 
 // The scene DIR/m.json with DIR/x.obj for its first mesh.
 BadFile mesh(const std::string& name, const Prepare& prepare, Words named) {
@@ -130,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                          {"face 1 (line 5) names the vertex 9; the file has 3"}),
                     mesh("OnlyVertices", bytes("x.obj", "v 0 0 0\nv 1 0 0\n"),
                          {"cannot be read as OBJ"})),
-    named);
+    file_case);
 
 BadFile suite(const std::string& name, const std::string& content, const Words& named) {
   return {{name, {"run", "DIR/u.json", "--out", "DIR/out"}, named}, bytes("u.json", content)};
@@ -156,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                   {"goal": "g", "scene": "bunny-touch", "detector": "embers", "per": "pair",
                    "part": "hot", "at_most": 1}]})",
               {"unknown detector \"embers\""})),
-    named);
+    file_case);
 
 BadFile recording(const std::string& name, Prepare prepare, Words named) {
   named.emplace_back("DIR/x.ccr");
@@ -188,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                                                          16) +
                                                  std::string(64, '\0')),
                               {"version 2 is not known"})),
-    named);
+    file_case);
 
 TEST(CutRecording, IsRefusedWhereverItIsCut) {
   const Scratch scratch;
@@ -250,7 +252,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"DIR/f/scenes/a.json", "id is \"b\""}),
         fixtures("ListOfADeepScene", {"list", "--scenes"}, scene_fixture(repeated("[", kDeep)),
                  {"DIR/f/scenes/a.json", "deeper than 64"})),
-    named);
+    file_case);
 
 }  // namespace
 }  // namespace contactcheck

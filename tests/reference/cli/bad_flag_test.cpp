@@ -19,7 +19,9 @@ TEST_P(BadFlag, IsRefusedWithOneSentence) {
   test::expect_refused(GetParam(), scratch);
 }
 
-std::string named(const testing::TestParamInfo<BadCommand>& test) { return test.param.name; }
+std::string named_command(const testing::TestParamInfo<BadCommand>& test) {
+  return test.param.name;
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Program, BadFlag,
@@ -33,18 +35,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"ControlCharacters",
                    {"run", "DIR/tiny.json", "--detector", "fcl\naabb", "--out", "DIR/out"},
                    {"\"fcl aabb\""}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     List, BadFlag,
     testing::Values(BadCommand{"UnknownFlag", {"list", "--colour"}, {"--colour"}},
                     BadCommand{"Word", {"list", "scenes"}, {"scenes"}},
                     BadCommand{"ValueOfAFlag", {"list", "--scenes=some"}, {"--scenes", "some"}}),
-    named);
+    named_command);
 
 // `words` behind "run DIR/tiny.json" and before "--out DIR/out".
-BadCommand run_with(const std::string& name, const Words& words, const Words& named) {
-  BadCommand command = {name, {"run", "DIR/tiny.json"}, named};
+BadCommand run_with(const std::string& name, const Words& words, const Words& named_command) {
+  BadCommand command = {name, {"run", "DIR/tiny.json"}, named_command};
   command.words.insert(command.words.end(), words.begin(), words.end());
   command.words.insert(command.words.end(), {"--out", "DIR/out"});
   return command;
@@ -64,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                     run_with("MoreThanScenes", {"--shard", "2/2"},
                              {"--shard 2/2", "this run has 1 scene,"}),
                     BadCommand{"OfReproduce", {"reproduce", "--shard", "1/1"}, {"--shard"}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Merge, BadFlag,
@@ -72,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCommand{"NoFile", {"merge", "DIR/none.json"}, {"DIR/none.json"}},
                     BadCommand{"Folder", {"merge", "DIR"}, {"DIR"}},
                     BadCommand{"AScene", {"merge", "DIR/tiny.json"}, {"DIR/tiny.json", "schema"}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Frames, BadFlag,
@@ -86,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                     run_with("BeyondAllIntegers", {"--frames", "99999999999999999999999"},
                              {"--frames", "99999999999999999999999"}),
                     run_with("Twice", {"--frames", "3", "--frames", "4"}, {"--frames"})),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Counts, BadFlag,
@@ -96,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                     run_with("NoThreads", {"--threads", "0"}, {"--threads", "0"}),
                     run_with("NegativeThreads", {"--threads", "-2"}, {"--threads", "-2"}),
                     run_with("TooManyThreads", {"--threads", "257"}, {"--threads", "257"})),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Limits, BadFlag,
@@ -108,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         run_with("HalfAMebibyte", {"--memory-limit", "64.5"}, {"--memory-limit", "64.5"}),
         run_with("MoreMemoryThanAddresses", {"--memory-limit", "99999999999999999999"},
                  {"--memory-limit", "99999999999999999999"})),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Detectors, BadFlag,
@@ -132,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"margin is \"1e999\""}),
         run_with("HalfAThread", {"--detector", "ffd-lazy:threads=1.5"},
                  {"threads is \"1.5\"", "a whole number"})),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Run, BadFlag,
@@ -151,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"EmptyTarget", {"run", "", "--out", "DIR/out"}, {"\"\" is neither a suite"}},
         BadCommand{"EmptyOut", {"run", "DIR/tiny.json", "--out", ""}, {"--out"}},
         BadCommand{"OutWithoutAFolder", {"run", "DIR/tiny.json", "--out"}, {"--out"}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     RandomPairs, BadFlag,
@@ -167,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
                              {"--pairs", "5", "--seed", "9007199254740992"},
                              {"--seed", "9007199254740992"}),
                     run_with("SeedThatIsAWord", {"--pairs", "5", "--seed", "x"}, {"--seed", "x"})),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Report, BadFlag,
@@ -178,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"OneBadFormat", {"report", "a.json", "--format", "md,pdf"}, {"\"pdf\""}},
         BadCommand{"FormatInCapitals", {"report", "a.json", "--format", "MD"}, {"\"MD\"", "md"}},
         BadCommand{"FlagOfRun", {"report", "a.json", "--frames", "3"}, {"--frames"}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Export, BadFlag,
@@ -202,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCommand{"SceneTwice",
                                {"export", "DIR/tiny.json", "DIR/./tiny.json", "--out", "DIR/out"},
                                {"two scenes", "\"tiny\""}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Defects, BadFlag,
@@ -212,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCommand{"WriteWithAValue",
                                {"defects", "DIR/tiny.json", "--write", "DIR/other"},
                                {"DIR/other"}}),
-    named);
+    named_command);
 
 INSTANTIATE_TEST_SUITE_P(
     Reproduce, BadFlag,
@@ -230,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"OneSceneThatIsNone",
                    {"reproduce", "paper-teapot", "paper-teacup", "--out", "DIR/out"},
                    {"\"paper-teacup\"", "allowed: paper"}}),
-    named);
+    named_command);
 
 }  // namespace
 }  // namespace contactcheck

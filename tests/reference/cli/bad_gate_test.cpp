@@ -27,7 +27,7 @@ TEST_P(BadGate, IsRefusedWithOneSentence) {
   test::expect_refused(GetParam(), scratch);
 }
 
-std::string named(const testing::TestParamInfo<BadCommand>& test) { return test.param.name; }
+std::string gate_case(const testing::TestParamInfo<BadCommand>& test) { return test.param.name; }
 
 BadCommand gate_with(const std::string& name, const Words& more, const Words& named) {
   BadCommand command = {name, {"gate", "DIR/results.json"}, named};
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {"gate", "DIR/negative.json", "--policy", "DIR/policy.json"},
                    {"DIR/negative.json", "runs[2].levels.cell.missed is -1"}},
         BadCommand{"NoResults", {"gate", "--policy", "DIR/policy.json"}, {"results"}}),
-    named);
+    gate_case);
 
 INSTANTIATE_TEST_SUITE_P(
     Accept, BadGate,
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCommand{"APolicyAsResults",
                                {"accept", "DIR/policy.json", "--as", "DIR/base.json"},
                                {"DIR/policy.json", "field schema"}}),
-    named);
+    gate_case);
 
 TEST(GithubSummary, ThatCannotBeWrittenIsRefused) {
   const Scratch scratch;

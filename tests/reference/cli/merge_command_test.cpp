@@ -29,13 +29,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // Everything that a clock or an address has a say in.
-void drop_times(Json& json) {
-  if (!json.is_structured()) return;
-  if (json.is_object())
+void drop_times(Json& node) {
+  if (!node.is_structured()) return;
+  if (node.is_object())
     for (const char* key : {"time_ms", "time_ms_other_questions", "speedup", "frame_ms",
                             "memory_bytes", "measured", "low", "high", "met"})
-      json.erase(key);
-  for (Json& member : json) drop_times(member);
+      node.erase(key);
+  for (Json& member : node) drop_times(member);
 }
 
 Json without_times(Json results) {

@@ -133,13 +133,13 @@ TEST_F(MeshRun, SizeFileKeepsTheSizes) {
   EXPECT_DOUBLE_EQ(results().at("scenes").at(0).at("size"), 0.125);
 }
 
-struct Refused {
+struct RefusedWords {
   Words words;
   std::string sentence;
 };
 
 TEST_F(MeshRun, RefusesBadWords) {
-  const std::vector<Refused> all = {
+  const std::vector<RefusedWords> all = {
       {{"run", "--mesh", in("ball.obj")}, "one mesh meets nothing"},
       {{"run", "--motion", "press"}, "--motion requires --mesh"},
       {{"run", "--size", "2"}, "--size requires --mesh"},
@@ -148,7 +148,7 @@ TEST_F(MeshRun, RefusesBadWords) {
       {{"run", "--mesh", in("ball.obj"), "--mesh", in("ball.obj"), "--motion", "x"},
        "--motion: \"x\" is not one of approach, press, twist, pass"},
   };
-  for (const Refused& refused : all) {
+  for (const RefusedWords& refused : all) {
     const Outcome outcome = contactcheck_program(refused.words);
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr(refused.sentence));

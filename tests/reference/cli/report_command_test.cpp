@@ -67,7 +67,7 @@ std::string view_in(const fs::path& page) {
 }
 
 TEST(ReportCommand, ShowsTheRecordingsBesideTheResults) {
-  if (!has_html_report()) GTEST_SKIP() << "built without npm";
+  if (!has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
@@ -141,7 +141,7 @@ TEST(ReportCommand, CsvIsWhatPythonReadsBack) {
 }
 
 TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
-  if (!has_html_report()) GTEST_SKIP() << "this program was built without the page";
+  if (!has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
   const test::Scratch scratch;
   const auto report = [&] {
     const Outcome outcome = contactcheck_program(

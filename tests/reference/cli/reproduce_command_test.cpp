@@ -119,7 +119,7 @@ void expect_teapot(const json& scene) {
 }
 
 TEST_F(ReproduceCommand, OfOneSceneWritesItsTablesBesideThePapers) {
-  if (!test::data_installed()) GTEST_SKIP() << "the data packages are not here";
+  if (!test::data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const json results = run({"reproduce", "paper-teapot", "--frames", "4", "--repeat", "1"});
   EXPECT_EQ(names_in(out()), test::run_files({"reproduction.json", "reproduction.md"}));
   EXPECT_EQ(results.at("runs").size(), 13u) << "the detectors of the suite paper";

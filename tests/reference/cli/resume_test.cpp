@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 // Ordered: what is kept is compared with its order.
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 using test::contactcheck_program;
 using test::names_in;
 using test::Outcome;
@@ -39,9 +39,9 @@ std::map<std::string, std::string> texts_in(const fs::path& folder) {
 }
 
 // By scene and detector.
-std::map<std::string, std::string> hashes_of(const json& results) {
+std::map<std::string, std::string> hashes_of(const Json& results) {
   std::map<std::string, std::string> out;
-  for (const json& run : results.at("runs"))
+  for (const Json& run : results.at("runs"))
     out[run.at("scene").get<std::string>() + " " + run.at("detector").get<std::string>()] =
         run.at("contact_hash");
   return out;
@@ -79,14 +79,14 @@ class Resume : public testing::Test {
   }
   Words both(const Words& more = {}) const { return command({"first", "second"}, "out", more); }
 
-  json run(const Words& arguments, const std::string& folder = "out") {
+  Json run(const Words& arguments, const std::string& folder = "out") {
     last_ = contactcheck_program(arguments);
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const fs::path file = scratch_.folder() / folder / "results.json";
     const Outcome valid =
         test::run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, file.string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
-    return json::parse(text_of(file));
+    return Json::parse(text_of(file));
   }
 
   // Ends a run by `signal` when its first scene is finished and the worker of its second is at
@@ -103,15 +103,15 @@ class Resume : public testing::Test {
     EXPECT_EQ(program.outcome().exit_code, 128 + signal) << "it was not in its second scene";
   }
 
-  json resumed() { return run(both({"--resume"})); }
+  Json resumed() { return run(both({"--resume"})); }
 
   // After an interruption, whatever was kept of the first scene. (The second would only take time.)
-  json first_resumed(Words more = {}) {
+  Json first_resumed(Words more = {}) {
     more.push_back("--resume");
     return run(command({"first"}, "out", more));
   }
   void expect_run_again(const Words& more = {}) {
-    EXPECT_EQ(first_resumed(more).at("resumed"), json::array());
+    EXPECT_EQ(first_resumed(more).at("resumed"), Json::array());
     EXPECT_EQ(last_.err, "scene 1 of 1: first\n");
     EXPECT_FALSE(fs::exists(out() / "partial"));
   }
@@ -160,10 +160,10 @@ TEST_F(Resume, SecondRunIntoAFolderIsRefusedUntilTheFirstHasEnded) {
 }
 
 TEST_F(Resume, GivesWhatAnUninterruptedRunGivesWithoutRunningTheFirstSceneAgain) {
-  const json whole = run(command({"first", "second"}, "whole"), "whole");
+  const Json whole = run(command({"first", "second"}, "whole"), "whole");
   interrupt(both());
-  const json results = resumed();
-  EXPECT_EQ(results.at("resumed"), json::array({"first"}));
+  const Json results = resumed();
+  EXPECT_EQ(results.at("resumed"), Json::array({"first"}));
   EXPECT_EQ(last_.err, "scene 2 of 2: second\n");
   EXPECT_EQ(hashes_of(results), hashes_of(whole));
   EXPECT_EQ(hashes_of(results).size(), 4u);
@@ -186,7 +186,7 @@ TEST_F(Resume, SaysWhatItTookOverAndLeavesNothingElse) {
 
 TEST_F(Resume, RowsAreThoseThatWereKept) {
   interrupt(both());
-  json file = json::parse(text_of(kept()));
+  Json file = Json::parse(text_of(kept()));
   file.at("runs").at(0).at("message") = "as it was kept";
   std::ofstream(kept()) << file.dump();
   EXPECT_EQ(first_resumed().at("runs").at(0).at("message"), "as it was kept");
@@ -198,7 +198,7 @@ TEST_F(Resume, RunThatIsKilledAgainKeepsWhatItTookOver) {
   const std::string bytes = text_of(kept());
   interrupt(both({"--resume"}), SIGINT);
   EXPECT_EQ(text_of(kept()), bytes);
-  EXPECT_EQ(resumed().at("resumed"), json::array({"first"}));
+  EXPECT_EQ(resumed().at("resumed"), Json::array({"first"}));
 }
 
 TEST_F(Resume, WithoutItEverySceneRunsAgain) {
@@ -247,7 +247,7 @@ TEST_F(Resume, SceneWithoutItsRecordingIsRunAgain) {
 TEST_F(Resume, DamagedFilesAreRunAgain) {
   interrupt(both());
   const std::string bytes = text_of(kept());
-  json without_runs = json::parse(bytes);
+  Json without_runs = Json::parse(bytes);
   without_runs.erase("runs");
   for (const std::string& damaged :
        {bytes.substr(0, bytes.size() / 2), std::string(), std::string("[]"), without_runs.dump(),

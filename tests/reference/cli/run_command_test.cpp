@@ -25,7 +25,7 @@ using test::tiny_scene;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::map<std::string, std::string> hashes_of(const json& results) {
+std::map<std::string, std::string> hashes_by_detector(const json& results) {
   std::map<std::string, std::string> out;
   for (const json& run : results.at("runs"))
     out[run.at("detector")] = run.at("contact_hash").get<std::string>();
@@ -220,8 +220,8 @@ TEST_F(RunCommand, RecordingReplaysToTheSameContacts) {
   const json first = run("out", {scene_, "--no-timing", "--quiet"});
   const fs::path recording = scratch_.folder() / "out" / "recordings" / "tiny.ccr";
   const json again = run("again", {recording, "--no-timing", "--quiet"});
-  EXPECT_GE(hashes_of(first).size(), 13u);
-  EXPECT_EQ(hashes_of(first), hashes_of(again));
+  EXPECT_GE(hashes_by_detector(first).size(), 13u);
+  EXPECT_EQ(hashes_by_detector(first), hashes_by_detector(again));
   EXPECT_EQ(text_of(recording), text_of(scratch_.folder() / "again" / "recordings" / "tiny.ccr"));
 }
 
@@ -244,8 +244,8 @@ TEST_F(RunCommand, RecordingHasItsOwnFrames) {
 }
 
 TEST_F(RunCommand, TwiceGivesTheSameContacts) {
-  EXPECT_EQ(hashes_of(run("one", {scene_, "--no-timing", "--quiet"})),
-            hashes_of(run("two", {scene_, "--no-timing", "--quiet"})));
+  EXPECT_EQ(hashes_by_detector(run("one", {scene_, "--no-timing", "--quiet"})),
+            hashes_by_detector(run("two", {scene_, "--no-timing", "--quiet"})));
 }
 
 TEST_F(RunCommand, DetectorNamedTwiceRunsOnce) {
@@ -262,7 +262,7 @@ TEST_F(RunCommand, ThreadsAndInstructionSetsChangeNoContact) {
                                         "full-refit", "--detector",  "fcl-aabb"};
   for (const std::string& isa : lazy_isas()) arguments.insert(arguments.end(), {"--isa", isa});
   const json results = run("out", arguments);
-  const std::map<std::string, std::string> hashes = hashes_of(results);
+  const std::map<std::string, std::string> hashes = hashes_by_detector(results);
   EXPECT_EQ(hashes.size(), 2 * lazy_isas().size() + 1);
   for (const auto& [detector, hash] : hashes) {
     EXPECT_EQ(hash, hashes.at("fcl-aabb")) << detector;

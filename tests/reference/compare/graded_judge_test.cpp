@@ -51,13 +51,6 @@ Semantics of_triangles() {
   return s;
 }
 
-Truth truth_of(std::vector<ElementPair> triangles) {
-  Truth truth;
-  truth.surface.triangles = std::move(triangles);
-  truth.surface.canonicalize();
-  return truth;
-}
-
 ContactSet contact(double depth, const Vec3& normal) {
   ContactSet answer;
   answer.triangles = {{0, 1, 0, 0}};
@@ -85,7 +78,7 @@ TEST(SpreadOf, IsMaxMeanAndNearestRank) {
 
 TEST(GradedJudge, MissedPairsWeighTheirLength) {
   Graded graded(test::labelled_bodies(), of_triangles());
-  const Truth truth = truth_of({{0, 1, 0, 0}, {0, 1, 1, 1}});
+  const Truth truth = test::truth_of({{0, 1, 0, 0}, {0, 1, 1, 1}});
   ContactSet answer;
   answer.triangles = {{0, 1, 0, 0}};
   EXPECT_THAT(graded.of(truth, {3.0, 1.0}, answer).missed_length, Optional(1.0));
@@ -110,7 +103,8 @@ TEST(GradedJudge, CellsCoverTheContourOfTheirTriangles) {
   Graded graded(test::labelled_bodies(), cells);
   ContactSet answer;
   answer.cells = {{0, 1, 0, 0}};  // holds triangles 0 and 1 of both bodies
-  const GradedErrors errors = graded.of(truth_of({{0, 1, 0, 1}, {0, 1, 2, 2}}), {1.0, 3.0}, answer);
+  const GradedErrors errors =
+      graded.of(test::truth_of({{0, 1, 0, 1}, {0, 1, 2, 2}}), {1.0, 3.0}, answer);
   EXPECT_THAT(errors.missed_length, Optional(3.0));
   EXPECT_EQ(errors.spurious_distance_max, std::nullopt);
 }
@@ -119,7 +113,7 @@ TEST(GradedJudge, DetectorOfBodiesAloneHasNoContour) {
   Semantics bodies;
   bodies.levels = {Level::kBody};
   Graded graded(test::labelled_bodies(), bodies);
-  const GradedErrors errors = graded.of(truth_of({{0, 1, 0, 0}}), {1.0}, ContactSet{});
+  const GradedErrors errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {1.0}, ContactSet{});
   EXPECT_EQ(errors.missed_length, std::nullopt);
   EXPECT_EQ(errors.depth.judged, 0u);
 }
@@ -138,12 +132,12 @@ TEST(GradedJudge, SpuriousPairWeighsItsDistance) {
 TEST(GradedJudge, DepthAndNormalOfPiecesAreHeldAgainstTheShortestWayApart) {
   Graded graded(crossing(), of_triangles());
   const GradedErrors good =
-      graded.of(truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.125, Vec3::UnitZ()));
+      graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.125, Vec3::UnitZ()));
   EXPECT_EQ(good.depth.judged, 1u);
   EXPECT_THAT(good.depth.max, Optional(DoubleNear(0.0, kClose)));
   EXPECT_THAT(good.normal_deg.max, Optional(DoubleNear(0.0, 1e-6)));
   const GradedErrors bad =
-      graded.of(truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 1).normalized()));
+      graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 1).normalized()));
   EXPECT_EQ(bad.depth.judged, 2u);
   EXPECT_THAT(bad.depth.max, Optional(DoubleNear(0.375, kClose)));
   EXPECT_THAT(bad.normal_deg.max, Optional(DoubleNear(45.0, 1e-6)));
@@ -151,7 +145,7 @@ TEST(GradedJudge, DepthAndNormalOfPiecesAreHeldAgainstTheShortestWayApart) {
 
 TEST(GradedJudge, EveryErrorCountsInItsHistogram) {
   Graded graded(crossing(), of_triangles());
-  graded.of(truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 2).normalized()));
+  graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 2).normalized()));
   // The second frame's truth is empty: there the pair, whose triangles cross, is spurious, too.
   const GradedErrors errors = graded.of(Truth{}, {}, contact(0.25, Vec3::UnitZ()));
   EXPECT_THAT(errors.depth.histogram, ElementsAre(IsBin(0.1, 0.2), IsBin(0.2, 0.5)));
@@ -165,7 +159,7 @@ TEST(GradedJudge, OfSeveralContactsOfAPairTheDeepestCounts) {
   answer.piece_contacts.push_back({{0, 1, 0, 0}, 0.125, Vec3::UnitZ()});
   // The same contact told by the other body: its normal turns with the pair.
   answer.piece_contacts.push_back({{1, 0, 0, 0}, 0.0625, Vec3::UnitX()});
-  const GradedErrors errors = graded.of(truth_of({{0, 1, 0, 0}}), {0.25}, answer);
+  const GradedErrors errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, answer);
   EXPECT_EQ(errors.depth.judged, 1u);
   EXPECT_THAT(errors.depth.max, Optional(DoubleNear(0.0, kClose)));
   EXPECT_THAT(errors.normal_deg.max, Optional(DoubleNear(0.0, 1e-6)));
@@ -184,7 +178,7 @@ TEST(GradedJudge, TouchingPiecesHaveADepthButNoDirection) {
   touching[1].shape = make_bare_shape(test::triangle_mesh({0, 0, 0}, {1, 0, 1}, {-1, 0, 1}));
   Graded graded(std::move(touching), of_triangles());
   const GradedErrors errors =
-      graded.of(truth_of({{0, 1, 0, 0}}), {0.0}, contact(0.0, Vec3::UnitX()));
+      graded.of(test::truth_of({{0, 1, 0, 0}}), {0.0}, contact(0.0, Vec3::UnitX()));
   EXPECT_EQ(errors.depth.judged, 1u);
   EXPECT_EQ(errors.normal_deg.judged, 0u);
 }

@@ -18,13 +18,6 @@ std::vector<std::uint64_t> numbers(const LevelCounts& c) {
 
 ElementPair pair(std::uint32_t a, std::uint32_t b) { return {0, 1, a, b}; }
 
-Truth truth_of(std::vector<ElementPair> triangles) {
-  Truth truth;
-  truth.surface.triangles = std::move(triangles);
-  truth.surface.canonicalize();
-  return truth;
-}
-
 ContactSet answer_of(std::vector<ElementPair> triangles) {
   ContactSet answer;
   answer.triangles = std::move(triangles);
@@ -55,27 +48,27 @@ LevelCounts judged(Level level, const Truth& truth, const ContactSet& answer,
 }
 
 TEST(Judge, EqualCountsOfDifferentPairsAreMissedAndSpurious) {
-  const LevelCounts counts = judged(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1)}),
+  const LevelCounts counts = judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
                                     answer_of({pair(0, 0), pair(2, 3)}));
   EXPECT_THAT(numbers(counts), ElementsAre(2, 2, 1, 1, 1));
 }
 
 TEST(Judge, AnsweringTheTruthIsPerfectAtEveryLevel) {
-  const Truth truth = truth_of({pair(0, 0), pair(2, 3)});
+  const Truth truth = test::truth_of({pair(0, 0), pair(2, 3)});
   EXPECT_THAT(numbers(judged(Level::kTriangle, truth, truth.surface)), ElementsAre(2, 2, 2, 0, 0));
   EXPECT_THAT(numbers(judged(Level::kBody, truth, truth.surface)), ElementsAre(1, 1, 1, 0, 0));
 }
 
 TEST(Judge, SilenceMissesAllAndIsNotSpurious) {
   const LevelCounts counts =
-      judged(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), ContactSet{});
+      judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), ContactSet{});
   EXPECT_THAT(numbers(counts), ElementsAre(3, 0, 0, 3, 0));
 }
 
 TEST(Judge, CellLevelCountsTrianglePairsOfTruthAndCellPairsOfTheAnswer) {
   // Cells (0, 0) cover the pairs (0, 0), (0, 1) and (1, 1); cells (0, 1) cover (0, 1), (1, 1) and
   // nothing else of the truth; (1, 0) covers (1, 1). (2, 2) needs cells (1, 1).
-  const Truth truth = truth_of({pair(0, 0), pair(0, 1), pair(1, 1), pair(2, 2)});
+  const Truth truth = test::truth_of({pair(0, 0), pair(0, 1), pair(1, 1), pair(2, 2)});
   EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0)}))),
               ElementsAre(4, 1, 3, 1, 0));
   EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
@@ -83,13 +76,13 @@ TEST(Judge, CellLevelCountsTrianglePairsOfTruthAndCellPairsOfTheAnswer) {
 }
 
 TEST(Judge, CellPairThatCoversNoTruePairIsSpurious) {
-  const Truth truth = truth_of({pair(0, 0)});
+  const Truth truth = test::truth_of({pair(0, 0)});
   EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
               ElementsAre(1, 2, 1, 0, 1));
 }
 
 TEST(Judge, CellPairOfOtherBodiesCoversNothing) {
-  const Truth truth = truth_of({pair(0, 0)});
+  const Truth truth = test::truth_of({pair(0, 0)});
   EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({ElementPair{0, 2, 0, 0}}))),
               ElementsAre(1, 1, 0, 1, 1));
 }
@@ -141,9 +134,9 @@ TEST(Judge, SurfaceContactIsNotSpuriousAtContainment) {
 TEST(Judge, CountsAreSumsOverFrames) {
   const std::vector<Body> bodies = labelled_bodies();
   Judge judge(bodies, {}, {Level::kTriangle});
-  judge.add_frame(0, truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
-  judge.add_frame(1, truth_of({pair(0, 0), pair(1, 1)}), answer_of({pair(1, 1)}));
-  judge.add_frame(2, truth_of({}), answer_of({pair(3, 3)}));
+  judge.add_frame(0, test::truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  judge.add_frame(1, test::truth_of({pair(0, 0), pair(1, 1)}), answer_of({pair(1, 1)}));
+  judge.add_frame(2, test::truth_of({}), answer_of({pair(3, 3)}));
   EXPECT_THAT(numbers(judge.levels().at(Level::kTriangle)), ElementsAre(3, 3, 2, 1, 1));
   EXPECT_THAT(judge.per_frame().truth, ElementsAre(1, 2, 0));
   EXPECT_THAT(judge.per_frame().missed, ElementsAre(0, 1, 0));
@@ -156,7 +149,7 @@ TEST(Judge, SeriesPerFrameIsOfTheFinestLevel) {
   EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kBox, Level::kCell}).per_frame().level, "cell");
   EXPECT_EQ(Judge(bodies, {}, {Level::kBody}).per_frame().level, "body");
   Judge judge(bodies, {}, {Level::kBody, Level::kTriangle});
-  judge.add_frame(0, truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), answer_of({pair(0, 0)}));
+  judge.add_frame(0, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), answer_of({pair(0, 0)}));
   EXPECT_THAT(judge.per_frame().truth, ElementsAre(3));
   EXPECT_THAT(judge.per_frame().missed, ElementsAre(2));
 }
@@ -164,10 +157,10 @@ TEST(Judge, SeriesPerFrameIsOfTheFinestLevel) {
 TEST(Judge, KeepsTheFirstDisagreementOfEachKindAndLevel) {
   const std::vector<Body> bodies = labelled_bodies();
   Judge judge(bodies, {}, {Level::kBody, Level::kTriangle});
-  judge.add_frame(3, truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
-  judge.add_frame(4, truth_of({pair(0, 0), pair(1, 2)}), answer_of({pair(0, 0)}));
-  judge.add_frame(5, truth_of({pair(0, 0), pair(2, 2)}), answer_of({pair(0, 0), pair(3, 1)}));
-  judge.add_frame(6, truth_of({pair(0, 0)}), answer_of({}));
+  judge.add_frame(3, test::truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  judge.add_frame(4, test::truth_of({pair(0, 0), pair(1, 2)}), answer_of({pair(0, 0)}));
+  judge.add_frame(5, test::truth_of({pair(0, 0), pair(2, 2)}), answer_of({pair(0, 0), pair(3, 1)}));
+  judge.add_frame(6, test::truth_of({pair(0, 0)}), answer_of({}));
   ASSERT_EQ(judge.disagreements().size(), 3u);
   const auto& d = judge.disagreements();
   EXPECT_EQ(d[0].level + " " + d[0].kind, "triangle missed");
@@ -184,7 +177,7 @@ TEST(Judge, KeepsTheFirstDisagreementOfEachKindAndLevel) {
 TEST(Judge, MissedAtCellLevelNamesTrianglesAndSpuriousNamesCells) {
   const std::vector<Body> bodies = labelled_bodies();
   Judge judge(bodies, {}, {Level::kCell});
-  judge.add_frame(0, truth_of({pair(3, 3)}), cells_of({pair(0, 1)}));
+  judge.add_frame(0, test::truth_of({pair(3, 3)}), cells_of({pair(0, 1)}));
   ASSERT_EQ(judge.disagreements().size(), 2u);
   EXPECT_EQ(judge.disagreements()[0].kind, "missed");
   EXPECT_EQ(judge.disagreements()[0].pair, pair(3, 3));
@@ -275,7 +268,7 @@ std::vector<FrameDifferences> differences_of(Level level, const Truth& truth,
 }
 
 TEST(Judge, ListsTheDifferencesOfItsFinestLevel) {
-  const auto frames = differences_of(Level::kTriangle, truth_of({pair(0, 0), pair(1, 1)}),
+  const auto frames = differences_of(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
                                      answer_of({pair(1, 1), pair(2, 3)}), 9);
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_EQ(frames[0].frame, 4u);
@@ -287,14 +280,14 @@ TEST(Judge, ListsTheDifferencesOfItsFinestLevel) {
 
 TEST(Judge, ListsTheFirstDifferencesAndCountsAll) {
   const auto frames = differences_of(
-      Level::kTriangle, truth_of({pair(3, 3), pair(0, 0), pair(1, 1)}), ContactSet{}, 2);
+      Level::kTriangle, test::truth_of({pair(3, 3), pair(0, 0), pair(1, 1)}), ContactSet{}, 2);
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_EQ(frames[0].missed.count, 3u);
   EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(0, 0), pair(1, 1)));
 }
 
 TEST(Judge, ListsMissedTrianglesAndSpuriousCells) {
-  const auto frames = differences_of(Level::kCell, truth_of({pair(0, 0), pair(2, 2)}),
+  const auto frames = differences_of(Level::kCell, test::truth_of({pair(0, 0), pair(2, 2)}),
                                      cells_of({pair(0, 0), pair(1, 0)}), 9);
   ASSERT_EQ(frames.size(), 1u);
   EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(2, 2)));
@@ -302,7 +295,7 @@ TEST(Judge, ListsMissedTrianglesAndSpuriousCells) {
 }
 
 TEST(Judge, ListsNothingOfPerfectFramesNorUnlessAsked) {
-  const Truth truth = truth_of({pair(0, 0)});
+  const Truth truth = test::truth_of({pair(0, 0)});
   EXPECT_THAT(differences_of(Level::kTriangle, truth, truth.surface, 9), IsEmpty());
   EXPECT_THAT(differences_of(Level::kTriangle, truth, ContactSet{}, 0), IsEmpty());
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/deform/body.h"
+#include "reference/compare/judge.h"
 
 namespace contactcheck::test {
 
@@ -23,6 +24,13 @@ inline Body labelled_body(const char* name, bool solid = true, bool in_lattice =
 
 inline std::vector<Body> labelled_bodies() {
   return {labelled_body("first"), labelled_body("second"), labelled_body("third")};
+}
+
+inline Truth truth_of(std::vector<ElementPair> triangles) {
+  Truth truth;
+  truth.surface.triangles = std::move(triangles);
+  truth.surface.canonicalize();
+  return truth;
 }
 
 }  // namespace contactcheck::test

@@ -23,7 +23,7 @@ struct EndName {
 constexpr EndName kEnds[] = {
     {RangeEnd::kLargest, "largest"}, {RangeEnd::kDenormal, "denormal"}, {RangeEnd::kBoth, "both"}};
 
-std::string describe(const TrianglePair& pair) {
+std::string describe_pair(const TrianglePair& pair) {
   std::ostringstream out;
   out << std::hexfloat;
   for (const TrianglePoints* t : {&pair.first, &pair.second})
@@ -36,12 +36,12 @@ int check_predicates(const TrianglePair& pair) {
   const auto& [a, b, c] = pair.first;
   const Vec3& d = pair.second[0];
   const int expected = rational::orient3d(a, b, c, d);
-  EXPECT_EQ(orient3d(a, b, c, d), expected) << describe(pair);
-  EXPECT_EQ(orient3d_exact(a, b, c, d), expected) << describe(pair);
+  EXPECT_EQ(orient3d(a, b, c, d), expected) << describe_pair(pair);
+  EXPECT_EQ(orient3d_exact(a, b, c, d), expected) << describe_pair(pair);
   for (int axis = 0; axis < 3; ++axis) {
     const int area = rational::orient2d(a, b, d, axis);
-    EXPECT_EQ(orient2d(a, b, d, axis), area) << axis << ' ' << describe(pair);
-    EXPECT_EQ(orient2d_exact(a, b, d, axis), area) << axis << ' ' << describe(pair);
+    EXPECT_EQ(orient2d(a, b, d, axis), area) << axis << ' ' << describe_pair(pair);
+    EXPECT_EQ(orient2d_exact(a, b, d, axis), area) << axis << ' ' << describe_pair(pair);
   }
   return expected;
 }
@@ -53,8 +53,8 @@ class PairJudge {
   void check(const TrianglePair& pair) {
     const auto& [p, q] = pair;
     const bool expected = rational::triangles_intersect(p, q);
-    EXPECT_EQ(triangles_intersect(p, q), expected) << describe(pair);
-    EXPECT_EQ(triangles_intersect(q, p), expected) << describe(pair);
+    EXPECT_EQ(triangles_intersect(p, q), expected) << describe_pair(pair);
+    EXPECT_EQ(triangles_intersect(q, p), expected) << describe_pair(pair);
     hits_ += expected;
     truth_ |= std::uint32_t{expected} << batch_.count;
     for (int c = 0; c < 3; ++c)
@@ -83,7 +83,7 @@ class PairJudge {
   std::string describe_lanes(std::uint32_t lanes) const {
     std::string out;
     for (std::size_t lane = 0; lane < kBatchWidth; ++lane)
-      if (lanes >> lane & 1) out += describe({batch_.points(0, lane), batch_.points(1, lane)});
+      if (lanes >> lane & 1) out += describe_pair({batch_.points(0, lane), batch_.points(1, lane)});
     return out;
   }
 

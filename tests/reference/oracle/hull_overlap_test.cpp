@@ -12,7 +12,7 @@
 namespace contactcheck::test {
 namespace {
 
-Corners box_corners(const Vec3& lo, const Vec3& hi) {
+Corners corners_of_box(const Vec3& lo, const Vec3& hi) {
   Corners out;
   for (int c = 0; c < 8; ++c)
     for (int k = 0; k < 3; ++k) out[c][k] = (c >> k) & 1 ? hi[k] : lo[k];
@@ -21,7 +21,7 @@ Corners box_corners(const Vec3& lo, const Vec3& hi) {
 
 Corners repeated(const Vec3& a, const Vec3& b) { return {a, b, a, b, a, b, a, b}; }
 
-bool overlap(const Corners& a, const Corners& b) {
+bool hulls_overlap(const Corners& a, const Corners& b) {
   return oracle::hulls_overlap(oracle::make_hull(a), oracle::make_hull(b));
 }
 
@@ -46,13 +46,13 @@ bool rational_overlap(const Corners& a, const Corners& b) {
 
 bool check_pair(const Corners& a, const Corners& b) {
   const bool expected = rational_overlap(a, b);
-  EXPECT_EQ(overlap(a, b), expected) << hex_points(a) << '\n' << hex_points(b);
-  EXPECT_EQ(overlap(b, a), expected) << hex_points(b) << '\n' << hex_points(a);
+  EXPECT_EQ(hulls_overlap(a, b), expected) << hex_points(a) << '\n' << hex_points(b);
+  EXPECT_EQ(hulls_overlap(b, a), expected) << hex_points(b) << '\n' << hex_points(a);
   return expected;
 }
 
 template <typename MakeCorners>
-void compare_with_rational(int count, int low, int high, MakeCorners&& make) {
+void compare_hulls_with_rational(int count, int low, int high, MakeCorners&& make) {
   int hits = 0;
   for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
     const Corners a = make();
@@ -63,7 +63,7 @@ void compare_with_rational(int count, int low, int high, MakeCorners&& make) {
 }
 
 TEST(HullOverlap, BoxHasTwelveFacesWorthOfTriples) {
-  const auto hull = oracle::make_hull(box_corners(Vec3(0, 0, 0), Vec3(1, 2, 3)));
+  const auto hull = oracle::make_hull(corners_of_box(Vec3(0, 0, 0), Vec3(1, 2, 3)));
   EXPECT_TRUE(hull.has_volume);
   EXPECT_EQ(hull.points.size(), 8u);
   EXPECT_EQ(hull.surface.size(), 24u);  // four triples of each quad
@@ -72,7 +72,7 @@ TEST(HullOverlap, BoxHasTwelveFacesWorthOfTriples) {
 }
 
 TEST(HullOverlap, InnerCornersAreNotOfTheSurface) {
-  Corners c = box_corners(Vec3(0, 0, 0), Vec3(4, 4, 4));
+  Corners c = corners_of_box(Vec3(0, 0, 0), Vec3(4, 4, 4));
   c[0] = Vec3(2, 2, 2.5);
   const auto hull = oracle::make_hull(c);
   for (const auto& face : hull.surface)
@@ -80,22 +80,22 @@ TEST(HullOverlap, InnerCornersAreNotOfTheSurface) {
 }
 
 TEST(HullOverlap, CollinearCornersAreNoFace) {
-  Corners c = box_corners(Vec3(0, 0, 0), Vec3(4, 4, 4));
+  Corners c = corners_of_box(Vec3(0, 0, 0), Vec3(4, 4, 4));
   c[1] = Vec3(0, 0, 2);  // on the edge from corner 0 to corner 4
   for (const auto& face : oracle::make_hull(c).surface)
     EXPECT_FALSE(oracle::collinear(face[0], face[1], face[2]));
 }
 
 TEST(HullOverlap, BoxesApartTouchingNestedCrossing) {
-  const Corners unit = box_corners(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  const Corners unit = corners_of_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
   const double next = std::nextafter(1.0, 2.0);
-  EXPECT_TRUE(overlap(unit, unit));
-  EXPECT_TRUE(overlap(unit, box_corners(Vec3(1, 0, 0), Vec3(2, 1, 1))));
-  EXPECT_TRUE(overlap(unit, box_corners(Vec3(1, 1, 1), Vec3(2, 2, 2))));
-  EXPECT_FALSE(overlap(unit, box_corners(Vec3(next, 0, 0), Vec3(2, 1, 1))));
-  EXPECT_TRUE(overlap(unit, box_corners(Vec3(0.2, 0.2, 0.2), Vec3(0.8, 0.8, 0.8))));
-  EXPECT_TRUE(overlap(box_corners(Vec3(0.2, 0.2, 0.2), Vec3(0.8, 0.8, 0.8)), unit));
-  EXPECT_TRUE(overlap(unit, box_corners(Vec3(-1, 0.4, 0.4), Vec3(2, 0.6, 0.6))));
+  EXPECT_TRUE(hulls_overlap(unit, unit));
+  EXPECT_TRUE(hulls_overlap(unit, corners_of_box(Vec3(1, 0, 0), Vec3(2, 1, 1))));
+  EXPECT_TRUE(hulls_overlap(unit, corners_of_box(Vec3(1, 1, 1), Vec3(2, 2, 2))));
+  EXPECT_FALSE(hulls_overlap(unit, corners_of_box(Vec3(next, 0, 0), Vec3(2, 1, 1))));
+  EXPECT_TRUE(hulls_overlap(unit, corners_of_box(Vec3(0.2, 0.2, 0.2), Vec3(0.8, 0.8, 0.8))));
+  EXPECT_TRUE(hulls_overlap(corners_of_box(Vec3(0.2, 0.2, 0.2), Vec3(0.8, 0.8, 0.8)), unit));
+  EXPECT_TRUE(hulls_overlap(unit, corners_of_box(Vec3(-1, 0.4, 0.4), Vec3(2, 0.6, 0.6))));
 }
 
 TEST(HullOverlap, EdgesThatCrossWithoutAHeldCorner) {
@@ -111,33 +111,33 @@ TEST(HullOverlap, EdgesThatCrossWithoutAHeldCorner) {
     }
     return c;
   };
-  EXPECT_TRUE(overlap(wedge(0, false, -1), wedge(0, true, 1)));
-  EXPECT_TRUE(overlap(wedge(0, false, -1), wedge(-0.5, true, 1)));
-  EXPECT_FALSE(overlap(wedge(0, false, -1), wedge(0x1p-1074, true, 1)));
-  EXPECT_FALSE(overlap(wedge(0, false, -1), wedge(0.25, true, 1)));
+  EXPECT_TRUE(hulls_overlap(wedge(0, false, -1), wedge(0, true, 1)));
+  EXPECT_TRUE(hulls_overlap(wedge(0, false, -1), wedge(-0.5, true, 1)));
+  EXPECT_FALSE(hulls_overlap(wedge(0, false, -1), wedge(0x1p-1074, true, 1)));
+  EXPECT_FALSE(hulls_overlap(wedge(0, false, -1), wedge(0.25, true, 1)));
 }
 
 TEST(HullOverlap, FlatSegmentAndPointHulls) {
-  const Corners unit = box_corners(Vec3(0, 0, 0), Vec3(1, 1, 1));
-  const Corners plate = box_corners(Vec3(-1, -1, 0.5), Vec3(2, 2, 0.5));
+  const Corners unit = corners_of_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  const Corners plate = corners_of_box(Vec3(-1, -1, 0.5), Vec3(2, 2, 0.5));
   EXPECT_FALSE(oracle::make_hull(plate).has_volume);
-  EXPECT_TRUE(overlap(unit, plate));
-  EXPECT_TRUE(overlap(plate, box_corners(Vec3(0, 0, 0.5), Vec3(1, 1, 0.5))));
-  EXPECT_FALSE(overlap(plate, box_corners(Vec3(0, 0, 0.75), Vec3(1, 1, 0.75))));
+  EXPECT_TRUE(hulls_overlap(unit, plate));
+  EXPECT_TRUE(hulls_overlap(plate, corners_of_box(Vec3(0, 0, 0.5), Vec3(1, 1, 0.5))));
+  EXPECT_FALSE(hulls_overlap(plate, corners_of_box(Vec3(0, 0, 0.75), Vec3(1, 1, 0.75))));
   const Corners rod = repeated(Vec3(0.5, 0.5, 0.5), Vec3(0.6, 0.6, 0.6));
-  EXPECT_TRUE(overlap(unit, rod));  // all inside
-  EXPECT_TRUE(overlap(plate, rod));
-  EXPECT_FALSE(overlap(plate, repeated(Vec3(0, 0, 1), Vec3(1, 1, 0.75))));
+  EXPECT_TRUE(hulls_overlap(unit, rod));  // all inside
+  EXPECT_TRUE(hulls_overlap(plate, rod));
+  EXPECT_FALSE(hulls_overlap(plate, repeated(Vec3(0, 0, 1), Vec3(1, 1, 0.75))));
   const Corners point = repeated(Vec3(1, 1, 1), Vec3(1, 1, 1));
-  EXPECT_TRUE(overlap(unit, point));
-  EXPECT_TRUE(overlap(point, point));
-  EXPECT_FALSE(overlap(point, rod));
-  EXPECT_TRUE(overlap(point, repeated(Vec3(0, 0, 0), Vec3(2, 2, 2))));
+  EXPECT_TRUE(hulls_overlap(unit, point));
+  EXPECT_TRUE(hulls_overlap(point, point));
+  EXPECT_FALSE(hulls_overlap(point, rod));
+  EXPECT_TRUE(hulls_overlap(point, repeated(Vec3(0, 0, 0), Vec3(2, 2, 2))));
 }
 
 TEST(HullOverlapAgainstRational, GridPointsFlatAndTouchingAmongThem) {
   TriangleSource source(401);
-  compare_with_rational(700, 150, 650, [&] {
+  compare_hulls_with_rational(700, 150, 650, [&] {
     const Vec3 shift = source.grid_point(2);
     const int limit = source.below(2);
     Corners c;
@@ -152,17 +152,17 @@ TEST(HullOverlapAgainstRational, GridPointsFlatAndTouchingAmongThem) {
 
 TEST(HullOverlapAgainstRational, GridBoxes) {
   TriangleSource source(402);
-  compare_with_rational(300, 60, 280, [&] {
+  compare_hulls_with_rational(300, 60, 280, [&] {
     const Aabb box = source.grid_box(3);
-    return box_corners(box.lo, box.hi);
+    return corners_of_box(box.lo, box.hi);
   });
 }
 
 // What really comes: boxes, rotated, with every corner displaced.
 TEST(HullOverlapAgainstRational, DeformedBoxes) {
   TriangleSource source(403);
-  compare_with_rational(400, 100, 320, [&] {
-    const Corners c = box_corners(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.4, 0.6));
+  compare_hulls_with_rational(400, 100, 320, [&] {
+    const Corners c = corners_of_box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.4, 0.6));
     const auto rotation = random_rotation(source);
     const Vec3 offset = source.point(Vec3::Zero(), 0.9);
     Corners out;
@@ -177,8 +177,8 @@ TEST(HullOverlapAgainstRational, SharedFacesOffByUlps) {
   int hits = 0;
   for (int i = 0; i < 200; ++i) {
     const auto rotation = random_rotation(source);
-    Corners a = box_corners(Vec3(0, 0, 0), Vec3(1, 1, 1));
-    Corners b = box_corners(Vec3(1, 0, 0), Vec3(2, 1, 1));
+    Corners a = corners_of_box(Vec3(0, 0, 0), Vec3(1, 1, 1));
+    Corners b = corners_of_box(Vec3(1, 0, 0), Vec3(2, 1, 1));
     for (int k = 0; k < 8; ++k) {
       a[k] = rotation * a[k];
       b[k] = rotation * b[k];
@@ -196,7 +196,7 @@ TEST(HullOverlapAgainstRational, SharedFacesOffByUlps) {
 TEST(HullOverlapAgainstRational, TinyScales) {
   for (double scale : {1e-160, 1e-300, 0x1p-1073}) {
     TriangleSource source(405);
-    compare_with_rational(60, 10, 55, [&] {
+    compare_hulls_with_rational(60, 10, 55, [&] {
       const Vec3 shift = source.grid_point(2);
       Corners c;
       for (Vec3& p : c) p = (source.grid_point(2) + shift) * scale;

@@ -84,11 +84,11 @@ double check_pair(const Corners3& p, const Corners3& q, bool& fast) {
   return expected;
 }
 
-const Corners3 kFloor{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+const Corners3 kGround{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
 double with_floor(const Corners3& q) {
-  const double length = oracle::intersection_length(kFloor, q);
-  EXPECT_NEAR(oracle::intersection_length(q, kFloor), length, 4e-9);
+  const double length = oracle::intersection_length(kGround, q);
+  EXPECT_NEAR(oracle::intersection_length(q, kGround), length, 4e-9);
   return length;
 }
 
@@ -114,7 +114,7 @@ TEST(IntersectionLength, TouchingAlongASegment) {
 }
 
 TEST(IntersectionLength, CoplanarTrianglesGiveTheDiameter) {
-  EXPECT_DOUBLE_EQ(with_floor(kFloor), std::sqrt(32.0));
+  EXPECT_DOUBLE_EQ(with_floor(kGround), std::sqrt(32.0));
   // The inner triangle's hypotenuse.
   EXPECT_DOUBLE_EQ(with_floor({Vec3(0.5, 0.5, 0), Vec3(1.5, 0.5, 0), Vec3(0.5, 1.5, 0)}),
                    std::sqrt(2.0));
@@ -234,7 +234,7 @@ TEST(IntersectionLength, ScalingByPowersOfTwoScalesIt) {
 TEST(IntersectionLength, SubnormalAndHugeCoordinates) {
   const Corners3 wall{Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(1, 3, 1)};
   for (double scale : {0x1p-1074, 0x1p+1021})
-    EXPECT_EQ(oracle::intersection_length(transformed(kFloor, scale, Vec3::Zero()),
+    EXPECT_EQ(oracle::intersection_length(transformed(kGround, scale, Vec3::Zero()),
                                           transformed(wall, scale, Vec3::Zero())),
               scale);
   // Tiny triangles beside a coordinate of ordinary size.
@@ -242,8 +242,8 @@ TEST(IntersectionLength, SubnormalAndHugeCoordinates) {
     for (Vec3& c : t) c = Vec3(1, c.x() * 1e-200, c.y() * 1e-200);
     return t;
   };
-  EXPECT_NEAR(oracle::intersection_length(raised(kFloor), raised(kFloor)), std::sqrt(32.0) * 1e-200,
-              1e-213);
+  EXPECT_NEAR(oracle::intersection_length(raised(kGround), raised(kGround)),
+              std::sqrt(32.0) * 1e-200, 1e-213);
 }
 
 TEST(IntersectionLength, FourPartsOfATriangleAddUp) {

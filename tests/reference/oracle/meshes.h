@@ -9,10 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "core/deform/body.h"
 #include "core/types/mesh.h"
 #include "tests/support/random_triangles.h"
 
 namespace contactcheck::test {
+
+inline Body bare_body(const std::string& name, TriangleMesh mesh) {
+  return {name, make_bare_shape(std::move(mesh))};
+}
 
 /// Points on the unit circle by rational parametrisation, counter-clockwise from (1, 0).
 inline std::vector<Eigen::Vector2d> circle_points(int count) {

@@ -19,10 +19,6 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Corners3 = oracle::TriangleCorners;
 
-Body bare_body(const std::string& name, TriangleMesh mesh) {
-  return {name, make_bare_shape(std::move(mesh))};
-}
-
 FrameData frame_of(const std::vector<std::vector<Vec3>>& vertices) { return {vertices, vertices}; }
 
 double next_up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
@@ -110,8 +106,8 @@ std::vector<Body> small_bodies() {
   TriangleMesh odd = box_mesh(Vec3(-0.3, -0.3, -0.3), Vec3(0.3, 0.4, 0.2), 1);
   odd.vertices.insert(odd.vertices.end(), {Vec3(0.5, 0.1, 0), Vec3(0, 0.6, 0), Vec3(0, 0, 0.5)});
   odd.triangles.insert(odd.triangles.end(), {{8, 0, 8}, {9, 9, 9}});
-  const Body ball = bare_body("ball", sphere_mesh(Vec3::Zero(), 0.5, 1));
-  return {ball, bare_body("odd", odd), {"again", ball.shape}};
+  const Body ball = test::bare_body("ball", sphere_mesh(Vec3::Zero(), 0.5, 1));
+  return {ball, test::bare_body("odd", odd), {"again", ball.shape}};
 }
 
 FrameData random_frame(const std::vector<Body>& bodies, TriangleSource& source) {
@@ -169,8 +165,8 @@ class NearOnAGrid : public testing::Test {
   void compare(double scale, const Vec3& offset, int frames) {
     TriangleSource source(803);
     for (int i = 0; i < frames; ++i) {
-      const std::vector<Body> bodies{bare_body("a", soup(source, 5)),
-                                     bare_body("b", soup(source, 6))};
+      const std::vector<Body> bodies{test::bare_body("a", soup(source, 5)),
+                                     test::bare_body("b", soup(source, 6))};
       std::vector<std::vector<Vec3>> vertices;
       for (const Body& body : bodies)
         vertices.push_back(
@@ -228,8 +224,8 @@ TEST(Near, PythagoreanDistanceIsNearOnlyAboveIt) {
   const Corners3 segment{to + side, to, to - 2 * side};
   const Corners3 point{to, to, to};
   for (const Corners3& t : {face, edge, corner, segment, point}) {
-    const Body a = bare_body("a", {{Vec3::Zero(), Vec3(-50, 0, 0)}, {{0, 1, 1}}});
-    const Body b = bare_body("b", {{t[0], t[1], t[2]}, {{0, 1, 2}}});
+    const Body a = test::bare_body("a", {{Vec3::Zero(), Vec3(-50, 0, 0)}, {{0, 1, 1}}});
+    const Body b = test::bare_body("b", {{t[0], t[1], t[2]}, {{0, 1, 2}}});
     const FrameData data =
         frame_of({{Vec3::Zero(), Vec3(-50, 0, 0)}, std::vector<Vec3>(t.begin(), t.end())});
     Oracle oracle({a, b});
@@ -260,7 +256,7 @@ TEST(Near, TouchingIsNearForEveryMarginButZero) {
   const TriangleMesh one = triangle_mesh(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   const TriangleMesh other =
       triangle_mesh(Vec3(0.25, 0.25, 0), Vec3(0.25, 0.25, 1), Vec3(0.5, 0.5, 1));
-  const std::vector<Body> bodies{bare_body("a", one), bare_body("b", other)};
+  const std::vector<Body> bodies{test::bare_body("a", one), test::bare_body("b", other)};
   const FrameData data = frame_of({one.vertices, other.vertices});
   Oracle oracle(bodies);
   EXPECT_THAT(oracle.near(data.frame(), 0.0), IsEmpty());
@@ -271,7 +267,7 @@ TEST(Near, VerticesWithoutTriangleCountAndOwnTrianglesDoNot) {
   TriangleMesh mesh = triangle_mesh(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0));
   mesh.vertices.push_back(Vec3(10, 0, 0));  // loose
   const TriangleMesh far = triangle_mesh(Vec3(10, 0, 1), Vec3(11, 0, 1), Vec3(10, 1, 1));
-  const std::vector<Body> bodies{bare_body("a", mesh), bare_body("b", far)};
+  const std::vector<Body> bodies{test::bare_body("a", mesh), test::bare_body("b", far)};
   const FrameData data = frame_of({mesh.vertices, far.vertices});
   Oracle oracle(bodies);
   EXPECT_THAT(oracle.near(data.frame(), 1.5), ElementsAre(NearPair{0, 1, 3, 0}));

@@ -23,10 +23,6 @@ using testing::IsEmpty;
 
 constexpr WantedTruth kEverything{true, true, true, true};
 
-Body bare_body(const std::string& name, TriangleMesh mesh) {
-  return {name, make_bare_shape(std::move(mesh))};
-}
-
 FrameData rest_frame(const std::vector<Body>& bodies) {
   std::vector<std::vector<Vec3>> nodes;
   for (const Body& body : bodies) nodes.push_back(rest_nodes_at(*body.shape, Vec3::Zero()));
@@ -40,8 +36,9 @@ Truth judge_at_rest(const std::vector<Body>& bodies, const WantedTruth& wanted =
 }
 
 TEST(Oracle, TouchingBoxesShareAFaceAndHoldNothing) {
-  const Truth truth = judge_at_rest({bare_body("a", unit_box_mesh(2)),
-                                     bare_body("b", box_mesh(Vec3(1, 0, 0), Vec3(2, 1, 1), 2))});
+  const Truth truth =
+      judge_at_rest({test::bare_body("a", unit_box_mesh(2)),
+                     test::bare_body("b", box_mesh(Vec3(1, 0, 0), Vec3(2, 1, 1), 2))});
   EXPECT_THAT(truth.surface.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_FALSE(truth.surface.triangles.empty());
   EXPECT_THAT(truth.surface.vertices, IsEmpty());
@@ -51,15 +48,16 @@ TEST(Oracle, TouchingBoxesShareAFaceAndHoldNothing) {
 
 TEST(Oracle, OneUlpGapIsNoContact) {
   const double next = std::nextafter(1.0, 2.0);
-  const Truth truth = judge_at_rest({bare_body("a", unit_box_mesh(2)),
-                                     bare_body("b", box_mesh(Vec3(next, 0, 0), Vec3(2, 1, 1), 2))});
+  const Truth truth =
+      judge_at_rest({test::bare_body("a", unit_box_mesh(2)),
+                     test::bare_body("b", box_mesh(Vec3(next, 0, 0), Vec3(2, 1, 1), 2))});
   EXPECT_THAT(truth.surface.bodies, IsEmpty());
   EXPECT_THAT(truth.surface.triangles, IsEmpty());
 }
 
 TEST(Oracle, HeldBodyIsContainmentAndAllItsVerticesAreInside) {
-  const Body inner = bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
-  const Body outer = bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
+  const Body inner = test::bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
+  const Body outer = test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
   const Truth truth = judge_at_rest({inner, outer});
   EXPECT_THAT(truth.surface.bodies, IsEmpty());
   EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1}));
@@ -70,24 +68,25 @@ TEST(Oracle, HeldBodyIsContainmentAndAllItsVerticesAreInside) {
 
 TEST(Oracle, EveryComponentMustBeHeld) {
   const TriangleMesh one = box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1);
-  const Body outer = bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
+  const Body outer = test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
   const TriangleMesh in = box_mesh(Vec3(3, 3, 3), Vec3(3.5, 3.5, 3.5), 1);
   const TriangleMesh out = box_mesh(Vec3(5, 3, 3), Vec3(6, 4, 4), 1);
-  EXPECT_THAT(judge_at_rest({outer, bare_body("both", joined(one, in))}).containment,
+  EXPECT_THAT(judge_at_rest({outer, test::bare_body("both", joined(one, in))}).containment,
               ElementsAre(BodyPair{0, 1}));
-  EXPECT_THAT(judge_at_rest({outer, bare_body("half", joined(one, out))}).containment, IsEmpty());
+  EXPECT_THAT(judge_at_rest({outer, test::bare_body("half", joined(one, out))}).containment,
+              IsEmpty());
 }
 
 TEST(Oracle, ContactRulesContainmentOut) {
-  const Truth truth =
-      judge_at_rest({bare_body("outer", unit_box_mesh(2)),
-                     bare_body("inner", box_mesh(Vec3(0, 0.2, 0.2), Vec3(0.5, 0.7, 0.7), 1))});
+  const Truth truth = judge_at_rest(
+      {test::bare_body("outer", unit_box_mesh(2)),
+       test::bare_body("inner", box_mesh(Vec3(0, 0.2, 0.2), Vec3(0.5, 0.7, 0.7), 1))});
   EXPECT_THAT(truth.surface.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_THAT(truth.containment, IsEmpty());
   EXPECT_EQ(truth.surface.vertices.size(), 4u);  // the other four lie on the outer's face
   // Half out, with its components' first vertex inside.
-  const Body half = bare_body("half", box_mesh(Vec3(0.5, 0.2, 0.2), Vec3(1.5, 0.7, 0.7), 1));
-  const Truth crossing = judge_at_rest({bare_body("outer", unit_box_mesh(2)), half});
+  const Body half = test::bare_body("half", box_mesh(Vec3(0.5, 0.2, 0.2), Vec3(1.5, 0.7, 0.7), 1));
+  const Truth crossing = judge_at_rest({test::bare_body("outer", unit_box_mesh(2)), half});
   EXPECT_THAT(crossing.surface.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_THAT(crossing.containment, IsEmpty());
   EXPECT_THAT(crossing.surface.vertices, testing::Contains(VertexInBody{1, 0, 0}));
@@ -95,10 +94,10 @@ TEST(Oracle, ContactRulesContainmentOut) {
 
 TEST(Oracle, BodyInACavityIsNotHeld) {
   const Body shell =
-      bare_body("shell", joined(box_mesh(Vec3(0, 0, 0), Vec3(5, 5, 5), 2),
-                                reversed(box_mesh(Vec3(1, 1, 1), Vec3(4, 4, 4), 2))));
+      test::bare_body("shell", joined(box_mesh(Vec3(0, 0, 0), Vec3(5, 5, 5), 2),
+                                      reversed(box_mesh(Vec3(1, 1, 1), Vec3(4, 4, 4), 2))));
   const Truth truth =
-      judge_at_rest({shell, bare_body("b", box_mesh(Vec3(2, 2, 2), Vec3(3, 3, 3), 1))});
+      judge_at_rest({shell, test::bare_body("b", box_mesh(Vec3(2, 2, 2), Vec3(3, 3, 3), 1))});
   EXPECT_THAT(truth.containment, IsEmpty());
   EXPECT_THAT(truth.surface.vertices, IsEmpty());
 }
@@ -106,13 +105,14 @@ TEST(Oracle, BodyInACavityIsNotHeld) {
 TEST(Oracle, OpenBodiesHoldNothingButCanBeHeld) {
   TriangleMesh open = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
   open.triangles.pop_back();
-  const Body inner = bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
-  const Truth in_open = judge_at_rest({bare_body("open", open), inner});
+  const Body inner = test::bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
+  const Truth in_open = judge_at_rest({test::bare_body("open", open), inner});
   EXPECT_THAT(in_open.containment, IsEmpty());
   EXPECT_THAT(in_open.surface.vertices, IsEmpty());
-  const Body patch = bare_body("patch", triangle_mesh(Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 1)));
+  const Body patch =
+      test::bare_body("patch", triangle_mesh(Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 1)));
   const Truth held =
-      judge_at_rest({patch, bare_body("box", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2))});
+      judge_at_rest({patch, test::bare_body("box", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2))});
   EXPECT_THAT(held.containment, ElementsAre(BodyPair{0, 1}));
   EXPECT_EQ(held.surface.vertices.size(), 3u);
 }
@@ -292,7 +292,7 @@ TEST(Oracle, PowersOfTwoGiveIdenticalSets) {
     std::vector<Body> bodies;
     for (TriangleMesh mesh : {torus, sphere}) {
       mesh.vertices = scaled(mesh.vertices, std::ldexp(1.0, exponent));
-      bodies.push_back(bare_body("scaled", mesh));
+      bodies.push_back(test::bare_body("scaled", mesh));
     }
     Truth truth = judge_at_rest(bodies);
     if (exponent == 0) expected = truth;
@@ -310,7 +310,8 @@ TEST(Oracle, SubnormalCoordinates) {
     TriangleMesh b = box_mesh(Vec3(2, 2, 2), Vec3(6, 6, 6), 2);
     TriangleMesh c = box_mesh(Vec3(9, 0, 0), Vec3(17, 8, 8), 2);
     for (TriangleMesh* mesh : {&a, &b, &c}) mesh->vertices = scaled(mesh->vertices, scale);
-    const Truth truth = judge_at_rest({bare_body("a", a), bare_body("b", b), bare_body("c", c)});
+    const Truth truth =
+        judge_at_rest({test::bare_body("a", a), test::bare_body("b", b), test::bare_body("c", c)});
     EXPECT_THAT(truth.surface.bodies, IsEmpty()) << scale;
     EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1})) << scale;
     EXPECT_EQ(truth.surface.vertices.size(), b.vertices.size()) << scale;
@@ -336,9 +337,9 @@ class FloatingPointEnvironment : public testing::Test {
   ~FloatingPointEnvironment() override { std::fesetenv(FE_DFL_ENV); }
 
   // Two bodies in contact and one apart.
-  std::vector<Body> bodies_{bare_body("a", torus_mesh(1.0, 0.4, 12, 8)),
-                            bare_body("b", sphere_mesh(Vec3(1, 0.1, 0.2), 0.5, 2)),
-                            bare_body("c", sphere_mesh(Vec3(0.3, 0.1, 2.2), 0.5, 2))};
+  std::vector<Body> bodies_{test::bare_body("a", torus_mesh(1.0, 0.4, 12, 8)),
+                            test::bare_body("b", sphere_mesh(Vec3(1, 0.1, 0.2), 0.5, 2)),
+                            test::bare_body("c", sphere_mesh(Vec3(0.3, 0.1, 2.2), 0.5, 2))};
 };
 
 TEST_F(FloatingPointEnvironment, RoundingModeIsAsBeforeAndDoesNotChangeTheTruth) {
@@ -367,7 +368,7 @@ TEST_F(FloatingPointEnvironment, FlushToZeroIsAsBeforeAndDoesNotChangeTheTruth) 
   for (Body& body : bodies_) {
     TriangleMesh mesh = body.shape->mesh;
     mesh.vertices = scaled(mesh.vertices, 1e-312);
-    body = bare_body(body.name, mesh);
+    body = test::bare_body(body.name, mesh);
   }
   const FrameData data = rest_frame(bodies_);
   Oracle oracle(bodies_);
@@ -385,8 +386,8 @@ TEST_F(FloatingPointEnvironment, FlushToZeroIsAsBeforeAndDoesNotChangeTheTruth) 
 #endif
 
 TEST(OracleDeathTest, FrameWithoutVerticesIsRefused) {
-  const std::vector<Body> bodies{bare_body("a", unit_box_mesh(1)),
-                                 bare_body("b", unit_box_mesh(1))};
+  const std::vector<Body> bodies{test::bare_body("a", unit_box_mesh(1)),
+                                 test::bare_body("b", unit_box_mesh(1))};
   FrameData data = rest_frame(bodies);
   Frame frame = data.frame();
   frame.bodies[1].vertices = {};

@@ -20,10 +20,6 @@ using Corners3 = oracle::TriangleCorners;
 
 MATCHER_P(IsDirection, direction, "") { return (arg - Vec3(direction)).norm() < 1e-12; }
 
-Body bare_body(const std::string& name, TriangleMesh mesh) {
-  return {name, make_bare_shape(std::move(mesh))};
-}
-
 // Bare bodies in one frame, with the geometry set to it.
 struct Scene {
   explicit Scene(std::vector<Body> b) : Scene(b, meshes_of(b)) {}
@@ -51,10 +47,12 @@ struct Scene {
 // ---- vertex to surface
 
 // A body of points: the vertices of one degenerate triangle and more.
-Body points(std::vector<Vec3> at) { return bare_body("points", {std::move(at), {{0, 0, 0}}}); }
+Body points(std::vector<Vec3> at) {
+  return test::bare_body("points", {std::move(at), {{0, 0, 0}}});
+}
 
 WayOut way_from(const Vec3& vertex, TriangleMesh mesh) {
-  Scene scene({points({vertex}), bare_body("surface", std::move(mesh))});
+  Scene scene({points({vertex}), test::bare_body("surface", std::move(mesh))});
   return scene.geometry.vertex_to_surface({0, 1, 0});
 }
 
@@ -164,7 +162,7 @@ class VertexToSurfaceAgainstBruteForce : public testing::Test {
     std::vector<Vec3> at;
     for (int i = 0; i < count; ++i) at.push_back(source.point(Vec3::Zero(), 1.5) + offset);
     mesh.vertices = moved(mesh.vertices, Eigen::Matrix3d::Identity(), offset);
-    Scene scene({points(at), bare_body("torus", mesh)});
+    Scene scene({points(at), test::bare_body("torus", mesh)});
     for (std::uint32_t v = 0; v < at.size(); ++v) check(scene, v);
   }
 
@@ -200,7 +198,7 @@ TEST(VertexToSurface, TinyDepthsAreRightToo) {
     const double s = 0.5 + 0.5 * source.unit(), r = (1 - s) * (0.5 + 0.5 * source.unit());
     at.push_back((a + s * (b - a) + r * (c - a)) * (1 - std::ldexp(1.0, -20 - source.below(30))));
   }
-  Scene scene({points(at), bare_body("ball", ball)});
+  Scene scene({points(at), test::bare_body("ball", ball)});
   for (std::uint32_t v = 0; v < at.size(); ++v)
     EXPECT_NEAR(scene.geometry.vertex_to_surface({0, 1, v}).depth,
                 brute_force_distance(scene, wide(at[v])), 2e-12);
@@ -211,8 +209,8 @@ TEST(VertexToSurface, TinyDepthsAreRightToo) {
 class TwoTriangles {
  public:
   TwoTriangles(const Corners3& a, const Corners3& b)
-      : scene_({bare_body("a", triangle_mesh(a[0], a[1], a[2])),
-                bare_body("b", triangle_mesh(b[0], b[1], b[2]))}) {}
+      : scene_({test::bare_body("a", triangle_mesh(a[0], a[1], a[2])),
+                test::bare_body("b", triangle_mesh(b[0], b[1], b[2]))}) {}
   double distance() const { return scene_.geometry.triangle_distance({0, 1, 0, 0}); }
   double length() const { return scene_.geometry.intersection_length({0, 1, 0, 0}); }
   std::optional<WayOut> way() const { return scene_.geometry.part_triangles({0, 1, 0, 0}); }
@@ -257,8 +255,9 @@ TEST(TrianglePairs, LengthAndWayOfACrossing) {
 }
 
 TEST(TrianglePairs, PieceBMovesWhicheverBodyItIsOf) {
-  Scene scene({bare_body("a", triangle_mesh(kFloor[0], kFloor[1], kFloor[2])),
-               bare_body("b", triangle_mesh(Vec3(1, 1, -0.5), Vec3(1, 1, 1.5), Vec3(1, 2, 1.5)))});
+  Scene scene(
+      {test::bare_body("a", triangle_mesh(kFloor[0], kFloor[1], kFloor[2])),
+       test::bare_body("b", triangle_mesh(Vec3(1, 1, -0.5), Vec3(1, 1, 1.5), Vec3(1, 2, 1.5)))});
   const auto up = scene.geometry.part_triangles({0, 1, 0, 0});
   const auto down = scene.geometry.part_triangles({1, 0, 0, 0});
   ASSERT_TRUE(up && down);
@@ -394,8 +393,8 @@ TEST(SurfaceGeometryFrames, EveryAnswerIsAboutTheFrameSet) {
 
 TEST(SurfaceGeometryFrames, RoundingModeDoesNotChangeTheAnswers) {
   TriangleSource source(1106);
-  Scene scene({bare_body("torus", crumpled_torus(source)),
-               bare_body("ball", sphere_mesh(Vec3(1, 0, 0), 0.5, 1))});
+  Scene scene({test::bare_body("torus", crumpled_torus(source)),
+               test::bare_body("ball", sphere_mesh(Vec3(1, 0, 0), 0.5, 1))});
   const Truth truth = Oracle(scene.bodies).judge(scene.data.frame(), {});
   ASSERT_GT(truth.surface.triangles.size(), 20u);
   const auto sum = [&] {
@@ -427,7 +426,7 @@ TEST(SurfaceGeometryFrames, RoundingModeDoesNotChangeTheAnswers) {
 }
 
 TEST(SurfaceGeometryDeathTest, WhatIsNotThereIsRefused) {
-  Scene scene({points({Vec3::Zero()}), bare_body("b", unit_box_mesh(1))});
+  Scene scene({points({Vec3::Zero()}), test::bare_body("b", unit_box_mesh(1))});
   EXPECT_DEATH(scene.geometry.vertex_to_surface({0, 2, 0}), "a body of the scene");
   EXPECT_DEATH(scene.geometry.vertex_to_surface({0, 1, 1}), "a vertex of the body");
   EXPECT_DEATH(scene.geometry.intersection_length({0, 1, 0, 12}), "a triangle of the body");

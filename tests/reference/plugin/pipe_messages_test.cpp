@@ -124,32 +124,35 @@ TEST(PipeMessages, OfContactsAreReadListByList) {
   EXPECT_EQ(out.vertex_contacts[0].normal, Vec3(0, 0, 1));
 }
 
-std::string sentence_about(const std::string& line) {
+std::string sentence_about_line(const std::string& line) {
   return test::sentence_of([&] { check_contact_counts(Reply(line, "command", "contacts")); });
 }
 
 TEST(PipeMessages, OfContactsWithCountsThatDisagreeAreRefused) {
-  EXPECT_EQ(sentence_about(R"({"message": "contacts"})"), "");
-  EXPECT_THAT(sentence_about(R"({"message": "contacts", "near": 1})"),
+  EXPECT_EQ(sentence_about_line(R"({"message": "contacts"})"), "");
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts", "near": 1})"),
               HasSubstr("lists of 16 bytes together and says 0"));
-  EXPECT_THAT(sentence_about(R"({"message": "contacts", "near": -1})"), HasSubstr("near is -1"));
-  EXPECT_THAT(sentence_about(R"({"message": "contacts", "near": 0.5})"), HasSubstr("near is 0.5"));
-  EXPECT_THAT(sentence_about(R"({"message": "contacts", "bytes": 1e300})"), HasSubstr("bytes is"));
-  EXPECT_THAT(sentence_about(R"({"message": "contacts", "bytes": 1, "bytes": 2})"),
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts", "near": -1})"),
+              HasSubstr("near is -1"));
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts", "near": 0.5})"),
+              HasSubstr("near is 0.5"));
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts", "bytes": 1e300})"),
+              HasSubstr("bytes is"));
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts", "bytes": 1, "bytes": 2})"),
               HasSubstr("bytes"));
-  EXPECT_THAT(sentence_about("{}"), HasSubstr("message is missing"));
+  EXPECT_THAT(sentence_about_line("{}"), HasSubstr("message is missing"));
 }
 
 TEST(PipeMessages, WordsAmongThemAreShownWithWhereTheyBelong) {
   for (const char* line : {"found 3 pairs", "3", R"(["contacts"])"}) {
-    const std::string sentence = sentence_about(line);
+    const std::string sentence = sentence_about_line(line);
     EXPECT_THAT(sentence,
                 HasSubstr("command wrote \"" + std::string(line) + "\" where its message"));
     EXPECT_THAT(sentence, HasSubstr("\"contacts\" was due"));
     EXPECT_THAT(sentence, HasSubstr("belongs on standard error"));
   }
-  EXPECT_THAT(sentence_about(""), HasSubstr("command wrote \"\" where"));
-  EXPECT_THAT(sentence_about(R"({"message": "contacts")"), HasSubstr("not valid JSON"));
+  EXPECT_THAT(sentence_about_line(""), HasSubstr("command wrote \"\" where"));
+  EXPECT_THAT(sentence_about_line(R"({"message": "contacts")"), HasSubstr("not valid JSON"));
 }
 
 TEST(PipeMessages, OfErrorsAreThrownAsSuch) {

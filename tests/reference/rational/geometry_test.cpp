@@ -14,9 +14,9 @@ namespace {
 
 using rational::TriangleCorners;
 
-const TriangleCorners kBase = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+const TriangleCorners kTriangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
-mpq_class distance_to(const TriangleCorners& t) { return rational::squared_distance(kBase, t); }
+mpq_class distance_to(const TriangleCorners& t) { return rational::squared_distance(kTriangle, t); }
 
 TriangleCorners point(const Vec3& p) { return {p, p, p}; }
 
@@ -39,21 +39,23 @@ TEST(RationalOrient, SignsOfTheUnitCorner) {
 }
 
 TEST(RationalTrianglesIntersect, KnownAnswers) {
-  EXPECT_TRUE(rational::triangles_intersect(kBase, kBase));
-  EXPECT_TRUE(rational::triangles_intersect(kBase, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 1)}));
-  EXPECT_TRUE(rational::triangles_intersect(kBase, point(Vec3(2, 2, 0))));
-  EXPECT_FALSE(rational::triangles_intersect(kBase, point(Vec3(2, 2, 5e-324))));
-  EXPECT_FALSE(rational::triangles_intersect(kBase, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(3, 5, 0)}));
+  EXPECT_TRUE(rational::triangles_intersect(kTriangle, kTriangle));
+  EXPECT_TRUE(
+      rational::triangles_intersect(kTriangle, {Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(9, 9, 1)}));
+  EXPECT_TRUE(rational::triangles_intersect(kTriangle, point(Vec3(2, 2, 0))));
+  EXPECT_FALSE(rational::triangles_intersect(kTriangle, point(Vec3(2, 2, 5e-324))));
+  EXPECT_FALSE(
+      rational::triangles_intersect(kTriangle, {Vec3(3, 3, 0), Vec3(5, 3, 0), Vec3(3, 5, 0)}));
 }
 
 TEST(RationalTriangleMeetsBox, KnownAnswers) {
   Aabb box;
-  EXPECT_FALSE(rational::triangle_meets_box(kBase, box));
+  EXPECT_FALSE(rational::triangle_meets_box(kTriangle, box));
   box.extend(Vec3(2, 2, -1));
   box.extend(Vec3(3, 3, 1));
-  EXPECT_TRUE(rational::triangle_meets_box(kBase, box));
+  EXPECT_TRUE(rational::triangle_meets_box(kTriangle, box));
   box.lo.x() = std::nextafter(2.0, 3.0);
-  EXPECT_FALSE(rational::triangle_meets_box(kBase, box));
+  EXPECT_FALSE(rational::triangle_meets_box(kTriangle, box));
 }
 
 TEST(RationalSquaredDistance, ToFaceEdgeCornerAndSkewEdge) {
@@ -62,7 +64,7 @@ TEST(RationalSquaredDistance, ToFaceEdgeCornerAndSkewEdge) {
   EXPECT_EQ(distance_to(point(Vec3(3, 3, 0))), 2);
   EXPECT_EQ(distance_to(point(Vec3(7, -4, 12))), 9 + 16 + 144);
   EXPECT_EQ(distance_to({Vec3(2, -3, -9), Vec3(2, -3, 9), Vec3(2, -3, 9)}), 9);
-  EXPECT_EQ(distance_to(kBase), 0);
+  EXPECT_EQ(distance_to(kTriangle), 0);
 }
 
 TEST(RationalSquaredDistance, ExactBelowTheRangeOfDoubles) {

@@ -12,13 +12,13 @@ namespace {
 using testing::Each;
 using testing::ElementsAre;
 
-bool always() { return true; }
+bool accept_all() { return true; }
 
 using Shows = std::function<bool(const Coordinates&)>;
 
 Coordinates simplest(const Coordinates& start, const Shows& shows) {
   EXPECT_TRUE(shows(start));
-  Coordinates out = simplify(start, start.size() / 2, shows, always);
+  Coordinates out = simplify(start, start.size() / 2, shows, accept_all);
   EXPECT_TRUE(shows(out));
   return out;
 }
@@ -87,7 +87,7 @@ TEST(Simplify, NeverTriesWhatIsNoSimplerOrNotFinite) {
     if (shown) least = reading_cost(c);
     return shown;
   };
-  simplify(start, 3, shows, always);
+  simplify(start, 3, shows, accept_all);
 }
 
 TEST(Simplify, StopsWhereItMayNotGoOn) {

@@ -7,7 +7,7 @@
 namespace contactcheck {
 namespace {
 
-MinimalCase minimal_case(const Finding& finding) {
+MinimalCase printed_case(const Finding& finding) {
   MinimalCase out;
   out.scene = "hard-balls";
   out.place = "value 1e-3 (frame 4)";
@@ -33,7 +33,7 @@ ProbeVerdict verdict(const Finding& finding) {
 // A report's text, literally.
 TEST(PrintedTest, IsATestWithExactNumbers) {
   const Finding finding{"triangle", "missed"};
-  const MinimalCase minimal = minimal_case(finding);
+  const MinimalCase minimal = printed_case(finding);
   EXPECT_EQ(
       printed_test(minimal, answers_of(minimal, verdict(finding))),
       R"(// fcl-obbrss (fcl 0.7.0): missed at level triangle. From hard-balls, value 1e-3 (frame 4).
@@ -64,7 +64,7 @@ TEST(FclObbrss, MissedTriangleHardBalls) {
 TEST(AnswersOf, SayWhatIsTrueAtEveryLevel) {
   const auto exact = [](const std::string& level, const std::string& kind) {
     const Finding finding{level, kind};
-    return answers_of(minimal_case(finding), verdict(finding)).exact;
+    return answers_of(printed_case(finding), verdict(finding)).exact;
   };
   EXPECT_EQ(exact("body", "missed"), "first and second share a point");
   EXPECT_EQ(exact("body", "spurious"), "first and second share no point");
@@ -84,7 +84,7 @@ TEST(AnswersOf, AnErrorSayHowItEnded) {
   v.status = RunStatus::kError;
   v.how = "threw";
   v.message = "stack overflow in tree";
-  EXPECT_EQ(answers_of(minimal_case({"", "error", "threw"}), v).detector,
+  EXPECT_EQ(answers_of(printed_case({"", "error", "threw"}), v).detector,
             "error: threw: stack overflow in tree");
 }
 

@@ -10,7 +10,7 @@ namespace {
 using test::sample_results;
 using testing::ElementsAre;
 
-nlohmann::ordered_json two_scenes() {
+nlohmann::ordered_json two_scenes_in_order() {
   auto results = sample_results();
   auto more = results;
   more["scenes"][0]["id"] = "again";
@@ -28,7 +28,7 @@ TEST(Summary, HasOneCellPerColumn) {
 }
 
 TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {
-  auto results = two_scenes();
+  auto results = two_scenes_in_order();
   auto& second = results["runs"][6];
   ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
   second["speedup"]["triangles"]["fcl-aabb"]["cold"]["ratio"] = 2.5;
@@ -43,14 +43,14 @@ TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {
 }
 
 TEST(Summary, RunsThatAreNotOkAreCountedAndNeverAHitOrAMiss) {
-  const auto lines = summary_lines(two_scenes());
+  const auto lines = summary_lines(two_scenes_in_order());
   EXPECT_THAT(lines[2], ElementsAre("fcl-obbrss", "0 (2 not ok)", "", "-", "-", "-", "-", "-", "-",
                                     "", "-", "-", "-"));
 }
 
 TEST(Summary, RunThatIsNotOkStandsInTheLineOfItsDetector) {
   for (const std::size_t broken : {0, 5}) {
-    auto results = two_scenes();
+    auto results = two_scenes_in_order();
     results["runs"][broken] = {{"scene", results["runs"][broken]["scene"]},
                                {"detector", "fcl-aabb"},
                                {"status", "error"},
@@ -64,7 +64,7 @@ TEST(Summary, RunThatIsNotOkStandsInTheLineOfItsDetector) {
 }
 
 TEST(Summary, LevelsOfDifferentScenesAreNotAddedUp) {
-  auto results = two_scenes();
+  auto results = two_scenes_in_order();
   auto& second = results["runs"][5];
   ASSERT_EQ(second["detector"], "fcl-aabb");
   second["per_frame"]["level"] = "body";

@@ -26,7 +26,7 @@ Scene boxes() {
                               {Level::kBody});
 }
 
-RunResult measured(const Scene& scene, const std::string& name) {
+RunResult measured_hover(const Scene& scene, const std::string& name) {
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   register_reference_detectors(catalog);
@@ -42,7 +42,7 @@ RunResult measured(const Scene& scene, const std::string& name) {
 }
 
 TEST(HoverGap, OfFfdGridIsTwicePadding) {
-  const RunResult result = measured(boxes(), "ffd-grid");
+  const RunResult result = measured_hover(boxes(), "ffd-grid");
   ASSERT_EQ(result.episodes.size(), 1u);
   EXPECT_EQ(result.episodes[0].first_reported, 7u);
   EXPECT_EQ(result.episodes[0].first_true, 11u);
@@ -52,7 +52,7 @@ TEST(HoverGap, OfFfdGridIsTwicePadding) {
 }
 
 TEST(HoverGap, OfFfdAabbIsZeroForBoxes) {
-  const RunResult result = measured(boxes(), "ffd-aabb");
+  const RunResult result = measured_hover(boxes(), "ffd-aabb");
   EXPECT_EQ(result.late_frames_worst(), 0);
   ASSERT_TRUE(result.hover_gap_max());
   EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance);
@@ -60,7 +60,7 @@ TEST(HoverGap, OfFfdAabbIsZeroForBoxes) {
 
 TEST(HoverGap, OfAnExactDetectorIsZero) {
   for (const char* name : {"fcl-aabb", "ffd-aabb-sphere2+tri"}) {
-    const RunResult result = measured(boxes(), name);
+    const RunResult result = measured_hover(boxes(), name);
     EXPECT_EQ(result.late_frames_worst(), 0) << name;
     ASSERT_TRUE(result.hover_gap_max()) << name;
     EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance) << name;
@@ -71,7 +71,7 @@ TEST(HoverGap, OfARecordingIsTheDistanceInTheFirstReportedFrame) {
   Scene scene = boxes();
   scene.recorded = test::recorded_frames(scene);
   scene.motions.clear();
-  const RunResult result = measured(scene, "ffd-grid");
+  const RunResult result = measured_hover(scene, "ffd-grid");
   ASSERT_TRUE(result.hover_gap_max());
   EXPECT_NEAR(*result.hover_gap_max(), 1.53 - 7 * 0.05 - 1.0, 1e-9);
 }
@@ -80,7 +80,7 @@ TEST(HoverGap, OfAContactFromTheFirstFrameIsTheDistanceThere) {
   Scene scene = boxes();
   scene.motions[1].path.position[0].keys = {{0.0, 1.15}};
   scene.frames = 2;
-  const RunResult result = measured(scene, "ffd-grid");
+  const RunResult result = measured_hover(scene, "ffd-grid");
   ASSERT_EQ(result.episodes.size(), 1u);
   EXPECT_EQ(result.episodes[0].first_reported, 0u);
   EXPECT_EQ(result.episodes[0].late_frames, std::nullopt);
@@ -91,7 +91,7 @@ TEST(HoverGap, OfAContactFromTheFirstFrameIsTheDistanceThere) {
 TEST(HoverGap, IsNullWithoutAReport) {
   Scene scene = boxes();
   scene.motions[1].path.position[0].keys = {{0.0, 1.5}};
-  const RunResult result = measured(scene, "ffd-grid");
+  const RunResult result = measured_hover(scene, "ffd-grid");
   EXPECT_TRUE(result.episodes.empty());
   EXPECT_EQ(result.hover_gap_max(), std::nullopt);
   EXPECT_EQ(result.late_frames_worst(), std::nullopt);

@@ -51,7 +51,7 @@ std::vector<CatalogueEntry> scenes_that_are(bool simulated) {
   return out;
 }
 
-std::string named(const ::testing::TestParamInfo<CatalogueEntry>& test) {
+std::string named_entry(const ::testing::TestParamInfo<CatalogueEntry>& test) {
   std::string name = test.param.id;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
@@ -60,7 +60,7 @@ std::string named(const ::testing::TestParamInfo<CatalogueEntry>& test) {
 class FixtureScene : public ::testing::TestWithParam<CatalogueEntry> {};
 
 TEST_P(FixtureScene, LoadsAndMovesFinitely) {
-  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const Scene scene = load_scene(GetParam().file);
   EXPECT_EQ(scene.id, GetParam().id);
   const bool costly = scene.id == "torus-fine" || scene.id == "nested";
@@ -79,7 +79,7 @@ TEST_P(FixtureScene, LoadsAndMovesFinitely) {
 }
 
 TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
-  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const Scene scene = load_scene(GetParam().file);
   const std::vector<std::vector<Vec3>> start = scene.nodes_of_frame(0),
                                        middle = scene.nodes_of_frame(scene.frames / 2);
@@ -98,12 +98,12 @@ TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, FixtureScene, ::testing::ValuesIn(scenes_that_are(false)),
-                         named);
+                         named_entry);
 
 class SpeedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
 
 TEST_P(SpeedFixture, LoadsAndMovesALittleInSixCellsASide) {
-  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const Scene scene = load_scene(GetParam().file);
   EXPECT_EQ(scene.id, GetParam().id);
   EXPECT_LE(scene.frames, 20u);
@@ -118,12 +118,12 @@ TEST_P(SpeedFixture, LoadsAndMovesALittleInSixCellsASide) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures, SpeedFixture, ::testing::ValuesIn(speed_scenes()), named);
+INSTANTIATE_TEST_SUITE_P(Fixtures, SpeedFixture, ::testing::ValuesIn(speed_scenes()), named_entry);
 
 class SimulatedFixture : public ::testing::TestWithParam<CatalogueEntry> {};
 
 TEST_P(SimulatedFixture, LoadsWithAFiniteStart) {
-  if (!data_installed()) GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+  if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const Scene scene = load_scene(GetParam().file);
   EXPECT_EQ(scene.id, GetParam().id);
   ASSERT_TRUE(scene.simulation.has_value());
@@ -138,7 +138,7 @@ TEST_P(SimulatedFixture, LoadsWithAFiniteStart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, SimulatedFixture, ::testing::ValuesIn(scenes_that_are(true)),
-                         named);
+                         named_entry);
 
 TEST(Catalogue, HasTheScenesOfTheDefaultSuite) {
   const Suite suite = load_suite(kFixtures / "suites" / "default.json");

@@ -136,7 +136,7 @@ TEST(Datasets, ComeFromAnUnpackedCopyToo) {
 }
 
 TEST(Datasets, KnownOnesAreSolids) {
-  if (!installed(kArchive)) GTEST_SKIP() << "libcgal-demo is not installed";
+  if (!installed(kArchive)) GTEST_SKIP() << "install libcgal-demo";
   for (const std::string& name : known_datasets()) {
     EXPECT_TRUE(analyse_topology(load_dataset(name).mesh).solid) << name;
   }
@@ -146,7 +146,7 @@ TEST(Datasets, KnownOnesAreSolids) {
 }
 
 TEST(Teapot, HasThePapersCountsAndDefects) {
-  if (!installed(kTeapot)) GTEST_SKIP() << "povray-examples is not installed";
+  if (!installed(kTeapot)) GTEST_SKIP() << "install povray-examples";
   const TriangleMesh teapot = make_teapot(10);
   EXPECT_EQ(teapot.vertices.size(), 3241u);
   EXPECT_EQ(teapot.triangles.size(), 6400u);
@@ -178,7 +178,7 @@ void PrintTo(const Simplified& p, std::ostream* out) { *out << p.name; }
 class SimplifiedDataset : public ::testing::TestWithParam<Simplified> {};
 
 TEST_P(SimplifiedDataset, HasThePapersCountsAndStaysSolid) {
-  if (!installed(kArchive)) GTEST_SKIP() << "libcgal-demo is not installed";
+  if (!installed(kArchive)) GTEST_SKIP() << "install libcgal-demo";
   const TriangleMesh mesh = simplify(load_dataset(GetParam().name).mesh, GetParam().triangles);
   EXPECT_EQ(mesh.triangles.size(), GetParam().triangles);
   EXPECT_EQ(mesh.vertices.size(), GetParam().vertices);

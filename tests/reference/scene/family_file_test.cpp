@@ -24,7 +24,7 @@ std::string triangle(const std::string& rest) {
          rest + "}";
 }
 
-Scene load(const std::string& text) {
+Scene load_family(const std::string& text) {
   const Scratch scratch;
   return load_scene(scratch.write("f.json", text));
 }
@@ -44,7 +44,7 @@ std::vector<Vec3> vertices(const Scene& scene, std::size_t frame) {
 }
 
 TEST(FamilyFile, HasAFrameForEveryValue) {
-  const Scene scene = load(family(triangle(R"(, "lattice": "nodes")")));
+  const Scene scene = load_family(family(triangle(R"(, "lattice": "nodes")")));
   ASSERT_TRUE(scene.family);
   EXPECT_EQ(scene.frames, 3u);
   EXPECT_EQ(scene.family->parameter, "gap, m");
@@ -56,8 +56,8 @@ TEST(FamilyFile, HasAFrameForEveryValue) {
 }
 
 TEST(FamilyFile, LatticeOfNodesAndNoLatticeGiveTheSameVertices) {
-  const Scene with = load(family(triangle(R"(, "lattice": "nodes")")));
-  const Scene without = load(family(triangle("")));
+  const Scene with = load_family(family(triangle(R"(, "lattice": "nodes")")));
+  const Scene without = load_family(family(triangle("")));
   EXPECT_TRUE(with.bodies[0].shape->lattice);
   EXPECT_FALSE(without.bodies[0].shape->lattice);
   for (std::size_t f = 0; f < 3; ++f) EXPECT_EQ(vertices(with, f), vertices(without, f)) << f;
@@ -65,9 +65,9 @@ TEST(FamilyFile, LatticeOfNodesAndNoLatticeGiveTheSameVertices) {
 
 TEST(FamilyFile, StepsFollowOneAnother) {
   const Scene scene =
-      load(family(triangle(R"(, "steps": [{"scale": [2, 1, "$"]}, {"translate": ["$", 0, 1]},
+      load_family(family(triangle(R"(, "steps": [{"scale": [2, 1, "$"]}, {"translate": ["$", 0, 1]},
                               {"rotate": [1, 0, 0, 1]}, {"round": 0.5}, {"vertex": 2, "by": [0, 0, "-$"]}])"),
-                  R"("2")"));
+                         R"("2")"));
   // Turned by a quarter about z: (x, y) becomes (-y, x).
   EXPECT_EQ(vertices(scene, 0)[0], Vec3(0, 2, 5));
   EXPECT_EQ(vertices(scene, 0)[1], Vec3(0, 4, 7));
@@ -75,7 +75,7 @@ TEST(FamilyFile, StepsFollowOneAnother) {
 }
 
 TEST(FamilyFile, StepsMoveTheNodesOfALattice) {
-  const Scene scene = load(family(R"({"name": "a", "mesh": {"shape": "box"},
+  const Scene scene = load_family(family(R"({"name": "a", "mesh": {"shape": "box"},
       "lattice": {"cells": [1, 1, 1]}, "steps": [{"node": [1, 1, 1], "by": [0, 0, "$"]}]})"));
   const auto& still = scene.recorded[0][0];
   const auto& moved = scene.recorded[2][0];

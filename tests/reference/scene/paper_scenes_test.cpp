@@ -48,7 +48,7 @@ class PaperScene : public ::testing::TestWithParam<Counts> {
  protected:
   void SetUp() override {
     if (!test::data_installed()) {
-      GTEST_SKIP() << "libcgal-demo or povray-examples is not installed";
+      GTEST_SKIP() << "install libcgal-demo and povray-examples";
     }
   }
 

@@ -12,15 +12,15 @@ namespace contactcheck {
 namespace {
 
 using Points = std::vector<Vec3>;
-using Corners = std::vector<std::uint32_t>;
+using Polygon = std::vector<std::uint32_t>;
 
-Corners counted(std::size_t count) {
-  Corners out(count);
+Polygon counted(std::size_t count) {
+  Polygon out(count);
   std::iota(out.begin(), out.end(), 0u);
   return out;
 }
 
-Vec3 twice_area(const Points& p, const Corners& corners) {
+Vec3 twice_area(const Points& p, const Polygon& corners) {
   Vec3 out = Vec3::Zero();
   for (std::size_t k = 2; k < corners.size(); ++k)
     out += (p[corners[k - 1]] - p[corners[0]]).cross(p[corners[k]] - p[corners[0]]);
@@ -29,7 +29,7 @@ Vec3 twice_area(const Points& p, const Corners& corners) {
 
 // As many triangles as a polygon has, each turned as it is, their areas together the polygon's: so
 // none overlap and none stand outside.
-void expect_filled(const Points& points, const Corners& corners) {
+void expect_filled(const Points& points, const Polygon& corners) {
   const auto split = split_polygon(points, corners);
   ASSERT_TRUE(split);
   EXPECT_EQ(split->triangles.size(), corners.size() - 2);
@@ -53,7 +53,7 @@ void expect_filled_everywhere(const Points& flat) {
     Points points;
     for (const Vec3& p : flat)
       points.push_back(p.x() * tilt[0] + p.y() * tilt[1] + Vec3(64, -32, 8));
-    Corners corners = counted(flat.size());
+    Polygon corners = counted(flat.size());
     for (int way = 0; way < 2; ++way, std::reverse(corners.begin(), corners.end()))
       for (std::size_t turn = 0; turn < flat.size(); ++turn) {
         expect_filled(points, corners);
@@ -119,7 +119,7 @@ TEST(PolygonSplit, FillsRandomOutlinesOnce) {
 TEST(PolygonSplit, FillsARingThroughItsBridge) {
   const Points points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
                          {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}};
-  Corners ring = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
+  Polygon ring = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
   for (std::size_t turn = 0; turn < ring.size(); ++turn) {
     expect_filled(points, ring);
     std::rotate(ring.begin(), ring.begin() + 1, ring.end());
@@ -130,7 +130,7 @@ TEST(PolygonSplit, DecidesByExactSigns) {
   // The third corner is one unit in the last place inside the line from the second to the fourth.
   const double less = std::nextafter(0.5, 0.0);
   const Points points = {{1, 0, 0}, {0.5, less, 0}, {0, 1, 0}, {0, 0, 0}};
-  for (const Corners& corners : {Corners{0, 1, 2, 3}, Corners{2, 3, 0, 1}}) {
+  for (const Polygon& corners : {Polygon{0, 1, 2, 3}, Polygon{2, 3, 0, 1}}) {
     const auto split = split_polygon(points, corners);
     ASSERT_TRUE(split && split->concave);
     for (const Triangle& t : split->triangles)

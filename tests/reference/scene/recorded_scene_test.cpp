@@ -56,7 +56,7 @@ class RecordedScene : public testing::Test {
 };
 
 const std::string kFiles = R"("recording": {"frames": "box_%02d.obj", "first": 5})";
-const std::string kPc2 = R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2"})";
+const std::string kPc2Body = R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2"})";
 
 // "./" before a name that is a number alone is no part of the name.
 TEST_F(RecordedScene, NamesOfNumbersAloneStandInTheScenesFolder) {
@@ -71,7 +71,7 @@ TEST_F(RecordedScene, NamesOfNumbersAloneStandInTheScenesFolder) {
 
 TEST_F(RecordedScene, HasTheFramesOfTheFilesAndTheScriptedBodiesBesideThem) {
   for (const std::string& body :
-       {kFiles, kPc2,
+       {kFiles, kPc2Body,
         std::string(R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.mdd"})")}) {
     SCOPED_TRACE(body);
     const Scene scene = load(body);
@@ -165,7 +165,7 @@ TEST_F(RecordedScene, AGapInTheNumbersIsNoEnd) {
   EXPECT_EQ(load(whole, any).frames, 2u);
 }
 
-struct Wrong {
+struct WrongRecording {
   std::string body, head, sentence;
 };
 
@@ -181,7 +181,7 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
   scratch_.write("nan_1.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   scratch_.write("finer.obj", test::obj_text(other));
   const std::string five = R"("frames": 5)", two = R"("frames": 2)";
-  const std::vector<Wrong> wrong = {
+  const std::vector<WrongRecording> wrong = {
       {R"("recording": {"frames": "other_%d.obj"})", two,
        "bodies[0].recording frame 1 (\"DIR/other_1.obj\") has 26 vertices and 48 triangles, the "
        "body's mesh has 8 vertices and 12 triangles."},
@@ -216,20 +216,20 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
        "bodies[0].recording.first is -1; it must be a whole number from 0"},
       {R"("recording": {"frames": "box_%02d.obj", "step": 0})", five,
        "bodies[0].recording.step is 0; it must be a whole number from 1"},
-      {kPc2 + R"(, "motion": {"position": [0, 0, 0]})", five,
+      {kPc2Body + R"(, "motion": {"position": [0, 0, 0]})", five,
        "bodies[0].motion is not allowed beside a \"recording\"."},
-      {kPc2 + R"(, "copies": {"counts": [2, 1, 1], "spacing": [1, 1, 1]})", five,
+      {kPc2Body + R"(, "copies": {"counts": [2, 1, 1], "spacing": [1, 1, 1]})", five,
        "bodies[0].copies is not allowed beside a \"recording\"."},
       {R"("mesh": {"file": "rest.obj", "size": 1}, "recording": {"cache": "box.pc2"})", five,
        "bodies[0].mesh.size is not allowed beside a \"recording\""},
-      {kPc2 + R"(, "lattice": {"kept": 8})", five,
+      {kPc2Body + R"(, "lattice": {"kept": 8})", five,
        "bodies[0].lattice has no \"fit\"; beside a recording it must be true"},
-      {kPc2 + R"(, "lattice": {"kept": 8, "fit": false})", five,
+      {kPc2Body + R"(, "lattice": {"kept": 8, "fit": false})", five,
        "bodies[0].lattice.fit is false; it must be true"},
       {R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2", "scale": 0})", five,
        "bodies[0].recording.scale is 0; it must be a number above 0"},
   };
-  for (const Wrong& w : wrong) {
+  for (const WrongRecording& w : wrong) {
     std::string expected = w.sentence;
     for (std::size_t at; (at = expected.find("DIR")) != std::string::npos;)
       expected.replace(at, 3, scratch_.folder().string());

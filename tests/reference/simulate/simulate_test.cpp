@@ -12,11 +12,11 @@
 namespace contactcheck {
 namespace {
 
-const OnStep kSilent = [](std::size_t) {};
+const OnStep kNoReport = [](std::size_t) {};
 
-SimulatedMotion driven(const Scene& scene) {
+SimulatedMotion driven_by_itself(const Scene& scene) {
   const std::unique_ptr<Detector> driver = test::core_detector(scene.simulation->driver);
-  return simulate(scene, *driver, kSilent);
+  return simulate(scene, *driver, kNoReport);
 }
 
 bool any_contact(const SimulatedMotion& motion) {
@@ -27,7 +27,7 @@ bool any_contact(const SimulatedMotion& motion) {
 
 TEST(Simulate, TwiceGivesTheSameBits) {
   const Scene scene = test::falling_balls();
-  const SimulatedMotion first = driven(scene), second = driven(scene);
+  const SimulatedMotion first = driven_by_itself(scene), second = driven_by_itself(scene);
   ASSERT_EQ(first.frames.size(), 30u);
   EXPECT_TRUE(any_contact(first));
   EXPECT_TRUE(test::same_bits(first.frames, second.frames));
@@ -37,9 +37,9 @@ TEST(Simulate, TwiceGivesTheSameBits) {
 
 TEST(Simulate, TwoThreadsGiveTheSameBitsAsOne) {
   Scene scene = test::falling_balls();
-  const SimulatedMotion one = driven(scene);
+  const SimulatedMotion one = driven_by_itself(scene);
   scene.simulation->settings.threads = 2;
-  const SimulatedMotion two = driven(scene);
+  const SimulatedMotion two = driven_by_itself(scene);
   EXPECT_TRUE(any_contact(one));
   EXPECT_TRUE(test::same_bits(one.frames, two.frames));
   EXPECT_EQ(one.energy, two.energy);
@@ -50,7 +50,7 @@ TEST(Simulate, EveryKeepsTheLastOfSoManySteps) {
   const Scene all = test::falling_balls(18);
   Scene some = test::falling_balls(6);
   some.simulation->every = 3;
-  const SimulatedMotion dense = driven(all), sparse = driven(some);
+  const SimulatedMotion dense = driven_by_itself(all), sparse = driven_by_itself(some);
   ASSERT_EQ(sparse.frames.size(), 6u);
   ASSERT_EQ(sparse.reported.size(), 6u);
   EXPECT_TRUE(any_contact(sparse));
@@ -79,7 +79,7 @@ TEST(Simulate, TellsEveryStepAndGivesItToTheDriverOnce) {
 TEST(Simulate, EnergyAndSpeedOfAFallAreInClosedForm) {
   Scene scene = test::falling_balls(30);
   test::BlindDetector driver(Question::kCells);
-  const SimulatedMotion motion = simulate(scene, driver, kSilent);
+  const SimulatedMotion motion = simulate(scene, driver, kNoReport);
   // Half a second with 9.81 m/s^2, from 1 m/s and from rest, of 1 kg each.
   const double upper = 1.0 + 4.905, lower = 4.905;
   const double kinetic = 0.5 * (upper * upper + lower * lower);
@@ -96,7 +96,7 @@ Recording recording_of(const Scene& scene, const SimulatedMotion& motion) {
 
 TEST(Simulate, ItsRecordingReplaysWithTheSameBits) {
   const Scene scene = test::falling_balls();
-  const SimulatedMotion motion = driven(scene);
+  const SimulatedMotion motion = driven_by_itself(scene);
   const test::Scratch scratch;
   const auto file = scratch.folder() / "balls.ccr";
   write_recording(file, recording_of(scene, motion));
@@ -111,7 +111,7 @@ TEST(Simulate, ItsRecordingReplaysWithTheSameBits) {
 // A detector that is given the replay answers as it did in the loop.
 TEST(Simulate, TheDriverReportsInTheReplayWhatItReportedInTheLoop) {
   const Scene scene = test::falling_balls();
-  const SimulatedMotion motion = driven(scene);
+  const SimulatedMotion motion = driven_by_itself(scene);
   const test::Scratch scratch;
   const auto file = scratch.folder() / "balls.ccr";
   write_recording(file, recording_of(scene, motion));

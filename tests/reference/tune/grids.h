@@ -8,6 +8,12 @@
 
 namespace contactcheck::test {
 
+inline Limits nothing_missed() {
+  Limits limits;
+  limits.missed = 0;
+  return limits;
+}
+
 struct Grid {
   std::vector<TuneCandidate> candidates;
   std::vector<Measurement> truth;  ///< of each

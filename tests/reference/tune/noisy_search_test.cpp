@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reference/tune/cost_book.h"
+#include "tests/reference/tune/grids.h"
 #include "tests/reference/tune/noisy_machine.h"
 
 namespace contactcheck {
@@ -14,12 +15,6 @@ using test::NoisyMachine;
 constexpr std::size_t kRepeats = 5;  ///< what `tune` does unless it is told otherwise
 constexpr std::uint64_t kGrids = 25;
 constexpr double kSame = 1.02;  ///< times the true cost of the cheapest: not worth a search
-
-Limits nothing_missed() {
-  Limits limits;
-  limits.missed = 0;
-  return limits;
-}
 
 using Samples = std::map<std::size_t, ProcessSamples>;
 
@@ -72,8 +67,8 @@ struct Score {
 };
 
 bool is_right(const Grid& grid, std::size_t candidate) {
-  const double best = grid.truth[*grid.best(nothing_missed())].cost().ms;
-  return nothing_missed().met_by(grid.truth[candidate]) &&
+  const double best = grid.truth[*grid.best(test::nothing_missed())].cost().ms;
+  return test::nothing_missed().met_by(grid.truth[candidate]) &&
          grid.truth[candidate].cost().ms <= kSame * best;
 }
 
@@ -86,7 +81,7 @@ Score score(const MakeMeasure& make_measure, std::size_t races, const Noise& noi
     SearchSettings settings;
     settings.races = races;
     const SearchOutcome found =
-        search(grid.candidates, nothing_missed(), settings, make_measure(grid, machine));
+        search(grid.candidates, test::nothing_missed(), settings, make_measure(grid, machine));
     score.right += is_right(grid, found.tried[*found.best].candidate);
     score.most = std::max(score.most, found.measurements);
   }

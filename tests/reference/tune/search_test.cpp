@@ -12,19 +12,13 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-Limits nothing_missed() {
-  Limits limits;
-  limits.missed = 0;
-  return limits;
-}
-
 TEST(Search, FindsWhatMeasuringEverythingFindsWithAFifthOfTheMeasurements) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const test::Grid grid = test::random_grid(seed);
     const Measure measure = grid.measure();
-    const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, measure);
+    const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, measure);
     ASSERT_TRUE(found.best) << seed;
-    EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed())) << seed;
+    EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(test::nothing_missed())) << seed;
     EXPECT_LE(found.tried.size(), grid.candidates.size() / 5) << seed;
     EXPECT_FALSE(found.exhausted);
   }
@@ -51,8 +45,8 @@ TEST(Search, MeasuresNothingWhoseStepAloneIsDearerThanTheBest) {
       grid.candidates.back().step = dear_step->step;
       grid.truth.back().model = dear_step;
     }
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
-  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed()));
+  const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, grid.measure());
+  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(test::nothing_missed()));
   for (const Tried& tried : found.tried) EXPECT_EQ(grid.candidates[tried.candidate].step.ms, 0.0);
   EXPECT_LE(found.tried.size(), 40u);
 }
@@ -64,9 +58,10 @@ TEST(Search, MeasuresAgainWhatCannotBeToldFromTheBest) {
     m.beside_anchor.low *= 0.99;
     m.beside_anchor.high *= 1.01;
   }
-  const std::size_t best = *grid.best(nothing_missed());
+  const std::size_t best = *grid.best(test::nothing_missed());
   std::size_t lucky = 0;  // as it is, so that it is measured at once
-  while (!grid.candidates[lucky].usual || !nothing_missed().met_by(grid.truth[lucky])) ++lucky;
+  while (!grid.candidates[lucky].usual || !test::nothing_missed().met_by(grid.truth[lucky]))
+    ++lucky;
   ASSERT_NE(lucky, best);
   int times = 0;
   const Measure measure = [&](const std::vector<std::size_t>& batch) {
@@ -80,10 +75,11 @@ TEST(Search, MeasuresAgainWhatCannotBeToldFromTheBest) {
   };
   SearchSettings unraced;
   unraced.races = 0;
-  EXPECT_EQ(search(grid.candidates, nothing_missed(), unraced, measure).tried.front().times, 1u);
+  EXPECT_EQ(search(grid.candidates, test::nothing_missed(), unraced, measure).tried.front().times,
+            1u);
   EXPECT_EQ(times, 1);
   times = 0;
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, measure);
+  const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, measure);
   EXPECT_EQ(found.tried[*found.best].candidate, best);
   EXPECT_GT(times, 1);
   EXPECT_GT(found.measurements, found.tried.size());
@@ -96,7 +92,8 @@ TEST(Search, RacesNoLongerThanMayBeMeasured) {
   SearchSettings settings;
   for (const std::size_t most : {30u, 33u, 100u}) {
     settings.most = most;
-    const SearchOutcome found = search(grid.candidates, nothing_missed(), settings, grid.measure());
+    const SearchOutcome found =
+        search(grid.candidates, test::nothing_missed(), settings, grid.measure());
     EXPECT_LE(found.measurements, most);
     EXPECT_GT(found.measurements, found.tried.size()) << "a race was held";
   }
@@ -109,14 +106,14 @@ TEST(Search, MeasuresNothingTwiceThatIsToldApart) {
     for (const std::size_t i : batch) ++measured[i];
     return grid.measure()(batch);
   };
-  search(grid.candidates, nothing_missed(), {}, measure);
+  search(grid.candidates, test::nothing_missed(), {}, measure);
   EXPECT_LE(*std::max_element(measured.begin(), measured.end()), 1);
 }
 
 TEST(Search, EndsWithoutAnAnswerWhereNothingMeetsTheLimits) {
   test::Grid grid = test::random_grid(1);
   for (Measurement& m : grid.truth) m.missed = 1;
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, grid.measure());
   EXPECT_FALSE(found.best);
   EXPECT_LT(found.tried.size(), grid.candidates.size()) << "it sees that there is no hope";
 }
@@ -125,24 +122,25 @@ TEST(Search, StopsAtTheMostThatMayBeMeasuredAndSaysSo) {
   const test::Grid grid = test::random_grid(2);
   SearchSettings settings;
   settings.most = 6;
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), settings, grid.measure());
+  const SearchOutcome found =
+      search(grid.candidates, test::nothing_missed(), settings, grid.measure());
   EXPECT_THAT(found.tried, SizeIs(6));
   EXPECT_TRUE(found.exhausted);
 }
 
 TEST(Search, PassesOverWhatFails) {
   test::Grid grid = test::random_grid(3);
-  const std::size_t best = *grid.best(nothing_missed());
+  const std::size_t best = *grid.best(test::nothing_missed());
   grid.truth[best] = {};
   grid.truth[best].failure = "error: crashed";
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
-  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(nothing_missed()));
+  const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, grid.measure());
+  EXPECT_EQ(found.tried[*found.best].candidate, *grid.best(test::nothing_missed()));
 }
 
 TEST(Search, AllFailing) {
   test::Grid grid = test::random_grid(3);
   for (Measurement& m : grid.truth) m.failure = "refused: NaN";
-  const SearchOutcome found = search(grid.candidates, nothing_missed(), {}, grid.measure());
+  const SearchOutcome found = search(grid.candidates, test::nothing_missed(), {}, grid.measure());
   EXPECT_FALSE(found.best);
   EXPECT_THAT(pareto_front(found.tried), IsEmpty());
 }

@@ -283,9 +283,10 @@ std::optional<std::string> plain_ply(const std::string& bytes, std::string& faul
   if (!header || !names_have_their_types(*header)) return std::nullopt;
   fault = missing_coordinate(*header);
   if (!fault.empty()) return std::nullopt;
-  const std::streamoff body = in.tellg();
+  // Where the file ends with its header and no line end, tellg() has no answer.
+  const std::size_t body = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg());
   if (!holds_its_values(*header, in, bytes.size(), fault)) return std::nullopt;
-  return plain_header(*header) + bytes.substr(static_cast<std::size_t>(body));
+  return plain_header(*header) + bytes.substr(body);
 }
 
 }  // namespace contactcheck

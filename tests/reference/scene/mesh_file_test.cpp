@@ -306,6 +306,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"PolygonThatCrossesItself", "a.off",
                 "OFF\n5 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n-1 0.5 0\n3 0 1 2\n5 0 1 2 3 4\n",
                 ": face 1, a polygon of 5 corners, crosses or folds back on itself and cannot be "
+        BadMesh{"PlyEndsWithItsHeader", "a.ply", kPly.substr(0, kPly.find("end_header") + 10),
+                " cannot be read as PLY."},
+        BadMesh{"PlyHeaderOfNothing", "a.ply", "ply\nformat ascii 1.0\nend_header",
+                " holds no triangle."},
+        BadMesh{"PlyHeaderOfNothingBinary", "a.ply",
+                "ply\nformat binary_little_endian 1.0\nend_header\v" + std::string(2, '\0'),
+                " holds no triangle."},
                 "split into triangles."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),

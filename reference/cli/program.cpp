@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <iterator>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -111,6 +112,9 @@ int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog) {
     return main_with_errors(argc, argv, catalog);
   } catch (const Interrupted& e) {
     die_of(e);
+  } catch (const std::bad_alloc&) {
+    say("memory ran out: this takes more than the process may have");
+    return kBadUsage;
   } catch (const std::exception& e) {
     say(std::string("internal error: ") + e.what());
     return kExitInternal;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "core/types/check.h"
@@ -157,6 +159,22 @@ PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::st
   return soup;
 }
 
+// A file is refused with a sentence that names it, whatever reading it throws: memory runs out, or
+// a check of a library's. The fuzzer goes by read_mesh_bytes() and still finds what we throw.
+template <typename Read>
+auto with_sentences(const std::filesystem::path& file, Read read) {
+  const std::string name = "mesh file " + in_quotes(file.string());
+  try {
+    return read(name);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw InputError(name + " cannot be read: it takes more memory than there is.");
+  } catch (const std::exception& e) {
+    throw InputError(name + " cannot be read: " + e.what() + ".");
+  }
+}
+
 }  // namespace
 
 LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const std::string& name) {
@@ -167,24 +185,27 @@ LoadedMesh read_mesh_bytes(SoupFormat format, const std::string& bytes, const st
 }
 
 PolygonSoup read_polygons(const std::filesystem::path& file) {
-  const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
-  PolygonSoup out;
-  if (const std::optional<SoupFormat> format = format_of(file)) {
-    out = read_soup(*format, bytes, "mesh file " + in_quotes(file.string()));
-    std::erase_if(out.polygons, [](const auto& polygon) { return polygon.size() < 3; });
+  return with_sentences(file, [&](const std::string& name) {
+    const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
+    PolygonSoup out;
+    if (const std::optional<SoupFormat> format = format_of(file)) {
+      out = read_soup(*format, bytes, name);
+      std::erase_if(out.polygons, [](const auto& polygon) { return polygon.size() < 3; });
+      return out;
+    }
+    const TriangleMesh mesh = read_with_assimp(file).mesh;
+    out.points = mesh.vertices;
+    for (const Triangle& t : mesh.triangles) out.polygons.emplace_back(t.begin(), t.end());
     return out;
-  }
-  const TriangleMesh mesh = read_with_assimp(file).mesh;
-  out.points = mesh.vertices;
-  for (const Triangle& t : mesh.triangles) out.polygons.emplace_back(t.begin(), t.end());
-  return out;
+  });
 }
 
 LoadedMesh read_mesh_file(const std::filesystem::path& file) {
-  const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
-  const std::optional<SoupFormat> format = format_of(file);
-  if (!format) return read_with_assimp(file);
-  return read_mesh_bytes(*format, bytes, "mesh file " + in_quotes(file.string()));
+  return with_sentences(file, [&](const std::string& name) {
+    const std::string bytes = read_file_bytes(file, "mesh file", kLongestMesh);
+    const std::optional<SoupFormat> format = format_of(file);
+    return format ? read_mesh_bytes(*format, bytes, name) : read_with_assimp(file);
+  });
 }
 
 }  // namespace contactcheck

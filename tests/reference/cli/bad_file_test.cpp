@@ -136,6 +136,40 @@ INSTANTIATE_TEST_SUITE_P(
 
 BadFile suite(const std::string& name, const std::string& content, const Words& named) {
   return {{name, {"run", "DIR/u.json", "--out", "DIR/out"}, named}, bytes("u.json", content)};
+// Sanitizers reserve more addresses than a limit leaves them.
+bool addresses_can_be_limited() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return false;
+#elif defined(__has_feature)
+  return !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) &&
+         !__has_feature(memory_sanitizer);
+#else
+  return true;
+#endif
+}
+
+// As clusters and containers limit it. Files of a gigabyte are allowed, and here nothing on disk.
+TEST(LittleMemory, EndsInASentenceThatNamesAMesh) {
+  if (!addresses_can_be_limited()) GTEST_SKIP() << "a sanitizer is at work";
+  const Scratch scratch;
+  const std::string mesh = scratch.write("x.obj", "").string(),
+                    results = scratch.write("x.json", "").string();
+  fs::resize_file(mesh, std::uintmax_t{1} << 30);
+  fs::resize_file(results, std::uintmax_t{200} << 20);
+  const auto sentence = [](Words words) {
+    words.insert(words.begin(),
+                 {"-c", "ulimit -v 300000 && exec \"$0\" \"$@\"", CONTACTCHECK_PROGRAM});
+    const test::Outcome outcome = test::run_program("/bin/sh", words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(sentence({"run", "--mesh", mesh, "--mesh", mesh, "--detector", "fcl-aabb"}),
+              testing::EndsWith("\"" + mesh + "\" cannot be read: it takes more memory than " +
+                                "there is.\n"));
+  EXPECT_EQ(sentence({"report", results}),
+            "contactcheck: memory ran out: this takes more than the process may have\n");
+}
+
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -13,6 +13,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "contactcheck-results/1";
 
+// "[json.exception.type_error.302] sentence"
+std::string sentence_of(const Json::exception& e) {
+  const std::string what = e.what();
+  const std::size_t bracket = what.find("] ");
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
 Json read_results(const std::filesystem::path& file) {
   const std::string bytes = read_file_bytes(file, "results file");
   Json results;
@@ -20,6 +27,8 @@ Json read_results(const std::filesystem::path& file) {
     results = Json::parse(bytes);
   } catch (const Json::parse_error& e) {
     throw InputError(file.string() + ": not JSON at byte " + std::to_string(e.byte));
+  } catch (const Json::out_of_range& e) {  // a number that no double holds
+    throw InputError(file.string() + ": " + sentence_of(e));
   }
   const auto schema = results.is_object() ? results.find("schema") : results.end();
   if (!results.is_object() || schema == results.end() || *schema != kSchema)
@@ -57,10 +66,7 @@ std::string defect_of(const Json& results) {
 // may break the schema where no report looks.
 std::string defect_of(const Json& results, const Json::exception& e) {
   const std::string found = defect_of(results);
-  if (!found.empty()) return found;
-  const std::string what = e.what();  // "[json.exception.type_error.302] sentence"
-  const std::size_t bracket = what.find("] ");
-  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+  return found.empty() ? sentence_of(e) : found;
 }
 
 }  // namespace

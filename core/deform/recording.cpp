@@ -14,6 +14,7 @@
 #include "core/deform/name_check.h"
 #include "core/deform/shape_check.h"
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 
 namespace contactcheck {
 namespace {
@@ -183,23 +184,19 @@ std::string next_bytes(std::ifstream& in, std::uint64_t size) {
 }
 
 std::string file_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError("cannot read the recording \"" + file.string() +
-                     "\": " + (error ? error.message() : std::string("not a regular file")) + ".");
-  }
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  std::string bytes;
+  const std::string name = "recording \"" + file.string() + "\"";
+  std::ifstream in = open_input_file(file, name);
+  in.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(in.tellg());
+  in.seekg(0);
+  // Before the rest: a file that is no recording may be larger than memory.
+  std::string bytes = next_bytes(in, std::min<std::uint64_t>(size, kHeaderSize));
+  ByteReader header(bytes, file.string());
   if (in) {
-    const auto size = static_cast<std::uint64_t>(in.tellg());
-    in.seekg(0);
-    // Before the rest: a file that is no recording may be larger than memory.
-    bytes = next_bytes(in, std::min<std::uint64_t>(size, kHeaderSize));
-    ByteReader header(bytes, file.string());
-    if (in) check_header(header, size);
+    check_header(header, size);
     bytes += next_bytes(in, size - bytes.size());
   }
-  if (!in) throw InputError("cannot read the recording \"" + file.string() + "\".");
+  if (!in) throw InputError(name + " cannot be read.");
   return bytes;
 }
 

@@ -2,12 +2,12 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 
 namespace contactcheck {
 namespace {
@@ -95,14 +95,11 @@ Job read_job(const std::filesystem::path& file) {
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  // A folder opens like a file and reads as nothing.
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError("cannot read " + file.string() + ": is a folder");
-  std::ifstream in(file, std::ios::binary);
+  const std::string name = "file \"" + file.string() + "\"";
+  std::ifstream in = open_input_file(file, name);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) throw InputError("cannot read " + file.string() + ": " + std::strerror(errno));
+  if (!in) throw InputError(name + " cannot be read: " + std::strerror(errno) + ".");
   return text.str();
 }
 

@@ -66,7 +66,7 @@ struct Job {
 void write_job(const std::filesystem::path& file, const Job& job);
 Job read_job(const std::filesystem::path& file);
 
-/// @throws InputError with the path when it cannot be read
+/// @throws InputError with the path when it is no regular file or cannot be read
 std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace contactcheck

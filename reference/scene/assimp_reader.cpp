@@ -1,5 +1,6 @@
 #include "reference/scene/assimp_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -11,6 +12,7 @@
 #include <map>
 
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 #include "reference/scene/file_text.h"
 
 namespace contactcheck {
@@ -33,6 +35,26 @@ class Welder {
 
  private:
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> index_;
+};
+
+// A file may name others: the bytes of its vertices, for one.
+class InputFiles : public Assimp::DefaultIOSystem {
+ public:
+  // assimp 5.2.5 opens a file to see whether it is there.
+  bool Exists(const char* file) const override {
+    std::error_code ignored;
+    return std::filesystem::exists(file, ignored);
+  }
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const std::string fault = input_file_fault(file);
+    if (fault.empty()) return DefaultIOSystem::Open(file, mode);
+    // What is missing is for assimp to tell: not all of it is needed.
+    if (refused.empty() && Exists(file)) refused = in_quotes(file) + fault;
+    return nullptr;
+  }
+
+  std::string refused;  ///< the first that is there and no regular file, and what it is
 };
 
 void refuse_non_finite(const aiMesh& part, std::size_t mesh_index, const std::string& name) {
@@ -67,10 +89,12 @@ std::size_t add_part(const aiMesh& part, Welder& welder) {
 LoadedMesh read_with_assimp(const std::filesystem::path& file) {
   const std::string name = "mesh file " + in_quotes(file.string());
   Assimp::Importer importer;
+  auto* const files = new InputFiles;  // the importer owns it
+  importer.SetIOHandler(files);
   const aiScene* scene =
       importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) {
-    std::string reason = importer.GetErrorString();
+    std::string reason = files->refused.empty() ? importer.GetErrorString() : files->refused;
     while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
     throw InputError(name + " cannot be read by assimp: " + reason + ".");
   }

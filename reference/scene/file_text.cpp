@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
+#include <istream>
 
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 
 namespace contactcheck {
 namespace {
 
-// Also of what has no size, such as a device that gives bytes without end.
+// Whatever the size was: a file may grow meanwhile, and those of /proc have none.
 std::string first_bytes(std::istream& in, std::size_t most) {
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   std::string bytes;
@@ -27,18 +28,11 @@ std::string first_bytes(std::istream& in, std::size_t most) {
 std::string read_file_bytes(const std::filesystem::path& file, const std::string& kind,
                             std::size_t longest) {
   const std::string name = kind + " " + in_quotes(file.string());
+  std::ifstream in = open_input_file(file, name);
   std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw InputError(name + " does not exist.");
-  }
-  if (std::filesystem::is_directory(status)) throw InputError(name + " is a folder, not a file.");
-  std::ifstream in(file, std::ios::binary);
-  const auto size = std::filesystem::is_regular_file(status)
-                        ? std::filesystem::file_size(file, ignored)
-                        : std::uintmax_t{0};
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
   const std::string bytes = size <= longest ? first_bytes(in, longest + 1) : "";
-  if (!in.is_open() || in.bad()) throw InputError(name + " cannot be read.");
+  if (in.bad()) throw InputError(name + " cannot be read.");
   if (std::max<std::uintmax_t>(size, bytes.size()) > longest)
     throw InputError(name + " has more than " + std::to_string(longest >> 20) + " MiB.");
   if (bytes.empty()) throw InputError(name + " is empty.");

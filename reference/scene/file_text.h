@@ -11,8 +11,8 @@ inline constexpr std::size_t kLongestDocument = std::size_t{256} << 20,
                              kLongestMesh = std::size_t{4} << 30;  // bytes
 
 /// The bytes of `file`. `kind` names it in messages: "scene file", "mesh file".
-/// @throws InputError when it does not exist, is a folder, cannot be read, is empty, or has more
-/// than `longest` bytes
+/// @throws InputError when it does not exist, is no regular file, cannot be read, is empty, or has
+/// more than `longest` bytes
 std::string read_file_bytes(const std::filesystem::path& file, const std::string& kind,
                             std::size_t longest = kLongestDocument);
 

@@ -3,13 +3,13 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <vector>
 
 #include "core/types/check.h"
+#include "core/types/input_file.h"
 #include "reference/view/contacts_file.h"
 #include "reference/view/scene_view.h"
 #include "reference/view/view_buffers.h"
@@ -33,12 +33,8 @@ struct Candidate {
 };
 
 std::string file_bytes(const fs::path& folder, const std::string& name) {
-  std::error_code error;
-  std::ifstream in;
-  if (fs::is_regular_file(folder / name, error)) in.open(folder / name, std::ios::binary);
-  if (!in.is_open()) throw InputError("\"" + name + "\" cannot be read.");
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  return bytes;
+  std::ifstream in = open_input_file(folder / name, "\"" + name + "\"");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 // Names come from files, which may hold any bytes.

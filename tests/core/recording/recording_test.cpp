@@ -202,9 +202,9 @@ TEST(Recording, NamesThatEscapeTheFolderAreRefused) {
 TEST(Recording, MissingFileAndFolderAreRefused) {
   const ScratchFolder folder;
   EXPECT_THAT([&] { read_recording(folder.path() / "none.ccr"); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("none.ccr"), HasSubstr("No such file"))));
+              ThrowsMessage<InputError>(HasSubstr("none.ccr\" does not exist.")));
   EXPECT_THAT([&] { read_recording(folder.path()); },
-              ThrowsMessage<InputError>(HasSubstr("not a regular file")));
+              ThrowsMessage<InputError>(HasSubstr("\" is a folder, not a regular file.")));
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 // (What may be wrong in a scene is tests/reference/scene/bad_scene_test.cpp; in a recording,
 // tests/core/recording/recording_damage_test.cpp.)
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <functional>
 
+#include "tests/reference/cli/gate_files.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
@@ -87,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"LongName", {"run", "DIR/" + std::string(300, 'n') + ".json"}, {"nor an existing"}},
             [](const Scratch&) {}},
         scene("Huge", huge("x.json"), {"has more than 256 MiB"}),
-        scene("Endless", link_to("/dev/zero", "x.json"), {"has more than 256 MiB"}),
+        scene("Endless", link_to("/dev/zero", "x.json"), {"is a device, not a regular file"}),
         scene("Empty", bytes("x.json", ""), {"is empty"}),
         scene("Blank", bytes("x.json", " \n\n"), {"ends too early", "line 3, column 1"}),
         scene("Binary", bytes("x.json", kBinary), {"is not valid JSON at line 1, column 1"}),
@@ -134,8 +136,6 @@ INSTANTIATE_TEST_SUITE_P(
                          {"cannot be read as OBJ"})),
     file_case);
 
-BadFile suite(const std::string& name, const std::string& content, const Words& named) {
-  return {{name, {"run", "DIR/u.json", "--out", "DIR/out"}, named}, bytes("u.json", content)};
 // Sanitizers reserve more addresses than a limit leaves them.
 bool addresses_can_be_limited() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -170,6 +170,8 @@ TEST(LittleMemory, EndsInASentenceThatNamesAMesh) {
             "contactcheck: memory ran out: this takes more than the process may have\n");
 }
 
+BadFile suite(const std::string& name, const std::string& content, const Words& named) {
+  return {{name, {"run", "DIR/u.json", "--out", "DIR/out"}, named}, bytes("u.json", content)};
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -244,6 +246,53 @@ TEST(CutRecording, IsRefusedWhereverItIsCut) {
     test::expect_refused({"", {"run", "DIR/x.ccr", "--out", "DIR/out"}, {"DIR/x.ccr"}}, scratch);
   }
 }
+
+// The file DIR/x with this ending is a pipe that nobody writes to: it is not waited for.
+BadFile pipe(const std::string& name, const std::string& ending, Words words) {
+  const std::string file = "x" + ending;
+  const auto prepare = [file](const Scratch& scratch) {
+    test::write_gate_files(scratch);
+    scratch.write("suite.json", R"({"id": "u", "scenes": [{"file": "x.json"}],
+                                    "detectors": ["fcl-aabb"]})");
+    scratch.write("cached.json", R"({"id": "c", "duration": 1, "levels": ["body"], "bodies": [
+      {"name": "b", "mesh": {"shape": "box"}, "recording": {"cache": "x.pc2"}}]})");
+    scratch.write("numbered.json", R"({"id": "n", "duration": 1, "levels": ["body"], "bodies": [
+      {"name": "b", "recording": {"frames": "%d.obj"}}]})");
+    scratch.write("case.json", R"({"scene": "s", "frame": 0, "detector": "fcl-aabb",
+      "level": "body", "kind": "missed", "first": {}, "second": {}, "recording": "x.ccr"})");
+    EXPECT_EQ(mkfifo((scratch.folder() / file).c_str(), 0600), 0);
+  };
+  return {{name, std::move(words), {"DIR/" + file + "\" is a pipe, not a regular file"}}, prepare};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pipe, BadFiles,
+    testing::Values(
+        pipe("Scene", ".json", {"run", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("SceneToTune", ".json", {"tune", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("SceneToExport", ".json", {"export", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("SceneOfASuite", ".json", {"run", "DIR/suite.json", "--out", "DIR/out"}),
+        pipe("Recording", ".ccr", {"run", "DIR/x.ccr", "--out", "DIR/out"}),
+        pipe("PointCache", ".pc2", {"run", "DIR/cached.json", "--out", "DIR/out"}),
+        pipe("Mesh", ".obj",
+             {"run", "--mesh", "DIR/x.obj", "--mesh", "DIR/x.obj", "--out", "DIR/out"}),
+        pipe("MeshForAssimp", ".glb",
+             {"run", "--mesh", "DIR/x.glb", "--mesh", "DIR/x.glb", "--out", "DIR/out"}),
+        pipe("Results", ".json", {"report", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("ResultsBefore", ".json", {"diff", "DIR/x.json", "DIR/results.json"}),
+        pipe("ResultsAfter", ".json", {"diff", "DIR/results.json", "DIR/x.json"}),
+        pipe("ResultsOfAShard", ".json", {"merge", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("ResultsOfHardCases", ".json", {"defects", "DIR/x.json"}),
+        pipe("ResultsToAccept", ".json", {"accept", "DIR/x.json", "--as", "DIR/baseline.json"}),
+        pipe("BaselineInPlace", ".json", {"accept", "DIR/results.json", "--as", "DIR/x.json"}),
+        pipe("ResultsAtTheGate", ".json", {"gate", "DIR/x.json", "--policy", "DIR/policy.json"}),
+        pipe("Policy", ".json", {"gate", "DIR/results.json", "--policy", "DIR/x.json"}),
+        pipe("Baseline", ".json",
+             {"gate", "DIR/results.json", "--policy", "DIR/policy.json", "--baseline",
+              "DIR/x.json"}),
+        pipe("Case", ".json", {"reduce", "DIR/x.json", "--out", "DIR/out"}),
+        pipe("RecordingOfACase", ".ccr", {"reduce", "DIR/case.json", "--out", "DIR/out"})),
+    named);
 
 // Commands that read the fixtures, with a folder of fixtures that is broken.
 BadFile fixtures(const std::string& name, const Words& words, Prepare prepare, const Words& named) {

@@ -163,7 +163,7 @@ TEST(ListOfOwnDetectors, FindsALibraryWhoseNameHasAColon) {
   const test::Outcome none =
       test::contactcheck_program({"list", "--detector", file + "x:told=owners"});
   EXPECT_EQ(none.exit_code, 2);
-  EXPECT_THAT(none.err, HasSubstr("lib: No such file"));
+  EXPECT_THAT(none.err, HasSubstr("lib\" does not exist"));
 }
 
 TEST(ListOfOwnDetectors, ShowsWhatACommandDeclares) {

@@ -1,5 +1,6 @@
 // What a library that misbehaves comes to: a sentence before anything runs, or a row of its own.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "tests/reference/plugin/plugin_fault.h"
 
@@ -46,7 +47,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(LibraryAtLoad, OfNoSuchFileIsRefused) {
   test::expect_refusal(PluginRun({"--detector", "./no-such-library.so"}),
-                       {"cannot read ", "no-such-library.so: No such file"});
+                       {"no-such-library.so\" does not exist"});
+}
+
+TEST(LibraryAtLoad, ThatIsAPipeIsRefusedAndNotWaitedFor) {
+  const test::Scratch scratch;
+  const std::string pipe = (scratch.folder() / "mine.so").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  test::expect_refusal(PluginRun({"--detector", pipe}),
+                       {pipe + "\" is a pipe, not a regular file"});
 }
 
 TEST(LibraryAtLoad, ThatIsNoLibraryIsRefused) {

@@ -1,6 +1,7 @@
 #include "reference/scene/mesh_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <limits>
@@ -162,6 +163,15 @@ TEST(MeshFile, PlyIsReadWithoutItsOtherPropertiesWhateverTheirTypes) {
   EXPECT_EQ(mesh.triangles, plain.triangles);
 }
 
+const std::string kGltf = R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "translation": [1, 2, 3]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 72}],
+    "buffers": [{"uri": "square.bin", "byteLength": 72}]})";
+
 TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
   const Scratch scratch;
   // Two triangles of a square, six vertices, as exporters split them; a node moves it by (1, 2, 3).
@@ -171,14 +181,7 @@ TEST(MeshFile, GltfComesThroughAssimpAsFloatsWithSplitVerticesJoined) {
     append(buffer, std::bit_cast<std::uint32_t>(x));
   }
   scratch.write("square.bin", buffer);
-  const LoadedMesh loaded = read_mesh_file(scratch.write("square.gltf", R"({
-    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0, "translation": [1, 2, 3]}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3",
-                   "min": [0, 0, 0], "max": [1, 1, 0]}],
-    "bufferViews": [{"buffer": 0, "byteLength": 72}],
-    "buffers": [{"uri": "square.bin", "byteLength": 72}]})"));
+  const LoadedMesh loaded = read_mesh_file(scratch.write("square.gltf", kGltf));
   EXPECT_EQ(loaded.mesh.vertices.size(), 4u);
   EXPECT_EQ(loaded.mesh.triangles.size(), 2u);
   EXPECT_EQ(loaded.mesh.vertices[0].x(), static_cast<double>(0.1f + 1.0f));
@@ -303,9 +306,6 @@ INSTANTIATE_TEST_SUITE_P(
                 " cannot be read as PLY."},
         BadMesh{"PlyIndicesOfFloats", "a.ply", with(kPly, "list uchar int", "list uchar float"),
                 " cannot be read as PLY."},
-        BadMesh{"PolygonThatCrossesItself", "a.off",
-                "OFF\n5 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n-1 0.5 0\n3 0 1 2\n5 0 1 2 3 4\n",
-                ": face 1, a polygon of 5 corners, crosses or folds back on itself and cannot be "
         BadMesh{"PlyEndsWithItsHeader", "a.ply", kPly.substr(0, kPly.find("end_header") + 10),
                 " cannot be read as PLY."},
         BadMesh{"PlyHeaderOfNothing", "a.ply", "ply\nformat ascii 1.0\nend_header",
@@ -313,6 +313,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"PlyHeaderOfNothingBinary", "a.ply",
                 "ply\nformat binary_little_endian 1.0\nend_header\v" + std::string(2, '\0'),
                 " holds no triangle."},
+        BadMesh{"PolygonThatCrossesItself", "a.off",
+                "OFF\n5 2 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n-1 0.5 0\n3 0 1 2\n5 0 1 2 3 4\n",
+                ": face 1, a polygon of 5 corners, crosses or folds back on itself and cannot be "
                 "split into triangles."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " cannot be read as PLY."}),
@@ -338,7 +341,18 @@ TEST(MeshFile, MissingFileAndFolderAreNamed) {
   EXPECT_EQ(sentence_of([&] { read_mesh_file(missing); }),
             "mesh file \"" + missing + "\" does not exist.");
   EXPECT_EQ(sentence_of([&] { read_mesh_file(scratch.folder()); }),
-            "mesh file \"" + scratch.folder().string() + "\" is a folder, not a file.");
+            "mesh file \"" + scratch.folder().string() + "\" is a folder, not a regular file.");
+}
+
+// glTF keeps the bytes of its vertices in a file apart, which nobody may be writing to either.
+TEST(MeshFile, PipeThatAFileNamesIsNotWaitedFor) {
+  const Scratch scratch;
+  const std::filesystem::path pipe = scratch.folder() / "square.bin";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::filesystem::path file = scratch.write("square.gltf", kGltf);
+  EXPECT_EQ(sentence_of([&] { read_mesh_file(file); }),
+            "mesh file \"" + file.string() + "\" cannot be read by assimp: \"" + pipe.string() +
+                "\" is a pipe, not a regular file.");
 }
 
 }  // namespace

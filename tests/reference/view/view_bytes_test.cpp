@@ -166,9 +166,9 @@ TEST_F(ViewBytes, OfASceneWithoutNamedContactsHaveNoPairs) {
 }
 
 TEST_F(ViewBytes, NameTheScenesWhoseFilesAreMissingOrBad) {
-  EXPECT_EQ(left_out("none.ccr", "boxes.json"), "\"none.ccr\" cannot be read.");
-  EXPECT_EQ(left_out(".", "boxes.json"), "\".\" cannot be read.");
-  EXPECT_EQ(left_out("boxes.ccr", "none.json"), "\"none.json\" cannot be read.");
+  EXPECT_EQ(left_out("none.ccr", "boxes.json"), "\"none.ccr\" does not exist.");
+  EXPECT_EQ(left_out(".", "boxes.json"), "\".\" is a folder, not a regular file.");
+  EXPECT_EQ(left_out("boxes.ccr", "none.json"), "\"none.json\" does not exist.");
   EXPECT_THAT(left_out("boxes.json", "boxes.json"), HasSubstr("recording \"boxes.json\": "));
   EXPECT_THAT(left_out("boxes.ccr", "boxes.ccr"),
               HasSubstr("contacts \"boxes.ccr\": it is no JSON (at byte 1)"));

@@ -1,0 +1,21 @@
+// The door by which files come in that somebody has named: regular files, and links to such.
+//
+// A pipe that nobody writes to would be waited for without end, and a device may have no end.
+// Scenes, recordings and results are also read more than once, and by several processes.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace contactcheck {
+
+/// What keeps `file` from being read, as a sentence goes on after its name: " does not exist", " is
+/// a pipe, not a regular file". Empty for a regular file and a link to one. Opens nothing.
+std::string input_file_fault(const std::filesystem::path& file);
+
+/// `file`, open to be read as bytes. `name` stands for it in messages: "mesh file \"x.off\"".
+/// @throws InputError, one sentence, when it has a fault or cannot be opened
+std::ifstream open_input_file(const std::filesystem::path& file, const std::string& name);
+
+}  // namespace contactcheck

@@ -76,6 +76,12 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+// Also a name of what is no file, or leads to none: that is for the reader to refuse, and no end.
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::symlink_status(file, ignored).type() != fs::file_type::not_found;
+}
+
 }  // namespace
 
 std::string RecordingSpec::file_of(std::size_t frame) const {
@@ -85,16 +91,22 @@ std::string RecordingSpec::file_of(std::size_t frame) const {
   return before_number + number + after_number;
 }
 
+fs::path RecordingSpec::numbered_part(std::size_t frame) const {
+  const std::string file = file_of(frame);
+  return file.substr(0, file.find('/', file.size() - after_number.size()));
+}
+
 std::optional<std::size_t> RecordingSpec::frame_of(const std::string& name) const {
-  const std::string before = fs::path(before_number).filename().string();
-  if (name.size() <= before.size() + after_number.size() || !name.starts_with(before) ||
-      !name.ends_with(after_number))
+  const std::string before = fs::path(before_number).filename().string(),
+                    after = after_number.substr(0, after_number.find('/'));
+  if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
+      !name.ends_with(after))
     return std::nullopt;
-  const auto number = whole_number<std::size_t>(std::string_view(name).substr(
-      before.size(), name.size() - before.size() - after_number.size()));
+  const auto number = whole_number<std::size_t>(
+      std::string_view(name).substr(before.size(), name.size() - before.size() - after.size()));
   if (!number || *number < first || (*number - first) % step != 0) return std::nullopt;
   const std::size_t frame = (*number - first) / step;
-  if (fs::path(file_of(frame)).filename().string() != name) return std::nullopt;
+  if (numbered_part(frame).filename().string() != name) return std::nullopt;
   return frame;
 }
 
@@ -137,11 +149,10 @@ void RecordedFrames::fail_at(std::size_t frame, const std::string& what) const {
 
 std::size_t RecordedFrames::available(std::size_t most) const {
   std::size_t count = 0;
-  std::error_code ignored;
   if (cache_ && spec_.first < cache_->samples()) {
     count = std::min(most, (cache_->samples() - spec_.first - 1) / spec_.step + 1);
   } else if (!cache_) {
-    while (count < most && fs::is_regular_file(spec_.file_of(count), ignored)) ++count;
+    while (count < most && is_there(spec_.file_of(count))) ++count;
     if (count > 0 && count < most) refuse_gap(count, most);
   }
   if (count == 0 && cache_)
@@ -156,9 +167,10 @@ void RecordedFrames::refuse_gap(std::size_t missing, std::size_t most) const {
   const fs::path lost = spec_.file_of(missing);
   std::error_code ignored;
   std::optional<std::size_t> later;
-  for (const auto& entry : fs::directory_iterator(folder_of(lost), ignored)) {
+  const fs::path folder = folder_of(spec_.numbered_part(missing));
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::optional<std::size_t> frame = spec_.frame_of(entry.path().filename().string());
-    if (!frame || *frame <= missing || *frame >= most || !entry.is_regular_file(ignored)) continue;
+    if (!frame || *frame <= missing || *frame >= most || !is_there(spec_.file_of(*frame))) continue;
     later = std::min(later.value_or(*frame), *frame);
   }
   if (later)

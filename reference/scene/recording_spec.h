@@ -28,7 +28,9 @@ struct RecordingSpec {
   /// Which file or sample a frame is.
   std::size_t number_of(std::size_t frame) const { return first + frame * step; }
   std::string file_of(std::size_t frame) const;
-  /// The frame whose numbered file has this name in its folder; nothing for other names.
+  /// That path up to the part which has the number: of "scans/f_%d/m.obj", the folder "scans/f_7".
+  std::filesystem::path numbered_part(std::size_t frame) const;
+  /// The frame whose numbered part has this name in its folder; nothing for other names.
   std::optional<std::size_t> frame_of(const std::string& name) const;
   /// Every frame's vertices, and those at rest. Bits stay where nothing is asked for.
   void place(std::vector<Vec3>& vertices) const;
@@ -43,8 +45,9 @@ class RecordedFrames {
   /// Opens a point cache. `field` is that of the recording. @throws InputError
   RecordedFrames(RecordingSpec spec, const JsonField& field);
 
-  /// Frames that there are: samples from the first one on, or numbered files without a gap. At most
-  /// `most`. @throws InputError when there is none, and for a gap before a later file
+  /// Frames that there are: samples from the first one on, or numbered files without a gap, whether
+  /// or not they can be read. At most `most`. @throws InputError when there is none, and for a gap
+  /// before a later file
   std::size_t available(std::size_t most) const;
   /// The mesh of the first of the numbered files. @pre the spec is numbered
   LoadedMesh first_mesh() const;

@@ -1,5 +1,6 @@
 // Scenes with recorded bodies: what they give, and what is refused.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "core/deform/recording.h"
 #include "reference/scene/scene.h"
@@ -163,6 +164,47 @@ TEST_F(RecordedScene, AGapInTheNumbersIsNoEnd) {
   std::filesystem::remove(scratch_.folder() / "g_0003.obj");
   std::filesystem::remove(scratch_.folder() / "g_0007.obj");
   EXPECT_EQ(load(whole, any).frames, 2u);
+}
+
+TEST_F(RecordedScene, AGapInNumberedFoldersIsNoEnd) {
+  for (const char* name : {"f_0/m.obj", "f_1/m.obj", "f_3/other.obj", "f_4/m.obj"})
+    scratch_.write(name, test::obj_text(test::unit_box_mesh(1)));
+  const std::string whole = R"("recording": {"frames": "f_%d/m.obj"})", any = R"("title": "t")";
+  const auto in_folder = [&](const char* name) {
+    return '"' + (scratch_.folder() / name).string() + '"';
+  };
+  EXPECT_THAT(sentence(whole, any),
+              HasSubstr("bodies[0].recording has a gap: there is no file " +
+                        in_folder("f_2/m.obj") + ", but there is " + in_folder("f_4/m.obj")));
+  EXPECT_EQ(load(whole, R"("frames": 2)").frames, 2u);
+  // Folders deeper down, and one whose name ends behind the number.
+  for (const char* name : {"a/7_x/b/m.obj", "a/9_x/b/m.obj"})
+    scratch_.write(name, test::obj_text(test::unit_box_mesh(1)));
+  EXPECT_THAT(
+      sentence(R"("recording": {"frames": "a/%d_x/b/m.obj", "first": 7})", any),
+      HasSubstr(in_folder("a/8_x/b/m.obj") + ", but there is " + in_folder("a/9_x/b/m.obj")));
+  std::filesystem::remove(scratch_.folder() / "f_4/m.obj");
+  EXPECT_EQ(load(whole, any).frames, 2u);
+}
+
+// What has a frame's name is that frame: a lost file's link, a folder, a pipe that nobody writes
+// to.
+TEST_F(RecordedScene, AFrameThatIsNoFileIsNoEnd) {
+  for (const char* name : {"p_0.obj", "p_1.obj", "p_3.obj"})
+    scratch_.write(name, test::obj_text(test::unit_box_mesh(1)));
+  const std::string file = (scratch_.folder() / "p_2.obj").string(),
+                    whole = R"("recording": {"frames": "p_%d.obj"})", any = R"("title": "t")",
+                    begin = "bodies[0].recording frame 2 (\"" + file +
+                            "\") cannot be read: mesh file \"" + file + '"';
+  std::filesystem::create_directory(file);
+  EXPECT_THAT(sentence(whole, any), HasSubstr(begin + " is a folder, not a regular file."));
+  std::filesystem::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  EXPECT_THAT(sentence(whole, any), HasSubstr(begin + " is a pipe, not a regular file."));
+  EXPECT_EQ(load(whole, R"("frames": 2)").frames, 2u);
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink("nowhere", file);
+  EXPECT_THAT(sentence(whole, any), HasSubstr(begin + " does not exist."));
 }
 
 struct WrongRecording {

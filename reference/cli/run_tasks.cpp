@@ -87,7 +87,7 @@ class TaskMaker {
       if (target.kind == TargetKind::kSuite) {
         add_suite(load_suite(target.file));
       } else {
-        add_scene(target.file, detectors_of("default"));
+        add_scene(target.file, given_or_of("default"));
       }
     }
     if (arguments_.pairs) add_pairs(*arguments_.pairs);
@@ -96,7 +96,9 @@ class TaskMaker {
   }
 
  private:
-  Names detectors_of(const char* suite) const {
+  // Of the command line; only where it names none is the suite needed.
+  Names given_or_of(const char* suite) const {
+    if (!arguments_.detectors.empty()) return arguments_.detectors;
     return load_suite(find_target(suite, fixtures_).file).detectors;
   }
 
@@ -124,19 +126,17 @@ class TaskMaker {
 
   // Paths in the text are relative to where it will lie, so that it can be kept as it is.
   void add_meshes() {
-    const Names& given = arguments_.detectors;
     const fs::path& kept = arguments_.save_scene;
     SceneTask task;
-    task.detectors = names_.resolved(given.empty() ? detectors_of("default") : given);
+    task.detectors = names_.resolved(given_or_of("default"));
     task.text = mesh_scene(arguments_.meshes,
                            kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path());
     tasks_.scenes.push_back(std::move(task));
   }
 
   void add_pairs(const PairSpec& pairs) {
-    const Names& given = arguments_.detectors;
     SceneTask task;
-    task.detectors = names_.resolved(given.empty() ? detectors_of("hard") : given);
+    task.detectors = names_.resolved(given_or_of("hard"));
     task.pairs = pairs;
     tasks_.scenes.push_back(std::move(task));
   }

@@ -112,6 +112,22 @@ TEST_F(RunCommand, ContactsOneByOneAddUpToTheCountsOfTheResults) {
   EXPECT_GT(differences, 0u) << "a scene in which nobody errs shows nothing";
 }
 
+// The suites say which detectors run where none is named, and nothing else.
+TEST_F(RunCommand, OfFilesAndNamedDetectorsNeedsNoFixtures) {
+  const fs::path mesh = scratch_.write("t.off",
+                                       "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                       "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const test::Environment none("CONTACTCHECK_FIXTURES", (scratch_.folder() / "none").string());
+  const Outcome run = contactcheck_program(
+      {"run", scene_, "--mesh", mesh, "--mesh", mesh, "--pairs", "600", "--frames", "5",
+       "--no-timing", "--detector", "fcl-aabb", "--out", scratch_.folder() / "out"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  std::vector<std::string> scenes;
+  for (const json& row : json::parse(text_of(scratch_.folder() / "out/results.json")).at("runs"))
+    scenes.push_back(row.at("scene"));
+  EXPECT_THAT(scenes, ElementsAre("t-t-approach", "tiny", "random-pairs"));
+}
+
 TEST_F(RunCommand, FamiliesHaveContactsToShowAndRandomPairsNone) {
   const json results =
       run("out", {"hard-boxes-gap", "--pairs", "600", "--no-timing", "--detector", "ffd-grid"});

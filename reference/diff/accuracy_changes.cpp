@@ -89,8 +89,14 @@ class RowComparison {
       const std::optional<double> was = before_.geometry.at(key);
       if (was == is) continue;
       note(fmt::format("{} {} -> {}", key, text_of(was), text_of(is)));
-      if (was && is) (error_of(key, *is) > error_of(key, *was) ? worse_ : better_) = true;
+      if (was && is) compare_errors(error_of(key, *was), error_of(key, *is));
     }
+  }
+
+  // Equal where only the sign of late_frames has changed.
+  void compare_errors(double was, double is) {
+    worse_ = worse_ || is > was;
+    better_ = better_ || is < was;
   }
 
   static double error_of(const std::string& key, double value) {

@@ -80,6 +80,20 @@ TEST(AccuracyChanges, GeometryCountsByTheSizeOfItsError) {
   EXPECT_EQ(change_to(row).direction, Direction::kWorse) << "too early is an error, too";
 }
 
+TEST(AccuracyChanges, AsManyFramesEarlyAsLateIsNeitherBetterNorWorse) {
+  ResultRow early = perfect_row("s", "d"), late = early;
+  early.geometry["late_frames"] = -2.0;
+  late.geometry["late_frames"] = 2.0;
+  const RowChange later = accuracy_changes(table_of({early}), table_of({late})).at(0);
+  EXPECT_EQ(later.direction, Direction::kOther);
+  EXPECT_THAT(later.what, ElementsAre("late_frames -2 -> 2"));
+  EXPECT_EQ(accuracy_changes(table_of({late}), table_of({early})).at(0).direction,
+            Direction::kOther);
+  late.geometry["late_frames"] = 1.0;
+  EXPECT_EQ(accuracy_changes(table_of({early}), table_of({late})).at(0).direction,
+            Direction::kBetter);
+}
+
 TEST(AccuracyChanges, ErrorThatIsMeasuredForTheFirstTimeIsNeither) {
   ResultRow row = perfect_row("s", "d");
   row.geometry["missed_length"].reset();

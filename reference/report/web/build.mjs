@@ -7,8 +7,15 @@ const [outCpp, outPage] = process.argv.slice(2);
 
 async function bundled(entry) {
   const result = await build({
-    entryPoints: [entry], bundle: true, minify: true, write: false, legalComments: "inline",
-    format: "iife", target: ["es2022"], charset: "utf8", logLevel: "warning",
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    write: false,
+    legalComments: "inline",
+    format: "iife",
+    target: ["es2022"],
+    charset: "utf8",
+    logLevel: "warning",
   });
   // Inside <script> and <style> only the end tag has a meaning.
   return result.outputFiles[0].text.trim().replaceAll("</script", "<\\/script");
@@ -20,7 +27,8 @@ function page(template, script, style) {
 
 // String literals have a largest length; neighbours are joined by the compiler.
 function cppLiteral(text) {
-  const bytes = Buffer.from(text, "utf8"), lines = [];
+  const bytes = Buffer.from(text, "utf8"),
+    lines = [];
   for (let start = 0; start < bytes.length; start += 8000) {
     let line = "";
     for (const byte of bytes.subarray(start, start + 8000)) line += cppCharacter(byte);
@@ -33,12 +41,17 @@ function cppCharacter(byte) {
   const character = String.fromCharCode(byte);
   if (character === '"' || character === "\\" || character === "?") return "\\" + character;
   if (byte >= 32 && byte < 127) return character;
-  return "\\" + byte.toString(8).padStart(3, "0");  // three octal digits end by themselves
+  return "\\" + byte.toString(8).padStart(3, "0"); // three octal digits end by themselves
 }
 
-const html = page(readFileSync("template.html", "utf8"), await bundled("src/main.ts"),
-                  await bundled("src/style.css"));
-writeFileSync(outCpp, `#include "reference/report/web/report_template.h"
+const html = page(
+  readFileSync("template.html", "utf8"),
+  await bundled("src/main.ts"),
+  await bundled("src/style.css"),
+);
+writeFileSync(
+  outCpp,
+  `#include "reference/report/web/report_template.h"
 
 namespace contactcheck {
 
@@ -47,5 +60,6 @@ const std::string_view kReportTemplate(
     ${Buffer.byteLength(html)});
 
 }  // namespace contactcheck
-`);
+`,
+);
 if (outPage) writeFileSync(outPage, html);

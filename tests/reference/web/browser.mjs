@@ -5,15 +5,18 @@ import {dirname, resolve} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
-const work = resolve(process.env.CONTACTCHECK_WEB_WORK ?? `${root}/build/release/reference/report/web/work`);
+const work = resolve(
+  process.env.CONTACTCHECK_WEB_WORK ?? `${root}/build/release/reference/report/web/work`,
+);
 const {chromium} = createRequire(`${work}/package.json`)("playwright-core");
 
 /** Flags for launch(): WebGL without a graphics card. */
 export const kWebGl = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-export const kWide = {width: 1280, height: 900}, kNarrow = {width: 400, height: 800};
+export const kWide = {width: 1280, height: 900},
+  kNarrow = {width: 400, height: 800};
 
-const kPatience = 60_000;  // ms, of whatever is waited for: a busy machine may take long to open a page
+const kPatience = 60_000; // ms, of whatever is waited for: a busy machine may take long to open a page
 
 /** @returns a browser; close() ends it. `args`: further flags, for WebGL for instance */
 export function launch(args = ["--disable-gpu"]) {
@@ -32,9 +35,12 @@ export async function openReport(browser, file, {viewport = kWide, colorScheme =
   const context = await browser.newContext({viewport, colorScheme});
   context.setDefaultTimeout(kPatience);
   const page = await context.newPage();
-  const url = pathToFileURL(resolve(file)).href, requests = [], errors = [];
+  const url = pathToFileURL(resolve(file)).href,
+    requests = [],
+    errors = [];
   page.on("request", (request) => {
-    if (request.url().split("#")[0] !== url && !/^(data|blob):/.test(request.url())) requests.push(request.url());
+    if (request.url().split("#")[0] !== url && !/^(data|blob):/.test(request.url()))
+      requests.push(request.url());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
@@ -52,9 +58,11 @@ export async function openReport(browser, file, {viewport = kWide, colorScheme =
 export async function settled(page) {
   const busy = await page.evaluate(async (patience) => {
     const frame = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-    const busyParts = () => [...document.querySelectorAll("[aria-busy='true']")].filter((part) => part.checkVisibility());
+    const busyParts = () =>
+      [...document.querySelectorAll("[aria-busy='true']")].filter((part) => part.checkVisibility());
     const end = performance.now() + patience;
-    do await frame(); while (busyParts().length > 0 && performance.now() < end);
+    do await frame();
+    while (busyParts().length > 0 && performance.now() < end);
     return busyParts().map((part) => part.ariaLabel ?? part.className);
   }, kPatience);
   if (busy.length > 0) throw new Error(`not drawn after ${kPatience / 1000} s: ${busy.join("; ")}`);

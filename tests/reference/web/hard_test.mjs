@@ -4,43 +4,115 @@ import {test} from "node:test";
 import {tableTexts, unfold, unfoldAll, useReport} from "./report.mjs";
 
 const kTimes = {mss: 2, cell: 1, test: 0.5, response: 0.25, total: 3.75};
-const kRatio = {test: {ratio: 1.5, low: 1.25, high: 1.75}, total: {ratio: 1.1, low: 1, high: 1.2},
-                same_contacts: true, missed_before: 3, missed_after: 4};
+const kRatio = {
+  test: {ratio: 1.5, low: 1.25, high: 1.75},
+  total: {ratio: 1.1, low: 1, high: 1.2},
+  same_contacts: true,
+  missed_before: 3,
+  missed_after: 4,
+};
 const kReproduction = {
-  schema: "contactcheck-reproduction/1", command: "contactcheck run hello",
-  scenes: [{
-    scene: "teapot", ours: "paper-teapot", frames: 3, contact_frames: 2,
-    counts: {triangles: {paper: 6400, ours: 6390, difference_percent: -0.15625}},
-    steps: [{method: "ffd-aabb-sphere2", paper_reports: {...kTimes, table: "Table 3", device: "<em>phone</em>"},
-             safe: {...kTimes, level: "cell", truth: 10, missed: 1, spurious: 2}, paper: null, exact: null}],
-    ratios: [{before: "ffd-aabb-sphere", after: "ffd-aabb-sphere2", paper_reports: {table: "Table 3", test: 2.19, total: 1.274},
-              safe: kRatio, paper: null, exact: null}],
-    frame_rate: {detector: "ffd-aabb-sphere2", steps_per_second: 874.4, simulated_over_real_time: 14.57},
-    hover_at_rest: {"ffd-aabb-sphere2": 0.001, "ffd-grid": 0.09, factor: 90}, sentences: ["The second level does not pay."],
-    closed_loop: [{detector: "ffd-grid", error: "blew up"}],
-  }],
-  means: {scenes: 1, test_ratio: {ours: 1.5, paper: 2.19}, frame_rate_ratio: {ours: 1.1, paper: 1.274, paper_claims: 1.344}},
-  paper: {source: {authors: ["Jeon", "Hong"], title: "Spheres", journal: "Journal", year: 2013, doi: "10.1/1"},
-          findings: [{topic: "rest", table: "Table 3", scene: "teapot", method: null, sentence: "Below 0.", claimed: 0,
-                      computed: -0.5, unit: "ms", agrees: false}]},
+  schema: "contactcheck-reproduction/1",
+  command: "contactcheck run hello",
+  scenes: [
+    {
+      scene: "teapot",
+      ours: "paper-teapot",
+      frames: 3,
+      contact_frames: 2,
+      counts: {triangles: {paper: 6400, ours: 6390, difference_percent: -0.15625}},
+      steps: [
+        {
+          method: "ffd-aabb-sphere2",
+          paper_reports: {...kTimes, table: "Table 3", device: "<em>phone</em>"},
+          safe: {...kTimes, level: "cell", truth: 10, missed: 1, spurious: 2},
+          paper: null,
+          exact: null,
+        },
+      ],
+      ratios: [
+        {
+          before: "ffd-aabb-sphere",
+          after: "ffd-aabb-sphere2",
+          paper_reports: {table: "Table 3", test: 2.19, total: 1.274},
+          safe: kRatio,
+          paper: null,
+          exact: null,
+        },
+      ],
+      frame_rate: {
+        detector: "ffd-aabb-sphere2",
+        steps_per_second: 874.4,
+        simulated_over_real_time: 14.57,
+      },
+      hover_at_rest: {"ffd-aabb-sphere2": 0.001, "ffd-grid": 0.09, factor: 90},
+      sentences: ["The second level does not pay."],
+      closed_loop: [{detector: "ffd-grid", error: "blew up"}],
+    },
+  ],
+  means: {
+    scenes: 1,
+    test_ratio: {ours: 1.5, paper: 2.19},
+    frame_rate_ratio: {ours: 1.1, paper: 1.274, paper_claims: 1.344},
+  },
+  paper: {
+    source: {
+      authors: ["Jeon", "Hong"],
+      title: "Spheres",
+      journal: "Journal",
+      year: 2013,
+      doi: "10.1/1",
+    },
+    findings: [
+      {
+        topic: "rest",
+        table: "Table 3",
+        scene: "teapot",
+        method: null,
+        sentence: "Below 0.",
+        claimed: 0,
+        computed: -0.5,
+        unit: "ms",
+        agrees: false,
+      },
+    ],
+  },
 };
 
-const report = useReport("../schema/example_results.json", {beside: {"reproduction.json": kReproduction}});
+const report = useReport("../schema/example_results.json", {
+  beside: {"reproduction.json": kReproduction},
+});
 
 test("the title counts scenes and hard cases", async () => {
   const {page} = await report.shared();
-  assert.equal(await page.locator("h1").textContent(), "None of 2 detectors is without error in 3 scenes and 3 hard cases");
+  assert.equal(
+    await page.locator("h1").textContent(),
+    "None of 2 detectors is without error in 3 scenes and 3 hard cases",
+  );
 });
 
 test("hard cases are summed per detector", async () => {
   const {page} = await report.shared();
-  assert.deepEqual((await tableTexts(page, "Hard cases per detector"))[1],
-                   ["ffd-aabb-sphere2", "cell", "0 of 1", "1 of 3", "1", "1", "0", "0", "0.600", "0.600 hello"]);
+  assert.deepEqual((await tableTexts(page, "Hard cases per detector"))[1], [
+    "ffd-aabb-sphere2",
+    "cell",
+    "0 of 1",
+    "1 of 3",
+    "1",
+    "1",
+    "0",
+    "0",
+    "0.600",
+    "0.600 hello",
+  ]);
 });
 
 test("the table of families says how many cases go wrong", async () => {
   const {page} = await report.shared();
-  assert.deepEqual((await tableTexts(page, "Cases that each detector gets wrong, by family"))[1].slice(0, 3), ["hello", "3", "2"]);
+  assert.deepEqual(
+    (await tableTexts(page, "Cases that each detector gets wrong, by family"))[1].slice(0, 3),
+    ["hello", "3", "2"],
+  );
 });
 
 test("a family is drawn case by case, and told from which value on it goes wrong", async () => {
@@ -49,38 +121,113 @@ test("a family is drawn case by case, and told from which value on it goes wrong
   assert.match(await summary.textContent(), /: 2 detectors go wrong$/);
   await unfold(page, summary);
   assert.deepEqual((await page.locator("#family-hello svg title").allTextContents()).slice(0, 3), [
-    "ffd-aabb-sphere2 at 0: 0 missed of 0, 1 spurious", "ffd-aabb-sphere2 at 1e-9: 1 missed of 4, 0 spurious",
-    "ffd-aabb-sphere2 at 1: 0 missed of 6, 0 spurious"]);
-  assert.deepEqual((await tableTexts(page, "Who goes wrong in hello"))[1],
-                   ["ffd-aabb-sphere2", "0", "0 missed, 1 spurious of 0 true", "2 of 3", "1", "1"]);
+    "ffd-aabb-sphere2 at 0: 0 missed of 0, 1 spurious",
+    "ffd-aabb-sphere2 at 1e-9: 1 missed of 4, 0 spurious",
+    "ffd-aabb-sphere2 at 1: 0 missed of 6, 0 spurious",
+  ]);
+  assert.deepEqual((await tableTexts(page, "Who goes wrong in hello"))[1], [
+    "ffd-aabb-sphere2",
+    "0",
+    "0 missed, 1 spurious of 0 true",
+    "2 of 3",
+    "1",
+    "1",
+  ]);
 });
 
 test("known defects are held against the list", async () => {
   const {page} = await report.shared();
   const text = await page.locator("#defects").textContent();
-  assert.match(text, /Of 2 listed wrong answers that this run could show, 1 show and 1 do not; 0 show that are not listed\./);
-  assert.deepEqual((await tableTexts(page, "Known defects"))[1], ["fcl 0.7.0", "502", "missed", "it rounds", "fcl-aabb", "1", "1 of 2"]);
+  assert.match(
+    text,
+    /Of 2 listed wrong answers that this run could show, 1 show and 1 do not; 0 show that are not listed\./,
+  );
+  assert.deepEqual((await tableTexts(page, "Known defects"))[1], [
+    "fcl 0.7.0",
+    "502",
+    "missed",
+    "it rounds",
+    "fcl-aabb",
+    "1",
+    "1 of 2",
+  ]);
 });
 
 test("an error of the oracle itself is not hidden", async () => {
   const {page} = await report.shared();
   const text = await page.locator("#pairs").textContent();
-  assert.match(text, /1,152 pairs, seed 7, 500 touch; oracle against rational arithmetic: 1 wrong, AN ERROR OF CONTACTCHECK ITSELF\./);
-  assert.deepEqual((await tableTexts(page, "Kinds of pairs"))[1], ["vertex-face", "576", "300", "0.521"]);
-  assert.match(await page.locator("dl.findings").textContent(), /the oracle was wrong 1 time: an error of contactcheck itself/);
+  assert.match(
+    text,
+    /1,152 pairs, seed 7, 500 touch; oracle against rational arithmetic: 1 wrong, AN ERROR OF CONTACTCHECK ITSELF\./,
+  );
+  assert.deepEqual((await tableTexts(page, "Kinds of pairs"))[1], [
+    "vertex-face",
+    "576",
+    "300",
+    "0.521",
+  ]);
+  assert.match(
+    await page.locator("dl.findings").textContent(),
+    /the oracle was wrong 1 time: an error of contactcheck itself/,
+  );
 });
 
 test("the paper's tables stand beside ours", async () => {
   const {page} = await report.open();
-  assert.deepEqual((await tableTexts(page, "Two levels of spheres over one: the paper's ratios beside ours"))[1],
-                   ["teapot", "2.19x", "1.50x [1.25, 1.75]", "-", "-", "1.274x", "1.10x [1.00, 1.20]", "-", "-"]);
+  assert.deepEqual(
+    (await tableTexts(page, "Two levels of spheres over one: the paper's ratios beside ours"))[1],
+    ["teapot", "2.19x", "1.50x [1.25, 1.75]", "-", "-", "1.274x", "1.10x [1.00, 1.20]", "-", "-"],
+  );
   await unfoldAll(page);
-  assert.deepEqual((await tableTexts(page, "Milliseconds per whole step, timed in lockstep from the same states, cold")).slice(1, 3), [
-    ["ffd-aabb-sphere2", "paper, Table 3, <em>phone</em>", "2.00", "1.00", "0.500", "0.250", "3.75", "-", "-", "-"],
-    ["ffd-aabb-sphere2", "ours, safe", "2.00", "1.00", "0.500", "0.250", "3.75", "cell", "1 of 10", "2"]]);
-  assert.deepEqual((await tableTexts(page, "Checks of the paper's own numbers"))[1],
-                   ["rest", "Table 3", "teapot", "-", "0", "-0.500", "ms", "✗ contradicts", "Below 0."]);
-  assert.match(await page.locator("#paper").textContent(), /874 whole steps per second, 14\.6 times real time/);
+  assert.deepEqual(
+    (
+      await tableTexts(
+        page,
+        "Milliseconds per whole step, timed in lockstep from the same states, cold",
+      )
+    ).slice(1, 3),
+    [
+      [
+        "ffd-aabb-sphere2",
+        "paper, Table 3, <em>phone</em>",
+        "2.00",
+        "1.00",
+        "0.500",
+        "0.250",
+        "3.75",
+        "-",
+        "-",
+        "-",
+      ],
+      [
+        "ffd-aabb-sphere2",
+        "ours, safe",
+        "2.00",
+        "1.00",
+        "0.500",
+        "0.250",
+        "3.75",
+        "cell",
+        "1 of 10",
+        "2",
+      ],
+    ],
+  );
+  assert.deepEqual((await tableTexts(page, "Checks of the paper's own numbers"))[1], [
+    "rest",
+    "Table 3",
+    "teapot",
+    "-",
+    "0",
+    "-0.500",
+    "ms",
+    "✗ contradicts",
+    "Below 0.",
+  ]);
+  assert.match(
+    await page.locator("#paper").textContent(),
+    /874 whole steps per second, 14\.6 times real time/,
+  );
 });
 
 test("nothing fails, and nothing is asked of the network", async () => {

@@ -7,12 +7,17 @@ const report = useReport("two_scenes.json");
 
 async function findings(page) {
   const texts = await page.locator("dl.findings > *").allTextContents();
-  return Object.fromEntries(texts.flatMap((text, i) => (i % 2 === 0 ? [[text, texts[i + 1]]] : [])));
+  return Object.fromEntries(
+    texts.flatMap((text, i) => (i % 2 === 0 ? [[text, texts[i + 1]]] : [])),
+  );
 }
 
 test("the title says how many made no error", async () => {
   const {page} = await report.shared();
-  assert.equal(await page.locator("h1").textContent(), "2 of 5 detectors made no error in 2 scenes");
+  assert.equal(
+    await page.locator("h1").textContent(),
+    "2 of 5 detectors made no error in 2 scenes",
+  );
   assert.equal(await page.title(), "contactcheck: 2 of 5 detectors made no error in 2 scenes");
 });
 
@@ -23,26 +28,33 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
     "Fastest without error":
       "ffd-lazy in all 2 scenes: 0.0300 ms per frame there for all pairs of triangles, caches cold. " +
       "fcl-aabb takes 25.0 to 37.5 times as long and fcl-obbrss takes 500 to 750 times as long.",
-    "Missed": "2 detectors did not report all true contacts: ffd-aabb 25.0 % (4 of 16, level cell) and " +
+    Missed:
+      "2 detectors did not report all true contacts: ffd-aabb 25.0 % (4 of 16, level cell) and " +
       "fcl-obbrss 6.3 % (1 of 16, level triangle).",
-    "Spurious": "2 detectors reported contacts that are none, at level cell: ffd-grid 41.7 % (10 of 24) " +
+    Spurious:
+      "2 detectors reported contacts that are none, at level cell: ffd-grid 41.7 % (10 of 24) " +
       "and ffd-aabb 11.1 % (1 of 9).",
     "Ended in an error": "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
     "Not built": "<img src=x onerror=alert(1)>.",
-    "Goals": "1 of 3 goals of the suite is met; 1 goal could not be measured.",
+    Goals: "1 of 3 goals of the suite is met; 1 goal could not be measured.",
   });
 });
 
-const unjudged = useReport("two_scenes.json", {change(results) {
-  results.scenes[1].unjudged = "scene second: no progress";
-  for (const run of results.runs) if (run.scene === results.scenes[1].id) run.status = "error";
-}});
+const unjudged = useReport("two_scenes.json", {
+  change(results) {
+    results.scenes[1].unjudged = "scene second: no progress";
+    for (const run of results.runs) if (run.scene === results.scenes[1].id) run.status = "error";
+  },
+});
 
 test("a scene that could not be judged is nobody's error", async () => {
   const {page} = await unjudged.open();
   const said = await findings(page);
   assert.equal(said["Not judged"], "scene second: no progress.");
-  assert.equal(said["Ended in an error"], "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).");
+  assert.equal(
+    said["Ended in an error"],
+    "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
+  );
   assert.match(await page.locator("h1").textContent(), /made no error in 1 scene$/);
 });
 
@@ -54,22 +66,39 @@ test("command, machine and libraries are told", async () => {
   assert.match(await facts.textContent(), /fcl 0\.7\.0/);
 });
 
-const shard = useReport("two_scenes.json", {change: (results) => {
-  results.shard = {index: 2, of: 3, command: "contactcheck run <b>all</b>", scenes: ["a", "b", "c", "d", "e"],
-      program: "0x1", settings: {timing: true}, goals: [], files: []};
-}});
+const shard = useReport("two_scenes.json", {
+  change: (results) => {
+    results.shard = {
+      index: 2,
+      of: 3,
+      command: "contactcheck run <b>all</b>",
+      scenes: ["a", "b", "c", "d", "e"],
+      program: "0x1",
+      settings: {timing: true},
+      goals: [],
+      files: [],
+    };
+  },
+});
 
 test("a shard is not taken for the whole run", async () => {
   const {page} = await shard.shared();
-  assert.match(await page.locator("header").textContent(),
-      /Shard 2 of 3: 2 of the 5 scenes of contactcheck run <b>all<\/b>; contactcheck merge puts the shards together\./);
+  assert.match(
+    await page.locator("header").textContent(),
+    /Shard 2 of 3: 2 of the 5 scenes of contactcheck run <b>all<\/b>; contactcheck merge puts the shards together\./,
+  );
 });
 
-const merged = useReport("two_scenes.json", {change: (results) => {
-  results.merged = ["contactcheck run --shard 1/2", "contactcheck run --shard 2/2"];
-}});
+const merged = useReport("two_scenes.json", {
+  change: (results) => {
+    results.merged = ["contactcheck run --shard 1/2", "contactcheck run --shard 2/2"];
+  },
+});
 
 test("results that were put together from shards say so", async () => {
   const {page} = await merged.shared();
-  assert.match(await page.locator("header").textContent(), /Put together from 2 shards \(contactcheck merge\)\./);
+  assert.match(
+    await page.locator("header").textContent(),
+    /Put together from 2 shards \(contactcheck merge\)\./,
+  );
 });

@@ -9,7 +9,8 @@ import {fileURLToPath} from "node:url";
 import {launch, openReport, settled} from "./browser.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const program = process.env.CONTACTCHECK_PROGRAM ?? resolve(here, "../../../build/release/contactcheck");
+const program =
+  process.env.CONTACTCHECK_PROGRAM ?? resolve(here, "../../../build/release/contactcheck");
 
 /**
  * A browser and the report of `results` (a file of this folder), for all tests of a file.
@@ -25,9 +26,16 @@ export function useReport(results, {beside = {}, change, args} = {}) {
     const read = JSON.parse(readFileSync(resolve(here, results), "utf8"));
     change?.(read);
     writeFileSync(join(folder, "results.json"), JSON.stringify(read));
-    for (const [name, json] of Object.entries(beside)) writeFileSync(join(folder, name),
-        JSON.stringify(json));
-    execFileSync(program, ["report", join(folder, "results.json"), "--format", "html", "--out", folder]);
+    for (const [name, json] of Object.entries(beside))
+      writeFileSync(join(folder, name), JSON.stringify(json));
+    execFileSync(program, [
+      "report",
+      join(folder, "results.json"),
+      "--format",
+      "html",
+      "--out",
+      folder,
+    ]);
     if (!existsSync(join(folder, "report.html"))) {
       console.log("skipped: this program was built without the page (npm ci failed)");
       process.exit(0);
@@ -49,7 +57,14 @@ export function useReport(results, {beside = {}, change, args} = {}) {
       return report;
     },
     markdown() {
-      execFileSync(program, ["report", join(folder, "results.json"), "--format", "md", "--out", folder]);
+      execFileSync(program, [
+        "report",
+        join(folder, "results.json"),
+        "--format",
+        "md",
+        "--out",
+        folder,
+      ]);
       return readFileSync(join(folder, "report.md"), "utf8");
     },
     /** The page, opened once, for tests that leave it as it is. */
@@ -66,11 +81,16 @@ export function useReport(results, {beside = {}, change, args} = {}) {
 export async function tableTexts(page, name) {
   const box = page.getByRole("region", {name, exact: true});
   await box.first().waitFor();
-  return box.locator("tr").evaluateAll((lines) => lines.map((line) => [...line.children].map((cell) => cell.textContent)));
+  return box
+    .locator("tr")
+    .evaluateAll((lines) =>
+      lines.map((line) => [...line.children].map((cell) => cell.textContent)),
+    );
 }
 
 /** What a screen reader is told of each of these marks. */
-export const labelsOf = (marks) => marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
+export const labelsOf = (marks) =>
+  marks.evaluateAll((all) => all.map((mark) => mark.getAttribute("aria-label")));
 
 /** Changes results: a detector that is judged by cells answers for pairs of bodies alone in one scene. */
 export function judgeByBodiesAlone(results, scene, detector) {
@@ -90,11 +110,12 @@ export async function unfold(page, summary) {
 export async function unfoldAll(page) {
   await page.evaluate(async () => {
     // What is opened may hold more to open; its own listener, which fills it, comes before this one.
-    const open = (details) => new Promise((done) => {
-      details.addEventListener("toggle", done, {once: true});
-      details.open = true;
-    });
-    for (let closed; (closed = [...document.querySelectorAll("details:not([open])")]).length > 0;)
+    const open = (details) =>
+      new Promise((done) => {
+        details.addEventListener("toggle", done, {once: true});
+        details.open = true;
+      });
+    for (let closed; (closed = [...document.querySelectorAll("details:not([open])")]).length > 0; )
       await Promise.all(closed.map(open));
   });
   await settled(page);

@@ -17,7 +17,9 @@ test("names that look like HTML stay text", async () => {
   assert.equal(await page.locator("main script, main img, main i, main b, main u").count(), 0);
   assert.equal(await page.locator("script").count(), scripts);
   assert.equal(dialogs, 0);
-  assert.ok((await page.locator("main").textContent()).includes("A title with <b>tags</b> & \"quotes\""));
+  assert.ok(
+    (await page.locator("main").textContent()).includes('A title with <b>tags</b> & "quotes"'),
+  );
   assert.equal((await tableTexts(page, "Bodies"))[1][0], "left");
 });
 
@@ -25,7 +27,8 @@ test("no request leaves the page, whatever is clicked", async () => {
   const {page} = await report.open();
   await unfoldAll(page);
   for (const select of await page.locator("select").all())
-    for (const option of await select.locator("option").all()) await select.selectOption(await option.getAttribute("value"));
+    for (const option of await select.locator("option").all())
+      await select.selectOption(await option.getAttribute("value"));
   await page.mouse.move(640, 450);
   assert.deepEqual(report.requests(), []);
   assert.deepEqual(report.errors(), []);
@@ -33,7 +36,15 @@ test("no request leaves the page, whatever is clicked", async () => {
 
 test("the page forbids itself the network", async () => {
   const {page} = await report.shared();
-  const allowed = await page.evaluate(() => fetch("https://example.org/").then(() => true, () => false));
+  const allowed = await page.evaluate(() =>
+    fetch("https://example.org/").then(
+      () => true,
+      () => false,
+    ),
+  );
   assert.equal(allowed, false);
-  assert.match(await page.locator("meta[http-equiv]").getAttribute("content"), /^default-src 'none'/);
+  assert.match(
+    await page.locator("meta[http-equiv]").getAttribute("content"),
+    /^default-src 'none'/,
+  );
 });

@@ -20,12 +20,16 @@ async function picture(page, name) {
 }
 
 /** The pair in the middle of the list: neither the first graze nor the last. */
-const choose = (page, scene, kind) => page.evaluate(([id, what]) => {
-  const pairs = window.contactcheckView.missedPairs(id).filter((pair) => pair.kind === what);
-  const pair = pairs[Math.floor(pairs.length / 2)];
-  if (pair) window.contactcheckView.show(pair);
-  return Boolean(pair);
-}, [scene, kind]);
+const choose = (page, scene, kind) =>
+  page.evaluate(
+    ([id, what]) => {
+      const pairs = window.contactcheckView.missedPairs(id).filter((pair) => pair.kind === what);
+      const pair = pairs[Math.floor(pairs.length / 2)];
+      if (pair) window.contactcheckView.show(pair);
+      return Boolean(pair);
+    },
+    [scene, kind],
+  );
 
 async function scenePictures(page, scene, suffix) {
   await page.selectOption('[data-control="scene"]', scene);
@@ -39,8 +43,11 @@ try {
   for (const colorScheme of ["light", "dark"]) {
     const {page, close} = await openReport(browser, report, {colorScheme});
     await page.waitForSelector(".view-canvas[aria-label]");
-    const scenes = await page.$$eval('[data-control="scene"] option', (all) => all.map((option) => option.value));
-    for (const scene of scenes) await scenePictures(page, scene, colorScheme === "dark" ? "-dark" : "");
+    const scenes = await page.$$eval('[data-control="scene"] option', (all) =>
+      all.map((option) => option.value),
+    );
+    for (const scene of scenes)
+      await scenePictures(page, scene, colorScheme === "dark" ? "-dark" : "");
     await close();
   }
 } finally {

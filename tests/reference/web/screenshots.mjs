@@ -23,7 +23,8 @@ async function sections(browser, viewport) {
   const {page, close} = await openReport(browser, report, {viewport});
   // It would stand in the middle of a section that is taller than the window.
   await page.addStyleTag({content: "nav { display: none }"});
-  const names = wanted.length > 0 ? wanted : await page.$$eval("section[id]", (all) => all.map((s) => s.id));
+  const names =
+    wanted.length > 0 ? wanted : await page.$$eval("section[id]", (all) => all.map((s) => s.id));
   for (const name of names) {
     const path = join(folder, `section-${name}-${viewport.width}.png`);
     await page.locator(`section[id="${name}"]`).screenshot({path});

@@ -8,7 +8,9 @@ import {join} from "node:path";
 import {kNarrow, kWebGl, kWide, launch, openReport, settled} from "./browser.mjs";
 import {kMissed, reportOf} from "./view_scene.mjs";
 
-const kPage = process.argv[2] ?? join(process.env.CONTACTCHECK_WEB_WORK ?? "build/release/reference/report/web/work", "page.html");
+const kPage =
+  process.argv[2] ??
+  join(process.env.CONTACTCHECK_WEB_WORK ?? "build/release/reference/report/web/work", "page.html");
 if (!existsSync(kPage)) {
   console.log(`skipped: no ${kPage}: npm ci failed; build again with a network`);
   process.exit(0);
@@ -23,8 +25,11 @@ async function pixels(page) {
   await settled(page);
   return page.evaluate(() => {
     const drawn = document.querySelector(".view-canvas");
-    const width = Math.floor(drawn.width / 3), height = Math.floor(drawn.height / 3);
-    const context = Object.assign(document.createElement("canvas"), {width, height}).getContext("2d");
+    const width = Math.floor(drawn.width / 3),
+      height = Math.floor(drawn.height / 3);
+    const context = Object.assign(document.createElement("canvas"), {width, height}).getContext(
+      "2d",
+    );
     context.imageSmoothingEnabled = false;
     context.drawImage(drawn, 0, 0, width, height);
     return {width, height, rgba: Array.from(context.getImageData(0, 0, width, height).data)};
@@ -37,8 +42,10 @@ function count({rgba}, holds) {
   return found;
 }
 
-const near = (a, by) => (r, g, b) => Math.abs(r - a[0]) + Math.abs(g - a[1]) + Math.abs(b - a[2]) < by;
-const differing = (one, other) => one.rgba.reduce((sum, value, i) => sum + (value !== other.rgba[i] ? 1 : 0), 0);
+const near = (a, by) => (r, g, b) =>
+  Math.abs(r - a[0]) + Math.abs(g - a[1]) + Math.abs(b - a[2]) < by;
+const differing = (one, other) =>
+  one.rgba.reduce((sum, value, i) => sum + (value !== other.rgba[i] ? 1 : 0), 0);
 const background = ({rgba}) => rgba.slice(0, 3);
 const drawnOn = (picture) => count(picture, (...c) => !near(background(picture), 24)(...c));
 
@@ -69,11 +76,23 @@ async function withReport(args, options, checks) {
 
 async function drawsTheScene(page) {
   const {scene, detector, frame, frames} = await state(page);
-  assert.deepEqual({scene, detector, frame, frames}, {scene: "seeded", detector: "half-blind", frame: 1, frames: 3});
+  assert.deepEqual(
+    {scene, detector, frame, frames},
+    {scene: "seeded", detector: "half-blind", frame: 1, frames: 3},
+  );
   const picture = await pixels(page);
-  assert.ok(drawnOn(picture) > 0.02 * picture.width * picture.height, "bodies cover some of the canvas");
-  assert.match(await page.locator(".view-message").textContent(), /2 pairs of triangles touch; half-blind misses 1 and makes up 0/);
-  assert.match(await page.locator(".view-left-out").textContent(), /lost: "recordings\/lost\.ccr" cannot be read\./);
+  assert.ok(
+    drawnOn(picture) > 0.02 * picture.width * picture.height,
+    "bodies cover some of the canvas",
+  );
+  assert.match(
+    await page.locator(".view-message").textContent(),
+    /2 pairs of triangles touch; half-blind misses 1 and makes up 0/,
+  );
+  assert.match(
+    await page.locator(".view-left-out").textContent(),
+    /lost: "recordings\/lost\.ccr" cannot be read\./,
+  );
 }
 
 async function slidesThroughFrames(page) {
@@ -89,34 +108,56 @@ async function leadsToTheMissedPair(page) {
   await setFrame(page, 0);
   const rows = page.locator(".view-table tbody tr");
   assert.equal(await rows.count(), 2);
-  assert.deepEqual(await rows.first().locator("td").evaluateAll((all) => all.map((td) => td.innerText.trim())),
-                   ["✕ missed", "1", "square triangle 0\ntent triangle 0"]);
+  assert.deepEqual(
+    await rows
+      .first()
+      .locator("td")
+      .evaluateAll((all) => all.map((td) => td.innerText.trim())),
+    ["✕ missed", "1", "square triangle 0\ntent triangle 0"],
+  );
   await rows.first().locator("button").click();
   const {frame, pair, target, distance} = await state(page);
   assert.equal(frame, kMissed.frame);
   assert.deepEqual(pair, kMissed.pair);
-  target.forEach((value, k) => assert.ok(Math.abs(value - kMissed.centroid[k]) < 1e-6, `looks at ${target}`));
+  target.forEach((value, k) =>
+    assert.ok(Math.abs(value - kMissed.centroid[k]) < 1e-6, `looks at ${target}`),
+  );
   assert.ok(distance > 0.5 && distance < 10, `near enough to see it: ${distance} m`);
   assert.equal(await rows.first().getAttribute("data-chosen"), "");
   const picture = await pixels(page);
   const blue = count(picture, missedColour);
   assert.ok(blue > 0.005 * picture.width * picture.height, `the pair is coloured: ${blue} pixels`);
   // Its own mean on the screen: the middle of the canvas, but for perspective and the hidden half.
-  let x = 0, y = 0;
+  let x = 0,
+    y = 0;
   for (let i = 0; i < picture.rgba.length / 4; ++i)
     if (missedColour(...picture.rgba.slice(4 * i, 4 * i + 3))) {
       x += (i % picture.width) / picture.width / blue;
       y += Math.floor(i / picture.width) / picture.height / blue;
     }
-  assert.ok(Math.abs(x - 0.5) < 0.2 && Math.abs(y - 0.5) < 0.2, `the pair is in the middle: ${x}, ${y}`);
+  assert.ok(
+    Math.abs(x - 0.5) < 0.2 && Math.abs(y - 0.5) < 0.2,
+    `the pair is in the middle: ${x}, ${y}`,
+  );
 }
 
 async function isLedByOthers(page) {
-  await page.evaluate((target) => window.contactcheckView.show(target),
-                      {scene: "seeded", detector: "half-blind", frame: 2, pair: [0, 1, 1, 1], kind: "spurious"});
+  await page.evaluate((target) => window.contactcheckView.show(target), {
+    scene: "seeded",
+    detector: "half-blind",
+    frame: 2,
+    pair: [0, 1, 1, 1],
+    kind: "spurious",
+  });
   assert.deepEqual((await state(page)).pair, [0, 1, 1, 1]);
   const listed = await page.evaluate(() => window.contactcheckView.missedPairs("seeded"));
-  assert.deepEqual(listed.map(({kind, frame}) => [kind, frame]), [["missed", 1], ["spurious", 2]]);
+  assert.deepEqual(
+    listed.map(({kind, frame}) => [kind, frame]),
+    [
+      ["missed", 1],
+      ["spurious", 2],
+    ],
+  );
   await page.getByRole("button", {name: "Whole scene"}).click();
   assert.equal((await state(page)).pair, null);
 }
@@ -126,12 +167,28 @@ async function showsHardCases(page) {
   await family.locator("summary").click();
   await family.getByRole("button", {name: "show"}).click();
   const {scene, frame, pair} = await state(page);
-  assert.deepEqual({scene, frame, pair}, {scene: "cases", frame: 1, pair: kMissed.pair}, "where it goes wrong first");
-  assert.equal(await page.locator(".view-frame").textContent(), "case 1 of 0 to 2, value a quarter below");
+  assert.deepEqual(
+    {scene, frame, pair},
+    {scene: "cases", frame: 1, pair: kMissed.pair},
+    "where it goes wrong first",
+  );
+  assert.equal(
+    await page.locator(".view-frame").textContent(),
+    "case 1 of 0 to 2, value a quarter below",
+  );
   assert.match(await page.locator(".view-message").textContent(), /half-blind, case 1, missed/);
-  await family.locator("svg title", {hasText: "at a half"}).locator("..").locator("rect").first().click();
+  await family
+    .locator("svg title", {hasText: "at a half"})
+    .locator("..")
+    .locator("rect")
+    .first()
+    .click();
   assert.equal((await state(page)).frame, 2, "a click on a case");
-  await page.evaluate((target) => window.contactcheckView.show(target), {scene: "seeded", detector: "half-blind", frame: 1});
+  await page.evaluate((target) => window.contactcheckView.show(target), {
+    scene: "seeded",
+    detector: "half-blind",
+    frame: 1,
+  });
 }
 
 async function switchesLayers(page) {
@@ -160,20 +217,26 @@ async function plays(page) {
   await page.waitForFunction((frame) => window.contactcheckView.state().frame !== frame, start);
   await page.getByRole("button", {name: "Pause"}).click();
   const {frame} = await state(page);
-  await page.waitForTimeout(700);  // a step is 500 ms
+  await page.waitForTimeout(700); // a step is 500 ms
   assert.equal((await state(page)).frame, frame);
 }
 
 async function isDark(page) {
   const picture = await pixels(page);
-  assert.ok(background(picture).every((value) => value < 60), `dark background: ${background(picture)}`);
+  assert.ok(
+    background(picture).every((value) => value < 60),
+    `dark background: ${background(picture)}`,
+  );
   assert.ok(drawnOn(picture) > 0.02 * picture.width * picture.height);
 }
 
 async function fitsANarrowWindow(page) {
   const {width} = await page.locator(".view-canvas").boundingBox();
   assert.ok(width > 250 && width <= kNarrow.width, `canvas ${width} wide`);
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= kNarrow.width, "no sideways scrolling");
+  assert.ok(
+    (await page.evaluate(() => document.documentElement.scrollWidth)) <= kNarrow.width,
+    "no sideways scrolling",
+  );
   await leadsToTheMissedPair(page);
 }
 
@@ -184,7 +247,20 @@ async function saysThatWebGlIsMissing(page) {
 }
 
 const kChecks = [
-  [kWebGl, {viewport: kWide}, [drawsTheScene, slidesThroughFrames, leadsToTheMissedPair, isLedByOthers, showsHardCases, switchesLayers, drawsOnDemandAlone, plays]],
+  [
+    kWebGl,
+    {viewport: kWide},
+    [
+      drawsTheScene,
+      slidesThroughFrames,
+      leadsToTheMissedPair,
+      isLedByOthers,
+      showsHardCases,
+      switchesLayers,
+      drawsOnDemandAlone,
+      plays,
+    ],
+  ],
   [kWebGl, {viewport: kWide, colorScheme: "dark"}, [isDark, leadsToTheMissedPair]],
   [kWebGl, {viewport: kNarrow}, [fitsANarrowWindow]],
   [["--disable-gpu", "--disable-3d-apis"], {viewport: kWide}, [saysThatWebGlIsMissing]],

@@ -11,10 +11,15 @@ export interface Chart {
 
 /** `draw` makes a chart of a width in pixels; `what` says to a screen reader what it shows. */
 export function chart(what: string, draw: (width: number) => Node): Chart {
-  const element = h("figure", {class: "chart", role: "group", "aria-label": what, "aria-busy": "true"});
+  const element = h("figure", {
+    class: "chart",
+    role: "group",
+    "aria-label": what,
+    "aria-busy": "true",
+  });
   let width = 0;
   const redraw = (): void => {
-    if (width === 0) return;  // folded away, or not yet in the page
+    if (width === 0) return; // folded away, or not yet in the page
     element.replaceChildren(draw(width));
     element.removeAttribute("aria-busy");
   };

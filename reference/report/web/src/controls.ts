@@ -3,8 +3,12 @@ import {h} from "./dom";
 
 export type Option = [value: string, text: string];
 
-export function select(label: string, options: Option[], value: string,
-                       onChange: (value: string) => void): HTMLElement {
+export function select(
+  label: string,
+  options: Option[],
+  value: string,
+  onChange: (value: string) => void,
+): HTMLElement {
   const box = h("select", {}, ...options.map(([v, text]) => h("option", {value: v}, text)));
   box.value = value;
   box.addEventListener("change", () => onChange(box.value));
@@ -13,8 +17,12 @@ export function select(label: string, options: Option[], value: string,
 
 let groups = 0;
 
-export function radios(label: string, options: Option[], value: string,
-                       onChange: (value: string) => void): HTMLElement {
+export function radios(
+  label: string,
+  options: Option[],
+  value: string,
+  onChange: (value: string) => void,
+): HTMLElement {
   const name = `choice-${++groups}`;
   const items = options.map(([v, text]) => {
     const input = h("input", {type: "radio", name, value: v, checked: v === value});
@@ -25,9 +33,16 @@ export function radios(label: string, options: Option[], value: string,
 }
 
 /** Any of `options`, at most `most` of them. */
-export function checkboxes(label: string, options: string[], chosen: string[], most: number,
-                           onChange: (chosen: string[]) => void): HTMLElement {
-  const inputs = options.map((name) => h("input", {type: "checkbox", checked: chosen.includes(name)}));
+export function checkboxes(
+  label: string,
+  options: string[],
+  chosen: string[],
+  most: number,
+  onChange: (chosen: string[]) => void,
+): HTMLElement {
+  const inputs = options.map((name) =>
+    h("input", {type: "checkbox", checked: chosen.includes(name)}),
+  );
   const update = (): void => {
     const now = options.filter((_, i) => inputs[i].checked);
     inputs.forEach((input) => (input.disabled = now.length >= most && !input.checked));
@@ -35,8 +50,12 @@ export function checkboxes(label: string, options: string[], chosen: string[], m
   };
   inputs.forEach((input) => input.addEventListener("change", update));
   const items = options.map((name, i) => h("label", {}, inputs[i], name));
-  return h("details", {class: "control checkboxes"}, h("summary", {}, label),
-           h("div", {class: "choices"}, ...items));
+  return h(
+    "details",
+    {class: "control checkboxes"},
+    h("summary", {}, label),
+    h("div", {class: "choices"}, ...items),
+  );
 }
 
 export const controlBar = (...controls: (HTMLElement | null)[]): HTMLElement =>

@@ -8,7 +8,8 @@ export type {Results, Run, Scene} from "./results";
 async function unpacked(id: string): Promise<ArrayBuffer | null> {
   const text = document.getElementById(id)?.textContent?.trim() ?? "";
   if (text === "") return null;
-  const packed = atob(text), bytes = new Uint8Array(packed.length);
+  const packed = atob(text),
+    bytes = new Uint8Array(packed.length);
   for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).arrayBuffer();

@@ -13,7 +13,9 @@ function setAttribute(element: Element, name: string, value: Value): void {
 
 /** A function as value listens to the event of that name; false, null and undefined are left out. */
 export function h<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: Record<string, Value> = {}, ...children: Child[]
+  tag: K,
+  attributes: Record<string, Value> = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) setAttribute(element, name, value);
@@ -22,7 +24,9 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 }
 
 export function s<K extends keyof SVGElementTagNameMap>(
-  tag: K, attributes: Record<string, Value> = {}, ...children: Child[]
+  tag: K,
+  attributes: Record<string, Value> = {},
+  ...children: Child[]
 ): SVGElementTagNameMap[K] {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [name, value] of Object.entries(attributes)) setAttribute(element, name, value);
@@ -34,7 +38,11 @@ export const p = (...children: Child[]): HTMLElement => h("p", {}, ...children);
 export const code = (text: string): HTMLElement => h("code", {}, text);
 
 /** Closed at first; `build` is called when it is opened, so that what nobody reads costs nothing. */
-export function unfolding(summary: Child, build: () => Child[], attributes: Record<string, Value> = {}) {
+export function unfolding(
+  summary: Child,
+  build: () => Child[],
+  attributes: Record<string, Value> = {},
+) {
   const details = h("details", attributes, h("summary", {}, summary));
   details.addEventListener("toggle", () => {
     if (details.open && details.childElementCount === 1)

@@ -5,7 +5,10 @@ import type {Run, Scene} from "./results";
 export type Kind = "truth" | "missed" | "spurious";
 
 export class FamilyResult {
-  constructor(readonly scene: Scene, readonly run: Run) {}
+  constructor(
+    readonly scene: Scene,
+    readonly run: Run,
+  ) {}
 
   get cases(): number {
     return this.scene.family!.values.length;
@@ -38,7 +41,7 @@ export class FamilyResult {
   }
   /** Milliseconds of a case, cold; null where none was timed. */
   get milliseconds(): number | null {
-    return this.judged ? this.run.time_ms.cold?.frame ?? null : null;
+    return this.judged ? (this.run.time_ms.cold?.frame ?? null) : null;
   }
   frames(): number[] {
     return [...this.scene.family!.values.keys()];

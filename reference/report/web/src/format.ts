@@ -16,10 +16,10 @@ function exponent(value: number): string {
 
 // Halves go to the even digit, as printf has them; toFixed rounds them up.
 function fixed(value: number, digits: number): string {
-  const rounded = value.toFixed(digits), rest = value.toFixed(digits + 40).slice(value.toFixed(digits
-      + 1).length - 1);
+  const rounded = value.toFixed(digits),
+    rest = value.toFixed(digits + 40).slice(value.toFixed(digits + 1).length - 1);
   if (!/^50*$/.test(rest)) return rounded;
-  return (2 * Math.round((value * 10 ** digits) / 2) / 10 ** digits).toFixed(digits);
+  return ((2 * Math.round((value * 10 ** digits) / 2)) / 10 ** digits).toFixed(digits);
 }
 
 function significant(value: number): string {
@@ -82,7 +82,9 @@ export const share = (part: number, whole: number): number | null =>
   whole > 0 ? part / whole : null;
 
 export const optionsText = (options: Record<string, string> | undefined): string =>
-  Object.entries(options ?? {}).map(([name, value]) => `${name}=${value}`).join(", ") || "-";
+  Object.entries(options ?? {})
+    .map(([name, value]) => `${name}=${value}`)
+    .join(", ") || "-";
 
 export const plural = (n: number, one: string, many = `${one}s`): string =>
   `${grouped(n)} ${n === 1 ? one : many}`;

@@ -8,28 +8,65 @@ export interface Word {
 }
 
 export const kGlossary: Word[] = [
-  {id: "contact", word: "contact",
-   meaning: "Two surfaces share a point; touching counts. What truly is in contact (the truth) is computed exactly, frame by frame."},
-  {id: "missed", word: "missed",
-   meaning: "A true contact that a detector did not report. Objects would sink into one another."},
-  {id: "spurious", word: "spurious",
-   meaning: "A contact that a detector reported and that does not exist. Objects would stop before they touch."},
-  {id: "recall", word: "recall",
-   meaning: "The share of true contacts that was found: 1 is all. A dash means that there was nothing to find."},
-  {id: "level", word: "level",
-   meaning: "What is counted: pairs of bodies (body), of lattice cells (cell), of mapped cell boxes (box), of triangles (triangle), "
-     + "vertices inside another body (vertex), or vertices nearer than a margin (near). A detector is held to the levels that it claims, and to no others."},
-  {id: "hover", word: "hover",
-   meaning: "The true distance of two surfaces when a detector first reports that they touch."},
-  {id: "question", word: "question",
-   meaning: "What a detector was asked while it was timed: all pairs of triangles, which bodies touch, all pairs of cells, or contacts "
-     + "with depth and normal. Only times of one question compare."},
-  {id: "cold", word: "cold, hot",
-   meaning: "Cold: the processor's caches were swept before. Hot: the same frame once more."},
-  {id: "depth", word: "depth, normal",
-   meaning: "How deep two bodies are in one another at a contact, and the direction in which they part the soonest."},
-  {id: "ffd", word: "FFD, lattice",
-   meaning: "Free-form deformation: bodies are deformed by moving the nodes of a lattice of boxes (cells) around them."},
+  {
+    id: "contact",
+    word: "contact",
+    meaning:
+      "Two surfaces share a point; touching counts. What truly is in contact (the truth) is computed exactly, frame by frame.",
+  },
+  {
+    id: "missed",
+    word: "missed",
+    meaning: "A true contact that a detector did not report. Objects would sink into one another.",
+  },
+  {
+    id: "spurious",
+    word: "spurious",
+    meaning:
+      "A contact that a detector reported and that does not exist. Objects would stop before they touch.",
+  },
+  {
+    id: "recall",
+    word: "recall",
+    meaning:
+      "The share of true contacts that was found: 1 is all. A dash means that there was nothing to find.",
+  },
+  {
+    id: "level",
+    word: "level",
+    meaning:
+      "What is counted: pairs of bodies (body), of lattice cells (cell), of mapped cell boxes (box), of triangles (triangle), " +
+      "vertices inside another body (vertex), or vertices nearer than a margin (near). A detector is held to the levels that it claims, and to no others.",
+  },
+  {
+    id: "hover",
+    word: "hover",
+    meaning: "The true distance of two surfaces when a detector first reports that they touch.",
+  },
+  {
+    id: "question",
+    word: "question",
+    meaning:
+      "What a detector was asked while it was timed: all pairs of triangles, which bodies touch, all pairs of cells, or contacts " +
+      "with depth and normal. Only times of one question compare.",
+  },
+  {
+    id: "cold",
+    word: "cold, hot",
+    meaning: "Cold: the processor's caches were swept before. Hot: the same frame once more.",
+  },
+  {
+    id: "depth",
+    word: "depth, normal",
+    meaning:
+      "How deep two bodies are in one another at a contact, and the direction in which they part the soonest.",
+  },
+  {
+    id: "ffd",
+    word: "FFD, lattice",
+    meaning:
+      "Free-form deformation: bodies are deformed by moving the nodes of a lattice of boxes (cells) around them.",
+  },
 ];
 
 /** A link to a word's meaning, which also shows when the pointer rests on it. @pre the id is known */

@@ -31,11 +31,12 @@ export function groupsOf(detectors: string[]): Group[] {
 
 /** For lines of single detectors: dash pattern and shape beside colour, so that none is told by colour alone. */
 export const kLineStyles: {colour: string; dash: string; shape: Plot.SymbolType}[] = [
-  {colour: "var(--blue)", dash: "none", shape: "circle"}, {colour: "var(--orange)", dash: "7 3",
-      shape: "square"},
-  {colour: "var(--green)", dash: "2 2", shape: "triangle"}, {colour: "var(--red)", dash: "10 3 2 3",
-      shape: "diamond"},
-  {colour: "var(--purple)", dash: "4 4", shape: "star"}, {colour: "var(--black)", dash: "1 3",
-      shape: "cross"},
-  {colour: "var(--sky)", dash: "12 4", shape: "wye"}, {colour: "var(--grey)", dash: "3 6", shape: "hexagon"},
+  {colour: "var(--blue)", dash: "none", shape: "circle"},
+  {colour: "var(--orange)", dash: "7 3", shape: "square"},
+  {colour: "var(--green)", dash: "2 2", shape: "triangle"},
+  {colour: "var(--red)", dash: "10 3 2 3", shape: "diamond"},
+  {colour: "var(--purple)", dash: "4 4", shape: "star"},
+  {colour: "var(--black)", dash: "1 3", shape: "cross"},
+  {colour: "var(--sky)", dash: "12 4", shape: "wye"},
+  {colour: "var(--grey)", dash: "3 6", shape: "hexagon"},
 ];

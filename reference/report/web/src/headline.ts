@@ -1,7 +1,14 @@
 // What the run found, in words. Sentences only; sections/headline.ts shows them.
 import {grouped, listed, number, percent, plural, shortList} from "./format";
 import type {Report} from "./report";
-import {meanFrameMs, missedShare, spuriousShare, verdictOf, type Counts, type Verdict} from "./sums";
+import {
+  meanFrameMs,
+  missedShare,
+  spuriousShare,
+  verdictOf,
+  type Counts,
+  type Verdict,
+} from "./sums";
 import type {KnownDefects, Run, Scene} from "./results";
 
 export interface Finding {
@@ -24,7 +31,8 @@ function runsThat(report: Report, status: string): Run[] {
 function verdicts(report: Report): Judged[] {
   const crashed = new Set(runsThat(report, "error").map((run) => run.detector));
   const scenes = [...report.scenes, ...report.families];
-  return report.detectors.map((detector) => verdictOf(report, detector, scenes))
+  return report.detectors
+    .map((detector) => verdictOf(report, detector, scenes))
     .filter((verdict) => verdict !== null)
     .filter((verdict) => verdict.tried)
     .map((verdict) => ({...verdict, crashed: crashed.has(verdict.detector)}));
@@ -34,15 +42,20 @@ const flawless = (verdict: Judged): boolean => verdict.exact && !verdict.crashed
 
 export function placesText(report: Report): string {
   const judged = (all: Scene[]): Scene[] => all.filter((scene) => !scene.unjudged);
-  const cases = judged(report.families).reduce((sum, scene) => sum + scene.family!.values.length, 0);
-  const parts = [], scenes = judged(report.scenes).length;
+  const cases = judged(report.families).reduce(
+    (sum, scene) => sum + scene.family!.values.length,
+    0,
+  );
+  const parts = [],
+    scenes = judged(report.scenes).length;
   if (scenes > 0) parts.push(plural(scenes, "scene"));
   if (cases > 0) parts.push(plural(cases, "hard case"));
   return listed(parts);
 }
 
 export function title(report: Report): string {
-  const all = verdicts(report), right = all.filter(flawless).length;
+  const all = verdicts(report),
+    right = all.filter(flawless).length;
   const places = placesText(report);
   if (all.length === 0) return `Nothing was judged in ${places || "this run"}`;
   if (all.length === 1)
@@ -71,7 +84,8 @@ function worstLevel(verdict: Verdict, kind: "missed" | "spurious"): [string, Cou
 
 function wrongFinding(all: Judged[], kind: "missed" | "spurious"): Finding[] {
   const share = (c: Counts): number => (kind === "missed" ? missedShare(c) : spuriousShare(c)) ?? 0;
-  const wrong = all.map((verdict) => ({verdict, at: worstLevel(verdict, kind)}))
+  const wrong = all
+    .map((verdict) => ({verdict, at: worstLevel(verdict, kind)}))
     .filter((entry) => entry.at !== null)
     .sort((a, b) => share(b.at![1]) - share(a.at![1]));
   if (wrong.length === 0) return [];
@@ -79,15 +93,20 @@ function wrongFinding(all: Judged[], kind: "missed" | "spurious"): Finding[] {
   const whole = (c: Counts): number => (kind === "missed" ? c.truth : c.reported);
   const texts = wrong.map(({verdict, at}) => {
     const [level, c] = at!;
-    return `${verdict.detector} ${percent(share(c))} (${grouped(c[kind])} of ${grouped(whole(c))}` +
-      `${levels.length > 1 ? `, level ${level}` : ""})`;
+    return (
+      `${verdict.detector} ${percent(share(c))} (${grouped(c[kind])} of ${grouped(whole(c))}` +
+      `${levels.length > 1 ? `, level ${level}` : ""})`
+    );
   });
-  const what = kind === "missed" ? "did not report all true contacts" : "reported contacts that are none";
+  const what =
+    kind === "missed" ? "did not report all true contacts" : "reported contacts that are none";
   const where = levels.length === 1 ? `, at level ${levels[0]}` : "";
-  return [{
-    topic: kind === "missed" ? "Missed" : "Spurious",
-    sentence: `${plural(wrong.length, "detector")} ${what}${where}: ${shortList(texts, kMost)}.`,
-  }];
+  return [
+    {
+      topic: kind === "missed" ? "Missed" : "Spurious",
+      sentence: `${plural(wrong.length, "detector")} ${what}${where}: ${shortList(texts, kMost)}.`,
+    },
+  ];
 }
 
 const answersTriangles = (run: Run): boolean => run.time_ms.question === "triangles";
@@ -96,7 +115,8 @@ const answersTriangles = (run: Run): boolean => run.time_ms.question === "triang
 export function winners(report: Report, exact: Set<string>): Map<string, string[]> {
   const wins = new Map<string, string[]>();
   for (const scene of [...report.scenes, ...report.families]) {
-    const timed = report.okRunsOf(scene.id)
+    const timed = report
+      .okRunsOf(scene.id)
       .filter((run) => exact.has(run.detector) && run.time_ms.cold && answersTriangles(run))
       .sort((a, b) => a.time_ms.cold!.frame - b.time_ms.cold!.frame);
     if (timed.length < 2) continue;
@@ -113,7 +133,8 @@ function slowerText(report: Report, detector: string): string {
       .map((scene) => report.okRun(scene.id, detector)?.speedup?.triangles?.[reference]?.cold.ratio)
       .filter((ratio) => ratio !== undefined);
     if (ratios.length === 0) continue;
-    const low = number(Math.min(...ratios)), high = number(Math.max(...ratios));
+    const low = number(Math.min(...ratios)),
+      high = number(Math.max(...ratios));
     texts.push(`${reference} takes ${low === high ? low : `${low} to ${high}`} times as long`);
   }
   return texts.length > 0 ? ` ${listed(texts)}.` : "";
@@ -125,15 +146,23 @@ function fastestFinding(report: Report, all: Judged[]): Finding[] {
   if (wins.length === 0) return [];
   const [[best, scenes], ...others] = wins;
   const total = wins.reduce((sum, [, won]) => sum + won.length, 0);
-  const where = total === scenes.length ? (total === 1 ? "in the scene" : `in all ${total} scenes`)
-                                        : `in ${scenes.length} of ${total} scenes`;
+  const where =
+    total === scenes.length
+      ? total === 1
+        ? "in the scene"
+        : `in all ${total} scenes`
+      : `in ${scenes.length} of ${total} scenes`;
   const rest = others.map(([name, won]) => `${name} in ${shortList(won, 3)}`);
   const runs = scenes.map((scene) => report.okRun(scene, best)!);
-  return [{
-    topic: "Fastest without error",
-    sentence: `${best} ${where}: ${number(meanFrameMs(runs, "cold"))} ms per frame there for all pairs ` +
-      `of triangles, caches cold${rest.length > 0 ? `; ${listed(rest)}` : ""}.` + slowerText(report, best),
-  }];
+  return [
+    {
+      topic: "Fastest without error",
+      sentence:
+        `${best} ${where}: ${number(meanFrameMs(runs, "cold"))} ms per frame there for all pairs ` +
+        `of triangles, caches cold${rest.length > 0 ? `; ${listed(rest)}` : ""}.` +
+        slowerText(report, best),
+    },
+  ];
 }
 
 const cases = (groups: {values: string[]}[]): number =>
@@ -141,9 +170,11 @@ const cases = (groups: {values: string[]}[]): number =>
 
 export function defectsSentence(known: KnownDefects): string {
   const sum = (key: "listed" | "shown"): number => known.defects.reduce((n, d) => n + d[key], 0);
-  return `Of ${grouped(sum("listed"))} listed wrong answers that this run could show, ` +
+  return (
+    `Of ${grouped(sum("listed"))} listed wrong answers that this run could show, ` +
     `${grouped(sum("shown"))} show and ${grouped(cases(known.not_shown))} do not; ` +
-    `${grouped(cases(known.unlisted))} show that are not listed.`;
+    `${grouped(cases(known.unlisted))} show that are not listed.`
+  );
 }
 
 function defectsFinding(report: Report): Finding[] {
@@ -170,38 +201,58 @@ function absentFinding(report: Report): Finding[] {
 }
 
 function oracleFinding(report: Report): Finding[] {
-  return report.scenes.filter((scene) => scene.pairs).map((scene) => {
-    const {checked, oracle_wrong} = scene.pairs!.rational;
-    const verdict = oracle_wrong === 0 ? "was never wrong"
-                                       : `was wrong ${plural(oracle_wrong, "time")}: an error of contactcheck itself`;
-    return {topic: "The judge itself",
-            sentence: `On ${grouped(checked)} random pairs of triangles the oracle ${verdict} ` +
-              "(checked by rational arithmetic)."};
-  });
+  return report.scenes
+    .filter((scene) => scene.pairs)
+    .map((scene) => {
+      const {checked, oracle_wrong} = scene.pairs!.rational;
+      const verdict =
+        oracle_wrong === 0
+          ? "was never wrong"
+          : `was wrong ${plural(oracle_wrong, "time")}: an error of contactcheck itself`;
+      return {
+        topic: "The judge itself",
+        sentence:
+          `On ${grouped(checked)} random pairs of triangles the oracle ${verdict} ` +
+          "(checked by rational arithmetic).",
+      };
+    });
 }
 
 function goalsFinding(report: Report): Finding[] {
   const goals = report.results.goals ?? [];
   if (goals.length === 0) return [];
-  const met = goals.filter((goal) => goal.met).length, unknown = goals.filter((goal) =>
-      goal.met === null).length;
+  const met = goals.filter((goal) => goal.met).length,
+    unknown = goals.filter((goal) => goal.met === null).length;
   const rest = unknown > 0 ? `; ${plural(unknown, "goal")} could not be measured` : "";
-  return [{topic: "Goals", sentence: `${met} of ${plural(goals.length, "goal")} of the suite ` +
-    `${met === 1 ? "is" : "are"} met${rest}.`}];
+  return [
+    {
+      topic: "Goals",
+      sentence:
+        `${met} of ${plural(goals.length, "goal")} of the suite ` +
+        `${met === 1 ? "is" : "are"} met${rest}.`,
+    },
+  ];
 }
 
 export function findings(report: Report): Finding[] {
   const all = verdicts(report);
   return [
-    ...exactFindings(all), ...fastestFinding(report, all), ...wrongFinding(all, "missed"),
-    ...wrongFinding(all, "spurious"), ...statusFinding(report, "error", "Ended in an error"),
-    ...statusFinding(report, "refused", "Refused the input"), ...absentFinding(report),
+    ...exactFindings(all),
+    ...fastestFinding(report, all),
+    ...wrongFinding(all, "missed"),
+    ...wrongFinding(all, "spurious"),
+    ...statusFinding(report, "error", "Ended in an error"),
+    ...statusFinding(report, "refused", "Refused the input"),
+    ...absentFinding(report),
     ...unjudgedFinding(report),
-    ...defectsFinding(report), ...oracleFinding(report), ...goalsFinding(report),
+    ...defectsFinding(report),
+    ...oracleFinding(report),
+    ...goalsFinding(report),
   ];
 }
 
 /** Detectors without error in everything they were judged by. */
 export const flawlessDetectors = (report: Report): string[] =>
-  verdicts(report).filter(flawless).map((verdict) => verdict.detector);
-
+  verdicts(report)
+    .filter(flawless)
+    .map((verdict) => verdict.detector);

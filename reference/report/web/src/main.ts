@@ -26,16 +26,36 @@ import {provideView} from "./view_slot";
 
 // The charts that answer first, then the numbers that they come from; the list of words ends the page.
 const kSections: Section[] = [
-  speedError, levels, view, cost, graded, times, stages, summary, goals, hard, defects, pairs, claims, paper,
-  scenes, detectors, machine, words,
+  speedError,
+  levels,
+  view,
+  cost,
+  graded,
+  times,
+  stages,
+  summary,
+  goals,
+  hard,
+  defects,
+  pairs,
+  claims,
+  paper,
+  scenes,
+  detectors,
+  machine,
+  words,
 ];
 
 /** Of a run of hard cases alone, these are the answer. */
 const ordered = (report: Report): Section[] =>
-  report.scenes.length > 0 ? kSections : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
+  report.scenes.length > 0
+    ? kSections
+    : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
 
 function navigation(sections: Section[]): HTMLElement {
-  const links = sections.map(({id, short, title}) => h("li", {}, h("a", {href: `#${id}`}, short ?? title)));
+  const links = sections.map(({id, short, title}) =>
+    h("li", {}, h("a", {href: `#${id}`}, short ?? title)),
+  );
   return h("nav", {"aria-label": "Contents"}, h("ul", {}, ...links));
 }
 
@@ -49,8 +69,12 @@ function contentOf(section: Section, report: Report): Child[] {
 }
 
 function sectionElement({id, title}: Section, content: Child[]): HTMLElement {
-  return h("section", {id, "aria-labelledby": `${id}-title`}, h("h2", {id: `${id}-title`}, title),
-      ...content);
+  return h(
+    "section",
+    {id, "aria-labelledby": `${id}-title`},
+    h("h2", {id: `${id}-title`}, title),
+    ...content,
+  );
 }
 
 /** A link to something inside a closed part opens that. */
@@ -60,10 +84,14 @@ function openTarget(): void {
 }
 
 function show(report: Report, place: HTMLElement): void {
-  const filled = ordered(report).map((section) => ({section, content: contentOf(section, report)}))
+  const filled = ordered(report)
+    .map((section) => ({section, content: contentOf(section, report)}))
     .filter(({content}) => content.some((child) => child));
-  place.replaceChildren(header(report), navigation(filled.map(({section}) => section)),
-                        ...filled.map(({section, content}) => sectionElement(section, content)));
+  place.replaceChildren(
+    header(report),
+    navigation(filled.map(({section}) => section)),
+    ...filled.map(({section, content}) => sectionElement(section, content)),
+  );
 }
 
 async function main(): Promise<void> {

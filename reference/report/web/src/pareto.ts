@@ -30,7 +30,9 @@ export interface LeftOut {
 }
 
 const kShares: Record<Measure, (c: Counts) => number | null> = {
-  worse: worseShare, missed: missedShare, spurious: spuriousShare,
+  worse: worseShare,
+  missed: missedShare,
+  spurious: spuriousShare,
 };
 
 function whyNot(runs: (Run | null)[], choice: Choice): string {
@@ -44,11 +46,20 @@ function whyNot(runs: (Run | null)[], choice: Choice): string {
 
 function pointOf(detector: string, runs: Run[], choice: Choice): Point | null {
   const level = choice.level === kFinest ? commonLevel(runs) : choice.level;
-  const ms = meanFrameMs(runs, choice.part), counts = countsAt(runs, level);
+  const ms = meanFrameMs(runs, choice.part),
+    counts = countsAt(runs, level);
   const error = counts && kShares[choice.measure](counts);
   if (ms === null || !counts || error === null) return null;
-  return {detector, options: runs[0].options, question: runs[0].time_ms.question ?? "",
-          level, ms, error, counts, onFront: false};
+  return {
+    detector,
+    options: runs[0].options,
+    question: runs[0].time_ms.question ?? "",
+    level,
+    ms,
+    error,
+    counts,
+    onFront: false,
+  };
 }
 
 /** Marks points that none of the same question beats in time without being worse in error. */
@@ -62,12 +73,15 @@ function markFront(points: Point[]): void {
 }
 
 export function points(report: Report, choice: Choice): {points: Point[]; leftOut: LeftOut[]} {
-  const found: Point[] = [], leftOut: LeftOut[] = [];
+  const found: Point[] = [],
+    leftOut: LeftOut[] = [];
   for (const detector of report.detectors) {
     const runs = choice.scenes.map((scene) => report.okRun(scene.id, detector));
     const complete = runs.filter((run) => run !== null);
-    const point = complete.length === runs.length && runs.length > 0 ? pointOf(detector, complete,
-        choice) : null;
+    const point =
+      complete.length === runs.length && runs.length > 0
+        ? pointOf(detector, complete, choice)
+        : null;
     if (point) found.push(point);
     else leftOut.push({detector, why: whyNot(runs, choice)});
   }

@@ -10,7 +10,10 @@ export class Report {
   private readonly runsByScene = new Map<string, Run[]>();
   private readonly runsByName = new Map<string, Run>();
 
-  constructor(readonly results: Results, readonly viewBytes: ArrayBuffer | null) {
+  constructor(
+    readonly results: Results,
+    readonly viewBytes: ArrayBuffer | null,
+  ) {
     const scenes = results.scenes ?? [];
     this.scenes = scenes.filter((scene) => !scene.family);
     this.families = scenes.filter((scene) => scene.family);
@@ -94,6 +97,8 @@ export function commonLevel(runs: Run[]): string {
 /** Levels that some detector claims, coarse before fine. */
 export function judgedLevels(runs: Run[]): string[] {
   const order = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
-  const seen = new Set(runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)));
+  const seen = new Set(
+    runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)),
+  );
   return order.filter((level) => seen.has(level));
 }

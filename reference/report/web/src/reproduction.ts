@@ -63,10 +63,15 @@ export interface PaperScene {
   frames: number;
   contact_frames: number;
   counts: Record<string, {paper: number; ours: number; difference_percent: number}>;
-  steps: ({method: string; paper_reports: (StepTimes & {table: string; device: string}) | null}
-          & Record<ReadingName, StepTimes | null>)[];
-  ratios: ({before: string; after: string; paper_reports: {table: string; test: number; total: number} | null}
-           & Record<ReadingName, ReadingRatio | null>)[];
+  steps: ({
+    method: string;
+    paper_reports: (StepTimes & {table: string; device: string}) | null;
+  } & Record<ReadingName, StepTimes | null>)[];
+  ratios: ({
+    before: string;
+    after: string;
+    paper_reports: {table: string; test: number; total: number} | null;
+  } & Record<ReadingName, ReadingRatio | null>)[];
   frame_rate: {detector: string; steps_per_second: number; simulated_over_real_time: number} | null;
   hover_at_rest: Record<string, number | null> | null;
   closed_loop: ClosedLoop[];

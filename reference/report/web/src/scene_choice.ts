@@ -3,7 +3,8 @@ import type {Option} from "./controls";
 import type {Report} from "./report";
 import type {Scene} from "./results";
 
-const kAll = "all", kHard = "hard";
+const kAll = "all",
+  kHard = "hard";
 
 export function sceneOptions(report: Report): Option[] {
   const options: Option[] = report.scenes.map((scene, i) => [String(i), scene.id]);

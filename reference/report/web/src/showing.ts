@@ -5,6 +5,10 @@ import {showInView, type ViewTarget} from "./view_slot";
 
 /** @pre canShow(target.scene) */
 export function showCell(target: ViewTarget): Cell {
-  const button = h("button", {type: "button", class: "show", click: () => showInView(target)}, "show");
+  const button = h(
+    "button",
+    {type: "button", class: "show", click: () => showInView(target)},
+    "show",
+  );
   return {text: "show", node: button};
 }

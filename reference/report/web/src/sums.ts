@@ -24,7 +24,8 @@ export const spuriousShare = (c: Counts): number | null => share(c.spurious, c.r
 
 /** The larger of the two; null where there was nothing to find and nothing was reported. */
 export function worseShare(c: Counts): number | null {
-  const missed = missedShare(c), spurious = spuriousShare(c);
+  const missed = missedShare(c),
+    spurious = spuriousShare(c);
   return missed === null ? spurious : spurious === null ? missed : Math.max(missed, spurious);
 }
 
@@ -47,7 +48,8 @@ export const levelsDiffer = (runs: Run[]): boolean =>
 
 /** Milliseconds per frame, the mean over all frames of these runs; null where one is not timed. */
 export function meanFrameMs(runs: Run[], part: "cold" | "hot"): number | null {
-  let ms = 0, frames = 0;
+  let ms = 0,
+    frames = 0;
   for (const run of runs) {
     const phases = run.time_ms[part];
     if (!phases) return null;
@@ -71,7 +73,15 @@ export interface SummaryLine {
 }
 
 const newLine = (detector: string, level: string): SummaryLine => ({
-  detector, level, question: "", scenes: 0, notOk: 0, counts: null, body: null, hover: null, runs: [],
+  detector,
+  level,
+  question: "",
+  scenes: 0,
+  notOk: 0,
+  counts: null,
+  body: null,
+  hover: null,
+  runs: [],
 });
 
 function addTo(sum: Counts | null, counts: Counts | undefined): Counts | null {
@@ -93,9 +103,11 @@ function addRun(line: SummaryLine, run: Run): void {
 
 /** In the order of first runs. A run that did not end well counts in its detector's first line. */
 export function summaryLines(report: Report): SummaryLine[] {
-  const lines: SummaryLine[] = [], byDetector = new Map<string, SummaryLine[]>();
+  const lines: SummaryLine[] = [],
+    byDetector = new Map<string, SummaryLine[]>();
   for (const run of report.results.runs) {
-    const ok = isOk(run), level = ok ? finestLevel(run) : "";
+    const ok = isOk(run),
+      level = ok ? finestLevel(run) : "";
     const own = byDetector.get(run.detector) ?? [];
     byDetector.set(run.detector, own);
     let line = own.find((l) => !ok || l.scenes === 0 || l.level === level);
@@ -115,7 +127,8 @@ export function summaryLines(report: Report): SummaryLine[] {
 
 /** Smallest and largest speed-up over a reference in cold frames, of any scene. */
 export function speedupRange(line: SummaryLine, reference: string): [number, number] | null {
-  const ratios = line.runs.map((run) => run.speedup?.[comparedQuestion(run)]?.[reference]?.cold.ratio)
+  const ratios = line.runs
+    .map((run) => run.speedup?.[comparedQuestion(run)]?.[reference]?.cold.ratio)
     .filter((ratio) => ratio !== undefined);
   return ratios.length > 0 ? [Math.min(...ratios), Math.max(...ratios)] : null;
 }
@@ -146,7 +159,9 @@ export function verdictOf(report: Report, detector: string, scenes: Scene[]): Ve
   if (levels.size === 0) return null;
   const all = [...levels.values()];
   return {
-    detector, levels, finest,
+    detector,
+    levels,
+    finest,
     exact: all.every((c) => c.missed === 0 && c.spurious === 0),
     tried: all.some((c) => c.truth > 0 || c.reported > 0),
   };

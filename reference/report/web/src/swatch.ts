@@ -8,8 +8,17 @@ export const square = (colour: string): SVGSVGElement =>
   picture(s("rect", {x: 4, y: 0, width: 12, height: 12, rx: 2, fill: colour}));
 
 export const stroke = (colour: string, dash: string): SVGSVGElement =>
-  picture(s("line", {x1: 0, y1: 6, x2: 20, y2: 6, stroke: colour, "stroke-width": 2.5,
-                     "stroke-dasharray": dash}));
+  picture(
+    s("line", {
+      x1: 0,
+      y1: 6,
+      x2: 20,
+      y2: 6,
+      stroke: colour,
+      "stroke-width": 2.5,
+      "stroke-dasharray": dash,
+    }),
+  );
 
 /** A path about (0, 0), as d3 draws symbols. */
 export const symbol = (path: string, colour = "currentColor"): SVGSVGElement =>

@@ -40,10 +40,13 @@ function compare(a: number | string, b: number | string): number {
 }
 
 function tableCell(cell: Cell, column: Column, first: boolean): HTMLElement {
-  const attributes = {class: [column.left ? "left" : "", cell.class ?? ""].join(" ").trim() || null,
-                      title: cell.label};
-  const element = first ? h("th", {scope: "row", ...attributes}, cell.node ?? cell.text)
-                        : h("td", attributes, cell.node ?? cell.text);
+  const attributes = {
+    class: [column.left ? "left" : "", cell.class ?? ""].join(" ").trim() || null,
+    title: cell.label,
+  };
+  const element = first
+    ? h("th", {scope: "row", ...attributes}, cell.node ?? cell.text)
+    : h("td", attributes, cell.node ?? cell.text);
   if (cell.heat) {
     element.style.background = cell.heat.background;
     element.style.color = cell.heat.ink;
@@ -62,11 +65,21 @@ function sortBy(body: HTMLElement, heads: HTMLElement[], index: number, rows: Ro
   body.append(...lines);
 }
 
-function headLine(columns: Column[], sort: (heads: HTMLElement[], index: number) => void): HTMLElement {
+function headLine(
+  columns: Column[],
+  sort: (heads: HTMLElement[], index: number) => void,
+): HTMLElement {
   const heads: HTMLElement[] = columns.map((column, i) => {
     const button = h("button", {type: "button", click: () => sort(heads, i)}, column.title);
-    return h("th", {scope: "col", class: column.left ? "left" : null, title: column.meaning ?? meaningOf(column.title)},
-             button);
+    return h(
+      "th",
+      {
+        scope: "col",
+        class: column.left ? "left" : null,
+        title: column.meaning ?? meaningOf(column.title),
+      },
+      button,
+    );
   });
   return h("tr", {}, ...heads);
 }
@@ -79,8 +92,11 @@ export function table(columns: Column[], rows: Row[], what: string): HTMLElement
     body.append(h("tr", {"data-row": r}, ...cells));
   });
   const head = headLine(columns, (heads, index) => sortBy(body, heads, index, rows));
-  return h("div", {class: "scroll", role: "region", tabindex: 0, "aria-label": what},
-           h("table", {}, h("thead", {}, head), body));
+  return h(
+    "div",
+    {class: "scroll", role: "region", tabindex: 0, "aria-label": what},
+    h("table", {}, h("thead", {}, head), body),
+  );
 }
 
 /** Nothing without rows: a title and a sentence over a table. */

@@ -7,7 +7,7 @@ function remembered(): string {
   try {
     return localStorage.getItem(kKey) ?? "auto";
   } catch {
-    return "auto";  // a page from disk may have no storage
+    return "auto"; // a page from disk may have no storage
   }
 }
 
@@ -24,7 +24,16 @@ function apply(theme: string): void {
 export function themeSwitch(): HTMLElement {
   const theme = remembered();
   apply(theme);
-  const control = radios("Colours", [["auto", "system"], ["light", "light"], ["dark", "dark"]], theme, apply);
+  const control = radios(
+    "Colours",
+    [
+      ["auto", "system"],
+      ["light", "light"],
+      ["dark", "dark"],
+    ],
+    theme,
+    apply,
+  );
   control.classList.add("theme");
   return control;
 }

@@ -8,8 +8,18 @@ import {term} from "../glossary";
 import {trianglesOf, type Report} from "../report";
 import type {Scene} from "../results";
 import type {Section} from "../section";
-import {firstChoice, frameCosts, kMost, lineLegend, linesOf, plainNumber, timed, timedDetectors, type FrameCost,
-    type Lines} from "./cost_lines";
+import {
+  firstChoice,
+  frameCosts,
+  kMost,
+  lineLegend,
+  linesOf,
+  plainNumber,
+  timed,
+  timedDetectors,
+  type FrameCost,
+  type Lines,
+} from "./cost_lines";
 import {drawSeparation, hasSeparation} from "./cost_separation";
 
 type Part = "cold" | "hot";
@@ -40,9 +50,16 @@ function costs(report: Report, detectors: string[], part: Part): Cost[] {
   const out: Cost[] = [];
   for (const scene of report.scenes)
     for (const detector of detectors) {
-      const run = report.okRun(scene.id, detector), ms = timed(run) ? run.time_ms[part]!.frame : 0;
-      if (ms > 0) out.push({detector, scene: scene.id, series: seriesOf(scene.id),
-          triangles: trianglesOf(scene), ms});
+      const run = report.okRun(scene.id, detector),
+        ms = timed(run) ? run.time_ms[part]!.frame : 0;
+      if (ms > 0)
+        out.push({
+          detector,
+          scene: scene.id,
+          series: seriesOf(scene.id),
+          triangles: trianglesOf(scene),
+          ms,
+        });
     }
   return out.sort((a, b) => a.triangles - b.triangles);
 }
@@ -58,31 +75,67 @@ function series(all: Cost[]): Cost[][] {
 }
 
 // Between sizes near one another a logarithm has ticks without labels: they are ticks themselves then.
-function sizeTicks(sizes: number[], [low, high]: [number, number], width: number): number | number[] {
+function sizeTicks(
+  sizes: number[],
+  [low, high]: [number, number],
+  width: number,
+): number | number[] {
   if (high > 10 * low) return width < 600 ? 3 : 6;
-  const across = (size: number): number => (width * Math.log(size / low)) / Math.log(high / low), room = 60;
+  const across = (size: number): number => (width * Math.log(size / low)) / Math.log(high / low),
+    room = 60;
   const ticks: number[] = [];
   for (const size of [...new Set(sizes)].sort((a, b) => a - b))
-    if (ticks.length === 0 || across(size) - across(ticks[ticks.length - 1]) > room) ticks.push(size);
+    if (ticks.length === 0 || across(size) - across(ticks[ticks.length - 1]) > room)
+      ticks.push(size);
   return ticks;
 }
 
 function drawCosts(width: number, all: Cost[], lines: Lines): Node {
-  const xy = {x: "triangles", y: "ms"} as const, sizes = all.map((cost) => cost.triangles);
+  const xy = {x: "triangles", y: "ms"} as const,
+    sizes = all.map((cost) => cost.triangles);
   const span: [number, number] = [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2];
   const title = (d: Cost): string =>
-      `${d.detector}\n${d.scene}: ${grouped(d.triangles)} triangles\n${number(d.ms)} ms per frame`;
+    `${d.detector}\n${d.scene}: ${grouped(d.triangles)} triangles\n${number(d.ms)} ms per frame`;
   return Plot.plot({
-    width, height: Math.min(400, 240 + width / 5), marginLeft: 52, marginTop: 28, marginRight: 24,
-        marginBottom: 40,
-    x: {type: "log", domain: span, label: "triangles of all bodies →", grid: true,
-        tickFormat: width < 600 ? compact : plainNumber, ticks: sizeTicks(sizes, span, width)},
-    y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
+    width,
+    height: Math.min(400, 240 + width / 5),
+    marginLeft: 52,
+    marginTop: 28,
+    marginRight: 24,
+    marginBottom: 40,
+    x: {
+      type: "log",
+      domain: span,
+      label: "triangles of all bodies →",
+      grid: true,
+      tickFormat: width < 600 ? compact : plainNumber,
+      ticks: sizeTicks(sizes, span, width),
+    },
+    y: {
+      type: "log",
+      label: "↑ ms per frame",
+      grid: true,
+      nice: true,
+      tickFormat: plainNumber,
+      ticks: 6,
+    },
     marks: [
-      ...series(all).map((group) => Plot.line(group, {...xy, stroke: lines.style(group[0].detector).colour,
-        strokeDasharray: lines.style(group[0].detector).dash, strokeWidth: 1.8, strokeOpacity: 0.8})),
-      Plot.dot(all, {...xy, fill: (d: Cost) => lines.style(d.detector).colour, r: 4,
-          symbol: (d: Cost) => lines.style(d.detector).shape, ariaLabel: title}),
+      ...series(all).map((group) =>
+        Plot.line(group, {
+          ...xy,
+          stroke: lines.style(group[0].detector).colour,
+          strokeDasharray: lines.style(group[0].detector).dash,
+          strokeWidth: 1.8,
+          strokeOpacity: 0.8,
+        }),
+      ),
+      Plot.dot(all, {
+        ...xy,
+        fill: (d: Cost) => lines.style(d.detector).colour,
+        r: 4,
+        symbol: (d: Cost) => lines.style(d.detector).shape,
+        ariaLabel: title,
+      }),
       Plot.tip(all, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -90,20 +143,43 @@ function drawCosts(width: number, all: Cost[], lines: Lines): Node {
 
 // Frame by frame ---------------------------------------------------------------------------------
 
-const frameAxis = (width: number, scene: Scene) =>
-  ({label: "frame →", domain: [0, Math.max(1, scene.frames - 1)], ticks: Math.min(scene.frames, width / 80)});
+const frameAxis = (width: number, scene: Scene) => ({
+  label: "frame →",
+  domain: [0, Math.max(1, scene.frames - 1)],
+  ticks: Math.min(scene.frames, width / 80),
+});
 
 function drawFrames(width: number, scene: Scene, all: FrameCost[], lines: Lines): Node {
   const xy = {x: "frame", y: "ms"} as const;
   const title = (d: FrameCost): string => `${d.detector}, frame ${d.frame}\n${number(d.ms)} ms`;
   return Plot.plot({
-    width, height: 300, marginLeft: 52, marginTop: 28, marginRight: 24, marginBottom: 38,
+    width,
+    height: 300,
+    marginLeft: 52,
+    marginTop: 28,
+    marginRight: 24,
+    marginBottom: 38,
     x: frameAxis(width, scene),
-    y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
+    y: {
+      type: "log",
+      label: "↑ ms per frame",
+      grid: true,
+      nice: true,
+      tickFormat: plainNumber,
+      ticks: 6,
+    },
     marks: [
-      ...lines.detectors.map((name) => Plot.line(all.filter((d) => d.detector === name),
-        {...xy, stroke: lines.style(name).colour, strokeDasharray: lines.style(name).dash,
-            strokeWidth: 1.8})),
+      ...lines.detectors.map((name) =>
+        Plot.line(
+          all.filter((d) => d.detector === name),
+          {
+            ...xy,
+            stroke: lines.style(name).colour,
+            strokeDasharray: lines.style(name).dash,
+            strokeWidth: 1.8,
+          },
+        ),
+      ),
       Plot.tip(all, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
     ],
   });
@@ -117,25 +193,54 @@ interface FrameCount {
 }
 
 function frameErrors(report: Report, scene: Scene, detectors: string[]): FrameCount[] {
-  return detectors.flatMap((detector) => (["missed", "spurious"] as const).flatMap((kind) =>
-    (report.okRun(scene.id, detector)?.per_frame[kind] ?? []).flatMap((n, frame) => (n > 0 ? [{detector, kind,
-        frame, n}] : []))));
+  return detectors.flatMap((detector) =>
+    (["missed", "spurious"] as const).flatMap((kind) =>
+      (report.okRun(scene.id, detector)?.per_frame[kind] ?? []).flatMap((n, frame) =>
+        n > 0 ? [{detector, kind, frame, n}] : [],
+      ),
+    ),
+  );
 }
 
 // The truth of the finest level that any of them is judged at, and the errors of each.
-function drawContacts(width: number, scene: Scene, truth: number[], errors: FrameCount[],
-    lines: Lines): Node {
+function drawContacts(
+  width: number,
+  scene: Scene,
+  truth: number[],
+  errors: FrameCount[],
+  lines: Lines,
+): Node {
   const xy = {x: "frame", y: "n"} as const;
-  const title = (d: FrameCount): string => `${d.detector}, frame ${d.frame}\n${grouped(d.n)} ${d.kind}`;
+  const title = (d: FrameCount): string =>
+    `${d.detector}, frame ${d.frame}\n${grouped(d.n)} ${d.kind}`;
   return Plot.plot({
-    width, height: 170, marginLeft: 52, marginTop: 28, marginRight: 24, marginBottom: 38,
+    width,
+    height: 170,
+    marginLeft: 52,
+    marginTop: 28,
+    marginRight: 24,
+    marginBottom: 38,
     x: frameAxis(width, scene),
-    y: {label: "↑ true contacts (area); errors: ▲ missed, × spurious", grid: true, ticks: 4, nice: true},
+    y: {
+      label: "↑ true contacts (area); errors: ▲ missed, × spurious",
+      grid: true,
+      ticks: 4,
+      nice: true,
+    },
     marks: [
-      Plot.areaY(truth, {x: (_, i) => i, y: (n: number) => n, fill: "var(--right)", stroke: "var(--grey)"}),
-      Plot.dot(errors, {...xy, stroke: (d: FrameCount) => lines.style(d.detector).colour, r: 3.5,
-                        symbol: (d: FrameCount) => (d.kind === "missed" ? "triangle" : "times"),
-                            ariaLabel: title}),
+      Plot.areaY(truth, {
+        x: (_, i) => i,
+        y: (n: number) => n,
+        fill: "var(--right)",
+        stroke: "var(--grey)",
+      }),
+      Plot.dot(errors, {
+        ...xy,
+        stroke: (d: FrameCount) => lines.style(d.detector).colour,
+        r: 3.5,
+        symbol: (d: FrameCount) => (d.kind === "missed" ? "triangle" : "times"),
+        ariaLabel: title,
+      }),
       Plot.tip(errors, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
       Plot.ruleY([0]),
     ],
@@ -151,15 +256,35 @@ function truthOf(report: Report, scene: Scene): number[] {
 function charts(report: Report, state: State): Chart[] {
   const withDistances = report.scenes.some(hasSeparation);
   return [
-    chart("Milliseconds per frame against the number of triangles", (width) => drawCosts(width,
-        costs(report, state.lines.detectors, state.part), state.lines)),
-    chart("Milliseconds of each frame", (width) => drawFrames(width, state.scene, frameCosts(report, state.scene,
-        state.lines.detectors), state.lines)),
-    chart("True, missed and spurious contacts of each frame", (width) => drawContacts(width, state.scene,
-        truthOf(report, state.scene), frameErrors(report, state.scene, state.lines.detectors), state.lines)),
-    ...(withDistances ? [chart(kSeparationTitle, (width) => hasSeparation(state.scene)
-        ? drawSeparation(width, report, state.scene, state.lines)
-        : p("The results hold no distances of this scene."))] : []),
+    chart("Milliseconds per frame against the number of triangles", (width) =>
+      drawCosts(width, costs(report, state.lines.detectors, state.part), state.lines),
+    ),
+    chart("Milliseconds of each frame", (width) =>
+      drawFrames(
+        width,
+        state.scene,
+        frameCosts(report, state.scene, state.lines.detectors),
+        state.lines,
+      ),
+    ),
+    chart("True, missed and spurious contacts of each frame", (width) =>
+      drawContacts(
+        width,
+        state.scene,
+        truthOf(report, state.scene),
+        frameErrors(report, state.scene, state.lines.detectors),
+        state.lines,
+      ),
+    ),
+    ...(withDistances
+      ? [
+          chart(kSeparationTitle, (width) =>
+            hasSeparation(state.scene)
+              ? drawSeparation(width, report, state.scene, state.lines)
+              : p("The results hold no distances of this scene."),
+          ),
+        ]
+      : []),
   ];
 }
 
@@ -167,8 +292,10 @@ function separationPart(separation: Chart | undefined): Child[] {
   if (!separation) return [];
   return [
     h("h4", {}, "Against the distance of the bodies"),
-    p("Each point is a frame, cold; the smallest distance between the surfaces of any two bodies is the oracle's. Lines go through "
-      + "medians of frames that are about equally far. Frames in which surfaces touch stand to the left: median, and the range."),
+    p(
+      "Each point is a frame, cold; the smallest distance between the surfaces of any two bodies is the oracle's. Lines go through " +
+        "medians of frames that are about equally far. Frames in which surfaces touch stand to the left: median, and the range.",
+    ),
     separation.element,
   ];
 }
@@ -180,8 +307,13 @@ export const cost: Section = {
   build(report) {
     const all = timedDetectors(report);
     if (all.length === 0 || report.scenes.length === 0) return [];
-    const state: State = {lines: linesOf(firstChoice(report, all)), part: "cold", scene: report.scenes[0]};
-    const legends = h("div"), [triangles, frames, contacts, separation] = charts(report, state);
+    const state: State = {
+      lines: linesOf(firstChoice(report, all)),
+      part: "cold",
+      scene: report.scenes[0],
+    };
+    const legends = h("div"),
+      [triangles, frames, contacts, separation] = charts(report, state);
     const redraw = (change: Partial<State>): void => {
       Object.assign(state, change);
       legends.replaceChildren(lineLegend(state.lines));
@@ -189,22 +321,47 @@ export const cost: Section = {
     };
     redraw({});
     return [
-      p(`Up to ${kMost} detectors, each with its own colour, dashes and shape. Caches are `, term("cold"), " unless said."),
+      p(
+        `Up to ${kMost} detectors, each with its own colour, dashes and shape. Caches are `,
+        term("cold"),
+        " unless said.",
+      ),
       controlBar(
-        radios("Caches (by triangles)", [["cold", "cold"], ["hot", "hot"]], state.part,
-            (value) => redraw({part: value as Part})),
-        checkboxes("Choose detectors", all, state.lines.detectors, kMost,
-            (names) => redraw({lines: linesOf(names)}))),
-      legends, h("h3", {}, "Against the number of triangles"),
-      p("A line joins the sizes of one scene; the suite scaling has scenes of 1, 4 and 16 times the triangles."),
+        radios(
+          "Caches (by triangles)",
+          [
+            ["cold", "cold"],
+            ["hot", "hot"],
+          ],
+          state.part,
+          (value) => redraw({part: value as Part}),
+        ),
+        checkboxes("Choose detectors", all, state.lines.detectors, kMost, (names) =>
+          redraw({lines: linesOf(names)}),
+        ),
+      ),
+      legends,
+      h("h3", {}, "Against the number of triangles"),
+      p(
+        "A line joins the sizes of one scene; the suite scaling has scenes of 1, 4 and 16 times the triangles.",
+      ),
       triangles.element,
       h("h3", {}, "In one scene"),
-      controlBar(select("Scene", report.scenes.map((s, i) => [String(i), s.id]), "0",
-          (value) => redraw({scene: report.scenes[Number(value)]}))),
+      controlBar(
+        select(
+          "Scene",
+          report.scenes.map((s, i) => [String(i), s.id]),
+          "0",
+          (value) => redraw({scene: report.scenes[Number(value)]}),
+        ),
+      ),
       ...separationPart(separation),
       h("h4", {}, "Frame by frame"),
-      p("Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs."),
-      frames.element, contacts.element,
+      p(
+        "Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs.",
+      ),
+      frames.element,
+      contacts.element,
     ];
   },
 };

@@ -14,27 +14,41 @@ export interface Lines {
   style: (detector: string) => (typeof kLineStyles)[number];
 }
 
-export const linesOf = (detectors: string[]): Lines =>
-  ({detectors, style: (name) => kLineStyles[detectors.indexOf(name) % kMost]});
+export const linesOf = (detectors: string[]): Lines => ({
+  detectors,
+  style: (name) => kLineStyles[detectors.indexOf(name) % kMost],
+});
 
 export const lineLegend = ({detectors, style}: Lines): HTMLElement =>
-  legend(detectors.map((name) => ({text: name, swatch: stroke(style(name).colour, style(name).dash)})));
+  legend(
+    detectors.map((name) => ({text: name, swatch: stroke(style(name).colour, style(name).dash)})),
+  );
 
 export const timed = (run: Run | null): run is Run => run?.time_ms.cold !== undefined;
 
 export function timedDetectors(report: Report): string[] {
-  return report.detectors.filter((name) => report.scenes.some((scene) => timed(report.okRun(scene.id,
-      name))));
+  return report.detectors.filter((name) =>
+    report.scenes.some((scene) => timed(report.okRun(scene.id, name))),
+  );
 }
 
 /** The fastest without error, the usual references, then others in file order. */
 export function firstChoice(report: Report, all: string[]): string[] {
-  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort((a,
-      b) => b[1].length - a[1].length);
-  const wanted = [...wins.map(([name]) => name), "fcl-aabb", "fcl-obbrss", "embree", "ffd-aabb-sphere2",
-      ...all];
-  return [...new Set(wanted)].filter((name) => all.includes(name)).slice(0, 5).sort((a,
-      b) => all.indexOf(a) - all.indexOf(b));
+  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort(
+    (a, b) => b[1].length - a[1].length,
+  );
+  const wanted = [
+    ...wins.map(([name]) => name),
+    "fcl-aabb",
+    "fcl-obbrss",
+    "embree",
+    "ffd-aabb-sphere2",
+    ...all,
+  ];
+  return [...new Set(wanted)]
+    .filter((name) => all.includes(name))
+    .slice(0, 5)
+    .sort((a, b) => all.indexOf(a) - all.indexOf(b));
 }
 
 export interface FrameCost {
@@ -51,4 +65,5 @@ export function frameCosts(report: Report, scene: Scene, detectors: string[]): F
   });
 }
 
-export const plainNumber = (value: number): string => (value >= 1000 ? grouped(value) : String(value));
+export const plainNumber = (value: number): string =>
+  value >= 1000 ? grouped(value) : String(value);

@@ -27,13 +27,16 @@ const kBins = 16;
 export const hasSeparation = (scene: Scene): boolean => (scene.separation ?? []).length > 0;
 
 function median(values: number[]): number {
-  const sorted = [...values].sort((a, b) => a - b), middle = sorted.length >> 1;
+  const sorted = [...values].sort((a, b) => a - b),
+    middle = sorted.length >> 1;
   return sorted.length % 2 === 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
 
 function apartCosts(scene: Scene, all: FrameCost[]): ApartCost[] {
   const metres = scene.separation!;
-  return all.flatMap((cost) => (metres[cost.frame] > 0 ? [{...cost, apart: 1e3 * metres[cost.frame]}] : []));
+  return all.flatMap((cost) =>
+    metres[cost.frame] > 0 ? [{...cost, apart: 1e3 * metres[cost.frame]}] : [],
+  );
 }
 
 /** The smallest and largest distance, and the strip of contact left of them. */
@@ -44,7 +47,9 @@ class Span {
   private readonly margin: number;
 
   constructor(all: ApartCost[]) {
-    const distances = all.map((cost) => cost.apart), low = Math.min(...distances), high = Math.max(...distances);
+    const distances = all.map((cost) => cost.apart),
+      low = Math.min(...distances),
+      high = Math.max(...distances);
     // Distances that hardly differ have the whole width, too.
     this.margin = high > 1.0001 * low ? (high / low) ** 0.05 : 1.1;
     this.low = low / this.margin;
@@ -60,10 +65,15 @@ class Span {
   }
   /** Powers of ten; where there is at most one, both ends. */
   ticks(): number[] {
-    const first = Math.ceil(Math.log10(this.low)), last = Math.floor(Math.log10(this.high));
+    const first = Math.ceil(Math.log10(this.low)),
+      last = Math.floor(Math.log10(this.high));
     if (last - first >= 1)
       return Array.from({length: last - first + 1}, (_, i) => Number(`1e${first + i}`));
-    return [...new Set([this.low * this.margin, this.high / this.margin].map((mm) => Number(mm.toPrecision(4))))];
+    return [
+      ...new Set(
+        [this.low * this.margin, this.high / this.margin].map((mm) => Number(mm.toPrecision(4))),
+      ),
+    ];
   }
 }
 
@@ -72,56 +82,120 @@ function medians(detector: string, all: ApartCost[], span: Span): ApartCost[] {
   const bins = new Map<number, ApartCost[]>();
   for (const cost of all.filter((one) => one.detector === detector))
     bins.set(span.bin(cost), [...(bins.get(span.bin(cost)) ?? []), cost]);
-  return [...bins.values()].map((bin) => ({detector, frame: -1, ms: median(bin.map(({ms}) => ms)),
-      apart: median(bin.map(({apart}) => apart))})).sort((a, b) => a.apart - b.apart);
+  return [...bins.values()]
+    .map((bin) => ({
+      detector,
+      frame: -1,
+      ms: median(bin.map(({ms}) => ms)),
+      apart: median(bin.map(({apart}) => apart)),
+    }))
+    .sort((a, b) => a.apart - b.apart);
 }
 
 function touchingCosts(scene: Scene, all: FrameCost[], {detectors}: Lines, span: Span): Touching[] {
   return detectors.flatMap((detector, i) => {
-    const ms = all.filter((cost) => cost.detector === detector && scene.separation![cost.frame] === 0)
+    const ms = all
+      .filter((cost) => cost.detector === detector && scene.separation![cost.frame] === 0)
       .map((cost) => cost.ms);
     if (ms.length === 0) return [];
-    return [{detector, x: span.strip((i + 0.5) / detectors.length), low: Math.min(...ms),
-             middle: median(ms), high: Math.max(...ms), frames: ms.length}];
+    return [
+      {
+        detector,
+        x: span.strip((i + 0.5) / detectors.length),
+        low: Math.min(...ms),
+        middle: median(ms),
+        high: Math.max(...ms),
+        frames: ms.length,
+      },
+    ];
   });
 }
 
 function touchingMarks(touching: Touching[], {style}: Lines, span: Span): Plot.Markish[] {
   if (touching.length === 0) return [];
   const colour = (d: Touching): string => style(d.detector).colour;
-  const title = (d: Touching): string => `${d.detector}, surfaces touch (frames: ${d.frames})\n`
-      + `${number(d.low)} to ${number(d.high)} ms, median ${number(d.middle)} ms`;
+  const title = (d: Touching): string =>
+    `${d.detector}, surfaces touch (frames: ${d.frames})\n` +
+    `${number(d.low)} to ${number(d.high)} ms, median ${number(d.middle)} ms`;
   return [
     Plot.ruleX([span.strip(1.15)], {stroke: "var(--grey)", strokeDasharray: "2 3"}),
     Plot.ruleX(touching, {x: "x", y1: "low", y2: "high", stroke: colour, strokeWidth: 2}),
-    Plot.dot(touching, {x: "x", y: "middle", fill: colour, r: 4.5, className: "touching",
-        symbol: (d: Touching) => style(d.detector).shape, ariaLabel: title}),
-    Plot.text([span.strip(0.5)], {x: (d: number) => d, text: () => "touching", frameAnchor: "bottom",
-        dy: 14, fill: "currentColor"}),
-    Plot.tip(touching, Plot.pointer({x: "x", y: "middle", title, fill: "var(--surface)", fontSize: 12})),
+    Plot.dot(touching, {
+      x: "x",
+      y: "middle",
+      fill: colour,
+      r: 4.5,
+      className: "touching",
+      symbol: (d: Touching) => style(d.detector).shape,
+      ariaLabel: title,
+    }),
+    Plot.text([span.strip(0.5)], {
+      x: (d: number) => d,
+      text: () => "touching",
+      frameAnchor: "bottom",
+      dy: 14,
+      fill: "currentColor",
+    }),
+    Plot.tip(
+      touching,
+      Plot.pointer({x: "x", y: "middle", title, fill: "var(--surface)", fontSize: 12}),
+    ),
   ];
 }
 
 /** @pre hasSeparation(scene) */
 export function drawSeparation(width: number, report: Report, scene: Scene, lines: Lines): Node {
-  const all = frameCosts(report, scene, lines.detectors), apart = apartCosts(scene, all);
+  const all = frameCosts(report, scene, lines.detectors),
+    apart = apartCosts(scene, all);
   if (all.length === 0) return p("No frame of this scene was timed for these detectors.");
   if (apart.length === 0) return p("The surfaces touch in every timed frame of this scene.");
-  const span = new Span(apart), touching = touchingCosts(scene, all, lines, span);
-  const xy = {x: "apart", y: "ms"} as const, style = (d: ApartCost) => lines.style(d.detector);
+  const span = new Span(apart),
+    touching = touchingCosts(scene, all, lines, span);
+  const xy = {x: "apart", y: "ms"} as const,
+    style = (d: ApartCost) => lines.style(d.detector);
   const title = (d: ApartCost): string =>
-      `${d.detector}, frame ${d.frame}\n${number(d.apart)} mm apart, ${number(d.ms)} ms`;
+    `${d.detector}, frame ${d.frame}\n${number(d.apart)} mm apart, ${number(d.ms)} ms`;
   return Plot.plot({
-    width, height: 320, marginLeft: 52, marginTop: 28, marginRight: 24, marginBottom: 40,
-    x: {type: "log", domain: [touching.length > 0 ? span.strip(0) : span.low, span.high],
-        label: "smallest distance between two bodies, mm →", grid: true, ticks: span.ticks(),
-        tickFormat: plainNumber},
-    y: {type: "log", label: "↑ ms per frame", grid: true, nice: true, tickFormat: plainNumber, ticks: 6},
+    width,
+    height: 320,
+    marginLeft: 52,
+    marginTop: 28,
+    marginRight: 24,
+    marginBottom: 40,
+    x: {
+      type: "log",
+      domain: [touching.length > 0 ? span.strip(0) : span.low, span.high],
+      label: "smallest distance between two bodies, mm →",
+      grid: true,
+      ticks: span.ticks(),
+      tickFormat: plainNumber,
+    },
+    y: {
+      type: "log",
+      label: "↑ ms per frame",
+      grid: true,
+      nice: true,
+      tickFormat: plainNumber,
+      ticks: 6,
+    },
     marks: [
-      ...lines.detectors.map((name) => Plot.line(medians(name, apart, span), {...xy,
-          stroke: lines.style(name).colour, strokeDasharray: lines.style(name).dash, strokeWidth: 1.8})),
-      Plot.dot(apart, {...xy, fill: (d: ApartCost) => style(d).colour, fillOpacity: 0.55, r: 2.8,
-          symbol: (d: ApartCost) => style(d).shape, className: "apart", ariaLabel: title}),
+      ...lines.detectors.map((name) =>
+        Plot.line(medians(name, apart, span), {
+          ...xy,
+          stroke: lines.style(name).colour,
+          strokeDasharray: lines.style(name).dash,
+          strokeWidth: 1.8,
+        }),
+      ),
+      Plot.dot(apart, {
+        ...xy,
+        fill: (d: ApartCost) => style(d).colour,
+        fillOpacity: 0.55,
+        r: 2.8,
+        symbol: (d: ApartCost) => style(d).shape,
+        className: "apart",
+        ariaLabel: title,
+      }),
       ...touchingMarks(touching, lines, span),
       Plot.tip(apart, Plot.pointer({...xy, title, fill: "var(--surface)", fontSize: 12})),
     ],

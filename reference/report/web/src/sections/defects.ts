@@ -9,7 +9,12 @@ const shown = (defect: KnownDefect): string =>
   defect.other_version ? "other version" : `${defect.shown} of ${defect.listed}`;
 
 function sightings(title: string, groups: Sightings[]): Child[] {
-  const rows = groups.map((g) => [g.detector, g.scene, g.kind, {text: g.values.join(", "), class: "wrap"}]);
+  const rows = groups.map((g) => [
+    g.detector,
+    g.scene,
+    g.kind,
+    {text: g.values.join(", "), class: "wrap"},
+  ]);
   return titledTable(title, [left("detector"), left("family"), left("kind"), left("at")], rows);
 }
 
@@ -21,15 +26,34 @@ export const defects: Section = {
     const known = report.results.known_defects;
     if (!known) return [];
     const rows = known.defects.map((d) => [
-      `${d.library} ${d.version}`, {text: d.issue, class: "wrap"}, d.kind, {text: d.sentence, class: "wrap"},
-      {text: d.detectors.join(", "), class: "wrap"}, String(d.scenes.length), shown(d)]);
+      `${d.library} ${d.version}`,
+      {text: d.issue, class: "wrap"},
+      d.kind,
+      {text: d.sentence, class: "wrap"},
+      {text: d.detectors.join(", "), class: "wrap"},
+      String(d.scenes.length),
+      shown(d),
+    ]);
     return [
       p(defectsSentence(known)),
-      rows.length > 0 && table([left("library"), left("described in"), left("seen as"), left("why"),
-          left("detectors"),
-        right("families"), right("cases that show it")], rows, "Known defects"),
-      ...sightings("Listed, and not shown: mended in this build of the library, or the case has changed.",
-          known.not_shown),
+      rows.length > 0 &&
+        table(
+          [
+            left("library"),
+            left("described in"),
+            left("seen as"),
+            left("why"),
+            left("detectors"),
+            right("families"),
+            right("cases that show it"),
+          ],
+          rows,
+          "Known defects",
+        ),
+      ...sightings(
+        "Listed, and not shown: mended in this build of the library, or the case has changed.",
+        known.not_shown,
+      ),
       ...sightings("Shown, and not listed.", known.unlisted),
     ];
   },

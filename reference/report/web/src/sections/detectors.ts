@@ -27,12 +27,22 @@ export const detectors: Section = {
     const rows = report.detectors.flatMap((detector) => {
       const run = report.results.runs.find((r) => r.detector === detector && isOk(r));
       if (!run?.semantics.levels) return [];
-      return [[detector, {text: optionsText(run.options), class: "wrap"}, {text: semanticsText(run.semantics),
-          class: "wrap"}]];
+      return [
+        [
+          detector,
+          {text: optionsText(run.options), class: "wrap"},
+          {text: semanticsText(run.semantics), class: "wrap"},
+        ],
+      ];
     });
     if (rows.length === 0) return [];
-    return [p("A level that is not claimed is not judged."),
-            table([left("detector"), left("options"), left("claims")], rows,
-                "Options and claims of the detectors")];
+    return [
+      p("A level that is not claimed is not judged."),
+      table(
+        [left("detector"), left("options"), left("claims")],
+        rows,
+        "Options and claims of the detectors",
+      ),
+    ];
   },
 };

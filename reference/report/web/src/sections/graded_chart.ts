@@ -16,71 +16,155 @@ interface Point {
   value: number;
 }
 
-const kMicrometre = 1e-3;  // of the charts of lengths, which are in millimetres
-const kRow = 46, kLabel = 16;
+const kMicrometre = 1e-3; // of the charts of lengths, which are in millimetres
+const kRow = 46,
+  kLabel = 16;
 // Above and below the bars, the tallest of which is 1 high.
-const kAbove = 1.1, kBelow = -0.3;
+const kAbove = 1.1,
+  kBelow = -0.3;
 
 // Errors of rounding and of whole cells stand in one chart, and so does 0: linear below a micrometre.
 function xScale({unit}: Quantity, largest: number): Plot.ScaleOptions {
   if (unit === "°") return {domain: [0, 180], ticks: [0, 45, 90, 135, 180]};
   const ticks = [0, 0.01, 0.1, 1, 10, 100, 1000, 10000].filter((tick) => tick <= largest);
-  return {type: "symlog", constant: kMicrometre, domain: [0, Math.max(largest, 2 * kMicrometre)], ticks};
+  return {
+    type: "symlog",
+    constant: kMicrometre,
+    domain: [0, Math.max(largest, 2 * kMicrometre)],
+    ticks,
+  };
 }
 
 // Bins below a micrometre would be hairs on this scale.
 function barsOf({detector, bins, judged}: Spread, {unit}: Quantity, largest: number): Bar[] {
   const small = bins.filter((bin) => unit === "mm" && bin.below <= kMicrometre);
   const others = bins.filter((bin) => !small.includes(bin));
-  const first = {from: 0, below: kMicrometre, count: small.reduce((sum, bin) => sum + bin.count, 0)};
-  return [...(first.count > 0 ? [first] : []), ...others].map((bin) => ({...bin, detector,
-      below: Math.min(bin.below, Math.max(largest, 2 * kMicrometre)), share: bin.count / judged}));
+  const first = {
+    from: 0,
+    below: kMicrometre,
+    count: small.reduce((sum, bin) => sum + bin.count, 0),
+  };
+  return [...(first.count > 0 ? [first] : []), ...others].map((bin) => ({
+    ...bin,
+    detector,
+    below: Math.min(bin.below, Math.max(largest, 2 * kMicrometre)),
+    share: bin.count / judged,
+  }));
 }
 
 function sentence(spread: Spread, {unit, what}: Quantity): string {
   const kind = spread.kind && spread.kind !== "none" ? ` (${spread.kind})` : "";
-  const parts = [[spread.mean, "mean "], [spread.p95, "95 % below "], [spread.max, "largest "]] as const;
-  const values = parts.filter(([value]) => value !== null).map(([value, text]) => `${text}${number(value)} ${unit}`);
+  const parts = [
+    [spread.mean, "mean "],
+    [spread.p95, "95 % below "],
+    [spread.max, "largest "],
+  ] as const;
+  const values = parts
+    .filter(([value]) => value !== null)
+    .map(([value, text]) => `${text}${number(value)} ${unit}`);
   return `${spread.detector}${kind}\n${values.join(", ")}\n${grouped(spread.judged)} ${what}`;
 }
 
 const barSentence = (bar: Bar, {unit}: Quantity): string =>
   `${bar.detector}: ${percent(bar.share)} (${grouped(bar.count)}) from ${number(bar.from)} to ${number(bar.below)} ${unit}`;
 
-function marks(all: Spread[], quantity: Quantity, largest: number, narrow: boolean): Plot.Markish[] {
+function marks(
+  all: Spread[],
+  quantity: Quantity,
+  largest: number,
+  narrow: boolean,
+): Plot.Markish[] {
   const colour = (d: {detector: string}): string => groupOf(d.detector).colour;
   const bars = all.flatMap((spread) => barsOf(spread, quantity, largest));
-  const points = all.flatMap(({detector, points: own}): Point[] => own.map((value) => ({detector, value})));
+  const points = all.flatMap(({detector, points: own}): Point[] =>
+    own.map((value) => ({detector, value})),
+  );
   const tallest = Math.sqrt(Math.max(...bars.map(({share}) => share), Number.MIN_VALUE));
-  const row = {fy: "detector", y: () => kBelow / 2} as const, title = (d: Spread): string => sentence(d, quantity);
+  const row = {fy: "detector", y: () => kBelow / 2} as const,
+    title = (d: Spread): string => sentence(d, quantity);
   const known = (name: "mean" | "p95"): Spread[] => all.filter((spread) => spread[name] !== null);
   return [
     Plot.ruleY(all, {fy: "detector", y: () => 0, stroke: "var(--line)"}),
-    Plot.rect(bars, {fy: "detector", x1: "from", x2: "below", y1: () => 0, y2: (d: Bar) => Math.sqrt(d.share) / tallest,
-        fill: colour, fillOpacity: 0.55, insetLeft: 0.5, insetRight: 0.5, className: "bars",
-        ariaLabel: (d: Bar) => barSentence(d, quantity), title: (d: Bar) => barSentence(d, quantity)}),
-    Plot.ruleX(points, {fy: "detector", x: "value", y1: () => 0, y2: () => 1, stroke: colour, strokeWidth: 2,
-        strokeOpacity: 0.7, className: "points"}),
-    Plot.link(known("mean"), {fy: "detector", x1: "mean", x2: "max", y1: () => kBelow / 2, y2: () => kBelow / 2,
-        stroke: colour, strokeWidth: 2}),
+    Plot.rect(bars, {
+      fy: "detector",
+      x1: "from",
+      x2: "below",
+      y1: () => 0,
+      y2: (d: Bar) => Math.sqrt(d.share) / tallest,
+      fill: colour,
+      fillOpacity: 0.55,
+      insetLeft: 0.5,
+      insetRight: 0.5,
+      className: "bars",
+      ariaLabel: (d: Bar) => barSentence(d, quantity),
+      title: (d: Bar) => barSentence(d, quantity),
+    }),
+    Plot.ruleX(points, {
+      fy: "detector",
+      x: "value",
+      y1: () => 0,
+      y2: () => 1,
+      stroke: colour,
+      strokeWidth: 2,
+      strokeOpacity: 0.7,
+      className: "points",
+    }),
+    Plot.link(known("mean"), {
+      fy: "detector",
+      x1: "mean",
+      x2: "max",
+      y1: () => kBelow / 2,
+      y2: () => kBelow / 2,
+      stroke: colour,
+      strokeWidth: 2,
+    }),
     Plot.dot(known("mean"), {...row, x: "mean", fill: colour, r: 4}),
-    Plot.dot(known("p95"), {...row, x: "p95", symbol: "diamond", fill: colour, stroke: "var(--surface)", r: 4.5}),
-    Plot.ruleX(all, {fy: "detector", x: "max", y1: () => kBelow, y2: () => 0, stroke: colour, strokeWidth: 3,
-        className: "largest", ariaLabel: title}),
-    narrow ? Plot.text(all, {fy: "detector", text: "detector", frameAnchor: "top-left", dy: 1, fill: "currentColor"}) : null,
+    Plot.dot(known("p95"), {
+      ...row,
+      x: "p95",
+      symbol: "diamond",
+      fill: colour,
+      stroke: "var(--surface)",
+      r: 4.5,
+    }),
+    Plot.ruleX(all, {
+      fy: "detector",
+      x: "max",
+      y1: () => kBelow,
+      y2: () => 0,
+      stroke: colour,
+      strokeWidth: 3,
+      className: "largest",
+      ariaLabel: title,
+    }),
+    narrow
+      ? Plot.text(all, {
+          fy: "detector",
+          text: "detector",
+          frameAnchor: "top-left",
+          dy: 1,
+          fill: "currentColor",
+        })
+      : null,
     Plot.tip(all, Plot.pointer({...row, x: "max", title, fill: "var(--surface)", fontSize: 12})),
   ];
 }
 
 /** @pre there is at least one */
 export function drawSpreads(width: number, all: Spread[], quantity: Quantity): Node {
-  const narrow = width < 600, names = all.map((spread) => spread.detector);
+  const narrow = width < 600,
+    names = all.map((spread) => spread.detector);
   const wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
   const bars = all.some(({bins, points}) => bins.length + points.length > 0);
-  const height = (bars ? kRow : kLabel + 6) + (narrow ? kLabel : 0), largest = Math.max(...all.map(({max}) => max));
+  const height = (bars ? kRow : kLabel + 6) + (narrow ? kLabel : 0),
+    largest = Math.max(...all.map(({max}) => max));
   const above = (bars ? kAbove : 0.2) + (narrow ? (kLabel / height) * 1.6 : 0);
   return Plot.plot({
-    width, height: 48 + height * all.length, marginLeft: narrow ? 10 : wide, marginRight: 24, marginTop: 6,
+    width,
+    height: 48 + height * all.length,
+    marginLeft: narrow ? 10 : wide,
+    marginRight: 24,
+    marginTop: 6,
     marginBottom: 42,
     x: {...xScale(quantity, largest), label: quantity.axis, grid: true, tickFormat: String},
     y: {domain: [kBelow, above], axis: null},

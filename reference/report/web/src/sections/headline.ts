@@ -7,9 +7,15 @@ import {themeSwitch} from "../theme";
 // Results that a sentence cannot be made of still have tables.
 function findingsList(report: Report): Child[] {
   try {
-    return findings(report).flatMap(({topic, sentence}) => [h("dt", {}, topic), h("dd", {}, sentence)]);
+    return findings(report).flatMap(({topic, sentence}) => [
+      h("dt", {}, topic),
+      h("dd", {}, sentence),
+    ]);
   } catch (error) {
-    return [h("dt", {}, "Not complete"), h("dd", {}, `The findings cannot be shown: ${String(error)}`)];
+    return [
+      h("dt", {}, "Not complete"),
+      h("dd", {}, `The findings cannot be shown: ${String(error)}`),
+    ];
   }
 }
 
@@ -24,19 +30,52 @@ function titleText(report: Report): string {
 /** Whoever reads a part must not take it for the whole. */
 function partNote({results: {shard, merged, scenes}}: Report): Child {
   if (shard)
-    return h("p", {class: "note"}, `Shard ${shard.index} of ${shard.of}: ${scenes.length} of the ${shard.scenes.length} scenes of `,
-             code(shard.command), "; ", code("contactcheck merge"), " puts the shards together.");
-  return merged && h("p", {class: "note"}, `Put together from ${merged.length} shards (`, code("contactcheck merge"), ").");
+    return h(
+      "p",
+      {class: "note"},
+      `Shard ${shard.index} of ${shard.of}: ${scenes.length} of the ${shard.scenes.length} scenes of `,
+      code(shard.command),
+      "; ",
+      code("contactcheck merge"),
+      " puts the shards together.",
+    );
+  return (
+    merged &&
+    h(
+      "p",
+      {class: "note"},
+      `Put together from ${merged.length} shards (`,
+      code("contactcheck merge"),
+      ").",
+    )
+  );
 }
 
 export function header(report: Report): HTMLElement {
   const {command, version, machine, resumed = []} = report.results;
-  return h("header", {},
-    h("div", {class: "topline"}, h("span", {class: "brand"}, `contactcheck ${version}`), themeSwitch()),
+  return h(
+    "header",
+    {},
+    h(
+      "div",
+      {class: "topline"},
+      h("span", {class: "brand"}, `contactcheck ${version}`),
+      themeSwitch(),
+    ),
     h("h1", {}, titleText(report)),
     h("dl", {class: "findings"}, ...findingsList(report)),
-    h("p", {class: "note"}, code(command), ` on ${machine.cpu}, ${machine.cores} cores, ${machine.isa}.`),
+    h(
+      "p",
+      {class: "note"},
+      code(command),
+      ` on ${machine.cpu}, ${machine.cores} cores, ${machine.isa}.`,
+    ),
     partNote(report),
-    resumed.length > 0 && h("p", {class: "note"},
-      `Taken over from an earlier run that was interrupted (--resume), with the times measured then: ${resumed.join(", ")}.`));
+    resumed.length > 0 &&
+      h(
+        "p",
+        {class: "note"},
+        `Taken over from an earlier run that was interrupted (--resume), with the times measured then: ${resumed.join(", ")}.`,
+      ),
+  );
 }

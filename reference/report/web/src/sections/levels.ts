@@ -15,13 +15,16 @@ type Measure = "recall" | "spurious";
 export function heat(errors: number | null, colour: string): Cell["heat"] {
   if (errors === null || errors === 0) return undefined;
   const strength = 12 + 48 * Math.min(1, Math.max(0, 1 + Math.log10(errors) / 4));
-  return {background: `color-mix(in srgb, var(${colour}) ${strength.toFixed(0)}%, var(--surface))`,
-      ink: "var(--ink)"};
+  return {
+    background: `color-mix(in srgb, var(${colour}) ${strength.toFixed(0)}%, var(--surface))`,
+    ink: "var(--ink)",
+  };
 }
 
 function countsCell(counts: Counts | null, measure: Measure, where: string): Cell {
   if (!counts) return {text: "", sort: null};
-  const label = `${where}: ${grouped(counts.truth)} true, ${grouped(counts.missed)} missed, ` +
+  const label =
+    `${where}: ${grouped(counts.truth)} true, ${grouped(counts.missed)} missed, ` +
     `${grouped(counts.reported)} reported, ${grouped(counts.spurious)} spurious`;
   if (measure === "spurious") {
     const value = spuriousShare(counts);
@@ -33,15 +36,20 @@ function countsCell(counts: Counts | null, measure: Measure, where: string): Cel
 
 function sceneCell(run: Run | null, level: string, measure: Measure): Cell {
   if (!run) return {text: "", sort: null};
-  if (run.status !== "ok") return {text: run.status, class: "error",
-      label: `${run.detector} in ${run.scene}: ${run.message}`};
+  if (run.status !== "ok")
+    return {
+      text: run.status,
+      class: "error",
+      label: `${run.detector} in ${run.scene}: ${run.message}`,
+    };
   const where = `${run.detector} in ${run.scene}, level ${level === kFinest ? finestLevel(run) : level}`;
   return countsCell(levelOf(run, level), measure, where);
 }
 
 // Pairs of bodies and pairs of triangles do not add up: such a detector has a sum at each level alone.
 function sumCell(detector: string, ok: Run[], level: string, measure: Measure): Cell {
-  if (level === kFinest && levelsDiffer(ok)) return {text: "levels differ", sort: null, class: "informative"};
+  if (level === kFinest && levelsDiffer(ok))
+    return {text: "levels differ", sort: null, class: "informative"};
   return countsCell(countsAt(ok, level), measure, `${detector}, all scenes`);
 }
 
@@ -50,15 +58,25 @@ function heatTable(report: Report, level: string, measure: Measure): HTMLElement
   for (const detector of report.detectors) {
     const runs = report.scenes.map((scene) => report.run(scene.id, detector));
     const ok = runs.filter((run) => run?.status === "ok") as Run[];
-    if (!ok.some((run) => levelOf(run, level)) && !runs.some((run) => run && run.status !== "ok")) continue;
+    if (!ok.some((run) => levelOf(run, level)) && !runs.some((run) => run && run.status !== "ok"))
+      continue;
     const sum = sumCell(detector, ok, level, measure);
-    rows.push([detector, ...(report.scenes.length > 1 ? [sum] : []),
-               ...runs.map((run) => sceneCell(run, level, measure))]);
+    rows.push([
+      detector,
+      ...(report.scenes.length > 1 ? [sum] : []),
+      ...runs.map((run) => sceneCell(run, level, measure)),
+    ]);
   }
-  const columns = [left("detector"), ...(report.scenes.length > 1 ? [right("all scenes")] : []),
-                   ...report.scenes.map((scene) => right(scene.id))];
-  return table(columns, rows, measure === "recall" ? "Recall per detector and scene"
-      : "Spurious rate per detector and scene");
+  const columns = [
+    left("detector"),
+    ...(report.scenes.length > 1 ? [right("all scenes")] : []),
+    ...report.scenes.map((scene) => right(scene.id)),
+  ];
+  return table(
+    columns,
+    rows,
+    measure === "recall" ? "Recall per detector and scene" : "Spurious rate per detector and scene",
+  );
 }
 
 export const levels: Section = {
@@ -76,15 +94,31 @@ export const levels: Section = {
     update({});
     const names = judgedLevels(report.results.runs).map((name): [string, string] => [name, name]);
     return [
-      p(term("recall", "Recall"), " is the share of true contacts that was found: 1 is perfect, and any other number has a colour. "
-        + "The ", term("spurious"), " rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing "
-        + "reported. An empty cell: the detector does not claim this ", term("level"), " there; "
-        + "where its finest level is not the same in all scenes, choose a level to have a sum."),
+      p(
+        term("recall", "Recall"),
+        " is the share of true contacts that was found: 1 is perfect, and any other number has a colour. " +
+          "The ",
+        term("spurious"),
+        " rate is the share of reports that are no contact: 0 is perfect. A dash: nothing to find, or nothing " +
+          "reported. An empty cell: the detector does not claim this ",
+        term("level"),
+        " there; " +
+          "where its finest level is not the same in all scenes, choose a level to have a sum.",
+      ),
       controlBar(
-        select("Level", [[kFinest, "each detector's finest"], ...names], choice.level,
-            (level) => update({level})),
-        radios("Shown", [["recall", "recall"], ["spurious", "spurious rate"]], choice.measure,
-               (value) => update({measure: value as Measure}))),
+        select("Level", [[kFinest, "each detector's finest"], ...names], choice.level, (level) =>
+          update({level}),
+        ),
+        radios(
+          "Shown",
+          [
+            ["recall", "recall"],
+            ["spurious", "spurious rate"],
+          ],
+          choice.measure,
+          (value) => update({measure: value as Measure}),
+        ),
+      ),
       place,
     ];
   },

@@ -14,11 +14,14 @@ import {square, symbol} from "../swatch";
 import {left, right, table} from "../table";
 
 const kMeasures: Record<Measure, string> = {
-  worse: "missed or spurious, whichever is worse", missed: "missed", spurious: "spurious",
+  worse: "missed or spurious, whichever is worse",
+  missed: "missed",
+  spurious: "spurious",
 };
 const kAxis: Record<Measure, string> = {
   worse: "share of contacts missed, or of reports spurious (the worse)",
-  missed: "share of true contacts missed", spurious: "share of reports that are no contact",
+  missed: "share of true contacts missed",
+  spurious: "share of reports that are no contact",
 };
 // Per question: Plot's name of the shape, and its outline for the legend.
 const kShapes: [string, Plot.SymbolType, string][] = [
@@ -28,11 +31,14 @@ const kShapes: [string, Plot.SymbolType, string][] = [
   ["contacts", "diamond", "M0-6L4 0L0 6L-4 0Z"],
 ];
 const kAnswers: Record<string, string> = {
-  triangles: "all pairs of triangles", body: "which bodies touch", cells: "all pairs of cells",
+  triangles: "all pairs of triangles",
+  body: "which bodies touch",
+  cells: "all pairs of cells",
   contacts: "contacts with depth and normal",
 };
 
-const shapeOf = (question: string) => (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
+const shapeOf = (question: string) =>
+  (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
 
 function sentenceOf(point: Point): string {
   const {detector, counts: c, level, ms, question} = point;
@@ -60,13 +66,27 @@ const height = (error: number, top: number): number =>
   Math.log1p(error / kErrorAxis.constant) / Math.log1p(top / kErrorAxis.constant);
 
 /** Of the points named, those whose names would lie on the name of one further left; they go below. */
-function below(ends: Point[], [low, high]: [number, number], width: number, top: number): Set<Point> {
-  const out = new Set<Point>(), letters = 7, lines = 0.06;
-  const across = (point: Point): number => (width * Math.log(point.ms / low)) / Math.log(high / low);
+function below(
+  ends: Point[],
+  [low, high]: [number, number],
+  width: number,
+  top: number,
+): Set<Point> {
+  const out = new Set<Point>(),
+    letters = 7,
+    lines = 0.06;
+  const across = (point: Point): number =>
+    (width * Math.log(point.ms / low)) / Math.log(high / low);
   ends.forEach((point, i) => {
-    const near = ends.slice(0, i).filter((other) => !out.has(other)
-        && across(point) - across(other) < letters * Math.max(other.detector.length, point.detector.length)
-        && Math.abs(height(point.error, top) - height(other.error, top)) < lines);
+    const near = ends
+      .slice(0, i)
+      .filter(
+        (other) =>
+          !out.has(other) &&
+          across(point) - across(other) <
+            letters * Math.max(other.detector.length, point.detector.length) &&
+          Math.abs(height(point.error, top) - height(other.error, top)) < lines,
+      );
     if (near.length > 0) out.add(point);
   });
   return out;
@@ -83,64 +103,137 @@ function anchorOf(ms: number, [low, high]: [number, number]): Anchor {
 function draw(width: number, all: Point[], choice: Choice): Node {
   if (all.length === 0) return p("No detector was timed and judged so.");
   const front = all.filter((point) => point.onFront).sort((a, b) => a.ms - b.ms);
-  const times = all.map((point) => point.ms), span: [number, number] = [Math.min(...times) / 1.5,
-      Math.max(...times) * 1.5];
+  const times = all.map((point) => point.ms),
+    span: [number, number] = [Math.min(...times) / 1.5, Math.max(...times) * 1.5];
   const highest = Math.max(0.01, ...all.map((point) => point.error));
-  const ends = all.length <= kFew ? [...all].sort((a, b) => a.ms - b.ms)
+  const ends =
+    all.length <= kFew
+      ? [...all].sort((a, b) => a.ms - b.ms)
       : front.filter((point) => isEnd(point, front));
   const top = Math.min(1, 1.6 * highest);
   const low = below(ends, span, width, top);
   const xy = {x: "ms", y: "error"} as const;
   return Plot.plot({
-    width, height: Math.min(460, 260 + width / 4), marginLeft: 52, marginRight: 24, marginTop: 40,
-        marginBottom: 44,
-    x: {type: "log", domain: span, label: `time per frame, ms, ${choice.part} caches →`, grid: true,
-        ticks: width < 600 ? 4 : 8,
-        tickFormat: (ms: number) => String(ms)},
-    y: {...kErrorAxis, ticks: kErrorAxis.ticks.filter((tick) => tick <= top), domain: [0, top], label: `↑ ${kAxis[choice.measure]}`,
-        grid: true,
-        insetBottom: 12,
-        tickFormat: (share: number) => `${100 * share} %`},
+    width,
+    height: Math.min(460, 260 + width / 4),
+    marginLeft: 52,
+    marginRight: 24,
+    marginTop: 40,
+    marginBottom: 44,
+    x: {
+      type: "log",
+      domain: span,
+      label: `time per frame, ms, ${choice.part} caches →`,
+      grid: true,
+      ticks: width < 600 ? 4 : 8,
+      tickFormat: (ms: number) => String(ms),
+    },
+    y: {
+      ...kErrorAxis,
+      ticks: kErrorAxis.ticks.filter((tick) => tick <= top),
+      domain: [0, top],
+      label: `↑ ${kAxis[choice.measure]}`,
+      grid: true,
+      insetBottom: 12,
+      tickFormat: (share: number) => `${100 * share} %`,
+    },
     marks: [
       Plot.ruleY([0]),
-      Plot.line(front, {...xy, z: "question", curve: "step-after", stroke: "currentColor",
-          strokeOpacity: 0.55,
-                        strokeDasharray: "5 3", strokeWidth: 1.5, className: "fronts"}),
-      Plot.dot(all, {...xy, r: 5.5, fill: (d: Point) => groupOf(d.detector).colour, stroke: "var(--surface)",
-                     symbol: (d: Point) => shapeOf(d.question), ariaLabel: sentenceOf, className: "points"}),
-      ...(["start", "middle", "end"] as const).flatMap((textAnchor) => [false, true].map((under) => Plot.text(
-        ends.filter((point) => anchorOf(point.ms, span) === textAnchor && low.has(point) === under),
-        {...xy, text: "detector", dy: under ? 15 : -13, textAnchor, fill: "currentColor", stroke: "var(--surface)",
-            strokeWidth: 4, className: "names"}))),
+      Plot.line(front, {
+        ...xy,
+        z: "question",
+        curve: "step-after",
+        stroke: "currentColor",
+        strokeOpacity: 0.55,
+        strokeDasharray: "5 3",
+        strokeWidth: 1.5,
+        className: "fronts",
+      }),
+      Plot.dot(all, {
+        ...xy,
+        r: 5.5,
+        fill: (d: Point) => groupOf(d.detector).colour,
+        stroke: "var(--surface)",
+        symbol: (d: Point) => shapeOf(d.question),
+        ariaLabel: sentenceOf,
+        className: "points",
+      }),
+      ...(["start", "middle", "end"] as const).flatMap((textAnchor) =>
+        [false, true].map((under) =>
+          Plot.text(
+            ends.filter(
+              (point) => anchorOf(point.ms, span) === textAnchor && low.has(point) === under,
+            ),
+            {
+              ...xy,
+              text: "detector",
+              dy: under ? 15 : -13,
+              textAnchor,
+              fill: "currentColor",
+              stroke: "var(--surface)",
+              strokeWidth: 4,
+              className: "names",
+            },
+          ),
+        ),
+      ),
       Plot.tip(all, Plot.pointer({...xy, title: sentenceOf, fill: "var(--surface)", fontSize: 12})),
     ],
   });
 }
 
 function legends(all: Point[]): HTMLElement {
-  const colours = groupsOf(all.map((point) => point.detector))
-    .map((group) => ({text: group.name, swatch: square(group.colour)}));
-  const shapes = kShapes.filter(([question]) => all.some((point) => point.question === question))
-    .map(([question, , outline]) => ({text: `timed: ${kAnswers[question]}`, swatch: symbol(outline)}));
+  const colours = groupsOf(all.map((point) => point.detector)).map((group) => ({
+    text: group.name,
+    swatch: square(group.colour),
+  }));
+  const shapes = kShapes
+    .filter(([question]) => all.some((point) => point.question === question))
+    .map(([question, , outline]) => ({
+      text: `timed: ${kAnswers[question]}`,
+      swatch: symbol(outline),
+    }));
   return legend([...colours, ...shapes]);
 }
 
 function pointsTable(all: Point[]): HTMLElement {
   const rows = all.map((point) => [
-    point.detector, optionsText(point.options), point.question, number(point.ms), point.level,
-    String(point.counts.truth), String(point.counts.missed), String(point.counts.reported),
-    String(point.counts.spurious), errorRate(point.error), point.onFront ? "yes" : "",
+    point.detector,
+    optionsText(point.options),
+    point.question,
+    number(point.ms),
+    point.level,
+    String(point.counts.truth),
+    String(point.counts.missed),
+    String(point.counts.reported),
+    String(point.counts.spurious),
+    errorRate(point.error),
+    point.onFront ? "yes" : "",
   ]);
-  return table([left("detector"), left("options"), left("question timed"), right("ms per frame"),
-      left("level"), right("truth"), right("missed"), right("reported"), right("spurious"),
-                right("error"), left("on the front")],
-               rows, "Points of the chart of speed against error");
+  return table(
+    [
+      left("detector"),
+      left("options"),
+      left("question timed"),
+      right("ms per frame"),
+      left("level"),
+      right("truth"),
+      right("missed"),
+      right("reported"),
+      right("spurious"),
+      right("error"),
+      left("on the front"),
+    ],
+    rows,
+    "Points of the chart of speed against error",
+  );
 }
 
 function leftOutText(leftOut: LeftOut[]): Child {
   if (leftOut.length === 0) return null;
   const byReason = new Map<string, string[]>();
-  for (const {detector, why} of leftOut) byReason.set(why, [...(byReason.get(why) ?? []), detector]);
+  for (const {detector, why} of leftOut)
+    byReason.set(why, [...(byReason.get(why) ?? []), detector]);
   const texts = [...byReason].map(([why, names]) => `${names.join(", ")} (${why})`);
   return h("p", {class: "note"}, `Not in the chart: ${texts.join("; ")}.`);
 }
@@ -165,34 +258,57 @@ export const speedError: Section = {
   id: "speed-error",
   title: "Speed against error",
   build(report) {
-    if (!report.timed) return [p("This run measured no times (", h("code", {}, "--no-timing"),
-        "), so that there is nothing to compare.")];
-    const options = sceneOptions(report), first = firstChoice(report, options);
+    if (!report.timed)
+      return [
+        p(
+          "This run measured no times (",
+          h("code", {}, "--no-timing"),
+          "), so that there is nothing to compare.",
+        ),
+      ];
+    const options = sceneOptions(report),
+      first = firstChoice(report, options);
     const choice: Choice = {...kDefaults, scenes: chosenScenes(report, first)};
     let shown = points(report, choice);
     const below = h("div");
-    const picture = chart("Time per frame and share of errors of every detector",
-                          (width) => draw(width, shown.points, choice));
+    const picture = chart("Time per frame and share of errors of every detector", (width) =>
+      draw(width, shown.points, choice),
+    );
     const update = (change: Partial<Choice>): void => {
       shown = points(report, Object.assign(choice, change));
       picture.redraw();
-      below.replaceChildren(legends(shown.points), ...[leftOutText(shown.leftOut)].filter((n) =>
-          n !== null) as Node[],
-        unfolding("The same as a table", () => [pointsTable(shown.points)]));
+      below.replaceChildren(
+        legends(shown.points),
+        ...([leftOutText(shown.leftOut)].filter((n) => n !== null) as Node[]),
+        unfolding("The same as a table", () => [pointsTable(shown.points)]),
+      );
     };
     update({});
     return [
-      p("Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it "
-        + "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same ", term("question"),
-        " is both faster and better than a detector there. Times of different questions (shapes) do not compare."),
+      p(
+        "Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it " +
+          "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same ",
+        term("question"),
+        " is both faster and better than a detector there. Times of different questions (shapes) do not compare.",
+      ),
       controlBar(
         select("Scenes", options, first, (value) => update({scenes: chosenScenes(report, value)})),
         select("Level", levelOptions(report), choice.level, (level) => update({level})),
-        select("Error", Object.entries(kMeasures), choice.measure,
-            (value) => update({measure: value as Measure})),
-        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
-            (value) => update({part: value as "cold" | "hot"}))),
-      picture.element, below,
+        select("Error", Object.entries(kMeasures), choice.measure, (value) =>
+          update({measure: value as Measure}),
+        ),
+        radios(
+          "Caches",
+          [
+            ["cold", "cold"],
+            ["hot", "hot"],
+          ],
+          choice.part,
+          (value) => update({part: value as "cold" | "hot"}),
+        ),
+      ),
+      picture.element,
+      below,
     ];
   },
 };

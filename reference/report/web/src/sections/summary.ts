@@ -20,24 +20,49 @@ export const summary: Section = {
   title: "Summary",
   build(report) {
     const rows = summaryLines(report).map((line) => [
-      line.detector, line.scenes + (line.notOk > 0 ? ` (${line.notOk} not ok)` : ""), line.level,
+      line.detector,
+      line.scenes + (line.notOk > 0 ? ` (${line.notOk} not ok)` : ""),
+      line.level,
       line.counts ? String(line.counts.truth) : "-",
       rate(line.counts && share(line.counts.hit, line.counts.truth)),
-      line.counts ? String(line.counts.missed) : "-", line.counts ? String(line.counts.spurious) : "-",
+      line.counts ? String(line.counts.missed) : "-",
+      line.counts ? String(line.counts.spurious) : "-",
       line.body ? `${line.body.missed}/${line.body.spurious}` : "-",
-      line.hover === null ? "-" : millimetres(line.hover), line.question,
+      line.hover === null ? "-" : millimetres(line.hover),
+      line.question,
       ...kReferences.map((reference) => rangeText(line, reference)),
     ]);
     return [
-      p(`Sums over ${plural(report.results.scenes.length, "scene")}, at the finest `, term("level"), " that a detector claims. "
-        + "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the "
-        + "detector named divided by the time of this one in the same ", term("question"), ", ", term("cold"),
-        ", the smallest and the largest of any scene. "
-        + "A click on a heading sorts."),
-      table([left("detector"), right("scenes"), left("level"), right("truth"), right("recall"),
+      p(
+        `Sums over ${plural(report.results.scenes.length, "scene")}, at the finest `,
+        term("level"),
+        " that a detector claims. " +
+          "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the " +
+          "detector named divided by the time of this one in the same ",
+        term("question"),
+        ", ",
+        term("cold"),
+        ", the smallest and the largest of any scene. " + "A click on a heading sorts.",
+      ),
+      table(
+        [
+          left("detector"),
+          right("scenes"),
+          left("level"),
+          right("truth"),
+          right("recall"),
           right("missed"),
-             right("spurious"), right("body m/s"), right("hover mm"), left("question"), right("vs fcl-aabb"),
-             right("vs fcl-obbrss"), right("vs embree")], rows, "Summary of all detectors"),
+          right("spurious"),
+          right("body m/s"),
+          right("hover mm"),
+          left("question"),
+          right("vs fcl-aabb"),
+          right("vs fcl-obbrss"),
+          right("vs embree"),
+        ],
+        rows,
+        "Summary of all detectors",
+      ),
     ];
   },
 };

@@ -34,15 +34,20 @@ interface Piece {
   ms: number;
 }
 
-const phasesOf = (phases: Phases): Record<Phase, number | null> =>
-  ({map: phases.map, update: phases.update, query: phases.query});
+const phasesOf = (phases: Phases): Record<Phase, number | null> => ({
+  map: phases.map,
+  update: phases.update,
+  query: phases.query,
+});
 
 // The mean over scenes; a lazy detector maps within its query, and has no time of mapping.
 function barOf(detector: string, runs: Run[], part: Part, mapping: boolean): Bar | null {
   const timed = runs.filter((run) => run.time_ms[part]);
   if (timed.length === 0) return null;
   const mean = (phase: Phase): number | null => {
-    const values = timed.map((run) => phasesOf(run.time_ms[part]!)[phase]).filter((ms) => ms !== null);
+    const values = timed
+      .map((run) => phasesOf(run.time_ms[part]!)[phase])
+      .filter((ms) => ms !== null);
     return values.length > 0 ? values.reduce((sum, ms) => sum + ms, 0) / timed.length : null;
   };
   const phases = {map: mapping ? mean("map") : null, update: mean("update"), query: mean("query")};
@@ -58,46 +63,88 @@ interface Choice {
 }
 
 function barsOf(report: Report, choice: Choice): Bar[] {
-  return report.detectors.map((detector) => {
-    const runs = choice.scenes.map((scene) => report.okRun(scene.id, detector)).filter((run) => run !== null);
-    return barOf(detector, runs, choice.part, choice.mapping);
-  }).filter((bar) => bar !== null).sort((a, b) => a.total - b.total);
+  return report.detectors
+    .map((detector) => {
+      const runs = choice.scenes
+        .map((scene) => report.okRun(scene.id, detector))
+        .filter((run) => run !== null);
+      return barOf(detector, runs, choice.part, choice.mapping);
+    })
+    .filter((bar) => bar !== null)
+    .sort((a, b) => a.total - b.total);
 }
 
 // Some detectors take a thousand times as long: unless all is asked for, the axis ends where two
 // thirds of the bars fit, and longer ones are cut and say how long they are.
 function axisEnd(bars: Bar[], whole: boolean): number {
   const longest = bars[bars.length - 1].total;
-  return whole ? longest : Math.min(longest, 1.25 * bars[Math.floor((bars.length - 1) * 0.67)].total);
+  return whole
+    ? longest
+    : Math.min(longest, 1.25 * bars[Math.floor((bars.length - 1) * 0.67)].total);
 }
 
 const kMost = 40;
 
 function draw(width: number, all: Bar[], whole: boolean): Node {
-  const bars = all.slice(0, kMost), end = axisEnd(bars, whole), narrow = width < 600;
+  const bars = all.slice(0, kMost),
+    end = axisEnd(bars, whole),
+    narrow = width < 600;
   const names = bars.map((bar) => bar.detector);
   const pieces: Piece[] = bars.flatMap(({detector, phases}) =>
-    kPhases.filter(([phase]) => phases[phase] !== null).map(([phase]) => ({detector, phase,
-        ms: phases[phase]!})));
+    kPhases
+      .filter(([phase]) => phases[phase] !== null)
+      .map(([phase]) => ({detector, phase, ms: phases[phase]!})),
+  );
   const wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
-  const label = (bar: Bar): string => (bar.total > end ? `${number(bar.total)} ms ▸`
-      : `${number(bar.total)} ms`);
+  const label = (bar: Bar): string =>
+    bar.total > end ? `${number(bar.total)} ms ▸` : `${number(bar.total)} ms`;
   return Plot.plot({
-    width, height: 44 + (narrow ? 44 : 24) * bars.length, marginLeft: narrow ? 14 : wide, marginRight: 76,
-        marginTop: 8, marginBottom: 36,
+    width,
+    height: 44 + (narrow ? 44 : 24) * bars.length,
+    marginLeft: narrow ? 14 : wide,
+    marginRight: 76,
+    marginTop: 8,
+    marginBottom: 36,
     x: {domain: [0, end], label: "milliseconds per frame →", grid: true},
-    y: {domain: names, label: null, axis: narrow ? null : "left", tickSize: 0,
-        paddingInner: narrow ? 0.55 : 0.25},
+    y: {
+      domain: names,
+      label: null,
+      axis: narrow ? null : "left",
+      tickSize: 0,
+      paddingInner: narrow ? 0.55 : 0.25,
+    },
     color: {domain: kPhases.map(([phase]) => phase), range: kPhases.map(([, , colour]) => colour)},
     marks: [
-      Plot.barX(pieces, Plot.stackX({y: "detector", x: "ms", fill: "phase",
-          order: kPhases.map(([phase]) => phase), clip: true,
-        ariaLabel: (d: Piece) => `${d.detector}: ${d.phase} ${number(d.ms)} ms`,
-        title: (d: Piece) => `${d.detector}\n${d.phase}: ${number(d.ms)} ms per frame`, tip: true})),
-      Plot.text(bars, {y: "detector", x: (bar: Bar) => Math.min(bar.total, end), text: label,
-          textAnchor: "start", dx: 5, fill: "currentColor"}),
-      narrow ? Plot.text(bars, {y: "detector", text: "detector", frameAnchor: "left", dy: -18,
-          fill: "currentColor"}) : null,
+      Plot.barX(
+        pieces,
+        Plot.stackX({
+          y: "detector",
+          x: "ms",
+          fill: "phase",
+          order: kPhases.map(([phase]) => phase),
+          clip: true,
+          ariaLabel: (d: Piece) => `${d.detector}: ${d.phase} ${number(d.ms)} ms`,
+          title: (d: Piece) => `${d.detector}\n${d.phase}: ${number(d.ms)} ms per frame`,
+          tip: true,
+        }),
+      ),
+      Plot.text(bars, {
+        y: "detector",
+        x: (bar: Bar) => Math.min(bar.total, end),
+        text: label,
+        textAnchor: "start",
+        dx: 5,
+        fill: "currentColor",
+      }),
+      narrow
+        ? Plot.text(bars, {
+            y: "detector",
+            text: "detector",
+            frameAnchor: "left",
+            dy: -18,
+            fill: "currentColor",
+          })
+        : null,
       Plot.ruleX([0]),
     ],
   });
@@ -105,11 +152,27 @@ function draw(width: number, all: Bar[], whole: boolean): Node {
 
 function barsTable(bars: Bar[]): HTMLElement {
   const rows = bars.map(({detector, question, scenes, phases, total}) => [
-    detector, question, String(scenes), number(phases.map), number(phases.update), number(phases.query),
-        number(total)]);
-  return table([left("detector"), left("question"), right("scenes"), right("map"), right("update"),
-      right("query"), right("sum")],
-               rows, "Milliseconds per frame and phase");
+    detector,
+    question,
+    String(scenes),
+    number(phases.map),
+    number(phases.update),
+    number(phases.query),
+    number(total),
+  ]);
+  return table(
+    [
+      left("detector"),
+      left("question"),
+      right("scenes"),
+      right("map"),
+      right("update"),
+      right("query"),
+      right("sum"),
+    ],
+    rows,
+    "Milliseconds per frame and phase",
+  );
 }
 
 export const times: Section = {
@@ -119,33 +182,72 @@ export const times: Section = {
   build(report) {
     if (!report.timed) return [];
     const options = sceneOptions(report);
-    const choice: Choice = {scenes: chosenScenes(report, options[0][0]), part: "cold", mapping: true,
-        whole: false};
+    const choice: Choice = {
+      scenes: chosenScenes(report, options[0][0]),
+      part: "cold",
+      mapping: true,
+      whole: false,
+    };
     let bars = barsOf(report, choice);
     const below = h("div");
     const picture = chart("Milliseconds per frame and phase of every detector", (width) =>
-      bars.length > 0 ? draw(width, bars, choice.whole) : h("p", {}, "No detector was timed here."));
+      bars.length > 0 ? draw(width, bars, choice.whole) : h("p", {}, "No detector was timed here."),
+    );
     const update = (change: Partial<Choice>): void => {
       bars = barsOf(report, Object.assign(choice, change));
       picture.redraw();
       below.replaceChildren(
-        ...(bars.length > kMost ? [h("p", {class: "note"},
-            `The ${kMost} fastest of ${bars.length} are drawn; the table has all.`)] : []),
-        unfolding("The same as a table", () => [barsTable(bars)]));
+        ...(bars.length > kMost
+          ? [
+              h(
+                "p",
+                {class: "note"},
+                `The ${kMost} fastest of ${bars.length} are drawn; the table has all.`,
+              ),
+            ]
+          : []),
+        unfolding("The same as a table", () => [barsTable(bars)]),
+      );
     };
     update({});
     return [
-      p("Milliseconds per frame, medians over repeats, means over the scenes in which a detector was timed. A detector without a piece “map” ",
+      p(
+        "Milliseconds per frame, medians over repeats, means over the scenes in which a detector was timed. A detector without a piece “map” ",
         "maps only the vertices that it needs, within its query. Each is timed in its own question, so that two bars of different questions ",
-        "do not compare. A bar with ▸ is cut."),
+        "do not compare. A bar with ▸ is cut.",
+      ),
       controlBar(
-        select("Scenes", options, options[0][0], (value) => update({scenes: chosenScenes(report, value)})),
-        radios("Caches", [["cold", "cold"], ["hot", "hot"]], choice.part,
-            (value) => update({part: value as Part})),
-        radios("Mapping", [["with", "with"], ["without", "without"]], "with",
-            (value) => update({mapping: value === "with"})),
-        radios("Long bars", [["cut", "cut"], ["whole", "whole"]], "cut",
-            (value) => update({whole: value === "whole"}))),
+        select("Scenes", options, options[0][0], (value) =>
+          update({scenes: chosenScenes(report, value)}),
+        ),
+        radios(
+          "Caches",
+          [
+            ["cold", "cold"],
+            ["hot", "hot"],
+          ],
+          choice.part,
+          (value) => update({part: value as Part}),
+        ),
+        radios(
+          "Mapping",
+          [
+            ["with", "with"],
+            ["without", "without"],
+          ],
+          "with",
+          (value) => update({mapping: value === "with"}),
+        ),
+        radios(
+          "Long bars",
+          [
+            ["cut", "cut"],
+            ["whole", "whole"],
+          ],
+          "cut",
+          (value) => update({whole: value === "whole"}),
+        ),
+      ),
       picture.element,
       legend(kPhases.map(([, text, colour]) => ({text, swatch: square(colour)}))),
       below,

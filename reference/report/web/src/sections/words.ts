@@ -8,7 +8,13 @@ export const words: Section = {
   title: "Words used here",
   short: "Words",
   build: () => [
-    h("dl", {class: "words"}, ...kGlossary.flatMap(({id, word, meaning}) =>
-      [h("dt", {id: `word-${id}`}, word), h("dd", {}, meaning)])),
+    h(
+      "dl",
+      {class: "words"},
+      ...kGlossary.flatMap(({id, word, meaning}) => [
+        h("dt", {id: `word-${id}`}, word),
+        h("dd", {}, meaning),
+      ]),
+    ),
   ],
 };

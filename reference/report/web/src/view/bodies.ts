@@ -15,9 +15,15 @@ export class Bodies {
     this.meshes = model.header.bodies.map(({shape}, b) => {
       const geometry = new BufferGeometry();
       geometry.setIndex(indices[shape]);
-      geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * model.shapeOf(b).vertices), 3));
-      const mesh = new Mesh(geometry, new MeshLambertMaterial({flatShading: true, side: DoubleSide}));
-      mesh.frustumCulled = false;  // bounds would have to be found anew in every frame
+      geometry.setAttribute(
+        "position",
+        new BufferAttribute(new Float32Array(3 * model.shapeOf(b).vertices), 3),
+      );
+      const mesh = new Mesh(
+        geometry,
+        new MeshLambertMaterial({flatShading: true, side: DoubleSide}),
+      );
+      mesh.frustumCulled = false; // bounds would have to be found anew in every frame
       return mesh;
     });
     if (this.meshes.length > 0) this.group.add(...this.meshes);

@@ -1,6 +1,17 @@
 // Lattices, FFD-AABBs and bounding spheres of the frame, each built when it is switched on.
-import {BufferAttribute, BufferGeometry, DoubleSide, Group, InstancedMesh, LineBasicMaterial, LineSegments,
-        Matrix4, MeshBasicMaterial, type Object3D, SphereGeometry} from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  InstancedMesh,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  MeshBasicMaterial,
+  type Object3D,
+  SphereGeometry,
+} from "three";
 import type {Colours} from "./colours";
 import {dispose} from "./dispose";
 import type {SceneModel} from "./scene_model";
@@ -11,7 +22,8 @@ export type BoundsKind = (typeof kBounds)[number];
 
 /** Corners of a hexahedron at both ends of each of its twelve edges. */
 export const kEdges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((corner) =>
-  [1, 2, 4].filter((bit) => !(corner & bit)).map((bit) => [corner, corner | bit] as const));
+  [1, 2, 4].filter((bit) => !(corner & bit)).map((bit) => [corner, corner | bit] as const),
+);
 
 const kCircleSteps = 48;
 
@@ -23,11 +35,16 @@ function lines(positions: number[], material: LineBasicMaterial): LineSegments {
   return out;
 }
 
-function hexahedra(all: Float64Array[], origin: number[], material: LineBasicMaterial): LineSegments {
+function hexahedra(
+  all: Float64Array[],
+  origin: number[],
+  material: LineBasicMaterial,
+): LineSegments {
   const positions: number[] = [];
   for (const corners of all)
     for (const edge of kEdges)
-      for (const c of edge) for (let k = 0; k < 3; ++k) positions.push(corners[3 * c + k] - origin[k]);
+      for (const c of edge)
+        for (let k = 0; k < 3; ++k) positions.push(corners[3 * c + k] - origin[k]);
   return lines(positions, material);
 }
 
@@ -48,12 +65,20 @@ function circles(spheres: Sphere[], origin: number[], material: LineBasicMateria
 }
 
 function balls(spheres: Sphere[], origin: number[], colours: Colours): InstancedMesh {
-  const material = new MeshBasicMaterial(
-    {color: colours.sphere, transparent: true, opacity: 0.04, depthWrite: false, side: DoubleSide});
+  const material = new MeshBasicMaterial({
+    color: colours.sphere,
+    transparent: true,
+    opacity: 0.04,
+    depthWrite: false,
+    side: DoubleSide,
+  });
   const mesh = new InstancedMesh(new SphereGeometry(1, 32, 20), material, spheres.length);
   spheres.forEach(({center, radius}, i) => {
     const at = center.map((value, k) => value - origin[k]);
-    mesh.setMatrixAt(i, new Matrix4().makeScale(radius, radius, radius).setPosition(at[0], at[1], at[2]));
+    mesh.setMatrixAt(
+      i,
+      new Matrix4().makeScale(radius, radius, radius).setPosition(at[0], at[1], at[2]),
+    );
   });
   mesh.frustumCulled = false;
   return mesh;
@@ -66,7 +91,8 @@ export class Bounds {
 
   update(shown: Set<BoundsKind>, origin: number[], colours: Colours): void {
     for (const child of [...this.group.children]) dispose(child);
-    for (const kind of kBounds) if (shown.has(kind)) this.group.add(this.make(kind, origin, colours));
+    for (const kind of kBounds)
+      if (shown.has(kind)) this.group.add(this.make(kind, origin, colours));
   }
 
   dispose(): void {
@@ -76,23 +102,39 @@ export class Bounds {
   private make(kind: BoundsKind, origin: number[], colours: Colours): Object3D {
     if (kind === "lattice") {
       const all = this.hexahedraOf((shape, nodes, cell) => shape.cellCorners(nodes, cell));
-      return hexahedra(all, origin, new LineBasicMaterial({color: colours.line, transparent: true, opacity: 0.55}));
+      return hexahedra(
+        all,
+        origin,
+        new LineBasicMaterial({color: colours.line, transparent: true, opacity: 0.55}),
+      );
     }
     if (kind === "boxes") {
       const all = this.hexahedraOf((shape, nodes, cell) => shape.boxCorners(nodes, cell));
       return hexahedra(all, origin, new LineBasicMaterial({color: colours.box}));
     }
     const spheres = this.model.header.bodies.flatMap((_, b) =>
-      this.model.shapeOf(b).spheres(this.model.nodesOf(b), kind === "spheres1" ? 1 : 2, this.model.placement.scale));
-    const material = new LineBasicMaterial({color: colours.sphere, transparent: true, opacity: 0.6});
+      this.model
+        .shapeOf(b)
+        .spheres(this.model.nodesOf(b), kind === "spheres1" ? 1 : 2, this.model.placement.scale),
+    );
+    const material = new LineBasicMaterial({
+      color: colours.sphere,
+      transparent: true,
+      opacity: 0.6,
+    });
     return new Group().add(circles(spheres, origin, material), balls(spheres, origin, colours));
   }
 
   private hexahedraOf(
-    corners: (shape: SceneModel["shapes"][number], nodes: Float32Array, cell: number) => Float64Array,
+    corners: (
+      shape: SceneModel["shapes"][number],
+      nodes: Float32Array,
+      cell: number,
+    ) => Float64Array,
   ): Float64Array[] {
     return this.model.header.bodies.flatMap((_, b) => {
-      const shape = this.model.shapeOf(b), nodes = this.model.nodesOf(b);
+      const shape = this.model.shapeOf(b),
+        nodes = this.model.nodesOf(b);
       return Array.from({length: shape.cells}, (_unused, cell) => corners(shape, nodes, cell));
     });
   }

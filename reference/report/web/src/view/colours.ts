@@ -21,8 +21,13 @@ export function readColours(place: HTMLElement): Colours {
   const background = color("--view-background");
   const dark = background.getHSL({h: 0, s: 0, l: 0}).l < 0.5;
   return {
-    background, line: color("--view-lattice"), box: color("--view-box"), sphere: color("--view-sphere"),
-    true: color("--view-true"), missed: color("--view-missed"), spurious: color("--view-spurious"),
+    background,
+    line: color("--view-lattice"),
+    box: color("--view-box"),
+    sphere: color("--view-sphere"),
+    true: color("--view-true"),
+    missed: color("--view-missed"),
+    spurious: color("--view-spurious"),
     body: (number) => {
       const lightness = (dark ? 0.42 : 0.66) + (number % 2 ? -0.06 : 0.03);
       return new Color().setHSL(kHues[number % kHues.length] / 360, 0.16, lightness);
@@ -33,5 +38,8 @@ export function readColours(place: HTMLElement): Colours {
 /** Calls when the page turns dark or light, by its own switch or the system's. */
 export function onColoursChange(call: () => void): void {
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", call);
-  new MutationObserver(call).observe(document.documentElement, {attributes: true, attributeFilter: ["data-theme"]});
+  new MutationObserver(call).observe(document.documentElement, {
+    attributes: true,
+    attributeFilter: ["data-theme"],
+  });
 }

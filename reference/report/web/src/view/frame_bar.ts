@@ -2,17 +2,31 @@
 import {h, s} from "../dom";
 import type {DetectorContacts, SceneHeader} from "./types";
 
-const kCaseStep = 700;      // ms: each case is a picture of its own
-const kShortestStep = 40;  // ms: no faster than a software renderer draws
+const kCaseStep = 700; // ms: each case is a picture of its own
+const kShortestStep = 40; // ms: no faster than a software renderer draws
 
 const kStripHeight = 22;
 
 export class FrameBar {
   readonly element: HTMLElement;
-  private readonly slider = h("input", {type: "range", min: 0, step: 1, value: 0, "aria-label": "Frame"});
-  private readonly strip = s("svg", {class: "view-strip", "aria-hidden": "true", preserveAspectRatio: "none"});
+  private readonly slider = h("input", {
+    type: "range",
+    min: 0,
+    step: 1,
+    value: 0,
+    "aria-label": "Frame",
+  });
+  private readonly strip = s("svg", {
+    class: "view-strip",
+    "aria-hidden": "true",
+    preserveAspectRatio: "none",
+  });
   private readonly text = h("output", {class: "view-frame"});
-  private readonly play = h("button", {type: "button", "aria-label": "Play", click: () => this.toggle()}, "▶");
+  private readonly play = h(
+    "button",
+    {type: "button", "aria-label": "Play", click: () => this.toggle()},
+    "▶",
+  );
   private scene: SceneHeader | null = null;
   private cases: string[] | undefined;
   private timer: number | undefined;
@@ -22,8 +36,13 @@ export class FrameBar {
       this.stop();
       onFrame(Number(this.slider.value));
     });
-    this.element = h("div", {class: "view-frames"}, this.play,
-                     h("div", {class: "view-slider"}, this.strip, this.slider), this.text);
+    this.element = h(
+      "div",
+      {class: "view-frames"},
+      this.play,
+      h("div", {class: "view-slider"}, this.strip, this.slider),
+      this.text,
+    );
   }
 
   /** `cases`: the value of each frame, where frames are cases and no moments. */
@@ -42,7 +61,8 @@ export class FrameBar {
     const value = this.cases?.[frame];
     const words = `${this.cases ? "case" : "frame"} ${frame} of 0 to ${frames - 1}${value === undefined ? "" : `, value ${value}`}`;
     this.slider.setAttribute("aria-valuetext", words);
-    this.text.textContent = time_step > 0 && !this.cases ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
+    this.text.textContent =
+      time_step > 0 && !this.cases ? `${words}, ${(frame * time_step).toFixed(2)} s` : words;
   }
 
   stop(): void {
@@ -60,23 +80,41 @@ export class FrameBar {
   }
 
   private step(): void {
-    const {frames, time_step} = this.scene!, pause = this.cases ? kCaseStep : Math.max(kShortestStep, 1000 * time_step);
+    const {frames, time_step} = this.scene!,
+      pause = this.cases ? kCaseStep : Math.max(kShortestStep, 1000 * time_step);
     this.onFrame((Number(this.slider.value) + 1) % frames);
     this.timer = window.setTimeout(() => this.step(), pause);
   }
 
   // True contacts below, missed and spurious ones above; heights by the largest count of the scene.
   private bars(scene: SceneHeader, detector: DetectorContacts | undefined): SVGRectElement[] {
-    const most = Math.max(1, ...scene.truth.map(({count}) => count),
-                          ...(detector?.frames ?? []).flatMap(({missed, spurious}) => [missed.count, spurious.count]));
-    const bar = (kind: string, frame: number, count: number, at: number, width: number): SVGRectElement => {
+    const most = Math.max(
+      1,
+      ...scene.truth.map(({count}) => count),
+      ...(detector?.frames ?? []).flatMap(({missed, spurious}) => [missed.count, spurious.count]),
+    );
+    const bar = (
+      kind: string,
+      frame: number,
+      count: number,
+      at: number,
+      width: number,
+    ): SVGRectElement => {
       const height = count === 0 ? 0 : 3 + (kStripHeight - 3) * Math.sqrt(count / most);
-      return s("rect", {class: `view-fill-${kind}`, x: frame + at, y: kStripHeight - height, width, height});
+      return s("rect", {
+        class: `view-fill-${kind}`,
+        x: frame + at,
+        y: kStripHeight - height,
+        width,
+        height,
+      });
     };
     return [
       ...scene.truth.map(({frame, count}) => bar("true", frame, count, 0.02, 0.94)),
-      ...(detector?.frames ?? []).flatMap(({frame, missed, spurious}) =>
-        [bar("missed", frame, missed.count, 0.06, 0.4), bar("spurious", frame, spurious.count, 0.52, 0.4)]),
+      ...(detector?.frames ?? []).flatMap(({frame, missed, spurious}) => [
+        bar("missed", frame, missed.count, 0.06, 0.4),
+        bar("spurious", frame, spurious.count, 0.52, 0.4),
+      ]),
     ];
   }
 }

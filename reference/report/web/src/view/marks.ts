@@ -1,6 +1,15 @@
 // Contacts: true ones, missed ones and spurious ones differ in colour, in the pattern of their faces
 // and in the shape of their markers, so that no eye needs the colour.
-import {BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, Points, ShaderMaterial} from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  Group,
+  Mesh,
+  Points,
+  ShaderMaterial,
+} from "three";
 import {LineMaterial} from "three/examples/jsm/lines/LineMaterial.js";
 import {LineSegments2} from "three/examples/jsm/lines/LineSegments2.js";
 import {LineSegmentsGeometry} from "three/examples/jsm/lines/LineSegmentsGeometry.js";
@@ -65,18 +74,28 @@ const kMarkerFragment = `
   }`;
 
 // Two triangles a side; corners by the bits of their numbers.
-const kFaces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-  .flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
+const kFaces = [
+  [0, 2, 3, 1],
+  [4, 5, 7, 6],
+  [0, 1, 5, 4],
+  [2, 6, 7, 3],
+  [0, 4, 6, 2],
+  [1, 3, 7, 5],
+].flatMap(([a, b, c, d]) => [a, b, c, a, c, d]);
 
 const pixelRatio = (): number => Math.min(window.devicePixelRatio, 2);
 
-const moved = (points: number[], origin: number[]): number[] => points.map((value, i) => value - origin[i % 3]);
+const moved = (points: number[], origin: number[]): number[] =>
+  points.map((value, i) => value - origin[i % 3]);
 
 const cornersOf = (points: number[], numbers: readonly number[]): number[] =>
   numbers.flatMap((n) => points.slice(3 * n, 3 * n + 3));
 
 function positions(values: number[]): BufferGeometry {
-  return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(values), 3));
+  return new BufferGeometry().setAttribute(
+    "position",
+    new BufferAttribute(new Float32Array(values), 3),
+  );
 }
 
 export interface MarkStyle {
@@ -89,17 +108,28 @@ export interface MarkStyle {
 }
 
 function faces(geometries: PairGeometry[], origin: number[], style: MarkStyle): Mesh {
-  const all = geometries.flatMap(({triangles, boxes}) =>
-    [...triangles.flat(), ...boxes.flatMap((box) => cornersOf(box, kFaces))]);
+  const all = geometries.flatMap(({triangles, boxes}) => [
+    ...triangles.flat(),
+    ...boxes.flatMap((box) => cornersOf(box, kFaces)),
+  ]);
   const box = geometries.some(({boxes}) => boxes.length > 0);
   const opacity = (box ? 0.3 : 0.95) * (style.dimmed ? 0.3 : 1);
   const material = new ShaderMaterial({
-    vertexShader: kFaceVertex, fragmentShader: kFaceFragment, side: DoubleSide,
-    uniforms: {color: {value: style.color}, opacity: {value: opacity}, pattern: {value: kPattern[style.kind]},
-               pixel: {value: pixelRatio()}},
+    vertexShader: kFaceVertex,
+    fragmentShader: kFaceFragment,
+    side: DoubleSide,
+    uniforms: {
+      color: {value: style.color},
+      opacity: {value: opacity},
+      pattern: {value: kPattern[style.kind]},
+      pixel: {value: pixelRatio()},
+    },
     // In front of the body's own face, which lies in the same plane.
-    polygonOffset: true, polygonOffsetFactor: style.selected ? -4 : -2, polygonOffsetUnits: -2,
-    transparent: opacity < 1, depthWrite: opacity === 1,
+    polygonOffset: true,
+    polygonOffsetFactor: style.selected ? -4 : -2,
+    polygonOffsetUnits: -2,
+    transparent: opacity < 1,
+    depthWrite: opacity === 1,
   });
   return new Mesh(positions(moved(all, origin)), material);
 }
@@ -107,25 +137,46 @@ function faces(geometries: PairGeometry[], origin: number[], style: MarkStyle): 
 function outlines(geometries: PairGeometry[], origin: number[], style: MarkStyle): LineSegments2 {
   const all = geometries.flatMap(({triangles, boxes}) => [
     ...triangles.flatMap((t) => cornersOf(t, [0, 1, 1, 2, 2, 0])),
-    ...boxes.flatMap((box) => cornersOf(box, kEdges.flat()))]);
+    ...boxes.flatMap((box) => cornersOf(box, kEdges.flat())),
+  ]);
   const material = new LineMaterial({
-    color: style.color, linewidth: style.selected ? 3.5 : 1.5, transparent: true,
-    opacity: style.dimmed ? 0.25 : 1, polygonOffset: true, polygonOffsetFactor: -6, polygonOffsetUnits: -6,
+    color: style.color,
+    linewidth: style.selected ? 3.5 : 1.5,
+    transparent: true,
+    opacity: style.dimmed ? 0.25 : 1,
+    polygonOffset: true,
+    polygonOffsetFactor: -6,
+    polygonOffsetUnits: -6,
   });
   return new LineSegments2(new LineSegmentsGeometry().setPositions(moved(all, origin)), material);
 }
 
 // Gone where a thing of size `extent` about its point is large enough on the screen by itself.
-function markers(points: number[], origin: number[], style: MarkStyle, pattern: number, size: number,
-                 extent = 0): Points {
+function markers(
+  points: number[],
+  origin: number[],
+  style: MarkStyle,
+  pattern: number,
+  size: number,
+  extent = 0,
+): Points {
   const material = new ShaderMaterial({
-    vertexShader: kMarkerVertex, fragmentShader: kMarkerFragment, transparent: true, depthTest: false,
+    vertexShader: kMarkerVertex,
+    fragmentShader: kMarkerFragment,
+    transparent: true,
+    depthTest: false,
     depthWrite: false,
-    uniforms: {color: {value: style.color}, opacity: {value: 1}, pattern: {value: pattern},
-               size: {value: size}, pixel: {value: pixelRatio()}, extent: {value: extent}},
+    uniforms: {
+      color: {value: style.color},
+      opacity: {value: 1},
+      pattern: {value: pattern},
+      size: {value: size},
+      pixel: {value: pixelRatio()},
+      extent: {value: extent},
+    },
   });
   const out = new Points(positions(moved(points, origin)), material);
-  out.renderOrder = 10;  // over all surfaces: a contact inside a body is seen too
+  out.renderOrder = 10; // over all surfaces: a contact inside a body is seen too
   return out;
 }
 
@@ -135,14 +186,24 @@ function notYet(geometries: PairGeometry[], drawn: Set<string>): PairGeometry[] 
     const size = drawn.size;
     return drawn.add(part.join(" ")).size > size;
   };
-  return geometries.map(({triangles, boxes, points}) => ({triangles: triangles.filter(fresh), boxes: boxes.filter(fresh), points}));
+  return geometries.map(({triangles, boxes, points}) => ({
+    triangles: triangles.filter(fresh),
+    boxes: boxes.filter(fresh),
+    points,
+  }));
 }
 
 /** One kind of contacts of a frame. `origin` is taken off all positions; faces: see notYet. */
-export function makeMarks(all: PairGeometry[], origin: number[], style: MarkStyle, drawn: Set<string>): Group {
+export function makeMarks(
+  all: PairGeometry[],
+  origin: number[],
+  style: MarkStyle,
+  drawn: Set<string>,
+): Group {
   const group = new Group();
   if (all.length === 0) return group;
-  const centers = all.flatMap(centroid), geometries = notYet(all, drawn);
+  const centers = all.flatMap(centroid),
+    geometries = notYet(all, drawn);
   // Boxes of other pairs would hide the one that was asked for.
   if (!style.dimmed || geometries.every(({boxes}) => boxes.length === 0))
     group.add(faces(geometries, origin, style));
@@ -159,7 +220,7 @@ export function makeMarks(all: PairGeometry[], origin: number[], style: MarkStyl
   }
   for (const child of group.children) {
     child.frustumCulled = false;
-    if (style.selected) child.renderOrder += 5;  // over what is transparent
+    if (style.selected) child.renderOrder += 5; // over what is transparent
   }
   return group;
 }

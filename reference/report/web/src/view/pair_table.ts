@@ -8,7 +8,13 @@ export const kSymbol: Record<Kind, string> = {missed: "✕", spurious: "□"};
 
 type Names = (body: number) => string;
 
-const kWords: Record<string, string> = {triangle: "triangle", cell: "cell", box: "cell", near: "vertex", vertex: "vertex"};
+const kWords: Record<string, string> = {
+  triangle: "triangle",
+  cell: "cell",
+  box: "cell",
+  near: "vertex",
+  vertex: "vertex",
+};
 
 function element(body: number, number: number, what: string, names: Names): string {
   return number < 0 ? names(body) : `${names(body)} ${what} ${number}`;
@@ -16,7 +22,7 @@ function element(body: number, number: number, what: string, names: Names): stri
 
 /** "left triangle 12", "right triangle 7" */
 export function pairWords({pair, level, kind}: ListedPair, names: Names): [string, string] {
-  const first = level === "cell" && kind === "missed" ? "triangle" : kWords[level] ?? "";
+  const first = level === "cell" && kind === "missed" ? "triangle" : (kWords[level] ?? "");
   const second = level === "near" ? "triangle" : first;
   return [element(pair[0], pair[1], first, names), element(pair[2], pair[3], second, names)];
 }
@@ -24,7 +30,11 @@ export function pairWords({pair, level, kind}: ListedPair, names: Names): [strin
 export class PairTable {
   readonly element: HTMLElement;
   private readonly body = h("tbody");
-  private readonly more = h("button", {type: "button", class: "view-more", click: () => this.grow()});
+  private readonly more = h("button", {
+    type: "button",
+    class: "view-more",
+    click: () => this.grow(),
+  });
   private readonly caption = h("caption");
   private rows: HTMLTableRowElement[] = [];
   private pairs: ListedPair[] = [];
@@ -32,8 +42,12 @@ export class PairTable {
 
   constructor(private readonly onPair: (pair: ListedPair) => void) {
     const head = h("tr", {}, ...["", "frame", "pair"].map((text) => h("th", {scope: "col"}, text)));
-    this.element = h("div", {class: "view-table", tabindex: 0, role: "region", "aria-label": "Missed and spurious pairs"},
-                     h("table", {}, this.caption, h("thead", {}, head), this.body), this.more);
+    this.element = h(
+      "div",
+      {class: "view-table", tabindex: 0, role: "region", "aria-label": "Missed and spurious pairs"},
+      h("table", {}, this.caption, h("thead", {}, head), this.body),
+      this.more,
+    );
   }
 
   fill(scene: SceneHeader, pairs: ListedPair[], caption: string): void {
@@ -55,13 +69,16 @@ export class PairTable {
 
   // Within the table alone: the page stays where it is.
   private bringIntoView(row: HTMLElement): void {
-    const {top, bottom} = this.element.getBoundingClientRect(), at = row.getBoundingClientRect();
+    const {top, bottom} = this.element.getBoundingClientRect(),
+      at = row.getBoundingClientRect();
     if (at.top < top || at.bottom > bottom)
       this.element.scrollTop += at.top - top - 0.5 * (bottom - top);
   }
 
   private grow(): void {
-    const next = this.pairs.slice(this.rows.length, this.rows.length + kPage).map((pair) => this.row(pair));
+    const next = this.pairs
+      .slice(this.rows.length, this.rows.length + kPage)
+      .map((pair) => this.row(pair));
     this.rows.push(...next);
     this.body.append(...next);
     const rest = this.pairs.length - this.rows.length;
@@ -71,9 +88,26 @@ export class PairTable {
 
   private row(pair: ListedPair): HTMLTableRowElement {
     const [one, other] = pairWords(pair, this.names);
-    const button = h("button", {type: "button", "aria-label": `Show the ${pair.kind} pair ${one}, ${other} in frame ${pair.frame}`,
-                                click: () => this.onPair(pair)},
-                     h("span", {class: `view-symbol view-${pair.kind}`, "aria-hidden": "true"}, kSymbol[pair.kind]), ` ${pair.kind}`);
-    return h("tr", {}, h("td", {}, button), h("td", {class: "view-number"}, String(pair.frame)), h("td", {}, one, h("br"), other));
+    const button = h(
+      "button",
+      {
+        type: "button",
+        "aria-label": `Show the ${pair.kind} pair ${one}, ${other} in frame ${pair.frame}`,
+        click: () => this.onPair(pair),
+      },
+      h(
+        "span",
+        {class: `view-symbol view-${pair.kind}`, "aria-hidden": "true"},
+        kSymbol[pair.kind],
+      ),
+      ` ${pair.kind}`,
+    );
+    return h(
+      "tr",
+      {},
+      h("td", {}, button),
+      h("td", {class: "view-number"}, String(pair.frame)),
+      h("td", {}, one, h("br"), other),
+    );
   }
 }

@@ -18,7 +18,7 @@ function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
     return ["triangle", "triangle"];
   if (level === "cell" || level === "box") return ["cell", "cell"];
   if (level === "near") return ["vertex", "triangle"];
-  if (level === "vertex") return ["vertex", "nothing"];  // the body that holds it has no place of its own
+  if (level === "vertex") return ["vertex", "nothing"]; // the body that holds it has no place of its own
   return ["body", "body"];
 }
 
@@ -30,7 +30,10 @@ export class SceneModel {
   private vertices = new Map<number, Float64Array>();
   private current = 0;
 
-  constructor(container: Container, readonly header: SceneHeader) {
+  constructor(
+    container: Container,
+    readonly header: SceneHeader,
+  ) {
     this.shapes = header.shapes.map((shape) => new Shape(container, header, shape));
     this.nodes = container.array(header, header.nodes);
     let first = 0;
@@ -66,13 +69,15 @@ export class SceneModel {
 
   verticesOf(body: number): Float64Array {
     let found = this.vertices.get(body);
-    if (!found) this.vertices.set(body, (found = this.shapeOf(body).vertexPositions(this.nodesOf(body))));
+    if (!found)
+      this.vertices.set(body, (found = this.shapeOf(body).vertexPositions(this.nodesOf(body))));
     return found;
   }
 
   /** The middle of everything in the frame, and how far from it that reaches. */
   extent(): {center: number[]; radius: number} {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity];
     const bodies = this.header.bodies.map((_, b) => this.verticesOf(b));
     for (const points of bodies)
       for (let i = 0; i < points.length; ++i) {
@@ -124,7 +129,8 @@ export class SceneModel {
   }
 
   private middleOf(body: number): number[] {
-    const points = this.verticesOf(body), sum = [0, 0, 0];
+    const points = this.verticesOf(body),
+      sum = [0, 0, 0];
     for (let i = 0; i < points.length; ++i) sum[i % 3] += points[i];
     return sum.map((value) => (3 * value) / points.length);
   }
@@ -132,7 +138,8 @@ export class SceneModel {
 
 export function pairsIn(flat: number[]): Pair[] {
   const out: Pair[] = [];
-  for (let i = 0; i + 3 < flat.length; i += 4) out.push([flat[i], flat[i + 1], flat[i + 2], flat[i + 3]]);
+  for (let i = 0; i + 3 < flat.length; i += 4)
+    out.push([flat[i], flat[i + 1], flat[i + 2], flat[i + 3]]);
   return out;
 }
 
@@ -161,11 +168,19 @@ export function centroid(geometry: PairGeometry): number[] {
 function farthest(points: ArrayLike<number>, center: number[]): number {
   let out = 0;
   for (let i = 0; i < points.length; i += 3)
-    out = Math.max(out, Math.hypot(points[i] - center[0], points[i + 1] - center[1], points[i + 2] - center[2]));
+    out = Math.max(
+      out,
+      Math.hypot(points[i] - center[0], points[i + 1] - center[1], points[i + 2] - center[2]),
+    );
   return out;
 }
 
 /** The largest distance of a point of the pair from `center`. */
 export function reach(geometry: PairGeometry, center: number[]): number {
-  return Math.max(0, ...[...geometry.triangles, ...geometry.boxes, ...geometry.points].map((part) => farthest(part, center)));
+  return Math.max(
+    0,
+    ...[...geometry.triangles, ...geometry.boxes, ...geometry.points].map((part) =>
+      farthest(part, center),
+    ),
+  );
 }

@@ -21,7 +21,8 @@ interface Lattice {
 const blend = (a: number, b: number, w: number): number => a * (1 - w) + b * w;
 
 function bounds(points: Float64Array): {low: number[]; high: number[]} {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  const low = [Infinity, Infinity, Infinity],
+    high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < points.length; ++i) {
     low[i % 3] = Math.min(low[i % 3], points[i]);
     high[i % 3] = Math.max(high[i % 3], points[i]);
@@ -36,15 +37,21 @@ export class Shape {
   private readonly lattice: Lattice | null = null;
 
   constructor(container: Container, scene: SceneHeader, header: ShapeHeader) {
-    const array = (reference: ShapeHeader["triangles"]): Numbers => container.array(scene, reference);
+    const array = (reference: ShapeHeader["triangles"]): Numbers =>
+      container.array(scene, reference);
     this.triangles = array(header.triangles);
     this.vertices = header.vertices;
     this.nodes = header.nodes;
     if (!header.lattice) return;
     const {cell_nodes, home, local, boxes, spheres} = header.lattice;
     this.lattice = {
-      cellNodes: array(cell_nodes), home: array(home), local: array(local), boxes: array(boxes),
-      radius1: spheres.radius1, centers2: array(spheres.centers2), radii2: spheres.radii2,
+      cellNodes: array(cell_nodes),
+      home: array(home),
+      local: array(local),
+      boxes: array(boxes),
+      radius1: spheres.radius1,
+      centers2: array(spheres.centers2),
+      radii2: spheres.radii2,
     };
   }
 
@@ -66,7 +73,8 @@ export class Shape {
   boxCorners(nodes: Float32Array, cell: number): Float64Array {
     const out = new Float64Array(24);
     const {boxes} = this.lattice!;
-    const at = (corner: number, axis: number): number => boxes[6 * cell + 3 * (corner >> axis & 1) + axis];
+    const at = (corner: number, axis: number): number =>
+      boxes[6 * cell + 3 * ((corner >> axis) & 1) + axis];
     for (let c = 0; c < 8; ++c) this.map(nodes, cell, at(c, 0), at(c, 1), at(c, 2), out, 3 * c);
     return out;
   }
@@ -94,13 +102,21 @@ export class Shape {
 
   private boxesCenter(nodes: Float32Array): number[] {
     const corners = new Float64Array(24 * this.cells);
-    for (let cell = 0; cell < this.cells; ++cell) corners.set(this.boxCorners(nodes, cell), 24 * cell);
+    for (let cell = 0; cell < this.cells; ++cell)
+      corners.set(this.boxCorners(nodes, cell), 24 * cell);
     const {low, high} = bounds(corners);
     return low.map((value, k) => 0.5 * value + 0.5 * high[k]);
   }
 
-  private map(nodes: Float32Array, cell: number, s: number, t: number, u: number,
-              out: Float64Array, at: number): void {
+  private map(
+    nodes: Float32Array,
+    cell: number,
+    s: number,
+    t: number,
+    u: number,
+    out: Float64Array,
+    at: number,
+  ): void {
     const {cellNodes} = this.lattice!;
     for (let k = 0; k < 3; ++k) {
       const node = (c: number): number => nodes[3 * cellNodes[8 * cell + c] + k];

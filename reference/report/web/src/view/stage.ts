@@ -2,19 +2,33 @@
 //
 // Whatever is drawn is given relative to `origin`, which is where the camera looks first: single
 // precision then has its finest steps there, and a pair far from the scene's middle does not jitter.
-import {Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Scene, Spherical, Vector3,
-        WebGLRenderer} from "three";
+import {
+  Color,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  PerspectiveCamera,
+  Scene,
+  Spherical,
+  Vector3,
+  WebGLRenderer,
+} from "three";
 import {OrbitControls} from "three/examples/jsm/controls/OrbitControls.js";
 
-const kFieldOfView = 40;  // degrees, of the shorter side
-const kKeyTurn = Math.PI / 24, kKeyZoom = 1.15;
+const kFieldOfView = 40; // degrees, of the shorter side
+const kKeyTurn = Math.PI / 24,
+  kKeyZoom = 1.15;
 
 export const kOverview = new Vector3(0.45, 0.35, 0.82).normalize();
 
 /** null where the browser has no WebGL 2. */
 export function makeStage(canvas: HTMLCanvasElement, onDraw: () => void): Stage | null {
   // Kept after it was shown: printing asks for it again.
-  const context = canvas.getContext("webgl2", {antialias: true, powerPreference: "low-power", preserveDrawingBuffer: true});
+  const context = canvas.getContext("webgl2", {
+    antialias: true,
+    powerPreference: "low-power",
+    preserveDrawingBuffer: true,
+  });
   return context && new Stage(canvas, context, onDraw);
 }
 
@@ -31,8 +45,11 @@ export class Stage {
   private sceneRadius = 1;
   private waiting = false;
 
-  constructor(private readonly canvas: HTMLCanvasElement, context: WebGL2RenderingContext,
-              private readonly onDraw: () => void) {
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+    private readonly onDraw: () => void,
+  ) {
     this.renderer = new WebGLRenderer({canvas, context});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     const lamp = new DirectionalLight(0xffffff, 1.7);
@@ -108,13 +125,20 @@ export class Stage {
 
   private onKey(event: KeyboardEvent): void {
     const turns: Record<string, [number, number, number]> = {
-      ArrowLeft: [-kKeyTurn, 0, 1], ArrowRight: [kKeyTurn, 0, 1], ArrowUp: [0, -kKeyTurn, 1],
-      ArrowDown: [0, kKeyTurn, 1], "+": [0, 0, 1 / kKeyZoom], "=": [0, 0, 1 / kKeyZoom], "-": [0, 0, kKeyZoom],
+      ArrowLeft: [-kKeyTurn, 0, 1],
+      ArrowRight: [kKeyTurn, 0, 1],
+      ArrowUp: [0, -kKeyTurn, 1],
+      ArrowDown: [0, kKeyTurn, 1],
+      "+": [0, 0, 1 / kKeyZoom],
+      "=": [0, 0, 1 / kKeyZoom],
+      "-": [0, 0, kKeyZoom],
     };
     const turn = turns[event.key];
     if (!turn || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    const place = new Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
+    const place = new Spherical().setFromVector3(
+      this.camera.position.clone().sub(this.controls.target),
+    );
     place.theta += turn[0];
     place.phi += turn[1];
     place.radius *= turn[2];

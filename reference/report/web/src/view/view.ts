@@ -21,7 +21,8 @@ export type {ListedPair, View, ViewState, ViewTarget} from "./types";
 // A pair is shown with its surroundings: this many times its own size.
 const kPairMargin = 3.2;
 // Where a pair has no size (a vertex), and so that no camera goes closer than it could see.
-const kSmallestShare = 1e-6, kVertexShare = 0.04;
+const kSmallestShare = 1e-6,
+  kVertexShare = 0.04;
 
 const same = (a: Pair, b: Pair): boolean => a.every((value, i) => value === b[i]);
 
@@ -44,12 +45,20 @@ class SceneViewer implements View {
   private chosen: ListedPair | null = null;
   private started = false;
 
-  constructor(private readonly place: HTMLElement, results: Results, private readonly container: Container) {
-    const title = (scene: string): string => results.scenes.find(({id}) => id === scene)?.title ?? scene;
-    this.cases = new Map(results.scenes.flatMap(({id, family}) => (family ? [[id, family.values] as const] : [])));
+  constructor(
+    private readonly place: HTMLElement,
+    results: Results,
+    private readonly container: Container,
+  ) {
+    const title = (scene: string): string =>
+      results.scenes.find(({id}) => id === scene)?.title ?? scene;
+    this.cases = new Map(
+      results.scenes.flatMap(({id, family}) => (family ? [[id, family.values] as const] : [])),
+    );
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
-      detector: (name) => this.show({scene: this.model.header.id, frame: this.model.frame, detector: name}),
+      detector: (name) =>
+        this.show({scene: this.model.header.id, frame: this.model.frame, detector: name}),
       layers: () => this.redraw(),
       overview: () => this.overview(),
     });
@@ -62,7 +71,10 @@ class SceneViewer implements View {
     this.bodies = new Bodies(this.model);
     this.bounds = new Bounds(this.model);
     onColoursChange(() => this.repaint());
-    this.show({scene: container.scenes[0].id, frame: busiestFrame(container, container.scenes[0].id)});
+    this.show({
+      scene: container.scenes[0].id,
+      frame: busiestFrame(container, container.scenes[0].id),
+    });
     this.repaint();
   }
 
@@ -91,20 +103,32 @@ class SceneViewer implements View {
     const {origin, scale} = this.model.placement;
     const target = this.stage?.target() ?? [0, 0, 0];
     return {
-      scene: this.model.header.id, detector: this.detector, frame: this.model.frame,
-      frames: this.model.header.frames, pair: this.chosen?.pair ?? null,
+      scene: this.model.header.id,
+      detector: this.detector,
+      frame: this.model.frame,
+      frames: this.model.header.frames,
+      pair: this.chosen?.pair ?? null,
       target: [0, 1, 2].map((k) => origin[k] + scale * target[k]) as [number, number, number],
-      distance: scale * (this.stage?.distance() ?? 0), drawn: this.stage?.drawn ?? 0,
+      distance: scale * (this.stage?.distance() ?? 0),
+      drawn: this.stage?.drawn ?? 0,
     };
   }
 
   private layout(): HTMLElement[] {
-    const help = "Turn with the mouse, one finger or the arrow keys; zoom with + and -, two fingers or, " +
+    const help =
+      "Turn with the mouse, one finger or the arrow keys; zoom with + and -, two fingers or, " +
       "once the picture has been clicked, the wheel; move it with the right button.";
     return [
       this.panel.element,
-      h("div", {class: "view-stage"}, h("div", {class: "view-picture"}, this.canvas), this.frames.element, this.message,
-        h("p", {class: "view-help"}, help), ...leftOut(this.container)),
+      h(
+        "div",
+        {class: "view-stage"},
+        h("div", {class: "view-picture"}, this.canvas),
+        this.frames.element,
+        this.message,
+        h("p", {class: "view-help"}, help),
+        ...leftOut(this.container),
+      ),
       this.table.element,
     ];
   }
@@ -147,8 +171,14 @@ class SceneViewer implements View {
 
   private find({frame, kind, pair}: ViewTarget): ListedPair | null {
     if (!pair && !kind) return null;
-    return this.pairs.find((listed) => listed.frame === frame && (!pair || same(listed.pair, pair)) &&
-                                       (!kind || listed.kind === kind)) ?? null;
+    return (
+      this.pairs.find(
+        (listed) =>
+          listed.frame === frame &&
+          (!pair || same(listed.pair, pair)) &&
+          (!kind || listed.kind === kind),
+      ) ?? null
+    );
   }
 
   private lookAtScene(direction: Vector3): void {
@@ -160,12 +190,17 @@ class SceneViewer implements View {
 
   private lookAtPair({pair, level, kind}: ListedPair): void {
     if (!this.stage) return;
-    const geometry = this.model.geometry(pair, level, kind), center = centroid(geometry);
+    const geometry = this.model.geometry(pair, level, kind),
+      center = centroid(geometry);
     const {radius} = this.model.extent();
     const size = reach(geometry, center);
     this.stage.radius = radius;
     const wanted = size > 0 ? kPairMargin * size : kVertexShare * radius;
-    this.stage.look(center, Math.max(wanted, kSmallestShare * radius), viewingDirection(geometry, this.stage.direction()));
+    this.stage.look(
+      center,
+      Math.max(wanted, kSmallestShare * radius),
+      viewingDirection(geometry, this.stage.direction()),
+    );
   }
 
   // Everything that follows from scene, frame, pair and detector.
@@ -173,7 +208,10 @@ class SceneViewer implements View {
     this.frames.frame = this.model.frame;
     this.table.select(this.chosen);
     this.message.textContent = this.words();
-    this.canvas.setAttribute("aria-label", `3D view of ${this.model.header.id}, frame ${this.model.frame}`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `3D view of ${this.model.header.id}, frame ${this.model.frame}`,
+    );
     this.publish();
     this.redraw();
   }
@@ -184,7 +222,11 @@ class SceneViewer implements View {
     this.bodies.update(this.stage.origin);
     this.bodies.dim(this.chosen !== null);
     this.bodies.group.visible = shown.has("bodies");
-    this.bounds.update(new Set(kBounds.filter((kind) => shown.has(kind))), this.stage.origin, this.colours);
+    this.bounds.update(
+      new Set(kBounds.filter((kind) => shown.has(kind))),
+      this.stage.origin,
+      this.colours,
+    );
     this.marks.forEach(dispose);
     this.marks = this.makeMarks(this.stage.origin);
     this.stage.content.add(this.bodies.group, this.bounds.group, ...this.marks);
@@ -193,20 +235,30 @@ class SceneViewer implements View {
 
   private makeMarks(origin: number[]): ReturnType<typeof makeMarks>[] {
     const level = this.model.detector(this.detector)?.level ?? "triangle";
-    const {chosen} = this, drawn = new Set<string>();
-    const missed = this.model.differences(this.detector, "missed"), keys = new Set(missed.map(String));
+    const {chosen} = this,
+      drawn = new Set<string>();
+    const missed = this.model.differences(this.detector, "missed"),
+      keys = new Set(missed.map(String));
     const make = (kind: MarkKind, pairs: Pair[], selected: boolean) =>
-      makeMarks(pairs.map((pair) => this.model.geometry(pair, level, kind)), origin,
-                {kind, color: this.colours[kind], selected, dimmed: chosen !== null && !selected}, drawn);
+      makeMarks(
+        pairs.map((pair) => this.model.geometry(pair, level, kind)),
+        origin,
+        {kind, color: this.colours[kind], selected, dimmed: chosen !== null && !selected},
+        drawn,
+      );
     const others = (kind: Kind, pairs: Pair[]): Pair[] =>
       pairs.filter((pair) => !(chosen && chosen.kind === kind && same(chosen.pair, pair)));
     // Boxes about a missed pair would hide it.
-    const spurious = chosen?.kind === "missed" ? [] : others("spurious", this.model.differences(this.detector, "spurious"));
+    const spurious =
+      chosen?.kind === "missed"
+        ? []
+        : others("spurious", this.model.differences(this.detector, "spurious"));
     // A missed pair is drawn as that alone. Pairs of other levels are no pairs of triangles.
     const trianglesMissed = level === "triangle" || level === "cell";
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
-    return [  // what matters most first: it takes the faces that others share with it
+    return [
+      // what matters most first: it takes the faces that others share with it
       ...(chosen ? [make(chosen.kind, [chosen.pair], true)] : []),
       ...(shown.has("missed") ? [make("missed", others("missed", missed), false)] : []),
       ...(shown.has("spurious") ? [make("spurious", spurious, false)] : []),
@@ -215,7 +267,8 @@ class SceneViewer implements View {
   }
 
   private words(): string {
-    const {frame, header} = this.model, place = this.cases.has(header.id) ? "case" : "frame";
+    const {frame, header} = this.model,
+      place = this.cases.has(header.id) ? "case" : "frame";
     const start = `${place[0].toUpperCase()}${place.slice(1)} ${frame}`;
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
@@ -225,9 +278,13 @@ class SceneViewer implements View {
       return `${start}. The results list no contacts of this scene one by one.`;
     const truth = header.truth.find((entry) => entry.frame === frame)?.count ?? 0;
     const found = this.model.detector(this.detector)?.frames.find((entry) => entry.frame === frame);
-    const differs = this.detector === "" ? "" :
-      `; ${this.detector} misses ${found?.missed.count ?? 0} and makes up ${found?.spurious.count ?? 0}`;
-    const listed = found ? [found.missed, found.spurious].some(({count, pairs}) => count > pairs.length / 4) : false;
+    const differs =
+      this.detector === ""
+        ? ""
+        : `; ${this.detector} misses ${found?.missed.count ?? 0} and makes up ${found?.spurious.count ?? 0}`;
+    const listed = found
+      ? [found.missed, found.spurious].some(({count, pairs}) => count > pairs.length / 4)
+      : false;
     return `${start}: ${truth} ${truth === 1 ? "pair of triangles touches" : "pairs of triangles touch"}${differs}${listed ? " (the first of them are drawn)" : ""}.`;
   }
 
@@ -242,8 +299,13 @@ class SceneViewer implements View {
   // For tests and scripts that take pictures.
   private publish(): void {
     const {scene, frame, pair, target, drawn} = this.state();
-    Object.assign(this.place.dataset,
-                  {scene, frame, pair: pair?.join(" ") ?? "", target: target.join(" "), drawn});
+    Object.assign(this.place.dataset, {
+      scene,
+      frame,
+      pair: pair?.join(" ") ?? "",
+      target: target.join(" "),
+      drawn,
+    });
   }
 }
 
@@ -252,8 +314,10 @@ function busiestFrame(container: Container, id: string): number {
   const scene = container.scenes.find((entry) => entry.id === id)!;
   const rank = new Array<number>(scene.frames).fill(0);
   for (const {frame, count} of scene.truth) rank[frame] += count;
-  const differences = scene.detectors.find(({detector}) => detector === mostInteresting(scene))?.frames ?? [];
-  for (const {frame, missed, spurious} of differences) rank[frame] += 1e6 * missed.count + spurious.count;
+  const differences =
+    scene.detectors.find(({detector}) => detector === mostInteresting(scene))?.frames ?? [];
+  for (const {frame, missed, spurious} of differences)
+    rank[frame] += 1e6 * missed.count + spurious.count;
   return rank.reduce((best, value, frame) => (value > rank[best] ? frame : best), 0);
 }
 
@@ -262,7 +326,10 @@ function viewingDirection({triangles}: PairGeometry, before: Vector3): Vector3 {
   const out = new Vector3();
   for (const t of triangles) {
     const a = new Vector3(t[0], t[1], t[2]);
-    const normal = new Vector3(t[3], t[4], t[5]).sub(a).cross(new Vector3(t[6], t[7], t[8]).sub(a)).normalize();
+    const normal = new Vector3(t[3], t[4], t[5])
+      .sub(a)
+      .cross(new Vector3(t[6], t[7], t[8]).sub(a))
+      .normalize();
     out.addScaledVector(normal, normal.dot(before) < 0 ? -1 : 1);
   }
   // Somewhat towards the old direction: never edge-on for both, and less of a jump.
@@ -270,13 +337,27 @@ function viewingDirection({triangles}: PairGeometry, before: Vector3): Vector3 {
 }
 
 function noWebGl(): HTMLElement {
-  return h("p", {class: "view-none"}, "This browser gives no WebGL 2, which the 3D view needs; the list of pairs and everything else in this report work without it.");
+  return h(
+    "p",
+    {class: "view-none"},
+    "This browser gives no WebGL 2, which the 3D view needs; the list of pairs and everything else in this report work without it.",
+  );
 }
 
 function leftOut({leftOut: scenes}: Container): HTMLElement[] {
   if (scenes.length === 0) return [];
-  return [h("details", {class: "view-left-out"}, h("summary", {}, `Not in this view: ${scenes.length} ${scenes.length === 1 ? "scene" : "scenes"}`),
-            h("ul", {}, ...scenes.map(({scene, why}) => h("li", {}, `${scene}: ${why}`))))];
+  return [
+    h(
+      "details",
+      {class: "view-left-out"},
+      h(
+        "summary",
+        {},
+        `Not in this view: ${scenes.length} ${scenes.length === 1 ? "scene" : "scenes"}`,
+      ),
+      h("ul", {}, ...scenes.map(({scene, why}) => h("li", {}, `${scene}: ${why}`))),
+    ),
+  ];
 }
 
 /**

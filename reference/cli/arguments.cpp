@@ -38,8 +38,8 @@ void describe_program(CommandLine& line) {
   line.app.require_subcommand(1);
   line.app.set_version_flag("--version", CONTACTCHECK_VERSION);
   line.app.footer(
-      "Exit codes: 0 done, 1 a check says no, 2 bad usage or input, 3 a detector ended in an error "
-      "that is no known defect.\n"
+      "Exit codes: 0 done, 1 a check says no, 2 bad usage, bad input or output that cannot be "
+      "written, 3 a detector ended in an error that is no known defect.\n"
       "Example:\n  contactcheck run bunny-touch");
   for (const auto& add : kSubcommands) add(line);
 }

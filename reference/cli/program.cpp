@@ -1,6 +1,8 @@
 #include "reference/cli/program.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -51,11 +53,20 @@ void require_utf8(int argc, char** argv) {
     }
 }
 
-// A disk that is full: a list that is cut short is no list. (Who closes the stream wants none.)
+// A file that is opened while a standard stream is closed would take the stream's number, and what
+// is printed would go into that file. These descriptors take the numbers and refuse to be used.
+void keep_numbers_of_closed_streams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+// A full disk, a closed stream: a list that is cut short is no list.
 void require_output_written() {
-  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (!written && errno != EBADF)
-    throw InputError(std::string("cannot write to standard output: ") + std::strerror(errno));
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  // Where an earlier write failed and nothing is left to be written, its reason is gone.
+  const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+  throw InputError("cannot write to standard output" + reason);
 }
 
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
@@ -90,6 +101,7 @@ bool is_worker(int argc, char** argv) {
 }
 
 int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
+  keep_numbers_of_closed_streams();
   // A file that meets a limit is a failed write with a sentence of its own, and no death.
   signal(SIGXFSZ, SIG_IGN);
   try {

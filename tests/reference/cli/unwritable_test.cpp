@@ -75,21 +75,71 @@ INSTANTIATE_TEST_SUITE_P(
                    {"DIR/taken/report.md", "Is a directory"}}),
     named);
 
-TEST(StandardOutput, FullDeviceIsNoSuccess) {
-  for (const std::string command : {"list", "--help", "list --detectors"}) {
-    const Outcome outcome = test::run_program(
-        "/bin/sh", {"-c", "exec \"$0\" " + command + " > /dev/full", CONTACTCHECK_PROGRAM});
-    EXPECT_EQ(outcome.exit_code, 2) << command;
-    EXPECT_EQ(outcome.err,
-              "contactcheck: cannot write to standard output: No space left on device\n");
+// Printed results that do not arrive: in every command the same check at the end.
+class BrokenOutput : public testing::Test {
+ protected:
+  BrokenOutput() { scene_ = scratch_.write("tiny.json", test::tiny_scene()).string(); }
+
+  // The program with its standard streams as a shell has redirected them.
+  static Outcome redirected(const std::string& redirections, const Words& command) {
+    Words words = {"-c", "exec \"$0\" \"$@\" " + redirections, CONTACTCHECK_PROGRAM};
+    words.insert(words.end(), command.begin(), command.end());
+    return test::run_program("/bin/sh", words);
   }
+
+  void expect_refused(const std::string& redirections, const std::string& reason) const {
+    const std::string results = CONTACTCHECK_EXAMPLE_RESULTS,
+                      policy = CONTACTCHECK_FIXTURES "/policies/default.json";
+    for (const Words& command : std::vector<Words>{{"--help"},
+                                                   {"--version"},
+                                                   {"run", "--help"},
+                                                   {"list"},
+                                                   {"list", "--detectors"},
+                                                   {"truth", "hard-boxes-gap"},
+                                                   {"diff", results, results},
+                                                   {"gate", results, "--policy", policy},
+                                                   {"report", results, "--out", out("report")},
+                                                   {"export", scene_, "--out", out("export")}}) {
+      const Outcome outcome = redirected(redirections, command);
+      EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(command);
+      EXPECT_EQ(outcome.err, "contactcheck: cannot write to standard output: " + reason + "\n")
+          << testing::PrintToString(command);
+    }
+  }
+
+  Words run_into(const std::string& folder) const {
+    return {"run",        scene_,     "--quiet", "--no-timing",
+            "--detector", "fcl-aabb", "--out",   out(folder)};
+  }
+  std::string out(const std::string& name) const { return (scratch_.folder() / name).string(); }
+
+  Scratch scratch_;
+  std::string scene_;
+};
+
+TEST_F(BrokenOutput, FullDeviceIsNoSuccess) {
+  expect_refused("> /dev/full", "No space left on device");
 }
 
-TEST(StandardOutput, MayBeClosed) {
-  const Outcome outcome =
-      test::run_program("/bin/sh", {"-c", "exec \"$0\" list >&-", CONTACTCHECK_PROGRAM});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+TEST_F(BrokenOutput, ClosedStreamIsNoSuccess) { expect_refused(">&-", "Bad file descriptor"); }
+
+TEST_F(BrokenOutput, ClosedStreamsAreNoSuccess) {
+  expect_refused("<&- >&-", "Bad file descriptor");
+}
+
+// No file that the run opens takes a closed stream's number: what is printed spoils none.
+TEST_F(BrokenOutput, RunWritesItsFilesAllTheSame) {
+  EXPECT_EQ(test::contactcheck_program(run_into("open")).exit_code, 0);
+  Words words = run_into("closed");
+  words.push_back("--json-lines");
+  const Outcome outcome = redirected("<&- >&-", words);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, testing::StartsWith("contactcheck: cannot write to standard output"));
+  for (const char* file : {"/contacts/tiny.json", "/recordings/tiny.ccr"}) {
+    EXPECT_NE(text_of(out("open") + file), "");
+    EXPECT_EQ(text_of(out("closed") + file), text_of(out("open") + file)) << file;
+  }
+  EXPECT_TRUE(nlohmann::json::accept(text_of(out("closed") + "/results.json")));
 }
 
 class FullDisk : public testing::Test {

@@ -19,6 +19,7 @@
 #include "reference/cli/run_tasks.h"
 #include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
+#include "reference/run/interrupts.h"
 #include "reference/run/out_lock.h"
 #include "reference/run/run_identity.h"
 #include "reference/run/suite_run.h"
@@ -210,6 +211,9 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  say_when_interrupted(
+      "contactcheck: interrupted; finished scenes are kept: repeat the command with --resume to "
+      "continue\n");
   SuiteOutcome outcome;
   const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
   const int code = exit_code_of(outcome);

@@ -1,6 +1,9 @@
 #include "reference/run/interrupts.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
+#include <cstring>
 
 namespace contactcheck {
 namespace {
@@ -9,7 +12,23 @@ constexpr std::array kNumbers = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 volatile sig_atomic_t interrupt = 0;
 
+const char* last_line = "";
+
 void remember(int number) { interrupt = number; }
+
+// The signal may come in the middle of anything: nothing but calls that are allowed then. The
+// handler is used once; what it raises ends the process when it returns.
+void say_and_die(int number) {
+  if (write(STDERR_FILENO, last_line, std::strlen(last_line)) < 0) {
+    // Nobody listens; the end is the same.
+  }
+  raise(number);
+}
+
+bool is_free(const struct sigaction& action) {
+  if ((action.sa_flags & SA_SIGINFO) != 0) return false;
+  return action.sa_handler == SIG_DFL || action.sa_handler == say_and_die;
+}
 
 }  // namespace
 
@@ -22,9 +41,7 @@ InterruptGuard::InterruptGuard() {
   ours.sa_flags = SA_RESTART;
   for (std::size_t i = 0; i < kSignals; ++i) {
     sigaction(kNumbers[i], nullptr, &before_[i]);
-    const bool by_default =
-        (before_[i].sa_flags & SA_SIGINFO) == 0 && before_[i].sa_handler == SIG_DFL;
-    taken_[i] = by_default && sigaction(kNumbers[i], &ours, nullptr) == 0;
+    taken_[i] = is_free(before_[i]) && sigaction(kNumbers[i], &ours, nullptr) == 0;
   }
 }
 
@@ -44,6 +61,19 @@ void InterruptGuard::pass_on() {
 void InterruptGuard::restore() {
   for (std::size_t i = 0; i < kSignals; ++i)
     if (taken_[i]) sigaction(kNumbers[i], &before_[i], nullptr);
+}
+
+void say_when_interrupted(const char* line) {
+  last_line = line;
+  struct sigaction ours = {};
+  ours.sa_handler = say_and_die;
+  sigemptyset(&ours.sa_mask);
+  ours.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int number : kNumbers) {
+    struct sigaction before = {};
+    sigaction(number, nullptr, &before);
+    if (is_free(before)) sigaction(number, &ours, nullptr);
+  }
 }
 
 void die_of(const Interrupted& interrupted) {

@@ -37,6 +37,11 @@ class InterruptGuard {
   std::array<bool, kSignals> taken_ = {};
 };
 
+/// From now on, each of these signals writes `line` to standard error before it ends this process,
+/// unless it is ignored or handled already. Guards work as before.
+/// @pre `line` lives until the process ends
+void say_when_interrupted(const char* line);
+
 /// Ends this process by that signal.
 [[noreturn]] void die_of(const Interrupted& interrupted);
 

@@ -100,7 +100,8 @@ class Resume : public testing::Test {
     }
     ASSERT_TRUE(fs::exists(kept())) << "the first scene was never finished";
     program.send(signal);
-    EXPECT_EQ(program.outcome().exit_code, 128 + signal) << "it was not in its second scene";
+    last_ = program.outcome();
+    EXPECT_EQ(last_.exit_code, 128 + signal) << "it was not in its second scene";
   }
 
   Json resumed() { return run(both({"--resume"})); }
@@ -141,6 +142,19 @@ TEST_F(Resume, InterruptedRunTakesItsScratchFolderAway) {
   interrupt(both(), SIGINT);
   EXPECT_THAT(names_in(out()), ElementsAre("cases", "contacts", "partial", "recordings"));
   EXPECT_THAT(names_in(out() / "partial"), ElementsAre("first.partial.json"));
+}
+
+TEST_F(Resume, InterruptedRunSaysHowItGoesOn) {
+  const std::string sentence =
+      "contactcheck: interrupted; finished scenes are kept: repeat the command with --resume to "
+      "continue\n";
+  for (const int signal : {SIGINT, SIGTERM}) {
+    interrupt(both(), signal);
+    EXPECT_EQ(last_.err, "scene 1 of 2: first\nscene 2 of 2: second\n" + sentence);
+    fs::remove_all(out());
+  }
+  interrupt(both({"--quiet", "--json-lines"}), SIGINT);
+  EXPECT_EQ(last_.err, sentence);
 }
 
 // Their results would be those of one and their recordings those of the other.

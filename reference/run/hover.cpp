@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "reference/compare/episodes.h"
 #include "reference/run/answer_check.h"
@@ -13,17 +15,26 @@ namespace {
 // Does the detector report the pair at a time between frames?
 class PairProbe {
  public:
-  PairProbe(const JudgedScene& judged, Detector& detector, Oracle& oracle, BodyPair pair)
-      : scene_(*judged.scene), detector_(detector), oracle_(oracle), pair_(pair) {}
+  /// `enter` is told every phase before it begins.
+  PairProbe(JudgingTools& tools, Detector& detector, BodyPair pair,
+            std::function<void(Phase)> enter)
+      : scene_(*tools.judged.scene),
+        detector_(detector),
+        oracle_(tools.oracle),
+        pair_(pair),
+        enter_(std::move(enter)) {}
 
   bool reports(double time) {
     go_to(time);
+    enter_(Phase::kUpdate);
     detector_.update(frame_);
+    enter_(Phase::kQuery);
     ContactSet contacts;
     ask(detector_, detector_.semantics().questions.front(), AnswerCheck(scene_, 0), contacts);
     return std::binary_search(contacts.bodies.begin(), contacts.bodies.end(), pair_);
   }
   double distance(double time) {
+    enter_(Phase::kTruth);
     go_to(time);
     return oracle_.distance(frame_, pair_).upper;
   }
@@ -41,6 +52,7 @@ class PairProbe {
   Detector& detector_;
   Oracle& oracle_;
   BodyPair pair_;
+  std::function<void(Phase)> enter_;
   double time_ = std::nan("");
   std::vector<std::vector<Vec3>> nodes_, vertices_;
   Frame frame_;
@@ -80,21 +92,21 @@ bool reports_at_true_moment(JudgingTools& tools, PairProbe& probe, const Episode
 
 void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& detector,
                         ProgressWriter& progress, RunResult& result) {
-  const JudgedScene& judged = tools.judged;
-  Oracle& oracle = tools.oracle;
-  const Scene& scene = *judged.scene;
+  const Scene& scene = *tools.judged.scene;
   const double tolerance = 1e-6 * scene.size();
   const FloatEnvironmentGuard guard;
   for (Episode& e : result.episodes) {
     if (!e.first_reported) continue;
     const std::size_t f = *e.first_reported;
-    progress.enter(position, f, Phase::kUpdate);
+    const auto enter = [&progress, position, f](Phase phase) {
+      progress.enter(phase == Phase::kTruth ? SharedProgress::kNoDetector : position, f, phase);
+    };
     if (!scene.scripted() || f == 0) {
-      progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-      e.hover_gap = oracle.distance(judged.frame(f), e.bodies).upper;
+      enter(Phase::kTruth);
+      e.hover_gap = tools.oracle.distance(tools.judged.frame(f), e.bodies).upper;
       continue;
     }
-    PairProbe probe(judged, detector, oracle, e.bodies);
+    PairProbe probe(tools, detector, e.bodies, enter);
     const bool no_gap = reports_at_true_moment(tools, probe, e, tolerance);
     note_environment(guard, "query", result);
     if (no_gap) {
@@ -104,15 +116,11 @@ void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& d
     e.hover_gap = bisect_hover_gap(
         scene.time_of(f - 1), scene.time_of(f), tolerance,
         [&](double t) {
-          progress.enter(position, f, Phase::kQuery);
           const bool reported = probe.reports(t);
           note_environment(guard, "query", result);
           return reported;
         },
-        [&](double t) {
-          progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
-          return probe.distance(t);
-        });
+        [&](double t) { return probe.distance(t); });
   }
 }
 

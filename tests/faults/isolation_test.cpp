@@ -120,6 +120,27 @@ TEST(Isolation, CrashWhileTimedLeavesTheOthersTheirTimes) {
     EXPECT_EQ(result.row(honest).at("time_ms").at("repeats"), 4) << honest;
 }
 
+// The judging pass updates and asks once a frame: the second time is timed.
+TEST(Isolation, HangInATimedUpdateIsBookedOnUpdate) {
+  expect_lethal("fault-hang:phase=update-again",
+                "scene tiny, frame 2, phase update: no progress for 0.8 s (time limit of one call)",
+                {"--repeat", "2", "--call-limit", "0.8"});
+}
+
+TEST(Isolation, HangInATimedQueryIsBookedOnQuery) {
+  expect_lethal("fault-hang:phase=again",
+                "scene tiny, frame 2, phase query: no progress for 0.8 s (time limit of one call)",
+                {"--repeat", "2", "--call-limit", "0.8"});
+}
+
+// Times between frames are given as frame 0; they are looked at up to frame 2, the first contact.
+TEST(Isolation, CrashBetweenFramesIsBookedOnItsPhase) {
+  expect_lethal("fault-crash:phase=again,frame=0",
+                "scene tiny, frame 2, phase query: signal 11 (Segmentation fault)");
+  expect_lethal("fault-crash:phase=update-again,frame=0",
+                "scene tiny, frame 2, phase update: signal 11 (Segmentation fault)");
+}
+
 TEST(Isolation, ThrowWhileTimedIsAnErrorOfItsOwnRow) {
   const std::string fault = "fault-throw-int:phase=again";
   const WholeRun result = run_with(fault, {"--repeat", "2"});

@@ -39,7 +39,9 @@ class StrikingDetector : public TruthfulDetector {
   void update(const Frame& frame) override {
     TruthfulDetector::update(frame);
     frame_ = frame.index;
-    if (phase_ == "update" && frame_ == target_) strike_();
+    if (frame_ != target_) return;
+    ++updates_;
+    if (phase_ == "update" || (phase_ == "update-again" && updates_ == 2)) strike_();
   }
   void query(Question question, ContactSet& out) override {
     TruthfulDetector::query(question, out);
@@ -52,7 +54,7 @@ class StrikingDetector : public TruthfulDetector {
  private:
   Strike strike_;
   std::string phase_;
-  std::size_t target_, frame_ = 0, queries_ = 0;
+  std::size_t target_, frame_ = 0, updates_ = 0, queries_ = 0;
 };
 
 // By the signal itself, also where a sanitizer has taken its handler over.
@@ -209,9 +211,10 @@ void register_process_faults(DetectorCatalog& catalog) {
     DetectorInfo info;
     info.id = fault.id;
     info.summary = fault.summary;
-    info.options = {choice_option("phase", "update", {"prepare", "update", "query", "again"},
-                                  "where it strikes"),
-                    numeric_option("frame", "2", 0, 1000, true, "when it strikes")};
+    info.options = {
+        choice_option("phase", "update", {"prepare", "update", "query", "again", "update-again"},
+                      "where it strikes"),
+        numeric_option("frame", "2", 0, 1000, true, "when it strikes")};
     info.make = [strike = fault.strike](const Options& options) {
       return std::make_unique<StrikingDetector>(strike, options);
     };

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <thread>
+
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
@@ -58,6 +61,25 @@ class Forgetful : public Diary {
 
  private:
   int queries_ = 0;
+};
+
+// Writes down what a supervisor sees while it is called.
+class Watched : public Diary {
+ public:
+  Watched(const SharedProgress& page, bool vertices, std::vector<Call>& calls)
+      : Diary('W', vertices, calls), page_(page) {}
+  void update(const Frame&) override { look(); }
+  void query(Question, ContactSet&) override { look(); }
+
+  std::vector<Phase> phases;
+  std::vector<std::uint64_t> ticks;
+
+ private:
+  void look() {
+    phases.push_back(page_.phase);
+    ticks.push_back(page_.ticks);
+  }
+  const SharedProgress& page_;
 };
 
 class Timing : public testing::Test {
@@ -117,6 +139,36 @@ TEST_F(Timing, TimesEachEntryOnItsPrefixOfTheOrder) {
       EXPECT_EQ(samples.cold.size(), 5u);
       EXPECT_EQ(samples.hot.size(), 5u);
     }
+}
+
+TEST_F(Timing, SupervisorSeesThePhaseOfEveryCallAndThatItIsANewOne) {
+  for (const bool vertices : {true, false}) {
+    Watched detector(page_, vertices, calls_);
+    std::vector<TimedEntry> entries = {entry(detector, 1)};
+    run_timing(judged_, {0}, 1, 1 << 12, entries, progress_);
+    EXPECT_THAT(detector.phases,
+                ElementsAre(Phase::kUpdate, Phase::kQuery, Phase::kUpdate, Phase::kQuery));
+    for (std::size_t i = 1; i < detector.ticks.size(); ++i)
+      EXPECT_GT(detector.ticks[i], detector.ticks[i - 1]) << "call " << i;
+  }
+}
+
+// No call of the detector happens meanwhile, so that another thread looks.
+TEST_F(Timing, SupervisorSeesMapping) {
+  const auto fine = test::make_body("", test::unit_box_mesh(40), {1, 1, 1}).shape;
+  const Scene scene =
+      test::approach_scene(fine, fine, {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody});
+  const JudgedScene judged = judge_scene(scene, false, progress_);
+  std::atomic<bool> seen = false, done = false;
+  std::thread supervisor([&] {
+    while (!seen && !done) seen = page_.phase == Phase::kMap;
+  });
+  Diary eager('A', true, calls_);
+  std::vector<TimedEntry> entries = {entry(eager, 1)};
+  for (int i = 0; i < 10'000 && !seen; ++i) run_timing(judged, {0}, 1, 1 << 12, entries, progress_);
+  done = true;
+  supervisor.join();
+  EXPECT_TRUE(seen);
 }
 
 TEST_F(Timing, MapsForThoseWhoNeedVerticesAlone) {

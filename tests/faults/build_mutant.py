@@ -7,11 +7,12 @@ Exit codes: 0 built, 2 the patch does not apply, 3 it does not compile or link.
 """
 
 import argparse
+import os
 import pathlib
 import sys
 import tempfile
 
-from mutant_build import Failure, Mutant, build_program
+from mutant_build import QUICK_FLAGS, Build, Failure, Mutant, Workers, build_program
 
 
 def main():
@@ -26,8 +27,10 @@ def main():
     options = parser.parse_args()
     try:
         with tempfile.TemporaryDirectory(prefix="mutant-") as folder:
-            build_program(Mutant(options.patch.resolve()), options.build.resolve(), "contactcheck",
-                          options.out.resolve(), pathlib.Path(folder), options.quick)
+            build_program(Mutant(options.patch.resolve()),
+                          Build(options.build.resolve(), "contactcheck"), options.out.resolve(),
+                          pathlib.Path(folder), Workers(os.cpu_count()),
+                          QUICK_FLAGS if options.quick else [])
     except Failure as failure:
         print(f"{options.patch}: {failure}", file=sys.stderr)
         return failure.code

@@ -1,23 +1,28 @@
-"""Builds a program with a change of few files in it, next to a build that stays as it is.
+"""Builds a program with a patch in it, next to a Ninja build that stays as it is.
 
-Only the units that a patch changes are compiled, with the build's own command lines, and linked
-before the libraries that hold the unchanged ones. The patch is against the repository's root. Its
-first line is a comment that says what it does; a line "# unit: core/lazy/kernels.cpp" names the
-unit to rebuild where the patch changes a header.
+The files that a patch changes are copied and patched, and the copy is searched before the sources.
+Every unit of the program that depends on a changed file is compiled again, with the build's own
+command line, and linked before the libraries that contain the unchanged units. What depends on what
+is what the compiler recorded when the build compiled it.
+
+The patch is against the repository's root. Its first line is a comment that says what it does.
 """
 
-import json
+import collections
+import concurrent.futures
+import os
 import pathlib
 import re
 import shlex
 import subprocess
+import threading
+import time
 
 CAUGHT, SURVIVED, DOES_NOT_APPLY, DOES_NOT_COMPILE = range(4)
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-# Quick to compile; the same bits as at any other level, as nothing is contracted.
-QUICK_FLAGS = ["-O1", "-w"]
-# Minutes for every instruction set of the platform; its baseline is enough for bits.
-SLOW_UNIT, SLOW_UNIT_FLAGS = "core/lazy/kernels.cpp", ["-DHWY_COMPILE_ONLY_STATIC"]
+# Quick to compile. Every optimisation level and every instruction set gives the same bits, as
+# nothing is contracted; kernels for all instruction sets take minutes.
+QUICK_FLAGS = ["-O1", "-w", "-DHWY_COMPILE_ONLY_STATIC"]
 
 
 class Failure(Exception):
@@ -28,108 +33,162 @@ class Failure(Exception):
         self.code = code
 
 
+class OutOfTime(Exception):
+    """The deadline has passed."""
+
+
+class Workers:
+    """Runs commands, at most `jobs` at a time, and begins none after the deadline."""
+
+    def __init__(self, jobs):
+        self.jobs = jobs
+        self.deadline = None  # of time.monotonic()
+        self._free = threading.Semaphore(jobs)
+
+    def run(self, command, **options):
+        with self._free:
+            if self.deadline is not None and time.monotonic() > self.deadline:
+                raise OutOfTime
+            return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+
+    def map(self, function, items):
+        """The results, in the order of the items."""
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            yield from pool.map(function, items)
+
+
 class Mutant:
     def __init__(self, path):
         self.path = path
         self.name = path.stem
-        self.text = path.read_text(encoding="utf-8")
-        comments = [line[2:] for line in self.text.splitlines() if line.startswith("# ")]
-        if not comments or comments[0].startswith("unit:"):
+        try:
+            self.text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise Failure(DOES_NOT_APPLY, f"{path}: cannot be read: {error}") from error
+        first_line = self.text.partition("\n")[0]
+        if not first_line.startswith("# "):
             raise Failure(DOES_NOT_APPLY, f"{path}: the first line does not say what is wrong")
-        self.about = comments[0]
-        self.files = re.findall(r"^\+\+\+ b/(\S+)", self.text, re.MULTILINE)
-        units = [line[len("unit:"):].strip() for line in comments if line.startswith("unit:")]
-        self.units = units or [name for name in self.files if name.endswith(".cpp")]
-        if not self.units:
-            raise Failure(DOES_NOT_APPLY, f"{path}: no unit to rebuild")
+        self.about = first_line[len("# "):]
+        self.files = sorted(set(re.findall(r"^\+\+\+ b/(\S+)", self.text, re.MULTILINE)))
+        if not self.files:
+            raise Failure(DOES_NOT_APPLY, f"{path}: no file is changed")
 
 
-def run(command, **options):
-    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+Unit = collections.namedtuple("Unit", "object source command")
+
+
+class Build:
+    """A program of a build folder: its units, what they depend on and how it is linked."""
+
+    def __init__(self, folder, target):
+        self.folder, self.target = folder, target
+        cache = (folder / "CMakeCache.txt").read_text(encoding="utf-8")
+        self.source = re.search(r"^CMAKE_HOME_DIRECTORY:\w+=(.*)$", cache, re.MULTILINE).group(1)
+        self._ninja = re.search(r"^CMAKE_MAKE_PROGRAM:\w+=(.*)$", cache, re.MULTILINE).group(1)
+        commands = [shlex.split(line) for line in self._tool("commands", target).splitlines()]
+        compiled = [words for words in commands if "-c" in words and "-o" in words]
+        units = [Unit(words[words.index("-o") + 1], words[words.index("-c") + 1], words)
+                 for words in compiled]
+        self.units = [unit for unit in units if unit.object.endswith(".o")]
+        # Ninja's rule for a program is ": && command && :".
+        last = commands[-1]
+        self.link = last[last.index("&&") + 1:len(last) - 1 - last[::-1].index("&&")]
+        self._dependencies = self._recorded_dependencies()
+
+    def _tool(self, *arguments):
+        done = subprocess.run([self._ninja, "-C", str(self.folder), "-t", *arguments],
+                              capture_output=True, text=True, check=False)
+        if done.returncode != 0 or not done.stdout.strip():
+            raise Failure(DOES_NOT_COMPILE, f"{self.folder} has no {self.target}: {done.stderr}")
+        return done.stdout
+
+    def name_of(self, path):
+        """Relative to the sources, where the file is one of them."""
+        return os.path.relpath(os.path.normpath(self.folder / path), self.source)
+
+    def _recorded_dependencies(self):
+        found, names = {}, set()
+        # "OBJECT: #deps 152, deps mtime 17954195 (VALID)", then a line for every file, indented.
+        for line in self._tool("deps").splitlines():
+            if line.startswith("    "):
+                if not line.startswith("    /usr/"):
+                    names.add(self.name_of(line.strip()))
+            elif line:
+                names = found.setdefault(line.partition(": #deps")[0], set())
+        return found
+
+    def users(self, files):
+        """The units that depend on one of the files."""
+        return [unit for unit in self.units
+                if not self._dependencies.get(unit.object, set()).isdisjoint(files)]
 
 
 def patched_copy(mutant, scratch):
-    """The changed files under `scratch`, which is to stand before the sources."""
+    """The changed files under `scratch`, which is to be searched before the sources."""
     for name in mutant.files:
-        copy = scratch / name
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        source = ROOT / name
+        source, copy = ROOT / name, scratch / name
         if not source.is_file():
             raise Failure(DOES_NOT_APPLY, f"there is no {name}")
+        copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes(source.read_bytes())
-    if not mutant.files:
-        return
-    done = run(["patch", "-p1", "--fuzz=0", "--forward", "--batch", "-i", str(mutant.path)],
-               cwd=scratch)
+    done = subprocess.run(
+        ["patch", "-p1", "--fuzz=0", "--forward", "--batch", "-i", str(mutant.path)],
+        cwd=scratch, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise Failure(DOES_NOT_APPLY, done.stdout + done.stderr)
 
 
-def compile_arguments(build, unit):
-    """How the build compiles the unit, without its input and output."""
-    with open(build / "compile_commands.json", encoding="utf-8") as file:
-        entries = {pathlib.Path(e["directory"], e["file"]).resolve(): e for e in json.load(file)}
-    entry = entries.get((ROOT / unit).resolve())
-    if entry is None:
-        raise Failure(DOES_NOT_COMPILE, f"{build} does not compile {unit}")
-    words = shlex.split(entry["command"])
-    keep, skip = [], False
-    for word in words:
-        if not skip and word not in ("-o", "-c"):
-            keep.append(word)
-        skip = word in ("-o", "-c")
-    return keep, entry["directory"]
+def unpatched(make_rule, mutant, build):
+    """The changed files that a compiler read as they were, by the make rule that it wrote."""
+    read = shlex.split(make_rule.partition(":")[2].replace("\\\n", " "))
+    return sorted(set(mutant.files).intersection(build.name_of(path) for path in read))
 
 
-def flags_of(unit, quick):
-    if not quick:
-        return []
-    return QUICK_FLAGS + (SLOW_UNIT_FLAGS if unit == SLOW_UNIT else [])
-
-
-def compile_unit(build, unit, scratch, quick):
-    arguments, directory = compile_arguments(build, unit)
-    patched = scratch / unit
-    source = patched if patched.is_file() else ROOT / unit
-    target = scratch / (unit.replace("/", "-") + ".o")
-    command = [arguments[0], f"-I{scratch}", *arguments[1:], *flags_of(unit, quick), "-c",
-               str(source), "-o", str(target)]
-    done = run(command, cwd=directory)
+def compile_unit(unit, mutant, build, scratch, flags, workers):
+    """The unit's new object. @pre patched_copy()"""
+    target = scratch / unit.object.replace("/", "-")
+    make_rule = target.with_suffix(".d")
+    words = list(unit.command)
+    words[words.index("-o") + 1] = str(target)
+    words[words.index("-MF") + 1] = str(make_rule)
+    patched = scratch / build.name_of(unit.source)
+    if patched.is_file():
+        words[words.index("-c") + 1] = str(patched)
+    words.insert(words.index(f"-I{build.source}"), f"-I{scratch}")
+    done = workers.run(words + flags, cwd=build.folder)
     if done.returncode != 0:
         raise Failure(DOES_NOT_COMPILE, done.stderr)
+    # A fault that only some of its users see is another one. Precompiled headers and unity files
+    # name their contents by path.
+    missed = unpatched(make_rule.read_text(encoding="utf-8"), mutant, build)
+    if missed:
+        raise Failure(DOES_NOT_COMPILE, f"{unit.source} reads {missed[0]} without the patch")
     return target
 
 
-def link_command(build, target):
-    """The build's own command line for a program."""
-    done = run([ninja_of(build), "-C", str(build), "-t", "commands", target])
-    lines = done.stdout.strip().splitlines()
-    if done.returncode != 0 or not lines:
-        raise Failure(DOES_NOT_COMPILE, f"the build has no command for {target}: {done.stderr}")
-    words = shlex.split(lines[-1])
-    # ninja's rule is ": && command && :".
-    return words[words.index("&&") + 1:len(words) - 1 - words[::-1].index("&&")]
-
-
-def ninja_of(build):
-    cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
-    return re.search(r"^CMAKE_MAKE_PROGRAM:\w+=(.*)$", cache, re.MULTILINE).group(1)
-
-
-def link_program(build, target, objects, program):
-    """The target, with the new objects before the libraries that hold the old ones: a library's
-    member stays out when nothing of it is missing any more."""
-    words = link_command(build, target)
+def link_program(build, objects, program, workers):
+    """`objects`: new by old. A library's member stays out when nothing of it is missing any more,
+    so new objects come before the libraries."""
+    words = [objects.get(word, word) for word in build.link]
     words[words.index("-o") + 1] = str(program)
+    of_libraries = [new for old, new in objects.items() if old not in build.link]
     first = next(i for i, word in enumerate(words) if word.endswith(".o"))
-    words[first:first] = [str(path) for path in objects]
-    done = run(words, cwd=build)
+    words[first:first] = of_libraries
+    done = workers.run(words, cwd=build.folder)
     if done.returncode != 0:
         raise Failure(DOES_NOT_COMPILE, done.stderr)
 
 
-def build_program(mutant, build, target, program, scratch, quick):
-    """`quick`: compiled for its answers; else as the build does, for its times."""
+def build_program(mutant, build, program, scratch, workers, flags=()):
+    """Writes the program with the patch in it. `flags` come after the build's own."""
     patched_copy(mutant, scratch)
-    objects = [compile_unit(build, unit, scratch, quick) for unit in mutant.units]
-    link_program(build, target, objects, program)
+    units = build.users(mutant.files)
+    if not units:
+        raise Failure(DOES_NOT_COMPILE,
+                      f"no unit of {build.target} depends on {' or '.join(mutant.files)}")
+
+    def compiled(unit):
+        return str(compile_unit(unit, mutant, build, scratch, list(flags), workers))
+
+    objects = dict(zip([unit.object for unit in units], workers.map(compiled, units)))
+    link_program(build, objects, program, workers)

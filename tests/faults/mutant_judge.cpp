@@ -1,8 +1,8 @@
 // Holds core against independent answers, on small scenes built in code, and names the case of
 // every fault: scene, frame, detector, level and what is wrong. Exit code 0: none; 1: some.
 //
-// run_mutant.py links it with one unit of core that was made wrong on purpose. The judge and its
-// oracle are not rebuilt: what they know of core are types, rest shapes and the code under test.
+// run_mutant.py builds it with a file of core that was made wrong on purpose. A header changes for
+// the judge and the oracle, too: truth that rests on core's headers alone would be wrong with them.
 #include <cstdio>
 #include <string>
 

@@ -1,69 +1,120 @@
 #!/usr/bin/env python3
-"""The driver of the mutants on patches that end in each of its other verdicts."""
+"""The driver of the mutants on patches that end in each of its verdicts."""
 
+import argparse
+import contextlib
+import io
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
 import run_mutant
+from mutant_build import (CAUGHT, DOES_NOT_APPLY, DOES_NOT_COMPILE, ROOT, SURVIVED, Failure, Mutant,
+                          Workers, unpatched)
+from mutant_verdict import require_clean, unchanged_build, verdict
 
-BUILD = None
+BUILD = ROOT / "build" / "mutants"
 ABOUT = "# A change for the test of the driver.\n"
-HEAD = "--- a/core/types/check.cpp\n+++ b/core/types/check.cpp\n"
+UNIT = "core/types/check.cpp"
+# Core and the judge include it, the latter from another folder.
+HEADER = "core/lazy/candidate_bodies.h"
 
 
-def patch_of_first_line(new):
-    """Replaces the first line of a small unit."""
-    with open(run_mutant.ROOT / "core/types/check.cpp", encoding="utf-8") as file:
+def head_of(name):
+    return f"--- a/{name}\n+++ b/{name}\n"
+
+
+def patch_after_first_line(name, new):
+    with open(ROOT / name, encoding="utf-8") as file:
         lines = [next(file) for _ in range(3)]
-    return f"{HEAD}@@ -1,3 +1,4 @@\n-{lines[0]}+{lines[0]}+{new}\n {lines[1]} {lines[2]}"
+    first, second, third = lines
+    return head_of(name) + f"@@ -1,3 +1,4 @@\n {first}+{new}\n {second} {third}"
 
 
 class Driver(unittest.TestCase):
-    def exit_code_and_text(self, patch):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "change.patch"
-            path.write_text(patch, encoding="utf-8")
-            script = pathlib.Path(run_mutant.__file__)
-            done = subprocess.run([sys.executable, "-B", script, "--build", BUILD, path],
-                                  capture_output=True, text=True, check=False)
-            return done.returncode, done.stdout
+    @classmethod
+    def setUpClass(cls):
+        cls.workers = Workers(2)
+        cls.build = unchanged_build(BUILD, cls.workers.jobs)
+        require_clean(cls.build, cls.workers)
 
-    def test_harmless_change_survives(self):
-        code, text = self.exit_code_and_text(ABOUT + patch_of_first_line("// No mistake."))
-        self.assertEqual(code, run_mutant.SURVIVED, text)
-        self.assertIn("survived", text)
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def mutant(self, patch, name="change"):
+        path = self.folder / f"{name}.patch"
+        path.write_text(patch, encoding="utf-8")
+        return Mutant(path)
+
+    def expect(self, code, patch):
+        """The words of the verdict."""
+        found = verdict(self.mutant(patch), self.build, self.workers)
+        self.assertEqual(found.code, code, found.by)
+        return found.by
+
+    def units_that_use(self, name):
+        return {self.build.name_of(unit.source) for unit in self.build.users([name])}
+
+    def test_wrong_answer_is_caught(self):
+        patch = (run_mutant.kept_verdicts.FOLDER / "mutants" / "body-pair-order.patch")
+        self.assertIn("find_candidate_bodies", self.expect(CAUGHT, patch.read_text("utf-8")))
+
+    def test_harmless_change_of_a_header_survives(self):
+        self.expect(SURVIVED, ABOUT + patch_after_first_line(HEADER, "// No mistake."))
 
     def test_detector_that_is_slower_alone_survives(self):
-        patches = sorted((run_mutant.MUTANTS.parent / "slow").glob("*.patch"))
+        patches = sorted((run_mutant.kept_verdicts.FOLDER / "slow").glob("*.patch"))
         self.assertTrue(patches)
         for patch in patches:
             with self.subTest(patch=patch.name):
-                code, text = self.exit_code_and_text(patch.read_text(encoding="utf-8"))
-                self.assertEqual(code, run_mutant.SURVIVED, text)
+                self.expect(SURVIVED, patch.read_text(encoding="utf-8"))
 
     def test_change_of_lines_that_are_not_there_does_not_apply(self):
-        hunk = HEAD + "@@ -1,1 +1,1 @@\n-no such line\n+another\n"
-        code, text = self.exit_code_and_text(ABOUT + hunk)
-        self.assertEqual(code, run_mutant.DOES_NOT_APPLY, text)
+        hunk = head_of(UNIT) + "@@ -1,1 +1,1 @@\n-no such line\n+another\n"
+        self.expect(DOES_NOT_APPLY, ABOUT + hunk)
 
     def test_change_of_a_file_that_is_not_there_does_not_apply(self):
-        hunk = "--- a/core/none.cpp\n+++ b/core/none.cpp\n@@ -1,1 +1,1 @@\n-one\n+other\n"
-        code, text = self.exit_code_and_text(ABOUT + hunk)
-        self.assertEqual(code, run_mutant.DOES_NOT_APPLY, text)
+        hunk = head_of("core/none.cpp") + "@@ -1,1 +1,1 @@\n-one\n+other\n"
+        self.assertIn("core/none.cpp", self.expect(DOES_NOT_APPLY, ABOUT + hunk))
 
     def test_change_that_is_no_cpp_does_not_compile(self):
-        code, text = self.exit_code_and_text(ABOUT + patch_of_first_line("this is no declaration;"))
-        self.assertEqual(code, run_mutant.DOES_NOT_COMPILE, text)
+        self.expect(DOES_NOT_COMPILE,
+                    ABOUT + patch_after_first_line(UNIT, "this is no declaration;"))
+
+    def test_change_of_a_file_that_the_judge_does_not_use_does_not_compile(self):
+        by = self.expect(DOES_NOT_COMPILE,
+                         ABOUT + patch_after_first_line("reference/cli/main.cpp", "// No mistake."))
+        self.assertIn("no unit of mutant_judge depends on reference/cli/main.cpp", by)
 
     def test_patch_that_does_not_say_what_is_wrong_is_refused(self):
-        code, text = self.exit_code_and_text(patch_of_first_line("// No mistake."))
-        self.assertEqual(code, run_mutant.DOES_NOT_APPLY, text)
-        self.assertIn("does not say what is wrong", text)
+        with self.assertRaisesRegex(Failure, "does not say what is wrong"):
+            self.mutant(patch_after_first_line(UNIT, "// No mistake."))
+
+    def test_every_user_of_a_changed_header_is_compiled_again(self):
+        users = self.units_that_use("core/types/vec3.h")
+        for unit in ("core/types/mesh.cpp", "core/lazy/kernels.cpp", "reference/oracle/oracle.cpp",
+                     "reference/rational/geometry.cpp", "tests/faults/mutant_parts.cpp"):
+            self.assertIn(unit, users)
+        self.assertEqual(self.units_that_use("core/lazy/refit-inl.h"), {"core/lazy/kernels.cpp"})
+
+    def test_changed_header_that_is_read_without_the_patch_is_seen(self):
+        change = self.mutant(ABOUT + patch_after_first_line(HEADER, "// No mistake."))
+        rule = "unit.o: {} \\\n /usr/include/stdc-predef.h {}\n"
+        self.assertEqual(unpatched(rule.format("/tmp/copy/" + HEADER, ROOT / UNIT), change,
+                                   self.build), [])
+        self.assertEqual(unpatched(rule.format(ROOT / UNIT, ROOT / HEADER), change, self.build),
+                         [HEADER])
+
+    def test_deadline_leaves_mutants_but_for_those_that_are_to_be_judged(self):
+        patch = ABOUT + patch_after_first_line(UNIT, "// No mistake.")
+        mutants = [self.mutant(patch, name) for name in ("first", "second", "third")]
+        options = argparse.Namespace(at_least=1, minutes=0.0, jobs=2, build=BUILD, write=False)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            found = run_mutant.run(mutants, options)
+        self.assertEqual({name: its.code for name, its in found.items()}, {"first": SURVIVED})
 
 
 if __name__ == "__main__":
-    BUILD = sys.argv.pop(1)
     unittest.main()

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "reference/gate/reading.h"
@@ -73,10 +72,7 @@ std::optional<std::size_t> frame_to_blame(const Rule& rule, const Json& results,
 }
 
 Words words_of(const Json& results) {
-  std::istringstream in(results.at("command").get<std::string>());
-  Words words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
+  return shell_words(results.at("command").get<std::string>());
 }
 
 // The file that the run's command named, or the id.

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/types/check.h"
 #include "core/types/hash.h"
@@ -11,6 +10,7 @@
 #include "reference/plugin/pipe_detector.h"
 #include "reference/plugin/plugin_library.h"
 #include "reference/run/job.h"
+#include "reference/scene/shell_word.h"
 
 namespace contactcheck {
 namespace {
@@ -29,8 +29,7 @@ void add_file(const fs::path& file, Fnv1a& hash) {
 // A script is edited where its command line stays.
 void add_named_files(const std::string& command, Fnv1a& hash) {
   hash.bytes(command.data(), command.size());
-  std::istringstream words(command);
-  for (std::string word; words >> word;) {
+  for (const std::string& word : shell_words(command)) {
     std::error_code ignored;
     if (fs::is_regular_file(word, ignored)) add_file(word, hash);
   }

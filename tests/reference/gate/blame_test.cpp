@@ -65,6 +65,9 @@ TEST(RerunCommand, NamesTheFileThatTheRunNamed) {
   results["command"] = "contactcheck run out/recordings/touch.ccr";
   EXPECT_EQ(again(results, "touch", "paper"),
             "contactcheck run out/recordings/touch.ccr --detector paper --no-timing");
+  results["command"] = "contactcheck run '/srv/Größe mit/touch.json' --out elsewhere";
+  EXPECT_EQ(again(results, "touch", "paper"),
+            "contactcheck run '/srv/Größe mit/touch.json' --frames 8 --detector paper --no-timing");
 }
 
 TEST(RerunCommand, OfAFamilyKeepsItsCases) {

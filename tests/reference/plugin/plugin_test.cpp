@@ -7,6 +7,7 @@
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/run/job.h"
+#include "reference/scene/shell_word.h"
 #include "tests/reference/plugin/plugin_run.h"
 #include "tests/reference/scene/scratch.h"
 
@@ -43,6 +44,15 @@ TEST(Plugin, ContentFollowsTheFilesBytes) {
   scratch.write("mine.py", "two");
   EXPECT_NE(content_of(by_library), first_library);
   EXPECT_NE(content_of(by_command), first_command) << "its script has changed";
+}
+
+TEST(Plugin, ContentFollowsAScriptWhoseNameIsQuoted) {
+  const test::Scratch scratch;
+  const std::string script = scratch.write("two words/mine.py", "one").string();
+  const PluginSource source = {PluginKind::kCommand, "python3 " + in_shell(script)};
+  const std::string first = content_of(source);
+  scratch.write("two words/mine.py", "two");
+  EXPECT_NE(content_of(source), first);
 }
 
 TEST(Plugin, ContentIsPartOfTheSettingsThatResumeCompares) {

@@ -31,15 +31,19 @@ class Sheet {
     if (!summary.empty())
       text_ += std::string(kIndent, ' ') + wrapped_text(summary, kIndent, width_);
   }
-  void line(std::string label, const std::string& value) {
-    if (value.empty()) return;
-    label.resize(kLabel, ' ');
-    text_ +=
-        std::string(kIndent, ' ') + label + " " + wrapped_text(value, kIndent + kLabel + 1, width_);
+  void line(const std::string& label, const std::string& value) {
+    if (!value.empty()) add(label, wrapped_text(value, kIndent + kLabel + 1, width_));
   }
+  /// What is copied, as paths and commands: in one line, however long it is.
+  void whole(const std::string& label, const std::string& value) { add(label, value + "\n"); }
   const std::string& text() const { return text_; }
 
  private:
+  void add(std::string label, const std::string& lines) {
+    label.resize(kLabel, ' ');
+    text_ += std::string(kIndent, ' ') + label + " " + lines;
+  }
+
   std::size_t width_;
   std::string text_;
 };
@@ -129,7 +133,7 @@ std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const D
   const Declaration& declaration = plugin.declaration;
   Sheet sheet(width);
   sheet.title(spec.name, declaration.summary);
-  sheet.line("from", described(plugin.source));
+  sheet.whole("from", described(plugin.source));
   sheet.line("version", declaration.version);
   add_semantics(declaration.semantics, sheet);
   sheet.line("given", needs_text(declaration));

@@ -138,6 +138,21 @@ TEST(DetectorSheet, OfAnAbsentOneSaysWhyAndMakesNone) {
   EXPECT_THAT(sheet, Not(HasSubstr("claims")));
 }
 
+TEST(DetectorSheet, KeepsTheFileOrCommandInOneLineHoweverLongItIs) {
+  Plugin plugin;
+  plugin.declaration.semantics = plain();
+  const DetectorSpec spec = {"mine", {}, "mine"};
+  for (const std::string path :
+       {std::string("/srv/two  blanks/libmine.so"), "/" + std::string(200, 'n') + "/libmine.so"}) {
+    plugin.source = {PluginKind::kLibrary, path};
+    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
+                HasSubstr("\n  from        library \"" + path + "\"\n"));
+    plugin.source = {PluginKind::kCommand, "python3 '" + path + "'"};
+    EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
+                HasSubstr("\n  from        command \"python3 '" + path + "'\"\n"));
+  }
+}
+
 TEST(DetectorSheet, BreaksLongLinesBetweenWords) {
   DetectorInfo info = info_with(plain());
   info.summary = "one two three four five six seven";

@@ -217,10 +217,11 @@ std::string detector_in_words(const Tuning& tuning, const TuningRequest& request
   const std::string id = name.substr(0, name.find(':'));
   std::string words;
   if (const auto own = request.commands.find(id); own != request.commands.end())
-    words += " --detector-cmd \"" + own->second + "\"";
+    words += " --detector-cmd " + in_shell(own->second);
   const auto library = request.libraries.find(id);
   return words + " --detector " +
-         (library == request.libraries.end() ? name : library->second + name.substr(id.size()));
+         in_shell(library == request.libraries.end() ? name
+                                                     : library->second + name.substr(id.size()));
 }
 
 /// How the chosen configuration is run.

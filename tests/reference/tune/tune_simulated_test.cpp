@@ -1,6 +1,7 @@
 // contactcheck tune of simulated scenes, as it is run.
 #include <map>
 
+#include "reference/scene/shell_word.h"
 #include "tests/reference/tune/falling_scene.h"
 #include "tests/reference/tune/tune_program.h"
 
@@ -23,7 +24,8 @@ TEST_F(TuneSimulated, SimulatesTheSceneAndHoldsOutEveryOtherFrame) {
   EXPECT_EQ(result()["frames"], 6);
   EXPECT_EQ(result()["held_out_frames"], 6);
   EXPECT_FALSE(result().contains("deformers")) << "the deformer is the scene's, and costs nothing";
-  EXPECT_THAT(tuned.out, HasSubstr("contactcheck run " + scene_ + " --detector ffd-aabb+tri"));
+  EXPECT_THAT(tuned.out,
+              HasSubstr("contactcheck run " + in_shell(scene_) + " --detector ffd-aabb+tri"));
   ASSERT_EQ(tune({"--detector", "ffd-aabb+tri:cell=1", "--frames", "4"}).exit_code, 0);
   EXPECT_EQ(result()["frames"], 4);
 }

@@ -2,15 +2,24 @@
 
 #include <cxxabi.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <memory>
 #include <typeinfo>
 
+#include "core/deform/name_check.h"
+
 namespace contactcheck {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+// Of ASCII, and U+0080 to U+009F: a terminal may take them for orders.
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
+  return byte(0) < 0x20 || byte(0) == 0x7f || (byte(0) == 0xc2 && byte(1) < 0xa0);
+}
 
 std::string_view first_line(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -30,14 +39,13 @@ std::string type_of_current_exception() {
 
 std::string printable_line(std::string_view text, std::size_t longest) {
   std::string out;
-  for (const char c : first_line(text)) {
-    if (out.size() == longest) return out + "...";
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x80) {
-      out += '?';
-    } else if (byte >= 0x20 && byte != 0x7f) {
-      out += c;
-    }
+  for (std::string_view rest = first_line(text); !rest.empty();) {
+    const std::size_t length = utf8_length(rest);
+    const std::string_view next = length > 0 ? rest.substr(0, length) : "?";
+    rest.remove_prefix(std::max<std::size_t>(length, 1));
+    if (is_control(next)) continue;
+    if (out.size() + next.size() > longest) return out + "...";
+    out += next;
   }
   return out;
 }

@@ -10,8 +10,8 @@ namespace contactcheck {
 
 constexpr std::size_t kLongestForeignText = 400;  ///< bytes that are kept of one text
 
-/// The first line of `text` that is not blank, without control characters, every byte outside
-/// ASCII as '?', cut to `longest` bytes with "..." behind them.
+/// The first line of `text` that is not blank, without control characters, every byte that is no
+/// UTF-8 as '?', cut between characters to at most `longest` bytes with "..." behind them.
 std::string printable_line(std::string_view text, std::size_t longest = kLongestForeignText);
 
 /// What the exception that is being handled says; of one that is no std::exception its type.

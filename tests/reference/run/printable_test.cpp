@@ -17,18 +17,24 @@ TEST(PrintableLine, TakesTheFirstLineThatIsNotBlank) {
   EXPECT_EQ(printable_line(" \n\n"), "");
 }
 
-TEST(PrintableLine, DropsControlCharactersAndReplacesWhatIsNotAscii) {
+TEST(PrintableLine, DropsControlCharactersAndReplacesWhatIsNoUtf8) {
   EXPECT_EQ(printable_line("a\x07"
                            "b\x1b[0m\x7f"
                            "c\td"),
             "ab[0mcd");
-  EXPECT_EQ(printable_line("caf\xc3\xa9 \xff"), "caf?? ?");
+  EXPECT_EQ(printable_line("caf\xc3\xa9 \xff \xe9 \xc3"), "caf\xc3\xa9 ? ? ?");
+  EXPECT_EQ(printable_line("a\xc2\x9b"
+                           "1mb\xc2\xa0"
+                           "c"),
+            "a1mb\xc2\xa0"
+            "c");
   EXPECT_EQ(printable_line(std::string_view("a\0b", 3)), "ab");
 }
 
 TEST(PrintableLine, CutsWhatIsTooLong) {
   EXPECT_EQ(printable_line("abcdef", 6), "abcdef");
   EXPECT_EQ(printable_line("abcdefg", 6), "abcdef...");
+  EXPECT_EQ(printable_line("abcd\xc3\xa9 f", 5), "abcd...") << "between characters";
   EXPECT_EQ(printable_line(std::string(100'000, 'x')).size(), kLongestForeignText + 3);
 }
 

@@ -6,6 +6,7 @@
 import json
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -32,7 +33,7 @@ def row_of(program, folder, words):
     scene.write_text(json.dumps(SCENE))
     out = folder / "out"
     subprocess.run([program, "run", scene, *words, "--no-timing", "--quiet", "--out", out], check=True)
-    rows = json.loads((out / "results.json").read_text())["runs"]
+    rows = json.loads((out / "results.json").read_text(encoding="utf-8"))["runs"]
     assert [row["detector"] for row in rows] == ["mine"], rows
     return rows[0]
 
@@ -54,16 +55,17 @@ def expect_boxes(row):
 
 def main():
     readme, program, compiler, headers, cpp_main, folder = sys.argv[1:]
-    text, folder = pathlib.Path(readme).read_text(), pathlib.Path(folder)
+    text, folder = pathlib.Path(readme).read_text(encoding="utf-8"), pathlib.Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    (folder / "mine.c").write_text(block(text, "c"))
+    (folder / "mine.c").write_text(block(text, "c"), encoding="utf-8")
     library = folder / "libmine.so"
     subprocess.run([compiler, "-shared", "-fPIC", "-I", headers, folder / "mine.c", "-o", library], check=True)
     expect_silence(row_of(program, folder, ["--detector", library]))
-    (folder / "mine.py").write_text(block(text, "python"))
-    expect_boxes(row_of(program, folder, ["--detector-cmd", f"{sys.executable} {folder / 'mine.py'}"]))
-    assert block(text, "cpp") in pathlib.Path(cpp_main).read_text()
+    (folder / "mine.py").write_text(block(text, "python"), encoding="utf-8")
+    command = shlex.join([sys.executable, str(folder / "mine.py")])
+    expect_boxes(row_of(program, folder, ["--detector-cmd", command]))
+    assert block(text, "cpp") in pathlib.Path(cpp_main).read_text(encoding="utf-8")
 
 
 main()

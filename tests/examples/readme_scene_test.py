@@ -31,15 +31,15 @@ def torus_obj(rings=24, sides=12):
 
 def main():
     readme, program, folder = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
-    blocks = re.findall(r"```json\n(.*?)```", readme.read_text(), re.S)
+    blocks = re.findall(r"```json\n(.*?)```", readme.read_text(encoding="utf-8"), re.S)
     assert len(blocks) == 1, f"README shows {len(blocks)} JSON scenes, not 1"
     assert blocks[0].count("\n") <= 10, "the README's scene has grown beyond ten lines"
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "mine.json").write_text(blocks[0])
+    (folder / "mine.json").write_text(blocks[0], encoding="utf-8")
     (folder / "mine.obj").write_text(torus_obj())
     command = [program, "run", "mine.json", "--no-timing", "--quiet", "--out", "out"]
     subprocess.run(command, cwd=folder, check=True)
-    runs = json.loads((folder / "out/results.json").read_text())["runs"]
+    runs = json.loads((folder / "out/results.json").read_text(encoding="utf-8"))["runs"]
     assert runs and all(run["status"] == "ok" for run in runs), "a detector did not finish"
     for run in runs:
         if "+tri" in run["detector"]:

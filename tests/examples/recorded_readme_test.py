@@ -21,7 +21,7 @@ class Reader:
     """Somebody with the page in hand, in a folder with frames and meshes."""
 
     def __init__(self, page, program, folder):
-        self.text, self.program, self.folder = page.read_text(), program, folder
+        self.text, self.program, self.folder = page.read_text(encoding="utf-8"), program, folder
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         recorded_frames.write(folder)
@@ -38,12 +38,12 @@ class Reader:
 
     def run(self, name, text=None, detectors=()):
         """Results, and what was printed. The command is the page's where the scene is."""
-        (self.folder / name).write_text(text or self.scene(name))
+        (self.folder / name).write_text(text or self.scene(name), encoding="utf-8")
         command = f"build/release/contactcheck run {name}"
         assert text or f"\n    {command}\n" in self.text, f"the page does not say: {command}"
         options = ["--no-timing", *(f"--detector {name}" for name in detectors)]
         printed = self.call(" ".join([command, *options]))
-        return json.loads((self.folder / "out/results.json").read_text()), printed
+        return json.loads((self.folder / "out/results.json").read_text(encoding="utf-8")), printed
 
     def call(self, command):
         words = [str(self.program), *shlex.split(command)[1:]]
@@ -101,7 +101,7 @@ def check_fit(reader):
     assert max(fits[0]["max"]) > 0, "the cloth sags as lattices cannot"
     above_the_table = reader.in_code(r"judged with lattices[^`]*")
     assert len(above_the_table) == 1 and above_the_table[0].split("...")[0] in printed, printed
-    assert "Lattices fitted" in (reader.folder / "out/report.md").read_text()
+    assert "Lattices fitted" in (reader.folder / "out/report.md").read_text(encoding="utf-8")
     return max(fits[0]["max"])
 
 
@@ -139,7 +139,7 @@ def check_sweep(reader):
     for asked, found in zip(wanted, scene["separation"]):
         if asked > 0:
             assert abs(found - asked * scene["size"]) < 2e-6 * scene["size"], (asked, found)
-    assert "spurious against separation" in (reader.folder / "out/report.md").read_text()
+    assert "spurious against separation" in (reader.folder / "out/report.md").read_text(encoding="utf-8")
 
 
 def main():

@@ -35,7 +35,7 @@ def main():
     root = pathlib.Path(sys.argv[1])
     places = collections.defaultdict(set)
     for header in headers(root):
-        for name in types_in(header.read_text()):
+        for name in types_in(header.read_text(encoding="utf-8")):
             places[name].add(str(header.relative_to(root)))
     if len(places) < 100:
         sys.exit(f"only {len(places)} types found in {root}: this check reads the headers no more")

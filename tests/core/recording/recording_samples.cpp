@@ -3,18 +3,17 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <bit>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 namespace contactcheck {
 
 ScratchFolder::ScratchFolder() {
-  static std::atomic<unsigned> next = 0;
-  path_ = std::filesystem::temp_directory_path() /
-          ("contactcheck_recording_" + std::to_string(getpid()) + "_" + std::to_string(next++));
-  std::filesystem::create_directories(path_);
+  std::string name = (std::filesystem::temp_directory_path() / "contactcheck-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) std::abort();
+  path_ = name;
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "reference/scene/shell_word.h"
 #include "tests/reference/run/is_dead.h"
 
 namespace contactcheck {
@@ -56,7 +57,7 @@ TEST(PipeProcess, LastWordsAreTheLastLineOfItsErrors) {
 }
 
 TEST(PipeProcess, LastWordsOfPythonSayWhere) {
-  PipeProcess process(std::string(CONTACTCHECK_PYTHON) +
+  PipeProcess process(in_shell(CONTACTCHECK_PYTHON) +
                       " -c \"def answer(): return [][7]\nanswer()\"");
   const std::string said = complaint([&] { process.receive_line(); });
   EXPECT_THAT(said, HasSubstr("IndexError: list index out of range (File \"<string>\", line 1, in "

@@ -22,39 +22,42 @@ SCENE = """{"id": "%s", "title": "Two boxes", "frames": 4, "duration": 1,
      "motion": {"position": [[0, [1.3, 0.1, 0.2]], [1, [0.9, 0.1, 0.2]]]}}]}
 """
 
+# The stand-ins are told by the environment where to keep what they know (FOLDER), and which program
+# is the real one: either may have any name.
+
 # Says who calls, and is killed at its first try of shard 2.
 MORTAL = """#!/bin/sh
-echo "$*" >> {folder}/calls
+echo "$*" >> "$FOLDER/calls"
 case "$*" in
-  *--shard\\ 2/3*) [ -e {folder}/died ] || {{ touch {folder}/died; kill -9 $$; }} ;;
+  *--shard\\ 2/3*) [ -e "$FOLDER/died" ] || { touch "$FOLDER/died"; kill -9 $$; } ;;
 esac
-exec {program} "$@"
+exec "$PROGRAM" "$@"
 """
 
 # The first job is lost with its machine: it never runs, and never says so.
 SBATCH = """#!/bin/sh
 for script; do :; done
 id=$$
-echo "$*" >> {folder}/submitted
-if [ ! -e {folder}/lost ]; then
-  touch {folder}/lost
-  echo NODE_FAIL > {folder}/state.$id
+echo "$*" >> "$FOLDER/submitted"
+if [ ! -e "$FOLDER/lost" ]; then
+  touch "$FOLDER/lost"
+  echo NODE_FAIL > "$FOLDER/state.$id"
 else
-  echo RUNNING > {folder}/state.$id
+  echo RUNNING > "$FOLDER/state.$id"
   ( if sh "$script"; then state=COMPLETED; else state=FAILED; fi
-    echo $state > {folder}/state.$id ) </dev/null >/dev/null 2>&1 &
+    echo $state > "$FOLDER/state.$id" ) </dev/null >/dev/null 2>&1 &
 fi
 echo $id
 """
 SACCT = """#!/bin/sh
-cat {folder}/state.$2
+cat "$FOLDER/state.$2"
 """
 NO_SACCT = """#!/bin/sh
 echo Slurm accounting storage is disabled >&2
 exit 1
 """
 SCONTROL = """#!/bin/sh
-echo "JobId=$4 JobName=shard Priority=1 JobState=$(cat {folder}/state.$4) Reason=None"
+echo "JobId=$4 JobName=shard Priority=1 JobState=$(cat "$FOLDER/state.$4") Reason=None"
 """
 NO_JOB = """#!/bin/sh
 echo "slurm_load_jobs error: Invalid job id specified" >&2
@@ -63,7 +66,7 @@ exit 1
 
 
 def rows_of(folder):
-    results = json.loads((folder / "results.json").read_text())
+    results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
     rows = [(run["scene"], run["detector"], run["levels"], run["contact_hash"])
             for run in results["runs"]]
     return rows, results["disagreements"], results["scenes"]
@@ -71,25 +74,29 @@ def rows_of(folder):
 
 class Sweep(unittest.TestCase):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
+        # Nothing may hang on what the folders are called, that of the workflow among them.
+        self.scratch = tempfile.TemporaryDirectory(prefix="Größe mit Leerzeichen-")
         self.folder = pathlib.Path(self.scratch.name)
+        self.workflow = self.folder / "workflow"
+        self.workflow.symlink_to(ROOT / "reference/sweep")
         for scene in SCENES:
             (self.folder / f"{scene}.json").write_text(SCENE % scene)
-        self.run_words = " ".join([str(self.folder / f"{s}.json") for s in SCENES] + [WORDS])
+        self.run_words = shlex.join([str(self.folder / f"{s}.json") for s in SCENES]) + " " + WORDS
         self.addCleanup(self.scratch.cleanup)
 
     def script(self, path, text):
         path.parent.mkdir(exist_ok=True)
-        path.write_text(text.format(folder=self.folder, program=PROGRAM))
+        path.write_text(text)
         path.chmod(0o755)
         return path
 
     def sweep(self, *more, program=PROGRAM, shards=3, path=None):
-        environment = dict(os.environ, HOME=self.scratch.name)
+        environment = dict(os.environ, HOME=self.scratch.name, FOLDER=self.scratch.name,
+                           PROGRAM=str(PROGRAM))
         if path:
             environment["PATH"] = f"{path}:{environment['PATH']}"
         return subprocess.run(
-            [SNAKEMAKE, "-s", ROOT / "reference/sweep/Snakefile", *more, "--config",
+            [SNAKEMAKE, "-s", self.workflow / "Snakefile", *more, "--config",
              f"shards={shards}", f"run={self.run_words}", "out=swept", f"program={program}"],
             cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
 
@@ -120,7 +127,7 @@ class Sweep(unittest.TestCase):
         self.script(tools / "sbatch", SBATCH)
         for name, text in stand_ins.items():
             self.script(tools / name, text)
-        outcome = self.sweep("--profile", ROOT / "reference/sweep/slurm", "--latency-wait", "10",
+        outcome = self.sweep("--profile", self.workflow / "slurm", "--latency-wait", "10",
                              path=tools)
         self.expect_whole(outcome)
         submitted = (self.folder / "submitted").read_text().splitlines()

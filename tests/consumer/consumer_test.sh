@@ -37,9 +37,9 @@ configure "$scratch/core_alone" -DWITH_REFERENCE=OFF "${without[@]}"
 
 # The same program by pkg-config, without CMake.
 pc=$(dirname "$(find "$prefix" -name contactcheck.pc)")
-flags=$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs contactcheck)
-# shellcheck disable=SC2086 # flags are words
-g++ -std=c++20 "$here/two_boxes.cpp" -o "$scratch/by_pkg_config" $flags
+# xargs takes apart what pkg-config writes for a shell: a prefix may have blanks in it.
+PKG_CONFIG_PATH=$pc pkg-config --cflags --libs contactcheck |
+  xargs g++ -std=c++20 "$here/two_boxes.cpp" -o "$scratch/by_pkg_config"
 "$scratch/by_pkg_config" | cmp - "$scratch/two_boxes.txt" || fail "by pkg-config it says otherwise"
 
 if [ "$reference" = ON ]; then

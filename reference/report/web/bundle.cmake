@@ -6,7 +6,7 @@ function(fall_back what)
     message(FATAL_ERROR "HTML report: ${what}")
   endif()
   message(WARNING "HTML report: ${what} The program is built without it: reports are Markdown, CSV "
-                  "and SVG. To try again, build after: cmake -E rm ${OUT}")
+                  "and SVG. To try again, build after: cmake -E rm \"${OUT}\"")
   file(COPY_FILE ${SOURCE}/no_template.cpp ${OUT})
 endfunction()
 

@@ -33,7 +33,7 @@ def row_of(program, folder, words):
     scene.write_text(json.dumps(SCENE))
     out = folder / "out"
     subprocess.run([program, "run", scene, *words, "--no-timing", "--quiet", "--out", out], check=True)
-    rows = json.loads((out / "results.json").read_text(encoding="utf-8"))["runs"]
+    rows = json.loads((out / "results.json").read_bytes())["runs"]
     assert [row["detector"] for row in rows] == ["mine"], rows
     return rows[0]
 

@@ -39,7 +39,7 @@ def main():
     (folder / "mine.obj").write_text(torus_obj())
     command = [program, "run", "mine.json", "--no-timing", "--quiet", "--out", "out"]
     subprocess.run(command, cwd=folder, check=True)
-    runs = json.loads((folder / "out/results.json").read_text(encoding="utf-8"))["runs"]
+    runs = json.loads((folder / "out/results.json").read_bytes())["runs"]
     assert runs and all(run["status"] == "ok" for run in runs), "a detector did not finish"
     for run in runs:
         if "+tri" in run["detector"]:

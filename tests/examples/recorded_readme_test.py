@@ -43,7 +43,7 @@ class Reader:
         assert text or f"\n    {command}\n" in self.text, f"the page does not say: {command}"
         options = ["--no-timing", *(f"--detector {name}" for name in detectors)]
         printed = self.call(" ".join([command, *options]))
-        return json.loads((self.folder / "out/results.json").read_text(encoding="utf-8")), printed
+        return json.loads((self.folder / "out/results.json").read_bytes()), printed
 
     def call(self, command):
         words = [str(self.program), *shlex.split(command)[1:]]

@@ -1,7 +1,5 @@
 #include "tests/core/recording/recording_samples.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <bit>
 #include <cstdlib>

@@ -63,7 +63,7 @@ class CheckExport(unittest.TestCase):
             self.assertIn(piece, done.stderr)
 
     def index(self):
-        return json.loads((self.folder / "scene.json").read_text(encoding="utf-8"))
+        return json.loads((self.folder / "scene.json").read_bytes())
 
     def write(self, name, data):
         """Replaces a file, and its checksum in the index."""
@@ -79,7 +79,7 @@ class CheckExport(unittest.TestCase):
         self.write("scene.json", json.dumps(index).encode())
 
     def change_truth(self, change, name=CONTACT_FRAME):
-        truth = json.loads((self.folder / name).read_text(encoding="utf-8"))
+        truth = json.loads((self.folder / name).read_bytes())
         change(truth)
         self.write(name, json.dumps(truth).encode())
 
@@ -93,7 +93,7 @@ class CheckExport(unittest.TestCase):
     def test_hash_is_that_of_results(self):
         self.contactcheck("run", self.scratch / "tiny.json", "--no-timing", "--quiet", "--detector",
                           "fcl-aabb", "--detector", "ffd-lazy", "--out", self.scratch / "out")
-        results = json.loads((self.scratch / "out/results.json").read_text(encoding="utf-8"))
+        results = json.loads((self.scratch / "out/results.json").read_bytes())
         hashes = {run["contact_hash"] for run in results["runs"]}
         self.assertEqual(hashes, {self.index()["contact_hash"]})
 
@@ -101,7 +101,7 @@ class CheckExport(unittest.TestCase):
         name = "bodies/1-right/frame_0001.ply"
         data = bytearray((self.folder / name).read_bytes())
         start = data.index(b"end_header\n") + 11
-        triangle = json.loads((self.folder / CONTACT_FRAME).read_text(encoding="utf-8"))["contacts"][0][3]
+        triangle = json.loads((self.folder / CONTACT_FRAME).read_bytes())["contacts"][0][3]
         face = start + 24 * self.index()["bodies"][1]["vertices"] + 13 * triangle + 1
         vertex = start + 24 * int.from_bytes(data[face:face + 4], "little")
         data[vertex] ^= 1  # the last bit of x
@@ -132,7 +132,7 @@ class CheckExport(unittest.TestCase):
             weights[k] = f"{int(weights[k], 16) + 1:x}"
             weights[k - 1] = f"{int(weights[k - 1], 16) + 1:x}"
         self.change_truth(change)
-        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_text(encoding="utf-8"))["contacts"][2][:4]
+        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_bytes())["contacts"][2][:4]
         self.refused(f"frame 1: triangle {s} of body {a} and triangle {t} of body {b}",
                      "the witness is no point of both")
 
@@ -149,14 +149,14 @@ class CheckExport(unittest.TestCase):
             plane = truth["gaps"][0][4]
             plane[:] = [-x for x in plane]
         self.change_truth(turn)
-        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_text(encoding="utf-8"))["gaps"][0][:4]
+        a, b, s, t = json.loads((self.folder / CONTACT_FRAME).read_bytes())["gaps"][0][:4]
         self.refused(f"frame 1: triangle {s} of body {a} and triangle {t} of body {b}",
                      "the plane does not separate them")
 
     def move_plane(self, offset_of):
         """Gives a plane another offset: what `offset_of` makes of the heights of the corners of the
         second triangle over its normal, as an exact text."""
-        truth = json.loads((self.folder / CONTACT_FRAME).read_text(encoding="utf-8"))
+        truth = json.loads((self.folder / CONTACT_FRAME).read_bytes())
         _, b, _, t, plane = truth["gaps"][0]
         ply = (self.folder / self.index()["bodies"][b]["folder"] / "frame_0001.ply").read_bytes()
         data = ply[ply.index(b"end_header\n") + 11:]
@@ -189,7 +189,7 @@ class CheckExport(unittest.TestCase):
 
     def test_refuses_a_plane_for_more_than_one_pair(self):
         # The first two bodies are apart along x in frame 0, and so are all their triangles.
-        orders = [json.loads((self.folder / b["folder"] / "order.json").read_text(encoding="utf-8"))
+        orders = [json.loads((self.folder / b["folder"] / "order.json").read_bytes())
                   for b in self.index()["bodies"][:2]]
 
         def change(truth):
@@ -304,7 +304,7 @@ class CheckExport(unittest.TestCase):
 
     def test_refuses_an_order_that_forgets_a_triangle(self):
         name = "bodies/1-right/order.json"
-        order = json.loads((self.folder / name).read_text(encoding="utf-8"))
+        order = json.loads((self.folder / name).read_bytes())
         order[0] = order[1]
         self.write(name, json.dumps(order).encode())
         self.refused(f"{name} is no permutation of the triangles")

@@ -142,7 +142,7 @@ TEST(DetectorSheet, KeepsTheFileOrCommandInOneLineHoweverLongItIs) {
   Plugin plugin;
   plugin.declaration.semantics = plain();
   const DetectorSpec spec = {"mine", {}, "mine"};
-  for (const std::string path :
+  for (const std::string& path :
        {std::string("/srv/two  blanks/libmine.so"), "/" + std::string(200, 'n') + "/libmine.so"}) {
     plugin.source = {PluginKind::kLibrary, path};
     EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),

@@ -66,7 +66,7 @@ exit 1
 
 
 def rows_of(folder):
-    results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+    results = json.loads((folder / "results.json").read_bytes())
     rows = [(run["scene"], run["detector"], run["levels"], run["contact_hash"])
             for run in results["runs"]]
     return rows, results["disagreements"], results["scenes"]
@@ -98,7 +98,7 @@ class Sweep(unittest.TestCase):
         return subprocess.run(
             [SNAKEMAKE, "-s", self.workflow / "Snakefile", *more, "--config",
              f"shards={shards}", f"run={self.run_words}", "out=swept", f"program={program}"],
-            cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
+            cwd=self.folder, env=environment, capture_output=True, encoding="utf-8", check=False)
 
     def expect_whole(self, outcome):
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
@@ -113,7 +113,7 @@ class Sweep(unittest.TestCase):
     def test_shard_whose_worker_is_killed_is_run_again_and_no_other(self):
         mortal = self.script(self.folder / "mortal", MORTAL)
         self.expect_whole(self.sweep("--cores", "1", program=mortal))
-        calls = (self.folder / "calls").read_text().splitlines()
+        calls = (self.folder / "calls").read_text(encoding="utf-8").splitlines()
         tries = [sum(f"--shard {k}/3" in call for call in calls) for k in (1, 2, 3)]
         self.assertEqual(tries, [1, 2, 1])
 
@@ -130,7 +130,7 @@ class Sweep(unittest.TestCase):
         outcome = self.sweep("--profile", self.workflow / "slurm", "--latency-wait", "10",
                              path=tools)
         self.expect_whole(outcome)
-        submitted = (self.folder / "submitted").read_text().splitlines()
+        submitted = (self.folder / "submitted").read_text(encoding="utf-8").splitlines()
         self.assertEqual(len(submitted), 4, "three shards, one of them twice")
         self.assertTrue(all("--parsable" in words for words in submitted))
 

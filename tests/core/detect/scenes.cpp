@@ -10,7 +10,7 @@
 namespace contactcheck::test {
 namespace {
 
-TriangleMesh scaled_about_origin(TriangleMesh mesh, double scale) {
+TriangleMesh scaled(TriangleMesh mesh, double scale) {
   for (Vec3& v : mesh.vertices) v *= scale;
   return mesh;
 }
@@ -20,7 +20,7 @@ Body random_body(TriangleSource& random, const std::string& name, double scale) 
   const Resolution resolution{cells(), cells(), cells()};
   TriangleMesh mesh = random.below(2) ? sphere_mesh(Vec3::Zero(), 1.0, 2)
                                       : box_mesh(Vec3(-1, -0.75, -0.5), Vec3(1, 0.75, 0.5), 3);
-  return make_body(name, scaled_about_origin(std::move(mesh), scale), resolution);
+  return make_body(name, scaled(std::move(mesh), scale), resolution);
 }
 
 std::vector<Vec3> random_nodes(TriangleSource& random, const BodyShape& shape, const Vec3& at,
@@ -81,8 +81,7 @@ Scene three_bodies(const SceneSettings& settings) {
 Scene exact_boxes(const Vec3& shift, double scale) {
   Scene scene;
   // [-1, 1]^3 in a lattice of [-2, 2]^3 with cells of side 1; vertices at multiples of 1/2.
-  const TriangleMesh box =
-      scaled_about_origin(box_mesh(Vec3::Constant(-1), Vec3::Ones(), 4), scale);
+  const TriangleMesh box = scaled(box_mesh(Vec3::Constant(-1), Vec3::Ones(), 4), scale);
   scene.bodies = {make_body("left", box, {4, 4, 4}, 0.5), make_body("right", box, {4, 4, 4}, 0.5)};
   TriangleSource random(71);
   for (double gap : {2.5, 2.0, 1.75, 0.5}) {

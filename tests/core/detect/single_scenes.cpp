@@ -36,7 +36,7 @@ Scene all_kinds() {
 
 Scene soups(const Vec3& at) {
   TriangleSource random(902);
-  const auto soup = [&] { return scaled(grid_soup(random, 150, 3), 0.25, at); };
+  const auto soup = [&] { return test::scaled(grid_soup(random, 150, 3), 0.25, at); };
   const TriangleMesh first = soup(), second = soup();
   return still({first, second, first});  // the third coincides with the first
 }

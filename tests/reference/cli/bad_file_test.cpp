@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
               "DIR/x.json"}),
         pipe("Case", ".json", {"reduce", "DIR/x.json", "--out", "DIR/out"}),
         pipe("RecordingOfACase", ".ccr", {"reduce", "DIR/case.json", "--out", "DIR/out"})),
-    named);
+    file_case);
 
 // Commands that read the fixtures, with a folder of fixtures that is broken.
 BadFile fixtures(const std::string& name, const Words& words, Prepare prepare, const Words& named) {

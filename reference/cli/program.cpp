@@ -64,9 +64,10 @@ void keep_numbers_of_closed_streams() {
 void require_output_written() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  // Where an earlier write failed and nothing is left to be written, its reason is gone.
-  const std::string reason = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  throw InputError("cannot write to standard output" + reason);
+  // A write that failed earlier has left no reason behind; one more brings it back.
+  const bool works_again = errno == 0 && write(STDOUT_FILENO, "\n", 1) == 1;
+  throw InputError(std::string("cannot write to standard output: ") +
+                   (works_again ? "an earlier write failed" : std::strerror(errno)));
 }
 
 int refuse(const CLI::App& app, const CLI::ParseError& error) {

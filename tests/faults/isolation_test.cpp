@@ -135,9 +135,9 @@ TEST(Isolation, HangInATimedQueryIsBookedOnQuery) {
 
 // Times between frames are given as frame 0; they are looked at up to frame 2, the first contact.
 TEST(Isolation, CrashBetweenFramesIsBookedOnItsPhase) {
-  expect_lethal("fault-crash:phase=again,frame=0",
+  expect_lethal("fault-crash:frame=0,phase=again",
                 "scene tiny, frame 2, phase query: signal 11 (Segmentation fault)");
-  expect_lethal("fault-crash:phase=update-again,frame=0",
+  expect_lethal("fault-crash:frame=0,phase=update-again",
                 "scene tiny, frame 2, phase update: signal 11 (Segmentation fault)");
 }
 

@@ -122,9 +122,9 @@ TEST_F(RunCommand, OfFilesAndNamedDetectorsNeedsNoFixtures) {
       {"run", scene_, "--mesh", mesh, "--mesh", mesh, "--pairs", "600", "--frames", "5",
        "--no-timing", "--detector", "fcl-aabb", "--out", scratch_.folder() / "out"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  const json results = json::parse(text_of(scratch_.folder() / "out/results.json"));
   std::vector<std::string> scenes;
-  for (const json& row : json::parse(text_of(scratch_.folder() / "out/results.json")).at("runs"))
-    scenes.push_back(row.at("scene"));
+  for (const json& row : results.at("runs")) scenes.push_back(row.at("scene"));
   EXPECT_THAT(scenes, ElementsAre("t-t-approach", "tiny", "random-pairs"));
 }
 

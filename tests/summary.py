@@ -64,7 +64,7 @@ def main():
     for name, why in skipped:
         print(f"skipped: {name}: {why}")
     for name in empty:
-        print(f"{name} has no test: its filter names none")
+        print(f"{name} has no test")
     return 1 if empty or (skipped and options.no_skips) else 0
 
 

@@ -77,6 +77,12 @@ Workshop& workshop() {
   return shop;
 }
 
+// What moves by its lattice has no answer for a body without one; ffd-lazy bounds vertices then.
+bool needs_lattices(const std::string& detector) {
+  return detector.starts_with("bd-tree") ||
+         (detector.starts_with("ffd-") && !detector.starts_with("ffd-lazy"));
+}
+
 class SceneRelation : public ::testing::Test {
  public:
   SceneRelation(std::string scene, const Relation& relation, std::string detector)
@@ -89,7 +95,7 @@ class SceneRelation : public ::testing::Test {
       expect_the_same(
           test::outcome_of(detector_, relation_, workshop().relation_case(scene_, relation_)));
     } catch (const RefusedInput& refusal) {
-      GTEST_SKIP() << detector_ << " takes no body without a lattice: " << refusal.what();
+      EXPECT_TRUE(needs_lattices(detector_)) << detector_ << ": " << refusal.what();
     }
   }
 

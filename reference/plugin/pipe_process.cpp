@@ -97,6 +97,25 @@ ssize_t write_some(int fd, std::string_view bytes) {
   return write(fd, bytes.data(), bytes.size());
 }
 
+// Whether the shell has something to do but to start one program: operators, expansions. What
+// stands in quotes is text, a path with parentheses for one.
+bool has_operators(const std::string& command) {
+  char quote = '\0';
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (c == '\\' && quote != '\'') {
+      ++i;
+    } else if (quote == '\0' && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = '\0';
+    } else if (quote != '\'' && std::strchr(quote == '"' ? "$`" : ";&|<>(){}$`\n!", c) != nullptr) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // A shell that waits for one program would hold its output open and translate its end.
 std::string for_shell(const std::string& command) {
   const std::size_t begin = command.find_first_not_of(" \t");
@@ -104,8 +123,7 @@ std::string for_shell(const std::string& command) {
   const std::string first = command.substr(begin, command.find_first_of(" \t", begin) - begin);
   const bool the_shells = first.find('=') != std::string::npos || first == "exec" || first == "." ||
                           first == "eval" || first == "command";
-  const bool simple = command.find_first_of(";&|<>(){}$`\n!") == std::string::npos && !the_shells;
-  return simple ? "exec " + command : command;
+  return the_shells || has_operators(command) ? command : "exec " + command;
 }
 
 // Of Python: the last line `File "mine.py", line 7, in update`.

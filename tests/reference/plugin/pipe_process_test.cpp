@@ -140,7 +140,7 @@ TEST(PipeProcess, TakesWhatAShellTakes) {
 
 // What a quoted word contains is no operator: nothing stands between the program and its end.
 TEST(PipeProcess, ShellIsGoneWhereItStartsOneProgram) {
-  for (const char* command : {"sh -c 'kill -9 $$; cat (1)'", R"(sh -c "kill -9 \$\$; cat")"}) {
+  for (const char* command : {"sh -c 'kill -9 $$; cat \"(1)\"'", R"(sh -c "kill -9 \$\$; cat")"}) {
     PipeProcess process(command);
     EXPECT_EQ(complaint([&] { process.receive_line(); }),
               "the command ended with signal 9 (Killed)")

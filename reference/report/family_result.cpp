@@ -3,7 +3,9 @@
 #include "reference/report/format.h"
 
 namespace contactcheck {
+namespace {
 using Json = nlohmann::ordered_json;
+}  // namespace
 
 std::string FamilyResult::level() const {
   return run.contains("per_frame") ? run.at("per_frame").value("level", "") : "";

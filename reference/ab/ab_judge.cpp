@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "core/types/check.h"
-#include "core/types/median.h"
-#include "reference/ab/paired_ratio.h"
 #include "reference/diff/results_diff.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 constexpr double kMicrosecondsPerMillisecond = 1e3;
 
 AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
-  const RatioInterval& r = time.ratio;
+  const Ratio& r = time.ratio;
   const double excess_us = (time.head_ms - time.base_ms) * kMicrosecondsPerMillisecond;
   if (r.low > limits.slower_than)
     return excess_us > limits.floor_us ? AbVerdict::kSlower : AbVerdict::kPass;

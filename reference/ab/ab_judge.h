@@ -28,7 +28,7 @@ enum class AbVerdict {
 /// One detector on one scene: its own question, cold.
 struct AbTime {
   std::string scene, detector;
-  RatioInterval ratio;                  ///< time(head) / time(base), below 1 is faster
+  Ratio ratio;                          ///< time(head) / time(base), below 1 is faster
   double base_ms = 0.0, head_ms = 0.0;  ///< medians over rounds, per frame
   AbVerdict verdict = AbVerdict::kPass;
 };

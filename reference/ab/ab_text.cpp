@@ -11,7 +11,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string ratio_text(const RatioInterval& r) {
+std::string ratio_text(const Ratio& r) {
   return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", r.value, r.low, r.high);
 }
 

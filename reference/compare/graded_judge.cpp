@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "reference/compare/label_cover.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -42,7 +43,7 @@ ErrorSpread spread_of(std::vector<double>& errors) {
   out.max = errors.back();
   out.mean =
       std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
-  out.p95 = errors[(95 * errors.size() + 99) / 100 - 1];
+  out.p95 = quantile(errors, 0.95);
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "core/types/count.h"
 #include "core/types/semantics.h"
 #include "reference/compare/histogram.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
@@ -98,11 +99,7 @@ struct QuestionTimes {
   PhaseTimes cold, hot;
 };
 
-/// time(reference) / time(detector) over the same frames, with a bootstrap 95 % interval.
-struct Ratio {
-  double ratio = 0.0, low = 0.0, high = 0.0;
-};
-
+/// time(reference) / time(detector) over the same frames.
 struct Speedup {
   Ratio cold, hot;
   std::optional<Ratio> contact_frames;  ///< cold; none without a timed contact frame

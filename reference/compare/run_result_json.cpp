@@ -38,7 +38,7 @@ Json to_json(const QuestionTimes& t, double prepare_ms) {
           {"hot", to_json(t.hot)}};
 }
 
-Json to_json(const Ratio& r) { return {{"ratio", r.ratio}, {"low", r.low}, {"high", r.high}}; }
+Json to_json(const Ratio& r) { return {{"ratio", r.value}, {"low", r.low}, {"high", r.high}}; }
 
 Json to_json(const std::optional<Ratio>& r) { return r ? to_json(*r) : Json(nullptr); }
 

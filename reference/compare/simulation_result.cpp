@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/types/median.h"
 #include "reference/compare/nullable.h"
 #include "reference/compare/run_result_json.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <random>
 
 #include "core/types/check.h"
-#include "core/types/median.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
 
-constexpr int kDraws = 200;
 constexpr double kMillisecondsPerNanosecond = 1e-6;
 
 using Mode = std::vector<PhaseSample> FrameSamples::*;
@@ -38,14 +36,14 @@ Draw everything(const ProcessSamples& processes) {
   return draw;
 }
 
-Draw resample(const ProcessSamples& processes, std::mt19937_64& random) {
-  // std::uniform_int_distribution differs between standard libraries; a modulo of 64 bits does not.
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+// Processes, and within each as many repeats as it has. One draw takes the same repeats of both
+// sides of a ratio, as they ran together.
+Draw resample(const ProcessSamples& processes, Resampler& resampler) {
   Draw draw;
   for (std::size_t i = 0; i < processes.size(); ++i) {
-    const std::size_t p = below(processes.size());
+    const std::size_t p = resampler.below(processes.size());
     const std::size_t n = repeats_of(processes[p]);
-    for (std::size_t r = 0; r < n; ++r) draw.emplace_back(p, below(n));
+    for (std::size_t r = 0; r < n; ++r) draw.emplace_back(p, resampler.below(n));
   }
   return draw;
 }
@@ -59,19 +57,12 @@ double total(const ProcessSamples& processes, const std::vector<std::size_t>& fr
 
 Ratio ratio_of(const ProcessSamples& reference, const ProcessSamples& detector,
                const std::vector<std::size_t>& frames, Mode mode, const Value& value) {
-  const auto quotient = [&](const Draw& draw) {
+  const auto time_ratio = [&](const Draw& draw) {
     return total(reference, frames, mode, value, draw) /
            std::max(total(detector, frames, mode, value, draw), 1.0);
   };
-  Ratio out;
-  out.ratio = quotient(everything(detector));
-  std::mt19937_64 random(20131);
-  std::vector<double> draws;
-  for (int i = 0; i < kDraws; ++i) draws.push_back(quotient(resample(detector, random)));
-  std::sort(draws.begin(), draws.end());
-  out.low = std::min(out.ratio, draws[static_cast<std::size_t>(0.025 * kDraws)]);
-  out.high = std::max(out.ratio, draws[static_cast<std::size_t>(0.975 * kDraws)]);
-  return out;
+  return bootstrap(time_ratio(everything(detector)),
+                   [&](Resampler& resampler) { return time_ratio(resample(detector, resampler)); });
 }
 
 std::vector<std::size_t> common_frames(const ProcessSamples& a, const ProcessSamples& b) {

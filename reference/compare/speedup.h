@@ -39,10 +39,9 @@ QuestionTimes summarize_times(const ProcessSamples& processes,
 /// Median over repeats per frame, cold, milliseconds; by frame.
 std::map<std::size_t, double> cold_frame_ms(const ProcessSamples& processes);
 
-/// time(reference) / time(detector) over the frames both were timed on. The interval is a
-/// percentile bootstrap (200 draws, fixed seed) over processes and, within each, over repeats;
-/// one draw takes the same repeats of both sides, as they ran together.
-/// None when the two share no timed frame.
+/// time(reference) / time(detector) over the frames both were timed on. The intervals
+/// are bootstraps over processes and, within each, over repeats. None when the two share no timed
+/// frame.
 std::optional<Speedup> compute_speedup(const ProcessSamples& reference,
                                        const ProcessSamples& detector,
                                        const std::vector<bool>& contact_frames);

@@ -31,7 +31,7 @@ Lines lines_of(const std::vector<RowChange>& changes, Direction direction) {
 
 // "1.32 times [1.28, 1.36] slower".
 std::string time_line(const TimeChange& change) {
-  RatioInterval f = change.factor;
+  Ratio f = change.factor;
   const bool slower = f.value < 1.0;
   if (slower) f = {1.0 / f.value, 1.0 / f.high, 1.0 / f.low};
   return fmt::format("{}  {}  {:.2f}x {} [{:.2f}, {:.2f}], measured against {}", change.scene,

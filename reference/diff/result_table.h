@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/diff/ratio_interval.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
@@ -33,7 +33,7 @@ struct ResultRow {
   std::string contact_hash;
   std::vector<TimeRow> times;  ///< its own question first; empty without timing
   /// time(reference) / time(detector), cold, in the question that the two are compared in.
-  std::vector<std::pair<std::string, RatioInterval>> speedups;
+  std::vector<std::pair<std::string, Ratio>> speedups;
 };
 
 struct ResultTable {

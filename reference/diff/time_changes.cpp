@@ -9,7 +9,7 @@ namespace {
 
 double log_size(const TimeChange& change) { return std::fabs(std::log(change.factor.value)); }
 
-bool usable(const RatioInterval& r) { return r.low > 0.0 && r.value > 0.0 && r.high > 0.0; }
+bool usable(const Ratio& r) { return r.low > 0.0 && r.value > 0.0 && r.high > 0.0; }
 
 std::optional<TimeChange> change_of(const ResultRow& was, const ResultRow& is) {
   for (const auto& [reference, now] : is.speedups) {
@@ -21,7 +21,7 @@ std::optional<TimeChange> change_of(const ResultRow& was, const ResultRow& is) {
   return std::nullopt;
 }
 
-bool is_clear(const RatioInterval& factor) {
+bool is_clear(const Ratio& factor) {
   const bool one_sided = factor.low > 1.0 || factor.high < 1.0;
   return one_sided && std::fabs(std::log(factor.value)) > std::log1p(kSmallestTimeChange);
 }

@@ -14,7 +14,7 @@ inline constexpr double kSmallestTimeChange = 0.05;
 /// The speed-up over `reference` now divided by the one then: above 1 is faster than before.
 struct TimeChange {
   std::string scene, detector, reference;
-  RatioInterval factor;
+  Ratio factor;
 };
 
 /// Of rows with a speed-up over the same reference in both (the first of the row that is not the

@@ -30,7 +30,7 @@ const Json* speedup_in(const Rule& rule, const Json& row, std::string& reason) {
   return &all.at(rule.question).at(rule.reference);
 }
 
-std::optional<RatioInterval> ratio_in(const Rule& rule, const Json& row, std::string& reason) {
+std::optional<Ratio> ratio_in(const Rule& rule, const Json& row, std::string& reason) {
   const Json* const speedup = speedup_in(rule, row, reason);
   if (speedup == nullptr) return std::nullopt;
   const Json& part = speedup->at(rule.part);
@@ -39,8 +39,8 @@ std::optional<RatioInterval> ratio_in(const Rule& rule, const Json& row, std::st
                                         : "no frame with contact was timed";
     return std::nullopt;
   }
-  return RatioInterval{part.at("ratio").get<double>(), part.at("low").get<double>(),
-                       part.at("high").get<double>()};
+  return Ratio{part.at("ratio").get<double>(), part.at("low").get<double>(),
+               part.at("high").get<double>()};
 }
 
 // The question's times: the row's own, or among those of its other questions.
@@ -66,7 +66,7 @@ std::optional<double> frame_us(const Rule& rule, const Json& row) {
   return kMicrosecondsPerMillisecond * ms.get<double>();
 }
 
-std::string interval_text(const RatioInterval& r) {
+std::string interval_text(const Ratio& r) {
   return fmt::format("{:.4g}x [{:.4g}, {:.4g}]", r.value, r.low, r.high);
 }
 
@@ -74,7 +74,7 @@ std::string where_text(const Rule& rule) {
   return fmt::format("over {}, {}, {}", rule.reference, rule.question, rule.part);
 }
 
-Check judged(const Rule& rule, const RatioInterval& slowness, const std::string& measured,
+Check judged(const Rule& rule, const Ratio& slowness, const std::string& measured,
              const Json& row) {
   const std::optional<double> us = frame_us(rule, row);
   if (!us) return cannot_judge(rule, "no times per frame of the question " + rule.question);
@@ -140,7 +140,7 @@ std::string other_measurement(const Rule& rule, const RowIndex& now, const RowIn
              : "the reference has other options in the baseline";
 }
 
-bool is_above_zero(const RatioInterval& r) { return r.low > 0.0; }
+bool is_above_zero(const Ratio& r) { return r.low > 0.0; }
 
 Check judge_slowdown(const Rule& rule, const RowIndex& now, const RowIndex* before,
                      const Json& row) {
@@ -157,7 +157,7 @@ Check judge_slowdown(const Rule& rule, const RowIndex& now, const RowIndex* befo
   if (!reason.empty()) return cannot_judge(rule, reason);
   if (!is_above_zero(*ratio) || !is_above_zero(*known))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
-  const RatioInterval slow = quotient(*known, *ratio);
+  const Ratio slow = quotient(*known, *ratio);
   return judged(rule, over_limit(slow, rule.limit),
                 fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                             interval_text(slow), ratio->value, known->value, where_text(rule)),

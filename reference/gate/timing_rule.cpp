@@ -20,7 +20,7 @@ TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance)
 }  // namespace
 
 TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance) {
-  const RatioInterval& r = slowness.ratio;
+  const Ratio& r = slowness.ratio;
   if (r.low > 1.0) return beyond(slowness, tolerance);
   const bool wide = r.high > r.low * (1.0 + tolerance.noise_width);
   if (r.high <= 1.0 || !wide) return {};
@@ -31,11 +31,11 @@ TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& to
   return out;
 }
 
-RatioInterval slowness_of(const RatioInterval& speedup, double limit) {
+Ratio slowness_of(const Ratio& speedup, double limit) {
   return {limit / speedup.value, limit / speedup.high, limit / speedup.low};
 }
 
-RatioInterval over_limit(const RatioInterval& slowdown, double limit) {
+Ratio over_limit(const Ratio& slowdown, double limit) {
   return {slowdown.value / limit, slowdown.low / limit, slowdown.high / limit};
 }
 

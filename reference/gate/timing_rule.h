@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "reference/diff/ratio_interval.h"
 #include "reference/gate/verdict.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
 /// A detector's time over the longest time that its limit allows: beyond 1 it is too slow.
 struct Slowness {
-  RatioInterval ratio;
+  Ratio ratio;
   double frame_us = 0.0;  ///< the detector's time per frame
 };
 
@@ -32,10 +32,10 @@ TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& to
 
 /// Of a speed-up (time of the reference / time of the detector) that must be at least `limit`.
 /// A speed-up of 0 is slowness without end.
-RatioInterval slowness_of(const RatioInterval& speedup, double limit);
+Ratio slowness_of(const Ratio& speedup, double limit);
 
 /// Of a slow-down (speed-up before / speed-up now, over the same reference) that may be at most
 /// `limit`.
-RatioInterval over_limit(const RatioInterval& slowdown, double limit);
+Ratio over_limit(const Ratio& slowdown, double limit);
 
 }  // namespace contactcheck

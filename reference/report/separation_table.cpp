@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/types/median.h"
 #include "reference/report/format.h"
 #include "reference/report/markdown_table.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
@@ -18,8 +19,8 @@ void CostBook::take_anchor(const ModelKey& key, const PairedRun& run) {
   if (key == ModelKey{} || run.empty()) return;
   Model& model = models_.at(key);
   model.scales.push_back(relative_cost({run}));
-  const Ratio scale = middle_of(model.scales);
-  model.cost->anchor_ms = {unit_ms_ * scale.ratio, unit_ms_ * scale.low, unit_ms_ * scale.high};
+  const Ratio scale = median_ratio(model.scales);
+  model.cost->anchor_ms = {unit_ms_ * scale.value, unit_ms_ * scale.low, unit_ms_ * scale.high};
 }
 
 void CostBook::take(std::size_t candidate, PairedRun run) {

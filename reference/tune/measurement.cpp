@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "reference/tune/paired_cost.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -23,7 +23,7 @@ Cost Measurement::cost() const {
   if (!failure.empty()) return {};
   const ModelCost shared = model ? *model : ModelCost{};
   const Ratio own = product(shared.anchor_ms, beside_anchor);
-  return {own.ratio + shared.step.ms, own.low + shared.step.low_ms, own.high + shared.step.high_ms};
+  return {own.value + shared.step.ms, own.low + shared.step.low_ms, own.high + shared.step.high_ms};
 }
 
 bool Limits::met_by(const Measurement& m) const {

@@ -27,20 +27,10 @@ PairedRun pair_up(const ProcessSamples& own, const ProcessSamples& anchor);
 
 /// How many times the anchor it costs: the mean over frames of the median quotient, weighted by
 /// what the anchor takes for the frame (the least of its repeats: a preemption only adds). Runs are
-/// pooled over the frames that all of them have. The 95 % interval is a percentile bootstrap (400
-/// draws, fixed seed) over runs and the pairs of each frame; fewer than 3 pairs of a frame show no
-/// spread, and then frames are drawn too, which is wider. Of one pair in all the interval is open:
-/// 0 to infinity.
+/// pooled over the frames that all of them have. The interval is a bootstrap over runs and the
+/// pairs of each frame; fewer than 3 pairs of a frame show no spread, and then frames are drawn
+/// too, which is wider. Of one pair in all the interval is open: 0 to infinity.
 /// @pre at least one run; all share a frame; times are finite and above 0
 Ratio relative_cost(const std::vector<PairedRun>& runs);
-
-/// The middle of what several runs say of one ratio, which they measured apart; of one run that
-/// itself. The 95 % interval is that of a median: by the spread of the runs (Student's t), and no
-/// narrower to either side than what the runs say of themselves on that side would make it.
-/// @pre at least one run; ratios above 0
-Ratio middle_of(const std::vector<Ratio>& runs);
-
-/// The product of ratios that were measured apart, both uncertain.
-Ratio product(const Ratio& a, const Ratio& b);
 
 }  // namespace contactcheck

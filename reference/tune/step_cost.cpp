@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/types/median.h"
 #include "reference/run/timing.h"
 #include "reference/simulate/driven_simulation.h"
+#include "reference/statistics/statistics.h"
 #include "reference/tune/paired_cost.h"
 
 namespace contactcheck {
@@ -75,7 +75,7 @@ std::vector<Cost> step_costs(const std::vector<Scene>& scenes, const DetectorCat
   std::vector<Cost> costs;
   for (const auto& timer : timers) {
     const Ratio ratio = timer->beside(*timers.front());
-    costs.push_back({unit * ratio.ratio, unit * ratio.low, unit * ratio.high});
+    costs.push_back({unit * ratio.value, unit * ratio.low, unit * ratio.high});
   }
   return costs;
 }

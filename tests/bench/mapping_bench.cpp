@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/deform/mapping.h"
-#include "core/types/median.h"
+#include "reference/statistics/statistics.h"
 #include "tests/bench/bench_bodies.h"
 #include "tests/bench/plain_gather.h"
 #include "tests/bench/register.h"

@@ -15,10 +15,10 @@
 #include "core/deform/body.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
-#include "core/types/median.h"
 #include "reference/adapters/register.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
+#include "reference/statistics/statistics.h"
 #include "tests/bench/register.h"
 #include "tests/support/shapes.h"
 

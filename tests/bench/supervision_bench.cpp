@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "core/types/check.h"
-#include "core/types/median.h"
 #include "reference/adapters/register.h"
 #include "reference/run/timing.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
+#include "reference/statistics/statistics.h"
 #include "tests/bench/register.h"
 
 namespace contactcheck::bench {

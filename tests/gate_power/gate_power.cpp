@@ -29,7 +29,7 @@ constexpr double kLimit = 1.05;  // of both rules: 5 % slower than it was, or th
 struct Tally {
   int red = 0, noisy = 0;
 
-  void add(const RatioInterval& slowness) {
+  void add(const Ratio& slowness) {
     const Rule rule;  // with the floor and the noise width that a policy has when it says nothing
     const TimingVerdict verdict =
         judge_slowness({slowness, kFrameUs}, {rule.floor_us, rule.noise_width});
@@ -44,24 +44,23 @@ struct Tally {
 
 using Tallies = std::array<Tally, kSlowdowns.size()>;
 
-RatioInterval measured(const NoiseModel& model, const RunShape& shape, Noise& noise) {
+Ratio measured(const NoiseModel& model, const RunShape& shape, Noise& noise) {
   const SimulatedRun run = simulate_run(model, shape, kFrameUs, kRatio, noise);
   const std::vector<bool> no_contact(shape.frames, false);
-  const Ratio ratio = compute_speedup(run.reference, run.detector, no_contact)->cold;
-  return {ratio.ratio, ratio.low, ratio.high};
+  return compute_speedup(run.reference, run.detector, no_contact)->cold;
 }
 
 // A detector that takes longer by a factor has every quotient of the bootstrap divided by it: the
 // same noise serves all slow-downs.
-RatioInterval divided(const RatioInterval& r, double factor) {
+Ratio divided(const Ratio& r, double factor) {
   return {r.value / factor, r.low / factor, r.high / factor};
 }
 
 void one_trial(const NoiseModel& model, const RunShape& shape, Noise& noise, Tallies& against_limit,
                Tallies& against_baseline) {
-  const RatioInterval before = measured(model, shape, noise), now = measured(model, shape, noise);
+  const Ratio before = measured(model, shape, noise), now = measured(model, shape, noise);
   for (std::size_t i = 0; i < kSlowdowns.size(); ++i) {
-    const RatioInterval slower = divided(now, kSlowdowns[i]);
+    const Ratio slower = divided(now, kSlowdowns[i]);
     against_limit[i].add(slowness_of(slower, kRatio / kLimit));
     against_baseline[i].add(over_limit(quotient(before, slower), kLimit));
   }

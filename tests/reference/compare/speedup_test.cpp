@@ -82,7 +82,7 @@ ProcessSamples scaled(ProcessSamples processes, double factor) {
 }
 
 void expect_exactly(const Ratio& r, double value) {
-  EXPECT_EQ(r.ratio, value);
+  EXPECT_EQ(r.value, value);
   EXPECT_EQ(r.low, value);
   EXPECT_EQ(r.high, value);
 }
@@ -103,7 +103,7 @@ TEST(ComputeSpeedup, AboveOneMeansFasterThanTheReference) {
   QuestionSamples slow, fast;
   slow.frames[0] = updates({6.0});
   fast.frames[0] = updates({2.0});
-  EXPECT_EQ(compute_speedup({slow}, {fast}, {false})->cold.ratio, 3.0);
+  EXPECT_EQ(compute_speedup({slow}, {fast}, {false})->cold.value, 3.0);
 }
 
 TEST(ComputeSpeedup, UsesOnlyFramesThatBothWereTimedOn) {
@@ -142,9 +142,9 @@ TEST(ComputeSpeedup, WithoutMapLeavesTheMappingOut) {
   reference.frames[0].cold = reference.frames[0].hot = {{5e6, 2e6, 2e6}};
   detector.frames[0].cold = detector.frames[0].hot = {{5e6, 0.5e6, 0.5e6}};
   const auto s = compute_speedup({reference}, {detector}, {false});
-  EXPECT_EQ(s->cold.ratio, 1.5);
+  EXPECT_EQ(s->cold.value, 1.5);
   ASSERT_TRUE(s->without_map);
-  EXPECT_EQ(s->without_map->ratio, 4.0);
+  EXPECT_EQ(s->without_map->value, 4.0);
 }
 
 TEST(ComputeSpeedup, WithoutMapIsNullWhenEitherSideMapsLazily) {

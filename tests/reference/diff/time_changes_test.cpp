@@ -11,13 +11,13 @@ using test::perfect_row;
 using test::table_of;
 using testing::IsEmpty;
 
-ResultRow fast(const std::string& detector, const RatioInterval& over_fcl) {
+ResultRow fast(const std::string& detector, const Ratio& over_fcl) {
   ResultRow row = perfect_row("s", detector);
   row.speedups = {{"fcl-aabb", over_fcl}};
   return row;
 }
 
-std::vector<TimeChange> changes(const RatioInterval& then, const RatioInterval& now) {
+std::vector<TimeChange> changes(const Ratio& then, const Ratio& now) {
   return time_changes(table_of({fast("d", then)}), table_of({fast("d", now)}));
 }
 

@@ -49,20 +49,20 @@ TEST(Slowness, OfAWideIntervalOnTheBadSideFails) {
 }
 
 TEST(Slowness, OfASpeedUpTurnsItsIntervalRound) {
-  const RatioInterval r = slowness_of({4.0, 2.0, 8.0}, 6.0);
+  const Ratio r = slowness_of({4.0, 2.0, 8.0}, 6.0);
   EXPECT_DOUBLE_EQ(r.value, 1.5);
   EXPECT_DOUBLE_EQ(r.low, 0.75);
   EXPECT_DOUBLE_EQ(r.high, 3.0);
 }
 
 TEST(Slowness, OfASpeedUpOfNothingHasNoEnd) {
-  const RatioInterval r = slowness_of({0.0, 0.0, 0.0}, 6.0);
+  const Ratio r = slowness_of({0.0, 0.0, 0.0}, 6.0);
   EXPECT_TRUE(std::isinf(r.low));
   EXPECT_EQ(judge_slowness({r, 100.0}, kTolerance).verdict, Verdict::kFail);
 }
 
 TEST(Slowdown, OverItsLimitIsASlowness) {
-  const RatioInterval r = over_limit({2.2, 1.1, 3.3}, 1.1);
+  const Ratio r = over_limit({2.2, 1.1, 3.3}, 1.1);
   EXPECT_DOUBLE_EQ(r.value, 2.0);
   EXPECT_DOUBLE_EQ(r.low, 1.0);
   EXPECT_DOUBLE_EQ(r.high, 3.0);

@@ -51,7 +51,7 @@ TEST_F(CostBooks, CountInWhatTheAnchorTakes) {
 TEST_F(CostBooks, PoolRuns) {
   book_.take(7, times(1.0));
   book_.take(7, times(3.0));
-  EXPECT_THAT(priced(7, kOwn).beside_anchor.ratio, DoubleNear(2.0, 1e-12));
+  EXPECT_THAT(priced(7, kOwn).beside_anchor.value, DoubleNear(2.0, 1e-12));
 }
 
 // Its scale is as uncertain for the one as for the other: pairs say which of them is cheaper.

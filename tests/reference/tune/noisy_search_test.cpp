@@ -55,7 +55,7 @@ Measure apart(const Grid& grid, NoisyMachine& machine) {
     std::vector<Measurement> found;
     for (const std::size_t i : batch) {
       const Ratio r = compute_speedup(samples.at(0), samples.at(i), no_contact)->cold;
-      found.push_back(with_cost(grid.truth[i], {1.0 / r.ratio, 1.0 / r.high, 1.0 / r.low}));
+      found.push_back(with_cost(grid.truth[i], {1.0 / r.value, 1.0 / r.high, 1.0 / r.low}));
     }
     return found;
   };

@@ -66,7 +66,7 @@ test::Grid recorded_again(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   for (Measurement& m : again.truth) {
-    const double cost = m.beside_anchor.ratio * std::exp(kNoise * normal(random));
+    const double cost = m.beside_anchor.value * std::exp(kNoise * normal(random));
     m.beside_anchor = {cost, cost * std::exp(-kNormal95 * kNoise),
                        cost * std::exp(kNormal95 * kNoise)};
   }

@@ -1,13 +1,8 @@
 #include "core/types/semantics.h"
 
 #include <algorithm>
-#include <array>
 
 namespace contactcheck {
-namespace {
-constexpr std::array kLevels = {Level::kBody,     Level::kContainment, Level::kCell, Level::kBox,
-                                Level::kTriangle, Level::kVertex,      Level::kNear};
-}
 
 const char* name_of(Level level) {
   switch (level) {
@@ -63,6 +58,12 @@ std::optional<Level> level_from_name(std::string_view name) {
   for (Level level : kLevels)
     if (name == name_of(level)) return level;
   return std::nullopt;
+}
+
+std::vector<std::string> level_names() {
+  std::vector<std::string> names;
+  for (const Level level : kLevels) names.emplace_back(name_of(level));
+  return names;
 }
 
 bool Semantics::claims(Level level) const {

@@ -1,6 +1,7 @@
 // What a detector claims. The comparison judges exactly this and nothing else.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,15 @@ namespace contactcheck {
 
 /// The levels of contact; each has a truth of its own (see the README of fixtures for the meaning).
 enum class Level { kBody, kContainment, kCell, kBox, kTriangle, kVertex, kNear };
+
+/// In the order of tables and files.
+inline constexpr std::array kLevels = {Level::kBody, Level::kContainment, Level::kCell,
+                                       Level::kBox,  Level::kTriangle,    Level::kVertex,
+                                       Level::kNear};
+/// The first of these that a detector claims is its finest.
+inline constexpr std::array kFineToCoarse = {Level::kTriangle,   Level::kNear, Level::kVertex,
+                                             Level::kCell,       Level::kBox,  Level::kBody,
+                                             Level::kContainment};
 
 /// What is asked of a detector when its time is taken.
 enum class Question {
@@ -27,6 +37,8 @@ const char* name_of(Question question);
 const char* name_of(Precision precision);
 const char* name_of(DepthKind kind);
 std::optional<Level> level_from_name(std::string_view name);
+/// Of kLevels, in order.
+std::vector<std::string> level_names();
 
 struct Semantics {
   std::vector<Level> levels;        ///< levels it claims to answer, all of which are judged

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/types/semantics.h"
 #include "reference/scene/json_value.h"
 
 namespace contactcheck {
@@ -9,8 +10,6 @@ namespace {
 
 // As many kept cells as the paper's objects have (97 to 224).
 constexpr const char* kLattice = R"("lattice": {"kept": 150})";
-constexpr const char* kLevels =
-    R"(["body", "containment", "cell", "box", "triangle", "vertex", "near"])";
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
@@ -80,7 +79,7 @@ std::string scene_text(const ScenePlan& plan) {
       "\"title\": " + quoted(plan.title),
       "\"frames\": " + std::to_string(plan.frames),
       "\"duration\": " + shown(plan.duration),
-      std::string("\"levels\": ") + kLevels,
+      "\"levels\": " + nlohmann::json(level_names()).dump(),
       "\"bodies\": [" + joined_lines(bodies, "\n    ") + "\n  ]"};
   return "{" + joined_lines(parts, "\n  ") + "\n}\n";
 }

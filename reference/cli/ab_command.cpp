@@ -7,6 +7,7 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
 #include "reference/gate/github.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/out_lock.h"
 
 namespace contactcheck {
@@ -50,7 +51,7 @@ int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog) {
   const AbJudgement judgement = judge_ab(rounds, setting.limits);
   std::fputs(ab_text(judgement, setting).c_str(), stdout);
   if (arguments.github) tell_github(summary, judgement, setting);
-  return setting.fails(judgement) ? 1 : 0;
+  return setting.fails(judgement) ? kExitNo : 0;
 }
 
 }  // namespace contactcheck

@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/types/check.h"
-#include "reference/cli/results_file.h"
+#include "reference/results/results_file.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
 #include "reference/run/worker_process.h"

@@ -4,8 +4,8 @@
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
-#include "reference/cli/results_file.h"
 #include "reference/gate/baseline.h"
+#include "reference/results/results_file.h"
 
 namespace contactcheck {
 namespace {

@@ -1,5 +1,7 @@
 #include "reference/cli/arguments.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <utility>
@@ -73,18 +75,20 @@ std::function<std::string(const std::string&)> number_in(double least, double mo
   };
 }
 
-void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
-                const std::string& default_seconds) {
+void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib) {
   command
-      .add_option("--call-limit", seconds,
-                  "seconds that one call of a detector may take (default " + default_seconds +
-                      "); beyond, it has ended in an error")
+      .add_option(
+          "--call-limit", seconds,
+          fmt::format("seconds that one call of a detector may take (default {:g}); beyond, "
+                      "it has ended in an error",
+                      seconds))
       ->check(number_in(0.1, 1e6, "0.1 to 1000000"))
       ->type_name("SECONDS");
   command
       .add_option("--memory-limit", mib,
-                  "resident memory of a worker process (default 4096); the detector that passes it "
-                  "has ended in an error")
+                  fmt::format("resident memory of a worker process (default {}); the detector that "
+                              "passes it has ended in an error",
+                              mib))
       ->check(whole_in(64, 1 << 30))
       ->type_name("MIB");
 }

@@ -60,7 +60,7 @@ std::function<std::string(const std::string&)> number_in(double least, double mo
 CLI::Validator whole_in(std::uint64_t least, std::uint64_t most);
 
 /// --call-limit and --memory-limit: what ends a detector that goes astray.
-void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib,
-                const std::string& default_seconds);
+/// The values that they have now are the defaults.
+void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib);
 
 }  // namespace contactcheck

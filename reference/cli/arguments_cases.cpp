@@ -30,7 +30,7 @@ void add_reduce(CommandLine& line) {
   reduce->add_option("--budget", arguments->budget, "candidates that may be tried (default 20000)")
       ->check(whole_in(1, 100000000))
       ->type_name("N");
-  add_limits(*reduce, arguments->call_limit, arguments->memory_limit_mib, "10");
+  add_limits(*reduce, arguments->call_limit, arguments->memory_limit_mib);
   reduce->footer(
       "Triangles keep their dimension, a missed crossing stays a crossing, and a pair in general\n"
       "position stays in it. The detector runs in a process of its own: crashes and hangs are\n"

@@ -88,7 +88,7 @@ void add_run(CommandLine& line) {
       ->type_name("NAME");
   add_mesh_options(*run, arguments);
   add_pairs(*run, *words);
-  add_limits(*run, arguments.call_limit, arguments.memory_limit_mib, "60");
+  add_limits(*run, arguments.call_limit, arguments.memory_limit_mib);
   run->add_flag("--no-timing", words->no_timing, "judge only");
   run->add_flag("--resume", arguments.resume,
                 "take over the scenes that an interrupted run with the same settings has finished "

@@ -90,7 +90,7 @@ void add_tune(CommandLine& line) {
           ->check(whole_in(1, 1000000));
   tune->add_flag("--exhaustive", arguments->exhaustive, "measure every configuration")
       ->excludes(most);
-  add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib, "60");
+  add_limits(*tune, arguments->call_limit, arguments->memory_limit_mib);
   tune->add_option("--out", arguments->out,
                    "folder for tune.json, tune.md and chosen.json, which run takes (default out)");
   tune->add_flag("--quiet", arguments->quiet, "no progress, no tables");

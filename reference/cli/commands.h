@@ -12,6 +12,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/arrange/mesh_scene.h"
+#include "reference/run/job.h"
 #include "reference/run/shard.h"
 #include "reference/scene/random_pairs.h"
 
@@ -21,7 +22,7 @@ struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
   std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
-  std::size_t frames = 0, repeats = 5, processes = 1;
+  std::size_t frames = 0, repeats = RunSettings{}.repeats, processes = RunSettings{}.processes;
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;     ///< a scene of so many random pairs, beside the targets
   std::optional<Shard> shard;        ///< run this part alone
@@ -32,8 +33,8 @@ struct RunArguments {
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
-  double call_limit = 60.0;       ///< seconds
-  std::uint64_t memory_limit_mib = 4096;
+  double call_limit = RunSettings{}.call_limit;  ///< seconds
+  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
   std::string command_line;  ///< for the record
 };
 
@@ -58,7 +59,7 @@ struct ReduceArguments {
   std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
   std::size_t budget = 20000;
   double call_limit = 10.0;  ///< seconds
-  std::uint64_t memory_limit_mib = 4096;
+  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
 };
 
 struct GateArguments {
@@ -89,10 +90,10 @@ struct TuneArguments {
   std::optional<double> max_hover, max_deviation;  ///< metres
   std::optional<long> max_late;                    ///< frames
   std::optional<double> budget_ms;
-  std::size_t frames = 0, repeats = 5, most = 0;
+  std::size_t frames = 0, repeats = RunSettings{}.repeats, most = 0;
   bool exhaustive = false, quiet = false;
-  double call_limit = 60.0;  ///< seconds
-  std::uint64_t memory_limit_mib = 4096;
+  double call_limit = RunSettings{}.call_limit;  ///< seconds
+  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
   std::filesystem::path out = "out";
   std::string command_line;  ///< for the record
 };

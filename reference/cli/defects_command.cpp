@@ -2,9 +2,9 @@
 
 #include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
-#include "reference/cli/results_file.h"
 #include "reference/defects/comparison.h"
 #include "reference/report/known_defects.h"
+#include "reference/results/results_file.h"
 #include "reference/scene/catalogue.h"
 
 namespace contactcheck {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "reference/cli/commands.h"
-#include "reference/cli/results_file.h"
+#include "reference/results/results_file.h"
 
 namespace contactcheck {
 namespace {

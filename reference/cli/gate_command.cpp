@@ -8,18 +8,17 @@
 #include "core/deform/atomic_file.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
-#include "reference/cli/results_file.h"
 #include "reference/gate/github.h"
 #include "reference/gate/junit.h"
 #include "reference/gate/screen.h"
+#include "reference/results/results_file.h"
+#include "reference/run/exit_codes.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr int kRed = 1;
 
 ResultsFile whole_results(const fs::path& file) {
   ResultsFile results(file);
@@ -55,7 +54,7 @@ int gate_command(const GateArguments& arguments) {
   write_files(arguments, result);
   std::fputs(gate_screen(result, isatty(STDOUT_FILENO) != 0).c_str(), stdout);
   if (arguments.github) std::fputs(github_annotations(result).c_str(), stdout);
-  return result.red() ? kRed : 0;
+  return result.red() ? kExitNo : 0;
 }
 
 }  // namespace contactcheck

@@ -5,8 +5,8 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/report_folder.h"
-#include "reference/cli/results_file.h"
 #include "reference/cli/run_and_report.h"
+#include "reference/results/results_file.h"
 #include "reference/run/out_lock.h"
 #include "reference/run/shard_merge.h"
 

@@ -18,6 +18,7 @@
 
 #include "core/types/check.h"
 #include "reference/cli/arguments.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/printable.h"
 #include "reference/run/worker.h"
@@ -25,8 +26,6 @@
 
 namespace contactcheck {
 namespace {
-
-constexpr int kBadUsage = 2;
 
 // For the record, to be run again.
 std::string join_command_line(int argc, char** argv) {
@@ -79,7 +78,7 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
   } else {
     say(error.what());
   }
-  return kBadUsage;
+  return kExitBadInput;
 }
 
 int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
@@ -115,7 +114,7 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
   } catch (const std::filesystem::filesystem_error& e) {
     say(e.path1().string() + ": " + e.code().message());
   }
-  return kBadUsage;
+  return kExitBadInput;
 }
 
 }  // namespace
@@ -127,7 +126,7 @@ int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog) {
     die_of(e);
   } catch (const std::bad_alloc&) {
     say("memory ran out: this takes more than the process may have");
-    return kBadUsage;
+    return kExitBadInput;
   } catch (const std::exception& e) {
     say(std::string("internal error: ") + e.what());
     return kExitInternal;

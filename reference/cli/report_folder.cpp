@@ -6,10 +6,10 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
-#include "reference/cli/results_file.h"
 #include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/results/results_file.h"
 #include "reference/scene/file_text.h"
 #include "reference/view/view_bytes.h"
 

@@ -12,6 +12,7 @@
 #include "reference/reproduce/paper_tables.h"
 #include "reference/reproduce/reproduction.h"
 #include "reference/reproduce/reproduction_report.h"
+#include "reference/run/exit_codes.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/suite_file.h"
 
@@ -70,7 +71,7 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   write_report(arguments.out, report_texts(with_reproduction(results, arguments.out), arguments.out,
                                            all_report_formats()));
   print(arguments.out, reproduction, arguments.quiet);
-  return outcome.unlisted_error ? 3 : 0;
+  return outcome.unlisted_error ? kExitUnlistedError : 0;
 }
 
 }  // namespace contactcheck

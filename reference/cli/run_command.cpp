@@ -19,6 +19,7 @@
 #include "reference/cli/run_tasks.h"
 #include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/interrupts.h"
 #include "reference/run/out_lock.h"
 #include "reference/run/run_identity.h"
@@ -194,7 +195,7 @@ int exit_code_of(const SuiteOutcome& outcome) {
                  static_cast<unsigned long long>(outcome.oracle_wrong));
     return kExitInternal;
   }
-  return outcome.unlisted_error ? 3 : 0;
+  return outcome.unlisted_error ? kExitUnlistedError : 0;
 }
 
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,

@@ -9,6 +9,7 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/out_lock.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
@@ -128,7 +129,7 @@ int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog)
   std::printf("%s  %s%s%s\n", (arguments.out / "tune.json").c_str(),
               (arguments.out / "tune.md").c_str(), tuning.chosen ? "  " : "",
               tuning.chosen ? chosen_file(request).c_str() : "");
-  return tuning.within_budget(request.budget_ms) ? 0 : 1;
+  return tuning.within_budget(request.budget_ms) ? 0 : kExitNo;
 }
 
 }  // namespace contactcheck

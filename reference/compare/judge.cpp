@@ -29,7 +29,7 @@ bool holds(const std::vector<Level>& levels, Level level) {
 }
 
 Level finest(const std::vector<Level>& levels, const Semantics& semantics) {
-  for (Level level : {Level::kTriangle, Level::kNear, Level::kVertex, Level::kCell, Level::kBox})
+  for (const Level level : kFineToCoarse)
     if (holds(levels, level) && !holds(semantics.informative, level)) return level;
   return Level::kBody;
 }

@@ -1,5 +1,6 @@
 #include "reference/gate/policy.h"
 
+#include "core/types/semantics.h"
 #include "reference/scene/file_text.h"
 #include "reference/scene/json_field.h"
 
@@ -117,9 +118,7 @@ Rule parse_rule(const JsonField& field) {
   if (rule.measure->kind != MeasureKind::kOracle)
     rule.detectors = parse_patterns(field.at("detectors"));
   parse_bound(field, rule);
-  if (field.has("level"))
-    rule.level = field.at("level").one_of(
-        {"body", "containment", "cell", "box", "triangle", "vertex", "near"});
+  if (field.has("level")) rule.level = field.at("level").one_of(level_names());
   rule.rounded = says_true(field, "rounded");
   if (field.has("stage")) rule.stage = field.at("stage").text();
   if (is_timing(*rule.measure)) parse_timing(field, rule);

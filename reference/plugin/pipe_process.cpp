@@ -17,8 +17,8 @@
 #include <thread>
 
 #include "core/types/check.h"
-#include "reference/plugin/process_tree.h"
 #include "reference/run/printable.h"
+#include "reference/run/process_tree.h"
 
 namespace contactcheck {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/plugin/declaration.h"
+#include "reference/run/job.h"
 
 namespace contactcheck {
 
@@ -33,7 +34,7 @@ std::string content_of(const PluginSource& source);
 struct Plugin {
   PluginSource source;
   std::string content;
-  std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes, of a command's processes
+  std::uint64_t memory_limit = RunSettings{}.memory_limit;  ///< bytes, of a command's processes
   Declaration declaration;
 };
 

@@ -11,6 +11,7 @@
 #include "reference/reduce/channel.h"
 #include "reference/reduce/verdict.h"
 #include "reference/run/accuracy.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/float_environment.h"
 #include "reference/run/printable.h"
 #include "reference/run/surroundings.h"

@@ -20,12 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> level_names() {
-  return {name_of(Level::kBody), name_of(Level::kContainment), name_of(Level::kCell),
-          name_of(Level::kBox),  name_of(Level::kTriangle),    name_of(Level::kVertex),
-          name_of(Level::kNear)};
-}
-
 /// The first triangle with that corner.
 std::optional<std::uint32_t> triangle_with(const TriangleMesh& mesh, std::size_t vertex) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)

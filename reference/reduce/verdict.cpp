@@ -12,9 +12,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kError = "error";
-// The finest first, as the design orders them.
-constexpr Level kFinestFirst[] = {Level::kTriangle, Level::kNear, Level::kVertex,     Level::kCell,
-                                  Level::kBox,      Level::kBody, Level::kContainment};
 
 Json counts_json(const LevelCounts& c) {
   return {c.truth, c.reported, c.hit, c.missed, c.spurious};
@@ -103,7 +100,7 @@ std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string
   if (verdict.status == RunStatus::kError && level.empty() && matches(kind, kError))
     return Finding{"", kError, verdict.how};
   if (verdict.status != RunStatus::kOk) return std::nullopt;
-  for (const Level l : kFinestFirst) {
+  for (const Level l : kFineToCoarse) {
     if (!matches(level, name_of(l))) continue;
     const Disagreement* d = find(verdict, name_of(l), kind);
     if (d != nullptr)

@@ -8,12 +8,11 @@
 #include "reference/report/fcl_findings.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
+#include "reference/results/references.h"
 
 namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss", "embree"};
 
 std::string verdict(const Json& grid, const Json& aabb) {
   if (grid.is_null() || aabb.is_null()) return "no episode";

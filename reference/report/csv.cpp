@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/types/semantics.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
@@ -73,8 +74,7 @@ class Columns {
   }
 
   void add_levels() {
-    for (const std::string level :
-         {"body", "containment", "cell", "box", "triangle", "vertex", "near"})
+    for (const std::string& level : level_names())
       for (const std::string count :
            {"truth", "reported", "hit", "missed", "spurious", "recall", "spurious_rate"})
         add(level + "_" + count, {"levels", level, count});

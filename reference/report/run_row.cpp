@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/format.h"
+#include "reference/results/references.h"
 
 namespace contactcheck {
 namespace {
@@ -33,23 +34,26 @@ std::string speed_cell(const Json& run, const char* reference) {
 }  // namespace
 
 const std::vector<Column>& result_columns() {
-  static const std::vector<Column> columns = {
-      {"detector", true, "as given to --detector"},
-      {"level", true, "finest level judged"},
-      {"truth", false, "true contacts at that level, over all frames"},
-      {"recall", false, "hit / truth, cut, not rounded"},
-      {"missed", false, "true contacts not reported"},
-      {"spurious", false, "reported, not true"},
-      {"body m/s", false, "pairs of bodies missed / spurious, over all frames"},
-      {"hover mm", false, "largest true distance at the moment contact is first reported"},
-      {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
-      {"ms/frame", false,
-       "map + update + query, cold median, own question; (own ...): update + query by its own "
-       "clock"},
-      {"question", true, "question in which the next columns compare"},
-      {"vs fcl-aabb", false, "time of fcl-aabb / time of this detector, cold"},
-      {"vs fcl-obbrss", false, "time of fcl-obbrss / time of this detector, cold"},
-      {"vs embree", false, "time of embree / time of this detector, cold"}};
+  static const std::vector<Column> columns = [] {
+    std::vector<Column> all = {
+        {"detector", true, "as given to --detector"},
+        {"level", true, "finest level judged"},
+        {"truth", false, "true contacts at that level, over all frames"},
+        {"recall", false, "hit / truth, cut, not rounded"},
+        {"missed", false, "true contacts not reported"},
+        {"spurious", false, "reported, not true"},
+        {"body m/s", false, "pairs of bodies missed / spurious, over all frames"},
+        {"hover mm", false, "largest true distance at the moment contact is first reported"},
+        {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
+        {"ms/frame", false,
+         "map + update + query, cold median, own question; (own ...): update + query by its own "
+         "clock"},
+        {"question", true, "question in which the next columns compare"}};
+    for (const std::string reference : kReferences)
+      all.push_back(
+          {"vs " + reference, false, "time of " + reference + " / time of this detector, cold"});
+    return all;
+  }();
   return columns;
 }
 
@@ -68,20 +72,19 @@ std::vector<std::string> result_cells(const Json& run) {
     return counts.is_null() ? std::string("-") : format_count(counts.at(key));
   };
   const Json& geometry = run.at("geometry");
-  return {detector,
-          level,
-          count("truth"),
-          counts.is_null() ? "-" : format_rate(counts.at("recall")),
-          count("missed"),
-          count("spurious"),
-          body_errors(run),
-          format_millimetres(geometry.at("hover_gap_max")),
-          format_count(geometry.at("late_frames")),
-          cold_frame(run),
-          compared_question(run),
-          speed_cell(run, "fcl-aabb"),
-          speed_cell(run, "fcl-obbrss"),
-          speed_cell(run, "embree")};
+  std::vector<std::string> cells = {detector,
+                                    level,
+                                    count("truth"),
+                                    counts.is_null() ? "-" : format_rate(counts.at("recall")),
+                                    count("missed"),
+                                    count("spurious"),
+                                    body_errors(run),
+                                    format_millimetres(geometry.at("hover_gap_max")),
+                                    format_count(geometry.at("late_frames")),
+                                    cold_frame(run),
+                                    compared_question(run)};
+  for (const char* reference : kReferences) cells.push_back(speed_cell(run, reference));
+  return cells;
 }
 
 nlohmann::ordered_json at_or_null(const Json& j, const char* key) {

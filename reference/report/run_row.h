@@ -9,9 +9,9 @@
 namespace contactcheck {
 
 struct Column {
-  const char* title;
+  std::string title;
   bool left;            ///< aligned
-  const char* meaning;  ///< for the legend
+  std::string meaning;  ///< for the legend
 };
 
 /// Columns of the result table, in order.

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "core/types/semantics.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
@@ -95,11 +96,10 @@ std::string common_level(const Runs& runs) {
     finest.insert(finest_level(*run));
   }
   if (finest.size() == 1) return *finest.begin();
-  // As the judge has it, from fine to coarse (compare/judge.h).
-  for (const char* level : {"triangle", "near", "vertex", "cell", "box", "body"})
+  for (const Level level : kFineToCoarse)
     if (std::all_of(judged.begin(), judged.end(),
-                    [&](const Json* run) { return claims(*run, level); }))
-      return level;
+                    [&](const Json* run) { return claims(*run, name_of(level)); }))
+      return name_of(level);
   return "";
 }
 

@@ -1,10 +1,12 @@
 #include "reference/report/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "reference/report/format.h"
+#include "reference/results/references.h"
 
 namespace contactcheck {
 namespace {
@@ -29,7 +31,7 @@ struct Sums {
   long long truth = 0, hit = 0, missed = 0, spurious = 0, body_missed = 0, body_spurious = 0;
   bool has_level = false, has_body = false;
   std::optional<double> hover;
-  Range aabb, obbrss, embree;
+  std::array<Range, kReferences.size()> speedups;
 };
 
 void add_speed(const Json& run, const char* reference, Range& range) {
@@ -64,9 +66,8 @@ void add_run(const Json& run, Sums& sums) {
   add_levels(run, sums);
   const Json& hover = run.at("geometry").at("hover_gap_max");
   if (!hover.is_null()) sums.hover = std::max(sums.hover.value_or(0.0), hover.get<double>());
-  add_speed(run, "fcl-aabb", sums.aabb);
-  add_speed(run, "fcl-obbrss", sums.obbrss);
-  add_speed(run, "embree", sums.embree);
+  for (std::size_t i = 0; i < kReferences.size(); ++i)
+    add_speed(run, kReferences[i], sums.speedups[i]);
 }
 
 std::vector<std::string> cells_of(const Sums& s) {
@@ -77,19 +78,19 @@ std::vector<std::string> cells_of(const Sums& s) {
   const auto judged = [&](long long n) { return s.has_level ? std::to_string(n) : "-"; };
   const std::string scenes =
       std::to_string(s.scenes) + (s.not_ok ? " (" + std::to_string(s.not_ok) + " not ok)" : "");
-  return {s.detector,
-          scenes,
-          s.level,
-          judged(s.truth),
-          format_rate(recall),
-          judged(s.missed),
-          judged(s.spurious),
-          s.has_body ? std::to_string(s.body_missed) + "/" + std::to_string(s.body_spurious) : "-",
-          s.hover ? format_millimetres(*s.hover) : "-",
-          s.question,
-          s.aabb.text(),
-          s.obbrss.text(),
-          s.embree.text()};
+  std::vector<std::string> cells = {
+      s.detector,
+      scenes,
+      s.level,
+      judged(s.truth),
+      format_rate(recall),
+      judged(s.missed),
+      judged(s.spurious),
+      s.has_body ? std::to_string(s.body_missed) + "/" + std::to_string(s.body_spurious) : "-",
+      s.hover ? format_millimetres(*s.hover) : "-",
+      s.question};
+  for (const Range& range : s.speedups) cells.push_back(range.text());
+  return cells;
 }
 
 // Counts of different levels do not add up: a detector has a line per level. A run that is not `ok`
@@ -112,12 +113,16 @@ Sums& line_of(const Json& run, std::vector<Sums>& all) {
 }  // namespace
 
 const std::vector<Column>& summary_columns() {
-  static const std::vector<Column> columns = {
-      {"detector", true, ""},  {"scenes", false, ""},      {"level", true, ""},
-      {"truth", false, ""},    {"recall", false, ""},      {"missed", false, ""},
-      {"spurious", false, ""}, {"body m/s", false, ""},    {"hover mm", false, ""},
-      {"question", true, ""},  {"vs fcl-aabb", false, ""}, {"vs fcl-obbrss", false, ""},
-      {"vs embree", false, ""}};
+  static const std::vector<Column> columns = [] {
+    std::vector<Column> all = {{"detector", true, ""},  {"scenes", false, ""},
+                               {"level", true, ""},     {"truth", false, ""},
+                               {"recall", false, ""},   {"missed", false, ""},
+                               {"spurious", false, ""}, {"body m/s", false, ""},
+                               {"hover mm", false, ""}, {"question", true, ""}};
+    for (const char* reference : kReferences)
+      all.push_back({std::string("vs ") + reference, false, ""});
+    return all;
+  }();
   return columns;
 }
 

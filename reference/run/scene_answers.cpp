@@ -5,6 +5,7 @@
 
 #include "reference/compare/run_result_json.h"
 #include "reference/compare/speedup.h"
+#include "reference/results/references.h"
 #include "reference/run/contacts_json.h"
 #include "reference/run/samples_json.h"
 
@@ -12,9 +13,6 @@ namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Detectors that speed-ups are given against, where the run has them.
-constexpr const char* kReferences[] = {"fcl-aabb", "fcl-obbrss", "embree"};
 
 // Contacts are the same question only where they are of one kind: depth of vertices, of triangles
 // or of boxes.

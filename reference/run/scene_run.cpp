@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/types/check.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/printable.h"
 #include "reference/run/scene_answers.h"
 #include "reference/run/worker.h"

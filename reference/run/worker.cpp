@@ -4,6 +4,7 @@
 
 #include "core/types/check.h"
 #include "reference/arrange/sweep_poses.h"
+#include "reference/run/exit_codes.h"
 #include "reference/run/separation.h"
 #include "reference/run/worker_answer.h"
 #include "reference/run/worker_judging.h"

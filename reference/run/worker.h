@@ -8,9 +8,6 @@
 
 namespace contactcheck {
 
-/// Exit codes of a worker that says itself what went wrong.
-constexpr int kExitBadInput = 2, kExitInternal = 70;
-
 /// Entry of the hidden subcommand. `catalog` makes the job's detectors. `progress_fd`: an inherited
 /// descriptor of the shared page, or -1 to run without a parent. Writes the job's answer file.
 /// Returns the exit code.

@@ -10,10 +10,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/run/process_tree.h"
 
 namespace contactcheck {
 namespace {
@@ -141,12 +141,7 @@ int WorkerProcess::reap() {
   return status;
 }
 
-std::uint64_t WorkerProcess::resident_bytes() const {
-  std::ifstream statm("/proc/" + std::to_string(pid_) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
+std::uint64_t WorkerProcess::resident_bytes() const { return contactcheck::resident_bytes(pid_); }
 
 std::string describe_status(int status) {
   if (WIFSIGNALED(status)) {

@@ -8,16 +8,16 @@ namespace contactcheck {
 namespace {
 
 TEST(Level, NamesAreTheDesignsAndReadBack) {
-  std::set<std::string> names;
-  for (Level level : {Level::kBody, Level::kContainment, Level::kCell, Level::kBox,
-                      Level::kTriangle, Level::kVertex, Level::kNear}) {
-    names.insert(name_of(level));
-    EXPECT_EQ(level_from_name(name_of(level)), level);
-  }
-  EXPECT_EQ(names, (std::set<std::string>{"body", "containment", "cell", "box", "triangle",
-                                          "vertex", "near"}));
+  for (const Level level : kLevels) EXPECT_EQ(level_from_name(name_of(level)), level);
+  EXPECT_EQ(level_names(), (std::vector<std::string>{"body", "containment", "cell", "box",
+                                                     "triangle", "vertex", "near"}));
   EXPECT_EQ(level_from_name("Body"), std::nullopt);
   EXPECT_EQ(level_from_name(""), std::nullopt);
+}
+
+TEST(Level, FromFineToCoarseAreAll) {
+  EXPECT_EQ(std::set<Level>(kFineToCoarse.begin(), kFineToCoarse.end()),
+            std::set<Level>(kLevels.begin(), kLevels.end()));
 }
 
 TEST(Question, NamesAreTheDesigns) {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/cli/report_folder.h"
-#include "reference/cli/schema_defect.h"
 #include "reference/report/terminal.h"
+#include "reference/results/schema_defect.h"
 
 namespace contactcheck {
 namespace {

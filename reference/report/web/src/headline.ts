@@ -9,7 +9,7 @@ import {
   type Counts,
   type Verdict,
 } from "./sums";
-import type {KnownDefects, Run, Scene} from "./results";
+import {type KnownDefects, kReferences, type Run, type Scene} from "./results";
 
 export interface Finding {
   topic: string;
@@ -127,7 +127,7 @@ export function winners(report: Report, exact: Set<string>): Map<string, string[
 
 function slowerText(report: Report, detector: string): string {
   const texts = [];
-  for (const reference of ["fcl-aabb", "fcl-obbrss", "embree"]) {
+  for (const reference of kReferences) {
     if (reference === detector) continue;
     const ratios = [...report.scenes, ...report.families]
       .map((scene) => report.okRun(scene.id, detector)?.speedup?.triangles?.[reference]?.cold.ratio)

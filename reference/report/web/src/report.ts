@@ -1,5 +1,5 @@
 // Results with what every section asks of them: who ran where.
-import type {Level, Results, Run, Scene} from "./results";
+import {kFineToCoarse, kLevels, type Level, type Results, type Run, type Scene} from "./results";
 
 export class Report {
   /** Scenes that are motions (or random pairs), and families, whose frames are hard cases. */
@@ -80,9 +80,6 @@ export function levelOf(run: Run, level: string): Level | null {
   return found && !found.informative ? found : null;
 }
 
-// As the judge has it (compare/judge.h).
-const kFineToCoarse = ["triangle", "near", "vertex", "cell", "box", "body"];
-
 /**
  * Counts of different levels do not add up: where the finest one is not the same in all runs that
  * were judged, it is the finest that the detector claims in each of them; "" where there is none.
@@ -96,9 +93,8 @@ export function commonLevel(runs: Run[]): string {
 
 /** Levels that some detector claims, coarse before fine. */
 export function judgedLevels(runs: Run[]): string[] {
-  const order = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
   const seen = new Set(
     runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)),
   );
-  return order.filter((level) => seen.has(level));
+  return kLevels.filter((level) => seen.has(level));
 }

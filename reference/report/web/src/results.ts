@@ -256,3 +256,10 @@ export interface Disagreement {
   kind: "missed" | "spurious";
   case: string;
 }
+
+/** The libraries that everything is measured against, as reference/results/references.h has them. */
+export const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
+
+/** As core/types/semantics.h has them: in the order of tables, and the finest first. */
+export const kLevels = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
+export const kFineToCoarse = ["triangle", "near", "vertex", "cell", "box", "body", "containment"];

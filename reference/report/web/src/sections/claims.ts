@@ -2,11 +2,9 @@
 import {h, p, type Child} from "../dom";
 import {count, errorRate, millimetres, number, rate, ratio} from "../format";
 import type {Report} from "../report";
-import type {Geometry, Level, Run, Scene} from "../results";
+import {type Geometry, kReferences, type Level, type Run, type Scene} from "../results";
 import type {Section} from "../section";
 import {left, right, table, type Column, type Row} from "../table";
-
-const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
 
 const touching = (scene: Scene): boolean => scene.contact_frames > 0;
 

@@ -4,7 +4,7 @@ import {grouped} from "../format";
 import {kLineStyles} from "../groups";
 import {flawlessDetectors, winners} from "../headline";
 import type {Report} from "../report";
-import type {Run, Scene} from "../results";
+import {kReferences, type Run, type Scene} from "../results";
 import {stroke} from "../swatch";
 
 export const kMost = kLineStyles.length;
@@ -37,14 +37,7 @@ export function firstChoice(report: Report, all: string[]): string[] {
   const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort(
     (a, b) => b[1].length - a[1].length,
   );
-  const wanted = [
-    ...wins.map(([name]) => name),
-    "fcl-aabb",
-    "fcl-obbrss",
-    "embree",
-    "ffd-aabb-sphere2",
-    ...all,
-  ];
+  const wanted = [...wins.map(([name]) => name), ...kReferences, "ffd-aabb-sphere2", ...all];
   return [...new Set(wanted)]
     .filter((name) => all.includes(name))
     .slice(0, 5)

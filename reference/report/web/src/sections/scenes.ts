@@ -2,14 +2,12 @@
 import {code, h, p, unfolding, type Child} from "../dom";
 import {count, errorRate, millimetres, number, optionsText, rate, ratio} from "../format";
 import {comparedQuestion, finestLevel, isOk, type Report} from "../report";
-import type {Geometry, Level, Run, Scene} from "../results";
+import {type Geometry, kReferences, type Level, type Run, type Scene} from "../results";
 import type {Section} from "../section";
 import {showCell} from "../showing";
 import {left, right, titledTable, type Row} from "../table";
 import {canShow} from "../view_slot";
 import {pairsContent} from "./pairs";
-
-const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
 
 const kResultColumns = [
   left("detector", "as given to --detector"),

@@ -2,11 +2,10 @@
 import {p} from "../dom";
 import {millimetres, number, plural, rate} from "../format";
 import {term} from "../glossary";
+import {kReferences} from "../results";
 import type {Section} from "../section";
 import {share, speedupRange, summaryLines, type SummaryLine} from "../sums";
 import {left, right, table} from "../table";
-
-const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
 
 function rangeText(line: SummaryLine, reference: string): string {
   const range = speedupRange(line, reference);
@@ -56,9 +55,7 @@ export const summary: Section = {
           right("body m/s"),
           right("hover mm"),
           left("question"),
-          right("vs fcl-aabb"),
-          right("vs fcl-obbrss"),
-          right("vs embree"),
+          ...kReferences.map((reference) => right(`vs ${reference}`)),
         ],
         rows,
         "Summary of all detectors",

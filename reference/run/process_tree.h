@@ -12,7 +12,10 @@ namespace contactcheck {
 /// no longer).
 std::vector<pid_t> process_tree(pid_t root);
 
-/// Their resident memory, bytes; pages that they share count as often.
+/// Its resident memory; 0 when it is gone.
+std::uint64_t resident_bytes(pid_t process);
+
+/// The resident memory of a process and its descendants, bytes; shared pages count once for each.
 std::uint64_t resident_bytes_of_tree(pid_t root);
 
 /// Ends them all. @pre root has not been reaped

@@ -1,4 +1,4 @@
-#include "reference/plugin/process_tree.h"
+#include "reference/run/process_tree.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -23,19 +23,19 @@ void add_children(pid_t process, std::vector<pid_t>& out) {
   }
 }
 
-std::uint64_t resident_bytes(pid_t process) {
-  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace
 
 std::vector<pid_t> process_tree(pid_t root) {
   std::vector<pid_t> tree = {root};
   for (std::size_t i = 0; i < tree.size(); ++i) add_children(tree[i], tree);
   return tree;
+}
+
+std::uint64_t resident_bytes(pid_t process) {
+  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
+  std::uint64_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::uint64_t resident_bytes_of_tree(pid_t root) {

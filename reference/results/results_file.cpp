@@ -1,9 +1,9 @@
-#include "reference/cli/results_file.h"
+#include "reference/results/results_file.h"
 
 #include <algorithm>
 
 #include "core/types/check.h"
-#include "reference/cli/schema_defect.h"
+#include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
 

@@ -1,7 +1,9 @@
-#include "reference/cli/schema_defect.h"
+#include "reference/results/schema_defect.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <stdexcept>
 
 #include "reference/scene/file_text.h"
 #include "reference/scene/json_value.h"
@@ -46,12 +48,47 @@ std::string joined_texts(const Json& values) {
   return out;
 }
 
+// A keyword that nothing here checks would be ignored in silence.
+void require_known_keywords(const Json& schema) {
+  static const std::set<std::string> kOfOneSchema = {
+      "items", "additionalProperties", "propertyNames", "if", "then", "else"};
+  static const std::set<std::string> kOfSchemas = {"allOf", "anyOf", "oneOf", "properties",
+                                                   "$defs"};
+  static const std::set<std::string> kOthers = {"$ref",
+                                                "$schema",
+                                                "title",
+                                                "description",
+                                                "type",
+                                                "const",
+                                                "enum",
+                                                "minLength",
+                                                "minimum",
+                                                "exclusiveMinimum",
+                                                "maximum",
+                                                "required",
+                                                "dependentRequired",
+                                                "minItems",
+                                                "uniqueItems"};
+  if (!schema.is_object()) return;  // true or false
+  for (const auto& [keyword, value] : schema.items()) {
+    if (kOfOneSchema.count(keyword)) {
+      require_known_keywords(value);
+    } else if (kOfSchemas.count(keyword)) {
+      for (const Json& part : value) require_known_keywords(part);
+    } else if (!kOthers.count(keyword)) {
+      throw std::invalid_argument("the schema has the keyword " + in_quotes(keyword) +
+                                  ", which is not checked");
+    }
+  }
+}
+
 /// Each check gives the first defect that it finds, or "".
 class Checker {
  public:
-  explicit Checker(const Json& root) : root_(root) {}
+  explicit Checker(const Json& root) : root_(root) { require_known_keywords(root); }
 
   std::string defect(const Json& schema, const Json& value, const std::string& path) const {
+    if (schema == false) return (path.empty() ? "the document" : path) + " is not allowed";
     if (schema.contains("$ref")) {
       const std::string found = defect(referred(schema.at("$ref")), value, path);
       if (!found.empty()) return found;
@@ -132,7 +169,14 @@ class Checker {
   }
 
   std::string items(const Json& schema, const Json& value, const std::string& path) const {
-    if (!value.is_array() || !schema.contains("items")) return "";
+    if (!value.is_array()) return "";
+    if (value.size() < schema.value("minItems", 0u))
+      return wrong(path, value, "at least " + schema.at("minItems").dump() + " long");
+    if (schema.value("uniqueItems", false))
+      for (std::size_t i = 1; i < value.size(); ++i)
+        if (std::find(value.begin(), value.begin() + i, value[i]) != value.begin() + i)
+          return item_path(path, i) + " is " + value_text(value[i]) + ", as an earlier one is";
+    if (!schema.contains("items")) return "";
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string found = defect(schema.at("items"), value[i], item_path(path, i));
       if (!found.empty()) return found;

@@ -1,8 +1,9 @@
-#include "reference/cli/schema_defect.h"
+#include "reference/results/schema_defect.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <stdexcept>
 
 namespace contactcheck {
 namespace {
@@ -72,6 +73,30 @@ TEST(SchemaDefect, MemberThatAnotherOneAsksFor) {
 TEST(SchemaDefect, AlternativesSayWhatTheFirstSays) {
   EXPECT_EQ(defect_with("/runs/0/geometry/missed_length", "long"),
             "runs[0].geometry.missed_length is \"long\"; it must be of type number");
+}
+
+TEST(SchemaDefect, ArrayThatIsTooShortOrRepeatsItself) {
+  EXPECT_EQ(defect_with("/merged", Json::array()),
+            "merged is an array of 0; it must be at least 1 long");
+  EXPECT_EQ(defect_with("/resumed", {"a", "b", "a"}), "resumed[2] is \"a\", as an earlier one is");
+  EXPECT_EQ(defect_with("/resumed", {"a", "b"}), "");
+}
+
+TEST(SchemaDefect, MemberThatIsNotAllowed) {
+  EXPECT_EQ(defect_with("/known_defects/more", 1), "known_defects.more is not allowed");
+}
+
+TEST(SchemaDefect, KeywordThatNothingChecksIsRefusedWhereverItStands) {
+  const Json wrong[] = {{{"maxItems", 3}},
+                        {{"items", {{"pattern", "a"}}}},
+                        {{"properties", {{"a", {{"format", "b"}}}}}},
+                        {{"anyOf", {{{"not", true}}}}},
+                        {{"$defs", {{"unused", {{"multipleOf", 2}}}}}}};
+  for (const Json& schema : wrong)
+    EXPECT_THROW(schema_defect(schema, Json::array()), std::invalid_argument) << schema;
+  EXPECT_EQ(schema_defect({{"properties", {{"format", {{"type", "string"}}}}}},
+                          {{"format", "a member, and no keyword"}}),
+            "");
 }
 
 }  // namespace

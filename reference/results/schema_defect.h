@@ -7,8 +7,8 @@
 namespace contactcheck {
 
 /// "runs[2].levels.body.truth is -1; it must be at least 0", or "" when there is nothing to say.
-/// Knows the keywords of JSON Schema that fixtures/results.schema.json uses, but for
-/// uniqueItems; whatever else a schema asks for is not checked.
+/// Knows the keywords of JSON Schema that fixtures/results.schema.json uses.
+/// @throws std::invalid_argument when the schema has another one
 std::string schema_defect(const nlohmann::ordered_json& schema,
                           const nlohmann::ordered_json& document);
 

@@ -22,26 +22,26 @@ AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
 }
 
 // The times of one row in every round of one side; empty where some round has none.
-std::vector<double> times_of(const std::vector<AbRound>& rounds, ResultTable AbRound::*side,
-                             const ResultRow& row) {
+std::vector<double> times_of(const std::vector<AbRound>& rounds, results::Results AbRound::*side,
+                             const results::Run& row) {
   std::vector<double> times;
   for (const AbRound& round : rounds) {
-    const ResultRow* const found = (round.*side).find(row.scene, row.detector);
-    if (found == nullptr || found->times.empty() || !found->times.front().cold) return {};
-    times.push_back(*found->times.front().cold);
+    const results::Run* const found = (round.*side).run(row.scene, row.detector);
+    if (found == nullptr || found->times.empty()) return {};
+    times.push_back(found->times.front().cold.frame);
     if (times.back() <= 0.0) return {};
   }
   return times;
 }
 
-bool same_question(const ResultRow& a, const ResultRow& b) {
+bool same_question(const results::Run& a, const results::Run& b) {
   return !a.times.empty() && !b.times.empty() &&
          a.times.front().question == b.times.front().question;
 }
 
 void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJudgement& judgement) {
-  for (const ResultRow& row : rounds.front().head.rows) {
-    const ResultRow* const was = rounds.front().base.find(row.scene, row.detector);
+  for (const results::Run& row : rounds.front().head.runs) {
+    const results::Run* const was = rounds.front().base.run(row.scene, row.detector);
     if (was == nullptr) continue;
     const std::vector<double> base = times_of(rounds, &AbRound::base, row),
                               head = times_of(rounds, &AbRound::head, row);
@@ -59,7 +59,7 @@ void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJud
 }
 
 // One line per row, however many rounds differ.
-void add_unsteady(const ResultTable& first, const ResultTable& later, const char* side,
+void add_unsteady(const results::Results& first, const results::Results& later, const char* side,
                   std::vector<RowChange>& unsteady) {
   for (RowChange& change : accuracy_changes(first, later)) {
     change.detector += std::string(" in ") + side;

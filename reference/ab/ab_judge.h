@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/diff/accuracy_changes.h"
-#include "reference/diff/result_table.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -34,7 +34,7 @@ struct AbTime {
 };
 
 struct AbRound {
-  ResultTable base, head;
+  results::Results base, head;
 };
 
 struct AbJudgement {

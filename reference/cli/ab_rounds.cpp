@@ -30,12 +30,12 @@ class Build {
     words_.insert(words_.end(), arguments.targets.begin(), arguments.targets.end());
   }
 
-  ResultTable run() const {
+  results::Results run() const {
     // What an earlier round has left must not pass for this one's.
     std::error_code ignored;
     fs::remove(out_ / "results.json", ignored);
     run_to_the_end();
-    return ResultsFile(out_ / "results.json").read(read_table);
+    return results_in(out_ / "results.json");
   }
 
  private:

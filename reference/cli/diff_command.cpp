@@ -8,16 +8,16 @@
 namespace contactcheck {
 namespace {
 
-void print_heading(const char* label, const std::filesystem::path& file, const ResultTable& table) {
-  std::printf("%-7s %s  version %s, %zu rows\n", label, file.c_str(), table.version.c_str(),
-              table.rows.size());
+void print_heading(const char* label, const std::filesystem::path& file,
+                   const results::Results& results) {
+  std::printf("%-7s %s  version %s, %zu rows\n", label, file.c_str(), results.version.c_str(),
+              results.runs.size());
 }
 
 }  // namespace
 
 int diff_command(const std::filesystem::path& before, const std::filesystem::path& after) {
-  const ResultTable was = ResultsFile(before).read(read_table),
-                    is = ResultsFile(after).read(read_table);
+  const results::Results was = results_in(before), is = results_in(after);
   print_heading("before", before, was);
   print_heading("after", after, is);
   std::printf("\n%s", diff_text(diff_results(was, is)).c_str());

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 
 namespace contactcheck {
 namespace {
@@ -14,16 +14,44 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "none";
 }
 
-bool truth_differs(const ResultTable& before, const ResultTable& after, const std::string& scene) {
-  const auto was = before.truth_hashes.find(scene), is = after.truth_hashes.find(scene);
-  return was != before.truth_hashes.end() && is != after.truth_hashes.end() &&
-         was->second != is->second;
+bool truth_differs(const results::Results& before, const results::Results& after,
+                   const std::string& scene) {
+  const results::Scene *was = before.scene(scene), *is = after.scene(scene);
+  return was != nullptr && is != nullptr && was->truth_hash != is->truth_hash;
+}
+
+using NamedLevels = std::map<std::string, const results::LevelCounts*>;
+
+// "triangle"; against the truth of the values that it was fed, "triangle rounded".
+NamedLevels levels_of(const results::Run& run) {
+  NamedLevels named;
+  for (const auto& [level, counts] : run.levels) named[name_of(level)] = &counts;
+  for (const auto& [level, counts] : run.levels_rounded)
+    named[name_of(level) + std::string(" rounded")] = &counts;
+  return named;
+}
+
+using NamedErrors = std::vector<std::pair<const char*, std::optional<double>>>;
+
+NamedErrors errors_of(const results::Geometry& g) {
+  return {{"covered_length_fraction", g.covered_length_fraction},
+          {"depth_error_max", g.depth_error_max},
+          {"depth_error_mean", g.depth_error_mean},
+          {"depth_error_p95", g.depth_error_p95},
+          {"hover_gap_max", g.hover_gap_max},
+          {"late_frames", g.late_frames},
+          {"missed_length", g.missed_length},
+          {"normal_error_deg_max", g.normal_error_deg_max},
+          {"normal_error_deg_mean", g.normal_error_deg_mean},
+          {"normal_error_deg_p95", g.normal_error_deg_p95},
+          {"spurious_distance_max", g.spurious_distance_max}};
 }
 
 /// Collects the changes of one row.
 class RowComparison {
  public:
-  RowComparison(const ResultRow& before, const ResultRow& after) : before_(before), after_(after) {
+  RowComparison(const results::Run& before, const results::Run& after)
+      : before_(before), after_(after) {
     change_.scene = after.scene;
     change_.detector = after.detector;
   }
@@ -31,7 +59,7 @@ class RowComparison {
   RowChange compare() {
     if (before_.status != after_.status) {
       compare_status();
-    } else if (after_.status == "ok") {
+    } else if (after_.ok()) {
       compare_levels();
       compare_geometry();
       if (before_.contact_hash != after_.contact_hash)
@@ -46,27 +74,28 @@ class RowComparison {
 
   void compare_status() {
     change_.weight = std::numeric_limits<double>::infinity();
-    (before_.status == "ok" || after_.status == "error" ? worse_ : better_) = true;
-    note(fmt::format("{} -> {}{}", before_.status, after_.status,
+    (before_.ok() || after_.status == results::Status::kError ? worse_ : better_) = true;
+    note(fmt::format("{} -> {}{}", name_of(before_.status), name_of(after_.status),
                      after_.message.empty() ? "" : ": " + after_.message));
   }
 
   void compare_levels() {
-    std::set<std::string> names;
-    for (const auto& [name, level] : before_.levels) names.insert(name);
-    for (const auto& [name, level] : after_.levels) names.insert(name);
-    for (const std::string& name : names) {
-      const auto was = before_.levels.find(name), is = after_.levels.find(name);
-      if (was == before_.levels.end() || is == after_.levels.end()) {
+    const NamedLevels before = levels_of(before_), after = levels_of(after_);
+    NamedLevels all = before;
+    all.insert(after.begin(), after.end());
+    for (const auto& [name, counts] : all) {
+      const auto was = before.find(name), is = after.find(name);
+      if (was == before.end() || is == after.end()) {
         note(fmt::format("level {} is judged only {}", name,
-                         is == after_.levels.end() ? "before" : "after"));
+                         is == after.end() ? "before" : "after"));
       } else {
-        compare_level(name, was->second, is->second);
+        compare_level(name, *was->second, *is->second);
       }
     }
   }
 
-  void compare_level(const std::string& name, const LevelRow& was, const LevelRow& is) {
+  void compare_level(const std::string& name, const results::LevelCounts& was,
+                     const results::LevelCounts& is) {
     const std::string shown = name + (is.informative ? " (informative)" : "");
     if (was.truth != is.truth) note(fmt::format("{} truth {} -> {}", shown, was.truth, is.truth));
     compare_count(shown + " missed", was.missed, is.missed, is.informative);
@@ -85,8 +114,10 @@ class RowComparison {
   }
 
   void compare_geometry() {
-    for (const auto& [key, is] : after_.geometry) {
-      const std::optional<double> was = before_.geometry.at(key);
+    const NamedErrors before = errors_of(before_.geometry), after = errors_of(after_.geometry);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const auto& [key, is] = after[i];
+      const std::optional<double> was = before[i].second;
       if (was == is) continue;
       note(fmt::format("{} {} -> {}", key, text_of(was), text_of(is)));
       if (was && is) compare_errors(error_of(key, *was), error_of(key, *is));
@@ -104,17 +135,18 @@ class RowComparison {
     return std::fabs(value);  // late_frames is signed, and early is no better than late
   }
 
-  const ResultRow &before_, &after_;
+  const results::Run &before_, &after_;
   RowChange change_;
   bool worse_ = false, better_ = false;
 };
 
 }  // namespace
 
-std::vector<RowChange> accuracy_changes(const ResultTable& before, const ResultTable& after) {
+std::vector<RowChange> accuracy_changes(const results::Results& before,
+                                        const results::Results& after) {
   std::vector<RowChange> changes;
-  for (const ResultRow& row : after.rows) {
-    const ResultRow* was = before.find(row.scene, row.detector);
+  for (const results::Run& row : after.runs) {
+    const results::Run* was = before.run(row.scene, row.detector);
     if (was == nullptr) continue;
     RowChange change = RowComparison(*was, row).compare();
     if (was->status == row.status && truth_differs(before, after, row.scene))

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/diff/result_table.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -23,6 +23,7 @@ struct RowChange {
 
 /// Of rows that both have; the most important first. Where the exact truth of a scene is another,
 /// counts say nothing about who is better.
-std::vector<RowChange> accuracy_changes(const ResultTable& before, const ResultTable& after);
+std::vector<RowChange> accuracy_changes(const results::Results& before,
+                                        const results::Results& after);
 
 }  // namespace contactcheck

@@ -7,22 +7,28 @@
 namespace contactcheck {
 namespace {
 
-std::vector<std::string> machine_changes(const ResultTable& before, const ResultTable& after) {
+// What times depend on.
+std::vector<std::string> machine_changes(const results::Machine& before,
+                                         const results::Machine& after) {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < before.machine.size(); ++i) {
-    const auto& [key, was] = before.machine[i];
-    const std::string& is = after.machine[i].second;
-    if (was != is) out.push_back(fmt::format("{} \"{}\" -> \"{}\"", key, was, is));
-  }
+  const auto compare = [&](const char* what, const std::string& was, const std::string& is) {
+    if (was != is) out.push_back(fmt::format("{} \"{}\" -> \"{}\"", what, was, is));
+  };
+  compare("cpu", before.cpu, after.cpu);
+  compare("isa", before.isa, after.isa);
+  compare("compiler", before.compiler, after.compiler);
+  compare("build", before.build, after.build);
   return out;
 }
 
-std::vector<std::string> changed_scenes(const ResultTable& before, const ResultTable& after) {
+std::vector<std::string> changed_scenes(const results::Results& before,
+                                        const results::Results& after) {
   std::vector<std::string> out;
-  for (const auto& [scene, hash] : after.truth_hashes) {
-    const auto was = before.truth_hashes.find(scene);
-    if (was != before.truth_hashes.end() && was->second != hash) out.push_back(scene);
+  for (const results::Scene& scene : after.scenes) {
+    const results::Scene* const was = before.scene(scene.id);
+    if (was != nullptr && was->truth_hash != scene.truth_hash) out.push_back(scene.id);
   }
+  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -44,12 +50,13 @@ std::string plural(std::size_t n, const char* one) {
 
 }  // namespace
 
-std::vector<std::string> missing_rows(const ResultTable& table, const ResultTable& other) {
+std::vector<std::string> missing_rows(const results::Results& results,
+                                      const results::Results& other) {
   Counts scenes, detectors;
-  for (const ResultRow& row : other.rows) {
-    if (!table.has_scene(row.scene)) {
+  for (const results::Run& row : other.runs) {
+    if (!results.has_runs_of(row.scene)) {
       count(row.scene, scenes);
-    } else if (table.find(row.scene, row.detector) == nullptr) {
+    } else if (results.run(row.scene, row.detector) == nullptr) {
       count(row.detector, detectors);
     }
   }
@@ -61,16 +68,16 @@ std::vector<std::string> missing_rows(const ResultTable& table, const ResultTabl
   return out;
 }
 
-ResultsDiff diff_results(const ResultTable& before, const ResultTable& after) {
+ResultsDiff diff_results(const results::Results& before, const results::Results& after) {
   ResultsDiff diff;
-  diff.machine = machine_changes(before, after);
+  diff.machine = machine_changes(before.machine, after.machine);
   diff.other_scenes = changed_scenes(before, after);
   diff.changes = accuracy_changes(before, after);
   diff.times = time_changes(before, after);
   diff.added = missing_rows(before, after);
   diff.gone = missing_rows(after, before);
-  for (const ResultRow& row : after.rows)
-    if (before.find(row.scene, row.detector) != nullptr) ++diff.common;
+  for (const results::Run& row : after.runs)
+    if (before.run(row.scene, row.detector) != nullptr) ++diff.common;
   return diff;
 }
 

@@ -18,9 +18,10 @@ struct ResultsDiff {
   std::size_t common = 0;                ///< rows that both have
 };
 
-ResultsDiff diff_results(const ResultTable& before, const ResultTable& after);
+ResultsDiff diff_results(const results::Results& before, const results::Results& after);
 
-/// What `other` has and `table` lacks: whole scenes, then detectors with their scenes.
-std::vector<std::string> missing_rows(const ResultTable& table, const ResultTable& other);
+/// What `other` has and `results` lacks: whole scenes, then detectors with their scenes.
+std::vector<std::string> missing_rows(const results::Results& results,
+                                      const results::Results& other);
 
 }  // namespace contactcheck

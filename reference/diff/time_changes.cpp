@@ -11,12 +11,24 @@ double log_size(const TimeChange& change) { return std::fabs(std::log(change.fac
 
 bool usable(const Ratio& r) { return r.low > 0.0 && r.value > 0.0 && r.high > 0.0; }
 
-std::optional<TimeChange> change_of(const ResultRow& was, const ResultRow& is) {
-  for (const auto& [reference, now] : is.speedups) {
+using Speedups = std::map<std::string, results::Speedup>;
+
+// In the question that most detectors can be asked.
+const Speedups* compared_speedups(const results::Run& run) {
+  for (const Question question :
+       {Question::kTriangles, Question::kBody, Question::kContacts, Question::kCells})
+    if (const auto it = run.speedup.find(question); it != run.speedup.end()) return &it->second;
+  return nullptr;
+}
+
+std::optional<TimeChange> change_of(const results::Run& was, const results::Run& is) {
+  const Speedups *before = compared_speedups(was), *after = compared_speedups(is);
+  if (before == nullptr || after == nullptr) return std::nullopt;
+  for (const auto& [reference, now] : *after) {
     if (reference == is.detector) continue;
-    for (const auto& [name, then] : was.speedups)
-      if (name == reference && usable(now) && usable(then))
-        return TimeChange{is.scene, is.detector, reference, quotient(now, then)};
+    const auto then = before->find(reference);
+    if (then != before->end() && usable(now.cold) && usable(then->second.cold))
+      return TimeChange{is.scene, is.detector, reference, quotient(now.cold, then->second.cold)};
   }
   return std::nullopt;
 }
@@ -28,10 +40,11 @@ bool is_clear(const Ratio& factor) {
 
 }  // namespace
 
-std::vector<TimeChange> time_changes(const ResultTable& before, const ResultTable& after) {
+std::vector<TimeChange> time_changes(const results::Results& before,
+                                     const results::Results& after) {
   std::vector<TimeChange> changes;
-  for (const ResultRow& row : after.rows) {
-    const ResultRow* was = before.find(row.scene, row.detector);
+  for (const results::Run& row : after.runs) {
+    const results::Run* was = before.run(row.scene, row.detector);
     if (was == nullptr) continue;
     const std::optional<TimeChange> change = change_of(*was, row);
     if (change && is_clear(change->factor)) changes.push_back(*change);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
@@ -80,6 +81,12 @@ void check_json_depth(std::string_view json, const std::filesystem::path& file) 
 
 ResultsFile::ResultsFile(const std::filesystem::path& file)
     : file_(file), results_(read_results(file)) {}
+
+results::Results results_in(const std::filesystem::path& file) {
+  const ResultsFile results(file);
+  results.require_schema();
+  return results.read(results::from_json);
+}
 
 void ResultsFile::require_schema() const {
   const std::string found = defect_of(results_);

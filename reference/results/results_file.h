@@ -6,12 +6,18 @@
 #include <string>
 #include <string_view>
 
+#include "reference/results/results.h"
+
 namespace contactcheck {
 
 /// Whoever copies or writes JSON recurses into it, and the stack is no place to find out how deep
 /// it is. `json`: bytes that were parsed. @throws InputError when they are nested deeper than
 /// results can be
 void check_json_depth(std::string_view json, const std::filesystem::path& file);
+
+/// All of a file that is as fixtures/results.schema.json says.
+/// @throws InputError with the first place that is not
+results::Results results_in(const std::filesystem::path& file);
 
 class ResultsFile {
  public:

@@ -12,7 +12,7 @@ namespace {
 
 using test::rounds_of;
 using test::steady_rounds;
-using test::timed_row;
+using test::timed_run;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -100,7 +100,7 @@ TEST(AbJudge, ThirtyPercentAreFoundOnANoisyMachine) {
 
 TEST(AbJudge, OtherAnswersAreNamedAndTimesAreStillJudged) {
   auto rounds = steady_rounds(1.0, 1.0);
-  for (AbRound& round : rounds) round.head.rows[0].contact_hash = "0x2";
+  for (AbRound& round : rounds) round.head.runs[0].contact_hash = "0x2";
   const AbJudgement judgement = judge_ab(rounds, {});
   EXPECT_TRUE(judgement.answers_differ());
   ASSERT_EQ(judgement.answers.size(), 1u);
@@ -111,8 +111,8 @@ TEST(AbJudge, OtherAnswersAreNamedAndTimesAreStillJudged) {
 
 TEST(AbJudge, BuildThatContradictsItselfIsNamedOnce) {
   auto rounds = steady_rounds(1.0, 1.0);
-  rounds[2].head.rows[0].contact_hash = "0x2";
-  rounds[5].head.rows[0].contact_hash = "0x3";
+  rounds[2].head.runs[0].contact_hash = "0x2";
+  rounds[5].head.runs[0].contact_hash = "0x3";
   const AbJudgement judgement = judge_ab(rounds, {});
   EXPECT_THAT(judgement.answers, IsEmpty());
   ASSERT_EQ(judgement.unsteady.size(), 1u);
@@ -123,8 +123,8 @@ TEST(AbJudge, BuildThatContradictsItselfIsNamedOnce) {
 TEST(AbJudge, WhatOneSideLacksIsNamed) {
   auto rounds = steady_rounds(1.0, 1.0);
   for (AbRound& round : rounds) {
-    round.head.rows.push_back(timed_row("s", "new", 1.0));
-    round.base.rows.push_back(timed_row("old", "d", 1.0));
+    round.head.runs.push_back(timed_run("s", "new", 1.0));
+    round.base.runs.push_back(timed_run("old", "d", 1.0));
   }
   const AbJudgement judgement = judge_ab(rounds, {});
   EXPECT_THAT(judgement.only_head, ElementsAre("detector new (in 1 scene)"));
@@ -135,7 +135,7 @@ TEST(AbJudge, WhatOneSideLacksIsNamed) {
 
 TEST(AbJudge, RowWithoutATimeInSomeRoundIsNotJudged) {
   auto rounds = steady_rounds(1.0, 2.0);
-  rounds[3].head.rows[0].times.clear();
+  rounds[3].head.runs[0].times.clear();
   const AbJudgement judgement = judge_ab(rounds, {});
   EXPECT_THAT(judgement.times, IsEmpty());
   EXPECT_EQ(judgement.untimed, 1u);
@@ -143,15 +143,15 @@ TEST(AbJudge, RowWithoutATimeInSomeRoundIsNotJudged) {
 
 TEST(AbJudge, OtherQuestionsAreNotCompared) {
   auto rounds = steady_rounds(1.0, 2.0);
-  for (AbRound& round : rounds) round.head.rows[0].times[0].question = "body";
+  for (AbRound& round : rounds) round.head.runs[0].times[0].question = Question::kBody;
   EXPECT_THAT(judge_ab(rounds, {}).times, IsEmpty());
 }
 
 TEST(AbJudge, SlowestComesFirst) {
   auto rounds = steady_rounds(1.0, 1.2);
   for (AbRound& round : rounds) {
-    round.base.rows.push_back(timed_row("s", "e", 1.0));
-    round.head.rows.push_back(timed_row("s", "e", 1.5));
+    round.base.runs.push_back(timed_run("s", "e", 1.0));
+    round.head.runs.push_back(timed_run("s", "e", 1.5));
   }
   EXPECT_EQ(judge_ab(rounds, {}).times.at(0).detector, "e");
 }

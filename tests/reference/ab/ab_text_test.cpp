@@ -8,7 +8,7 @@ namespace contactcheck {
 namespace {
 
 using test::steady_rounds;
-using test::timed_row;
+using test::timed_run;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -44,7 +44,7 @@ TEST(AbText, SlowerDetectorIsNamedWithItsTimes) {
 
 TEST(AbText, OtherAnswersFailUnlessTheyMay) {
   auto rounds = steady_rounds(1.0, 1.0);
-  for (AbRound& round : rounds) round.head.rows[0].levels["triangle"].missed = 1;
+  for (AbRound& round : rounds) round.head.runs[0].levels[Level::kTriangle].missed = 1;
   const AbJudgement judgement = judge_ab(rounds, {});
   const std::string line = "  s  d  triangle missed 0 -> 1\n";
   EXPECT_THAT(ab_text(judgement, setting()),
@@ -60,7 +60,7 @@ TEST(AbText, OtherAnswersFailUnlessTheyMay) {
 
 TEST(AbText, NothingToCompareIsNoPass) {
   auto rounds = steady_rounds(1.0, 1.0);
-  for (AbRound& round : rounds) round.head.rows[0].detector = "other";
+  for (AbRound& round : rounds) round.head.runs[0].detector = "other";
   const AbJudgement judgement = judge_ab(rounds, {});
   EXPECT_THAT(ab_text(judgement, setting()),
               HasSubstr("Only in base (1)\n  detector d (in 1 scene)\n"
@@ -72,8 +72,8 @@ TEST(AbText, NothingToCompareIsNoPass) {
 TEST(AbText, FasterAndTooNoisyHaveTheirLines) {
   auto rounds = test::rounds_of({1, 1, 1, 1, 1, 1, 1}, {0.7, 0.8, 0.9, 1.2, 1.5, 1.6, 1.7});
   for (AbRound& round : rounds) {
-    round.base.rows.push_back(timed_row("s", "e", 2.0));
-    round.head.rows.push_back(timed_row("s", "e", 1.0));
+    round.base.runs.push_back(timed_run("s", "e", 2.0));
+    round.head.runs.push_back(timed_run("s", "e", 1.0));
   }
   const std::string text = ab_text(judge_ab(rounds, {}), setting());
   EXPECT_THAT(text, HasSubstr("Too noisy to judge: more rounds or a quieter machine would tell (1)"
@@ -85,7 +85,7 @@ TEST(AbText, FasterAndTooNoisyHaveTheirLines) {
 TEST(AbMarkdown, HasAllTimesAndEscapesNames) {
   auto rounds = steady_rounds(1.0, 1.3);
   for (AbRound& round : rounds)
-    for (ResultTable* table : {&round.base, &round.head}) table->rows[0].scene = "a|b*";
+    for (results::Results* side : {&round.base, &round.head}) side->runs[0].scene = "a|b*";
   const std::string text = ab_markdown(judge_ab(rounds, {}), setting());
   EXPECT_THAT(text, testing::StartsWith("## contactcheck ab\n\nFAIL: 0 of 1 times"));
   EXPECT_THAT(text, HasSubstr("\n### Slower than 1.10x (1)\n\n- a\\|b\\*  d  1.30x"));

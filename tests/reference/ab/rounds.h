@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/ab/ab_judge.h"
-#include "tests/reference/diff/tables.h"
+#include "tests/reference/diff/hand_results.h"
 
 namespace contactcheck::test {
 
@@ -12,7 +12,7 @@ inline std::vector<AbRound> rounds_of(const std::vector<double>& base,
   std::vector<AbRound> rounds;
   for (std::size_t i = 0; i < base.size(); ++i)
     rounds.push_back(
-        {table_of({timed_row("s", "d", base[i])}), table_of({timed_row("s", "d", head[i])})});
+        {results_of({timed_run("s", "d", base[i])}), results_of({timed_run("s", "d", head[i])})});
   return rounds;
 }
 

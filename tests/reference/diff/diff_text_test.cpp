@@ -4,41 +4,41 @@
 
 #include <algorithm>
 
-#include "tests/reference/diff/tables.h"
+#include "tests/reference/diff/hand_results.h"
 
 namespace contactcheck {
 namespace {
 
-using test::perfect_row;
-using test::table_of;
+using test::perfect_run;
+using test::results_of;
 using testing::HasSubstr;
 
-std::string text_of(const ResultTable& before, const ResultTable& after) {
+std::string text_of(const results::Results& before, const results::Results& after) {
   return diff_text(diff_results(before, after));
 }
 
 TEST(DiffText, OfEqualResultsIsOneLine) {
-  const ResultTable table = table_of({perfect_row("s", "d"), perfect_row("s", "e")});
+  const results::Results table = results_of({perfect_run("s", "d"), perfect_run("s", "e")});
   EXPECT_EQ(text_of(table, table),
             "2 of 2 common rows have the same answers; 0 differ clearly in time.\n");
 }
 
 TEST(DiffText, HasASectionForEveryKindOfDifference) {
-  ResultTable before = table_of({perfect_row("s", "worse"), perfect_row("s", "better"),
-                                 perfect_row("s", "hash"), perfect_row("s", "gone"),
-                                 perfect_row("old", "worse"), perfect_row("old", "better")});
-  before.rows[1].levels["triangle"].spurious = 3;
-  before.rows[2].speedups = {{"fcl-aabb", {2.0, 2.0, 2.0}}};
-  before.truth_hashes = {{"s", "0x1"}, {"moved", "0x1"}};
-  ResultTable after = before;
-  after.rows.resize(3);
-  after.machine[0].second = "B";
-  after.truth_hashes["moved"] = "0x2";
-  after.rows[0].levels["triangle"].missed = 1;
-  after.rows[1].levels["triangle"].spurious = 0;
-  after.rows[2].contact_hash = "0x2";
-  after.rows[2].speedups = {{"fcl-aabb", {1.0, 1.0, 1.0}}};
-  after.rows.push_back(perfect_row("s", "new"));
+  results::Results before = results_of({perfect_run("s", "worse"), perfect_run("s", "better"),
+                                        perfect_run("s", "hash"), perfect_run("s", "gone"),
+                                        perfect_run("old", "worse"), perfect_run("old", "better")});
+  before.runs[1].levels[Level::kTriangle].spurious = 3;
+  before.runs[2].speedup[Question::kTriangles]["fcl-aabb"].cold = {2.0, 2.0, 2.0};
+  before.scenes = {test::scene_of("s", "0x1"), test::scene_of("moved", "0x1")};
+  results::Results after = before;
+  after.runs.resize(3);
+  after.machine.cpu = "B";
+  after.scenes[1].truth_hash = "0x2";
+  after.runs[0].levels[Level::kTriangle].missed = 1;
+  after.runs[1].levels[Level::kTriangle].spurious = 0;
+  after.runs[2].contact_hash = "0x2";
+  after.runs[2].speedup[Question::kTriangles]["fcl-aabb"].cold = {1.0, 1.0, 1.0};
+  after.runs.push_back(perfect_run("s", "new"));
   EXPECT_EQ(text_of(before, after),
             "Another machine: times compare ratios, but caches and instructions differ (1)\n"
             "  cpu \"A\" -> \"B\"\n"
@@ -61,17 +61,17 @@ TEST(DiffText, HasASectionForEveryKindOfDifference) {
 }
 
 TEST(DiffText, FitsOnAScreenAndSaysWhatItLeavesOut) {
-  ResultTable before, after;
+  results::Results before, after;
   for (int i = 0; i < 300; ++i) {
-    ResultRow row = perfect_row("s", "d" + std::to_string(i));
-    row.speedups = {{"fcl-aabb", {1.0, 1.0, 1.0}}};
-    before.rows.push_back(row);
-    if (i % 3 == 0) row.levels["triangle"].missed = 1;
+    results::Run row = perfect_run("s", "d" + std::to_string(i));
+    row.speedup[Question::kTriangles]["fcl-aabb"].cold = {1.0, 1.0, 1.0};
+    before.runs.push_back(row);
+    if (i % 3 == 0) row.levels[Level::kTriangle].missed = 1;
     if (i % 3 == 1) row.contact_hash = "0x2";
-    row.speedups = {{"fcl-aabb", {i % 2 + 0.5, i % 2 + 0.5, i % 2 + 0.5}}};
-    after.rows.push_back(row);
-    before.rows.push_back(perfect_row("s", "gone" + std::to_string(i)));
-    after.rows.push_back(perfect_row("new" + std::to_string(i), "d"));
+    row.speedup[Question::kTriangles]["fcl-aabb"].cold = {i % 2 + 0.5, i % 2 + 0.5, i % 2 + 0.5};
+    after.runs.push_back(row);
+    before.runs.push_back(perfect_run("s", "gone" + std::to_string(i)));
+    after.runs.push_back(perfect_run("new" + std::to_string(i), "d"));
   }
   const std::string text = text_of(before, after);
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 45);

@@ -2,23 +2,23 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/reference/diff/tables.h"
+#include "tests/reference/diff/hand_results.h"
 
 namespace contactcheck {
 namespace {
 
-using test::perfect_row;
-using test::table_of;
+using test::perfect_run;
+using test::results_of;
 using testing::IsEmpty;
 
-ResultRow fast(const std::string& detector, const Ratio& over_fcl) {
-  ResultRow row = perfect_row("s", detector);
-  row.speedups = {{"fcl-aabb", over_fcl}};
+results::Run fast(const std::string& detector, const Ratio& over_fcl) {
+  results::Run row = perfect_run("s", detector);
+  row.speedup[Question::kTriangles]["fcl-aabb"].cold = over_fcl;
   return row;
 }
 
 std::vector<TimeChange> changes(const Ratio& then, const Ratio& now) {
-  return time_changes(table_of({fast("d", then)}), table_of({fast("d", now)}));
+  return time_changes(results_of({fast("d", then)}), results_of({fast("d", now)}));
 }
 
 TEST(TimeChanges, LostSpeedUpIsAChange) {
@@ -39,20 +39,22 @@ TEST(TimeChanges, SmallOnesAreNotWorthALine) {
 }
 
 TEST(TimeChanges, DetectorIsNotComparedWithItself) {
-  const ResultTable table = table_of({fast("fcl-aabb", {1.0, 1.0, 1.0})});
+  const results::Results table = results_of({fast("fcl-aabb", {1.0, 1.0, 1.0})});
   EXPECT_THAT(time_changes(table, table), IsEmpty());
 }
 
 TEST(TimeChanges, WithoutACommonReferenceThereIsNothingToCompare) {
-  ResultRow other = fast("d", {4.0, 4.0, 4.0});
-  other.speedups.front().first = "embree";
-  EXPECT_THAT(time_changes(table_of({fast("d", {1.0, 1.0, 1.0})}), table_of({other})), IsEmpty());
+  results::Run other = fast("d", {4.0, 4.0, 4.0});
+  other.speedup[Question::kTriangles] = {{"embree", {}}};
+  other.speedup[Question::kTriangles]["embree"].cold = {4.0, 4.0, 4.0};
+  EXPECT_THAT(time_changes(results_of({fast("d", {1.0, 1.0, 1.0})}), results_of({other})),
+              IsEmpty());
 }
 
 TEST(TimeChanges, LargestComesFirstWhicheverWayItGoes) {
   const auto found =
-      time_changes(table_of({fast("slower", {4.0, 4.0, 4.0}), fast("faster", {1.0, 1.0, 1.0})}),
-                   table_of({fast("slower", {2.0, 2.0, 2.0}), fast("faster", {3.0, 3.0, 3.0})}));
+      time_changes(results_of({fast("slower", {4.0, 4.0, 4.0}), fast("faster", {1.0, 1.0, 1.0})}),
+                   results_of({fast("slower", {2.0, 2.0, 2.0}), fast("faster", {3.0, 3.0, 3.0})}));
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].detector, "faster");
 }

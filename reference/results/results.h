@@ -1,0 +1,273 @@
+// results.json as plain data: fixtures/results.schema.json, and design's "results.json", say what
+// each field means. Units: metres, seconds, milliseconds for times, degrees, bytes. A quantity that
+// was not measured has no value, and is null in the file.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/types/semantics.h"
+#include "reference/statistics/statistics.h"
+
+namespace contactcheck::results {
+
+using Texts = std::map<std::string, std::string>;
+
+struct Machine {
+  std::string cpu, isa, os, compiler, build;
+  std::size_t cores = 0;
+};
+
+/// Sums over frames at one level.
+struct LevelCounts {
+  std::uint64_t truth = 0, reported = 0, hit = 0, missed = 0, spurious = 0;
+  std::optional<double> recall, spurious_rate;  ///< none over nothing
+  std::optional<double> margin;                 ///< of the level near
+  bool informative = false;                     ///< not claimed: shown, never gated
+};
+
+using Levels = std::map<Level, LevelCounts>;
+
+/// By frame, at the finest level claimed and judged.
+struct PerFrame {
+  std::optional<Level> level;
+  std::vector<std::uint64_t> truth, missed, spurious;
+  std::vector<std::optional<double>> covered_length_fraction;
+  std::optional<std::vector<std::optional<double>>> frame_ms;  ///< of a timed run; none: not timed
+};
+
+struct HistogramBin {
+  double from = 0.0, below = 0.0;
+  std::uint64_t count = 0;
+};
+
+struct Episode {
+  std::vector<std::size_t> bodies;
+  std::optional<std::size_t> first_true, first_reported;  ///< frames
+  std::optional<double> hover_gap;
+  std::optional<long> late_frames;
+};
+
+struct Geometry {
+  std::optional<double> missed_length, covered_length_fraction, spurious_distance_max;
+  std::vector<HistogramBin> spurious_distance_histogram;
+  DepthKind depth_kind = DepthKind::kNone;
+  std::uint64_t depth_judged = 0;
+  std::optional<double> depth_error_max, depth_error_mean, depth_error_p95;
+  std::vector<HistogramBin> depth_error_histogram;
+  std::uint64_t normal_judged = 0;
+  std::optional<double> normal_error_deg_max, normal_error_deg_mean, normal_error_deg_p95;
+  std::vector<HistogramBin> normal_error_deg_histogram;
+  std::optional<double> hover_gap_max;
+  std::optional<long> late_frames;
+  std::vector<Episode> episodes;
+};
+
+struct Stage {
+  std::string name, unit;
+  std::uint64_t in = 0, out = 0, missed = 0;
+  std::optional<std::uint64_t> visited;
+  std::string visited_unit;  ///< with visited
+};
+
+/// Milliseconds per frame.
+struct PhaseTimes {
+  std::optional<double> map;  ///< none for detectors that map what they need themselves
+  double update = 0.0, query = 0.0, frame = 0.0;
+  std::optional<double> contact_frame, self_reported;
+};
+
+struct QuestionTimes {
+  Question question = Question::kTriangles;
+  std::size_t timed_frames = 0, timed_contact_frames = 0, repeats = 0;
+  PhaseTimes cold, hot;
+};
+
+/// time(reference) / time(detector).
+struct Speedup {
+  Ratio cold, hot;
+  std::optional<Ratio> contact_frames, without_map;
+  Texts reference_options;
+};
+
+struct ClosedLoop {
+  std::string error;  ///< not empty: there is nothing else
+  std::size_t steps = 0;
+  Levels levels;
+  std::optional<double> hover_at_rest_max, hover_at_rest_mean, deepest_penetration, energy_gain;
+  double last_speed = 0.0;
+  std::size_t tunnelling_events = 0;
+};
+
+struct StepTimes {
+  std::size_t steps = 0, repeats = 0;
+  double mss = 0.0, cell = 0.0, test = 0.0, response = 0.0, total = 0.0;
+  std::vector<double> test_by_repeat, total_by_repeat;
+};
+
+enum class Status { kOk, kError, kAbsent, kRefused };
+const char* name_of(Status status);
+
+/// One detector on one scene. Of one that is not `ok` everything from per_frame on is empty.
+struct Run {
+  std::string scene, detector, message;
+  Status status = Status::kOk;
+  std::size_t frames = 0, contact_frames = 0;
+  Semantics semantics;
+  Texts options;
+  std::string recording;
+  std::optional<std::size_t> failed_frame;
+  PerFrame per_frame;
+  Levels levels, levels_rounded;
+  std::map<Level, std::string> not_judged;
+  Geometry geometry;
+  std::vector<Stage> stages;
+  std::vector<std::pair<std::string, std::uint64_t>> counters;
+  double prepare_ms = 0.0;
+  std::vector<QuestionTimes> times;  ///< its own question first; empty without timing
+  std::map<Question, std::map<std::string, Speedup>> speedup;  ///< by reference detector
+  std::uint64_t memory_bytes = 0;
+  std::string contact_hash;
+  std::vector<std::string> float_environment, notes;
+  std::optional<ClosedLoop> closed_loop;
+  std::optional<StepTimes> step_ms;
+
+  bool ok() const { return status == Status::kOk; }
+};
+
+struct SceneBody {
+  std::string name, source, notes;
+  std::size_t vertices = 0, triangles = 0, cells = 0;
+  bool solid = false;
+};
+
+struct Family {
+  std::string parameter, origin, stresses;
+  std::vector<std::string> values;
+  std::vector<std::uint64_t> true_pairs;  ///< by value
+};
+
+struct Sweep {
+  std::vector<double> separations;
+  std::size_t orientations = 0;
+  std::uint64_t seed = 0;
+  double tolerance = 0.0;
+};
+
+struct LatticeFit {
+  std::string body;
+  std::vector<double> rms, max;  ///< by frame
+};
+
+struct PairKindTally {
+  std::uint64_t pairs = 0, touching = 0;
+};
+
+struct RandomPairs {
+  std::uint64_t count = 0, seed = 0, touching = 0;
+  std::vector<std::pair<std::string, PairKindTally>> per_kind;
+  std::uint64_t checked = 0, oracle_wrong = 0;  ///< by rational arithmetic
+};
+
+struct Simulation {
+  std::string driver;
+  double step = 0.0;
+  std::size_t every = 0;
+};
+
+struct Scene {
+  std::string id, title;
+  std::size_t frames = 0, contact_frames = 0;
+  double time_step = 0.0, size = 0.0;
+  /// Contacts over all frames, or why the level cannot be judged.
+  std::map<Level, std::variant<std::uint64_t, std::string>> truth;
+  std::string truth_hash;
+  std::vector<SceneBody> bodies;
+  std::vector<double> separation;
+  std::optional<Family> family;
+  std::optional<Sweep> sweep;
+  std::vector<LatticeFit> fits;
+  std::optional<RandomPairs> pairs;
+  std::optional<Simulation> simulation;
+  std::string unjudged, contacts;  ///< empty: absent
+};
+
+struct Disagreement {
+  std::string scene, detector, level, kind, case_file;
+  std::size_t frame = 0;
+};
+
+struct Goal {
+  std::string goal, scene, detector, part;
+  std::string over, over_scene, per;  ///< one of them
+  std::optional<double> at_least, at_most;
+};
+
+struct MeasuredGoal : Goal {
+  std::optional<double> measured, low, high;
+  std::string unit, why;
+  std::optional<bool> met;
+};
+
+struct Plugin {
+  std::string detector, kind, source, content, version;
+};
+
+struct KnownDefect {
+  std::string library, version, issue, kind, sentence;
+  std::vector<std::string> detectors, scenes;
+  std::size_t listed = 0, shown = 0;
+  bool other_version = false;
+};
+
+struct Sightings {
+  std::string detector, scene, kind;
+  std::vector<std::string> values;
+};
+
+struct KnownDefects {
+  std::vector<KnownDefect> defects;
+  std::vector<Sightings> not_shown, unlisted;
+};
+
+struct ShardScene {
+  std::string id;
+  std::vector<std::string> detectors, references;
+  std::string content;
+};
+
+struct Shard {
+  std::size_t index = 0, of = 0;
+  std::string command, program;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< by name, values as JSON
+  std::vector<Goal> goals;
+  std::vector<ShardScene> scenes;
+  Texts files;
+};
+
+struct Results {
+  std::string version, command;
+  Machine machine;
+  std::vector<std::pair<std::string, std::string>> libraries;
+  std::vector<Plugin> plugins;
+  std::vector<Scene> scenes;
+  std::vector<Run> runs;
+  std::vector<Disagreement> disagreements;
+  std::optional<KnownDefects> known_defects;
+  std::vector<MeasuredGoal> goals;
+  std::optional<std::vector<std::string>> resumed;
+  std::optional<Shard> shard;
+  std::vector<std::string> merged;
+
+  /// Null when there is none.
+  const Scene* scene(const std::string& id) const;
+  bool has_runs_of(const std::string& scene) const;
+  const Run* run(const std::string& scene, const std::string& detector) const;
+};
+
+}  // namespace contactcheck::results

@@ -1,0 +1,708 @@
+#include "reference/results/results_json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+namespace contactcheck::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Each struct has one description, fields(io, value), in the order of the file; reader and writer
+// both go through it:
+//   io("key", member)            always written; missing leaves it as it is
+//   io.unless_empty("key", m)    written when it has a value, an element, a character
+//   io.part("key", function)     a nested object whose members are of this struct
+
+template <typename T>
+void read(const Json& json, T& value);
+template <typename T>
+void read(const Json& json, std::optional<T>& value);
+template <typename T>
+void read(const Json& json, std::vector<T>& values);
+template <typename T>
+void read(const Json& json, std::vector<std::pair<std::string, T>>& values);
+template <typename Key, typename T>
+void read(const Json& json, std::map<Key, T>& values);
+void read(const Json& json, Texts& values);
+void read(const Json& json, std::variant<std::uint64_t, std::string>& value);
+
+template <typename T>
+Json written(const T& value);
+template <typename T>
+Json written(const std::optional<T>& value);
+template <typename T>
+Json written(const std::vector<T>& values);
+template <typename T>
+Json written(const std::vector<std::pair<std::string, T>>& values);
+template <typename Key, typename T>
+Json written(const std::map<Key, T>& values);
+Json written(const std::variant<std::uint64_t, std::string>& value);
+
+template <typename Names>
+auto named(const Json& json, const Names& values) {
+  for (const auto value : values)
+    if (json.get_ref<const std::string&>() == name_of(value)) return value;
+  throw Json::other_error::create(501, "unknown name " + json.dump(), &json);
+}
+
+constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
+                                   Question::kContacts};
+constexpr std::array kDepthKinds = {DepthKind::kNone, DepthKind::kVertexSurface,
+                                    DepthKind::kConvexPair};
+constexpr std::array kPrecisions = {Precision::kDouble, Precision::kSingle};
+constexpr std::array kStatuses = {Status::kOk, Status::kError, Status::kAbsent, Status::kRefused};
+
+void read(const Json& json, Level& value) { value = named(json, kLevels); }
+void read(const Json& json, Question& value) { value = named(json, kQuestions); }
+void read(const Json& json, DepthKind& value) { value = named(json, kDepthKinds); }
+void read(const Json& json, Precision& value) { value = named(json, kPrecisions); }
+void read(const Json& json, Status& value) { value = named(json, kStatuses); }
+
+class Reader {
+ public:
+  static constexpr bool kReads = true;
+  explicit Reader(const Json& json) : json_(json) {}
+
+  template <typename T>
+  void operator()(const char* key, T& value) {
+    if (const auto it = json_.find(key); it != json_.end()) read(*it, value);
+  }
+  template <typename T>
+  void unless_empty(const char* key, T& value) {
+    (*this)(key, value);
+  }
+  template <typename Function>
+  void part(const char* key, Function&& function) {
+    if (const auto it = json_.find(key); it != json_.end()) {
+      Reader inside(*it);
+      function(inside);
+    }
+  }
+
+ private:
+  const Json& json_;
+};
+
+class Writer {
+ public:
+  static constexpr bool kReads = false;
+  explicit Writer(Json& json) : json_(json) {}
+
+  template <typename T>
+  void operator()(const char* key, const T& value) {
+    json_[key] = written(value);
+  }
+  template <typename T>
+  void unless_empty(const char* key, const T& value) {
+    if (!is_empty(value)) (*this)(key, value);
+  }
+  template <typename Function>
+  void part(const char* key, Function&& function) {
+    Json inside = Json::object();
+    Writer writer(inside);
+    function(writer);
+    json_[key] = std::move(inside);
+  }
+
+ private:
+  template <typename T>
+  static bool is_empty(const std::optional<T>& value) {
+    return !value;
+  }
+  static bool is_empty(bool value) { return !value; }
+  template <typename T>
+  static auto is_empty(const T& value) -> decltype(value.empty()) {
+    return value.empty();
+  }
+
+  Json& json_;
+};
+
+// --- one description per struct
+
+template <typename Io>
+void fields(Io& io, Machine& m) {
+  io("cpu", m.cpu);
+  io("cores", m.cores);
+  io("isa", m.isa);
+  io("os", m.os);
+  io("compiler", m.compiler);
+  io("build", m.build);
+}
+
+template <typename Io>
+void fields(Io& io, LevelCounts& c) {
+  io("truth", c.truth);
+  io("reported", c.reported);
+  io("hit", c.hit);
+  io("missed", c.missed);
+  io("spurious", c.spurious);
+  io("recall", c.recall);
+  io("spurious_rate", c.spurious_rate);
+  io.unless_empty("margin", c.margin);
+  io.unless_empty("informative", c.informative);
+}
+
+template <typename Io>
+void fields(Io& io, PerFrame& f) {
+  // No level is an empty text in the file.
+  std::string level = f.level ? name_of(*f.level) : "";
+  io("level", level);
+  if constexpr (Io::kReads) f.level = level_from_name(level);
+  io("truth", f.truth);
+  io("missed", f.missed);
+  io("spurious", f.spurious);
+  io("covered_length_fraction", f.covered_length_fraction);
+  io.unless_empty("frame_ms", f.frame_ms);
+}
+
+template <typename Io>
+void fields(Io& io, HistogramBin& b) {
+  io("from", b.from);
+  io("below", b.below);
+  io("count", b.count);
+}
+
+template <typename Io>
+void fields(Io& io, Episode& e) {
+  io("bodies", e.bodies);
+  io("first_true", e.first_true);
+  io("first_reported", e.first_reported);
+  io("hover_gap", e.hover_gap);
+  io("late_frames", e.late_frames);
+}
+
+template <typename Io>
+void fields(Io& io, Geometry& g) {
+  io("missed_length", g.missed_length);
+  io("covered_length_fraction", g.covered_length_fraction);
+  io("spurious_distance_max", g.spurious_distance_max);
+  io("spurious_distance_histogram", g.spurious_distance_histogram);
+  io("depth_kind", g.depth_kind);
+  io("depth_judged", g.depth_judged);
+  io("depth_error_max", g.depth_error_max);
+  io("depth_error_mean", g.depth_error_mean);
+  io("depth_error_p95", g.depth_error_p95);
+  io("depth_error_histogram", g.depth_error_histogram);
+  io("normal_judged", g.normal_judged);
+  io("normal_error_deg_max", g.normal_error_deg_max);
+  io("normal_error_deg_mean", g.normal_error_deg_mean);
+  io("normal_error_deg_p95", g.normal_error_deg_p95);
+  io("normal_error_deg_histogram", g.normal_error_deg_histogram);
+  io("hover_gap_max", g.hover_gap_max);
+  io("late_frames", g.late_frames);
+  io("episodes", g.episodes);
+}
+
+template <typename Io>
+void fields(Io& io, Stage& s) {
+  io("name", s.name);
+  io("unit", s.unit);
+  io("in", s.in);
+  io("out", s.out);
+  io("missed", s.missed);
+  io.unless_empty("visited", s.visited);
+  io.unless_empty("visited_unit", s.visited_unit);
+}
+
+template <typename Io>
+void fields(Io& io, PhaseTimes& t) {
+  io("map", t.map);
+  io("update", t.update);
+  io("query", t.query);
+  io("frame", t.frame);
+  io("contact_frame", t.contact_frame);
+  io.unless_empty("self_reported", t.self_reported);
+}
+
+template <typename Io>
+void fields(Io& io, QuestionTimes& t) {
+  io("question", t.question);
+  io("timed_frames", t.timed_frames);
+  io("timed_contact_frames", t.timed_contact_frames);
+  io("repeats", t.repeats);
+  io("cold", t.cold);
+  io("hot", t.hot);
+}
+
+template <typename Io>
+void fields(Io& io, Ratio& r) {
+  io("ratio", r.value);
+  io("low", r.low);
+  io("high", r.high);
+}
+
+template <typename Io>
+void fields(Io& io, Speedup& s) {
+  io("cold", s.cold);
+  io("hot", s.hot);
+  io("contact_frames", s.contact_frames);
+  io("without_map", s.without_map);
+  io("reference_options", s.reference_options);
+}
+
+template <typename Io>
+void fields(Io& io, ClosedLoop& c) {
+  io("error", c.error);
+  if (!c.error.empty()) return;
+  io("steps", c.steps);
+  io("levels", c.levels);
+  io("hover_at_rest_max", c.hover_at_rest_max);
+  io("hover_at_rest_mean", c.hover_at_rest_mean);
+  io("deepest_penetration", c.deepest_penetration);
+  io("energy_gain", c.energy_gain);
+  io("last_speed", c.last_speed);
+  io("tunnelling_events", c.tunnelling_events);
+}
+
+template <typename Io>
+void fields(Io& io, StepTimes& t) {
+  io("steps", t.steps);
+  io("repeats", t.repeats);
+  io("mss", t.mss);
+  io("cell", t.cell);
+  io("test", t.test);
+  io("response", t.response);
+  io("total", t.total);
+  io("test_by_repeat", t.test_by_repeat);
+  io("total_by_repeat", t.total_by_repeat);
+}
+
+template <typename Io>
+void fields(Io& io, Semantics& s) {
+  io("levels", s.levels);
+  io("informative", s.informative);
+  io("questions", s.questions);
+  std::string body = s.solid ? "solid" : "surface", touching = s.closed ? "closed" : "open";
+  io("body", body);
+  io("touching", touching);
+  if constexpr (Io::kReads) {
+    s.solid = body == "solid";
+    s.closed = touching == "closed";
+  }
+  io("exact", s.exact);
+  io("margin", s.margin);
+  io("precision", s.precision);
+  io("scale", s.scale);
+  io("depth_kind", s.depth);
+  io("means", s.means);
+  io.unless_empty("local_origin", s.local_origin);
+}
+
+// `prepare` stands in the times of every question.
+template <typename Io>
+void times_fields(Io& io, Run& run) {
+  const bool timed = !run.times.empty();
+  io.part("time_ms", [&](auto& times) {
+    times("prepare", run.prepare_ms);
+    if (timed) fields(times, run.times.front());
+  });
+}
+
+void read_times(const Json& json, Run& run) {
+  const auto own = json.find("time_ms");
+  if (own == json.end()) return;
+  if (own->contains("prepare")) own->at("prepare").get_to(run.prepare_ms);
+  if (!own->contains("question")) return;
+  read(*own, run.times.emplace_back());
+  for (const Json& other : json.value("time_ms_other_questions", Json::array()))
+    read(other, run.times.emplace_back());
+}
+
+Json other_questions(const Run& run) {
+  Json out = Json::array();
+  for (std::size_t i = 1; i < run.times.size(); ++i) {
+    Json times = {{"prepare", run.prepare_ms}};
+    times.update(written(run.times[i]));
+    out.push_back(std::move(times));
+  }
+  return out;
+}
+
+template <typename Io>
+void fields(Io& io, Run& run) {
+  io("scene", run.scene);
+  io("detector", run.detector);
+  io("status", run.status);
+  io("message", run.message);
+  io("frames", run.frames);
+  io("contact_frames", run.contact_frames);
+  io("semantics", run.semantics);
+  io("options", run.options);
+  io("recording", run.recording);
+  io.unless_empty("failed_frame", run.failed_frame);
+  if (!run.ok()) return;
+  io("per_frame", run.per_frame);
+  io("levels", run.levels);
+  io.unless_empty("levels_rounded", run.levels_rounded);
+  io("not_judged", run.not_judged);
+  io("geometry", run.geometry);
+  io("stages", run.stages);
+  io.unless_empty("counters", run.counters);
+  if constexpr (!Io::kReads) times_fields(io, run);
+  io("memory_bytes", run.memory_bytes);
+  io("contact_hash", run.contact_hash);
+  io("float_environment", run.float_environment);
+  io("notes", run.notes);
+  io.unless_empty("closed_loop", run.closed_loop);
+  io.unless_empty("step_ms", run.step_ms);
+  if constexpr (!Io::kReads) {
+    if (run.times.empty()) return;
+    io("time_ms_other_questions", other_questions(run));
+  }
+  io("speedup", run.speedup);
+}
+
+template <typename Io>
+void fields(Io& io, SceneBody& b) {
+  io("name", b.name);
+  io("source", b.source);
+  io("notes", b.notes);
+  io("vertices", b.vertices);
+  io("triangles", b.triangles);
+  io("cells", b.cells);
+  io("solid", b.solid);
+}
+
+template <typename Io>
+void fields(Io& io, Family& f) {
+  io("parameter", f.parameter);
+  io("values", f.values);
+  io("origin", f.origin);
+  io("stresses", f.stresses);
+  io("true_pairs", f.true_pairs);
+}
+
+template <typename Io>
+void fields(Io& io, Sweep& s) {
+  io("separations", s.separations);
+  io("orientations", s.orientations);
+  io("seed", s.seed);
+  io("tolerance", s.tolerance);
+}
+
+template <typename Io>
+void fields(Io& io, LatticeFit& f) {
+  io("body", f.body);
+  io("rms", f.rms);
+  io("max", f.max);
+}
+
+template <typename Io>
+void fields(Io& io, PairKindTally& t) {
+  io("pairs", t.pairs);
+  io("touching", t.touching);
+}
+
+template <typename Io>
+void fields(Io& io, RandomPairs& p) {
+  io("count", p.count);
+  io("seed", p.seed);
+  io("touching", p.touching);
+  io("per_kind", p.per_kind);
+  io.part("rational", [&](auto& rational) {
+    rational("checked", p.checked);
+    rational("oracle_wrong", p.oracle_wrong);
+  });
+}
+
+template <typename Io>
+void fields(Io& io, Simulation& s) {
+  io("driver", s.driver);
+  io("step", s.step);
+  io("every", s.every);
+}
+
+template <typename Io>
+void fields(Io& io, Scene& s) {
+  io("id", s.id);
+  io("title", s.title);
+  io("frames", s.frames);
+  io("time_step", s.time_step);
+  io("size", s.size);
+  io("contact_frames", s.contact_frames);
+  io("truth", s.truth);
+  io("truth_hash", s.truth_hash);
+  io("bodies", s.bodies);
+  io.unless_empty("separation", s.separation);
+  io.unless_empty("family", s.family);
+  io.unless_empty("sweep", s.sweep);
+  io.unless_empty("fits", s.fits);
+  io.unless_empty("pairs", s.pairs);
+  io.unless_empty("simulation", s.simulation);
+  io.unless_empty("unjudged", s.unjudged);
+  io.unless_empty("contacts", s.contacts);
+}
+
+template <typename Io>
+void fields(Io& io, Disagreement& d) {
+  io("scene", d.scene);
+  io("frame", d.frame);
+  io("detector", d.detector);
+  io("level", d.level);
+  io("kind", d.kind);
+  io("case", d.case_file);
+}
+
+template <typename Io>
+void fields(Io& io, Goal& g) {
+  io("goal", g.goal);
+  io("scene", g.scene);
+  io("detector", g.detector);
+  io("part", g.part);
+  io.unless_empty("over", g.over);
+  io.unless_empty("over_scene", g.over_scene);
+  io.unless_empty("per", g.per);
+  io.unless_empty("at_least", g.at_least);
+  io.unless_empty("at_most", g.at_most);
+}
+
+template <typename Io>
+void fields(Io& io, MeasuredGoal& g) {
+  fields(io, static_cast<Goal&>(g));
+  io("measured", g.measured);
+  io.unless_empty("low", g.low);
+  io.unless_empty("high", g.high);
+  io.unless_empty("unit", g.unit);
+  io.unless_empty("why", g.why);
+  io("met", g.met);
+}
+
+template <typename Io>
+void fields(Io& io, Plugin& p) {
+  io("detector", p.detector);
+  io("kind", p.kind);
+  io("source", p.source);
+  io("content", p.content);
+  io("version", p.version);
+}
+
+template <typename Io>
+void fields(Io& io, KnownDefect& d) {
+  io("library", d.library);
+  io("version", d.version);
+  io("issue", d.issue);
+  io("kind", d.kind);
+  io("sentence", d.sentence);
+  io("detectors", d.detectors);
+  io("scenes", d.scenes);
+  io("listed", d.listed);
+  io("shown", d.shown);
+  io("other_version", d.other_version);
+}
+
+template <typename Io>
+void fields(Io& io, Sightings& s) {
+  io("detector", s.detector);
+  io("scene", s.scene);
+  io("kind", s.kind);
+  io("values", s.values);
+}
+
+template <typename Io>
+void fields(Io& io, KnownDefects& k) {
+  io("defects", k.defects);
+  io("not_shown", k.not_shown);
+  io("unlisted", k.unlisted);
+}
+
+template <typename Io>
+void fields(Io& io, ShardScene& s) {
+  io("id", s.id);
+  io("detectors", s.detectors);
+  io("references", s.references);
+  io("content", s.content);
+}
+
+template <typename Io>
+void fields(Io& io, Shard& s) {
+  io("index", s.index);
+  io("of", s.of);
+  io("command", s.command);
+  io("program", s.program);
+  Json settings = Json::object();
+  for (const auto& [name, value] : s.settings) settings[name] = Json::parse(value);
+  io("settings", settings);
+  if constexpr (Io::kReads)
+    for (const auto& [name, value] : settings.items()) s.settings.emplace_back(name, value.dump());
+  io("goals", s.goals);
+  io("scenes", s.scenes);
+  io("files", s.files);
+}
+
+template <typename Io>
+void fields(Io& io, Results& r) {
+  io("version", r.version);
+  io("command", r.command);
+  io("machine", r.machine);
+  io("libraries", r.libraries);
+  io.unless_empty("plugins", r.plugins);
+  io("scenes", r.scenes);
+  io("runs", r.runs);
+  io("disagreements", r.disagreements);
+  io.unless_empty("known_defects", r.known_defects);
+  io.unless_empty("goals", r.goals);
+  io.unless_empty("resumed", r.resumed);
+  io.unless_empty("shard", r.shard);
+  io.unless_empty("merged", r.merged);
+}
+
+// --- values, lists and maps
+
+template <typename T>
+concept HasFields = requires(Reader& reader, T& value) { fields(reader, value); };
+template <typename T>
+concept Named = std::is_enum_v<T>;
+
+template <typename T>
+void read(const Json& json, std::optional<T>& value) {
+  if (json.is_null()) return value.reset();
+  read(json, value.emplace());
+}
+
+template <typename T>
+void read(const Json& json, std::vector<T>& values) {
+  values.clear();
+  for (const Json& item : json) read(item, values.emplace_back());
+}
+
+template <typename T>
+void read(const Json& json, std::vector<std::pair<std::string, T>>& values) {
+  values.clear();
+  for (const auto& [key, item] : json.items()) read(item, values.emplace_back(key, T{}).second);
+}
+
+template <typename Key, typename T>
+void read(const Json& json, std::map<Key, T>& values) {
+  values.clear();
+  for (const auto& [key, item] : json.items()) {
+    Key place{};
+    read(Json(key), place);
+    read(item, values[place]);
+  }
+}
+
+// Options of other programs may be numbers.
+void read(const Json& json, Texts& values) {
+  values.clear();
+  for (const auto& [key, item] : json.items())
+    values[key] = item.is_string() ? item.get<std::string>() : item.dump();
+}
+
+void read(const Json& json, std::variant<std::uint64_t, std::string>& value) {
+  if (json.is_string()) {
+    value = json.get<std::string>();
+  } else {
+    value = json.get<std::uint64_t>();
+  }
+}
+
+template <typename T>
+void read(const Json& json, T& value) {
+  if constexpr (HasFields<T>) {
+    if (!json.is_object()) throw Json::type_error::create(304, "not an object", &json);
+    Reader reader(json);
+    fields(reader, value);
+    if constexpr (std::is_same_v<T, Run>) {
+      if (value.ok()) read_times(json, value);
+    }
+  } else if constexpr (std::is_same_v<T, Json>) {
+    value = json;
+  } else {
+    json.get_to(value);
+  }
+}
+
+template <typename T>
+Json written(const std::optional<T>& value) {
+  return value ? written(*value) : Json(nullptr);
+}
+
+template <typename T>
+Json written(const std::vector<T>& values) {
+  Json out = Json::array();
+  for (const T& value : values) out.push_back(written(value));
+  return out;
+}
+
+template <typename T>
+Json written(const std::vector<std::pair<std::string, T>>& values) {
+  Json out = Json::object();
+  for (const auto& [key, value] : values) out[key] = written(value);
+  return out;
+}
+
+template <typename Key, typename T>
+Json written(const std::map<Key, T>& values) {
+  Json out = Json::object();
+  for (const auto& [key, value] : values)
+    out[written(key).template get<std::string>()] = written(value);
+  return out;
+}
+
+Json written(const std::variant<std::uint64_t, std::string>& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+template <typename T>
+Json written(const T& value) {
+  if constexpr (HasFields<T>) {
+    Json out = Json::object();
+    Writer writer(out);
+    // A description takes the struct to read into; a writer changes nothing in it.
+    fields(writer, const_cast<T&>(value));
+    return out;
+  } else if constexpr (Named<T>) {
+    return name_of(value);
+  } else {
+    return value;
+  }
+}
+
+}  // namespace
+
+const char* name_of(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return "ok";
+    case Status::kError:
+      return "error";
+    case Status::kAbsent:
+      return "absent";
+    case Status::kRefused:
+      return "refused";
+  }
+  return "unknown";
+}
+
+const Scene* Results::scene(const std::string& id) const {
+  for (const Scene& scene : scenes)
+    if (scene.id == id) return &scene;
+  return nullptr;
+}
+
+bool Results::has_runs_of(const std::string& scene) const {
+  return std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.scene == scene; });
+}
+
+const Run* Results::run(const std::string& scene, const std::string& detector) const {
+  for (const Run& run : runs)
+    if (run.scene == scene && run.detector == detector) return &run;
+  return nullptr;
+}
+
+Results from_json(const nlohmann::ordered_json& json) {
+  Results results;
+  read(json, results);
+  return results;
+}
+
+nlohmann::ordered_json to_json(const Results& results) {
+  Json out = {{"schema", "contactcheck-results/1"}};
+  out.update(written(results));
+  return out;
+}
+
+}  // namespace contactcheck::results

@@ -1,0 +1,67 @@
+// The kept results of timed runs, read and written again.
+#include "reference/results/results_json.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace contactcheck::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json read(const std::string& file) {
+  std::ifstream in(file);
+  return Json::parse(in);
+}
+
+class ResultsFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(ResultsFile, IsTheSameWhenItIsReadAndWritten) {
+  const Json json = read(GetParam());
+  EXPECT_EQ(to_json(from_json(json)).dump(1), json.dump(1));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kept, ResultsFile,
+                         testing::Values(CONTACTCHECK_KEPT_RESULTS "/default.json",
+                                         CONTACTCHECK_KEPT_RESULTS "/default-again.json",
+                                         CONTACTCHECK_KEPT_RESULTS "/hard.json",
+                                         CONTACTCHECK_KEPT_RESULTS "/simulated.json",
+                                         CONTACTCHECK_KEPT_RESULTS "/shard1/results.json",
+                                         CONTACTCHECK_KEPT_RESULTS "/shard2/results.json"));
+
+// Files by hand or stripped leave out what may be missing; nothing that they have is lost.
+TEST(ResultsFile, WithLessThanARunWritesGetsDefaultsAndLosesNothing) {
+  for (const char* file :
+       {CONTACTCHECK_EXAMPLE_RESULTS, CONTACTCHECK_FIXTURES "/baselines/ci.json"}) {
+    const Json json = read(file);
+    // Without an order of members.
+    const nlohmann::json before = json, after = to_json(from_json(json));
+    for (const auto& change : nlohmann::json::diff(before, after))
+      EXPECT_EQ(change.at("op"), "add") << file << ": " << change;
+  }
+}
+
+TEST(Results, FindsScenesAndRuns) {
+  const Results results = from_json(read(CONTACTCHECK_KEPT_RESULTS "/default.json"));
+  ASSERT_NE(results.scene("contact"), nullptr);
+  EXPECT_EQ(results.scene("contact")->id, "contact");
+  EXPECT_EQ(results.scene("nowhere"), nullptr);
+  const auto* const run = results.run("contact", "ffd-lazy");
+  ASSERT_NE(run, nullptr);
+  EXPECT_EQ(run->levels.at(Level::kTriangle).missed, 0u);
+  EXPECT_EQ(run->times.front().question, Question::kTriangles);
+  EXPECT_GT(run->speedup.at(Question::kTriangles).at("fcl-aabb").cold.value, 1.0);
+  EXPECT_EQ(results.run("contact", "nobody"), nullptr);
+}
+
+TEST(FromJson, RefusesWhatIsOfAnotherTypeOrUnknown) {
+  for (const char* text : {R"({"runs": [1]})", R"({"runs": [{"status": "fine"}]})",
+                           R"({"runs": [{"status": "ok", "levels": {"edge": {}}}]})",
+                           R"({"version": 7})", R"({"runs": [{"frames": "many"}]})"})
+    EXPECT_THROW(from_json(Json::parse(text)), Json::exception) << text;
+}
+
+}  // namespace
+}  // namespace contactcheck::results

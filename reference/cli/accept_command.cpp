@@ -6,6 +6,7 @@
 #include "reference/cli/commands.h"
 #include "reference/gate/baseline.h"
 #include "reference/results/results_file.h"
+#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
@@ -21,7 +22,7 @@ std::optional<ResultsFile> baseline_in_place(const fs::path& file) {
   return ResultsFile(file);
 }
 
-std::string changes_text(const Json& before, const Json& now) {
+std::string changes_text(const results::Results& before, const results::Results& now) {
   std::string out;
   for (const std::string& line : baseline_changes(before, now)) out += "  " + line + "\n";
   return out.empty() ? "no row, count or contact changed\n" : "changed:\n" + out;
@@ -46,7 +47,7 @@ int accept_command(const fs::path& results_file, const fs::path& file) {
     throw InputError(results_file.string() +
                      ": runs is empty; a baseline of nothing holds nothing");
   const std::string changes =
-      before ? before->read([&](const Json& old) { return changes_text(old, baseline); }) : "";
+      before ? changes_text(before->read(results::from_json), results::from_json(baseline)) : "";
   write_file_atomically(file, baseline_text(baseline));
   std::fputs((written_text(file, baseline) + changes).c_str(), stdout);
   return 0;

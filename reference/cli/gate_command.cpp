@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <optional>
 
 #include "core/deform/atomic_file.h"
 #include "reference/cli/commands.h"
@@ -18,26 +17,13 @@ namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-ResultsFile whole_results(const fs::path& file) {
-  ResultsFile results(file);
-  results.require_schema();
-  return results;
-}
 
 GateResult judged(const GateArguments& arguments) {
   const Policy policy = read_policy(arguments.policy);
-  const ResultsFile results = whole_results(arguments.results);
-  std::optional<ResultsFile> baseline;
-  if (!arguments.baseline.empty()) baseline = whole_results(arguments.baseline);
-  const auto alone = [&](const Json& now) { return run_gate(policy, now, nullptr); };
-  const auto beside = [&](const Json& now) {
-    return baseline->read([&](const Json& before) { return run_gate(policy, now, &before); });
-  };
-  // What is wrong with the results is said of the results: first without the baseline.
-  const GateResult result = results.read(alone);
-  return baseline ? results.read(beside) : result;
+  const results::Results now = results_in(arguments.results);
+  if (arguments.baseline.empty()) return run_gate(policy, now, nullptr);
+  const results::Results before = results_in(arguments.baseline);
+  return run_gate(policy, now, &before);
 }
 
 // Files first: a gate that could not write one has said nothing yet.

@@ -1,8 +1,8 @@
 #include "reference/gate/baseline.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-
-#include "reference/gate/row_index.h"
+#include <utility>
 
 namespace contactcheck {
 namespace {
@@ -26,41 +26,56 @@ std::string lines_of(const Json& list) {
   return "[" + out + (out.empty() ? "]" : "\n ]");
 }
 
-std::string row_name(const Json& row) {
-  return row.at("scene").get<std::string>() + "  " + row.at("detector").get<std::string>();
-}
-
 // "KEY A -> B", where it changed.
-void add_change(std::string& line, const std::string& key, const Json& before, const Json& now) {
-  if (before == now) return;
-  const auto text = [](const Json& v) { return v.is_string() ? v.get<std::string>() : v.dump(); };
-  line += (line.empty() ? "" : ", ") + key + " " + text(before) + " -> " + text(now);
+void add_change(std::string& line, const std::string& key, const std::string& before,
+                const std::string& now) {
+  if (before != now) line += (line.empty() ? "" : ", ") + key + " " + before + " -> " + now;
 }
 
-Json finest_level(const Json& row) {
-  const std::string level = row.at("per_frame").value("level", "");
-  return row.at("levels").value(level, Json::object());
+using Count = std::uint64_t results::LevelCounts::*;
+
+std::string count_text(const results::Run& row, Count count) {
+  const auto finest =
+      row.per_frame.level ? row.levels.find(*row.per_frame.level) : row.levels.end();
+  return finest == row.levels.end() ? "null" : std::to_string(finest->second.*count);
 }
 
-std::string row_change(const Json& before, const Json& now) {
+std::string row_change(const results::Run& before, const results::Run& now) {
   std::string line;
-  add_change(line, "status", before.at("status"), now.at("status"));
-  if (before.at("status") != "ok" || now.at("status") != "ok") return line;
-  add_change(line, "frames", before.at("frames"), now.at("frames"));
-  const Json old = finest_level(before), level = finest_level(now);
-  for (const char* key : {"truth", "missed", "spurious"})
-    add_change(line, key, old.value(key, Json()), level.value(key, Json()));
-  add_change(line, "contact_hash", before.at("contact_hash"), now.at("contact_hash"));
+  add_change(line, "status", name_of(before.status), name_of(now.status));
+  if (!before.ok() || !now.ok()) return line;
+  add_change(line, "frames", std::to_string(before.frames), std::to_string(now.frames));
+  for (const auto& [name, count] :
+       {std::pair<const char*, Count>{"truth", &results::LevelCounts::truth},
+        {"missed", &results::LevelCounts::missed},
+        {"spurious", &results::LevelCounts::spurious}})
+    add_change(line, name, count_text(before, count), count_text(now, count));
+  add_change(line, "contact_hash", before.contact_hash, now.contact_hash);
   return line;
 }
 
-void add_members(const char* kind, const Json& before, const Json& now,
+using Texts = std::vector<std::pair<std::string, std::string>>;
+
+Texts texts_of(const results::Machine& m) {
+  return {{"cpu", m.cpu}, {"cores", std::to_string(m.cores)}, {"isa", m.isa},
+          {"os", m.os},   {"compiler", m.compiler},           {"build", m.build}};
+}
+
+std::string text_in(const Texts& texts, const std::string& key) {
+  for (const auto& [name, text] : texts)
+    if (name == key) return text;
+  return "null";
+}
+
+void add_members(const char* kind, const Texts& before, const Texts& now,
                  std::vector<std::string>& out) {
-  Json all = before;
-  all.update(now);
-  for (const auto& [key, ignored] : all.items()) {
+  Texts all = before;
+  for (const auto& [key, text] : now)
+    if (std::none_of(before.begin(), before.end(), [&](const auto& t) { return t.first == key; }))
+      all.emplace_back(key, text);
+  for (const auto& [key, ignored] : all) {
     std::string line;
-    add_change(line, kind + (" " + key), before.value(key, Json()), now.value(key, Json()));
+    add_change(line, kind + (" " + key), text_in(before, key), text_in(now, key));
     if (!line.empty()) out.push_back(line);
   }
 }
@@ -88,22 +103,19 @@ std::string baseline_text(const Json& baseline) {
   return "{\n" + out + "\n}\n";
 }
 
-std::vector<std::string> baseline_changes(const Json& before, const Json& now) {
+std::vector<std::string> baseline_changes(const results::Results& before,
+                                          const results::Results& now) {
   std::vector<std::string> out;
-  add_members("machine", before.at("machine"), now.at("machine"), out);
-  add_members("library", before.at("libraries"), now.at("libraries"), out);
-  const RowIndex old_rows(before), rows(now);
-  const auto key = [](const Json& row, const char* name) {
-    return row.at(name).get<std::string>();
-  };
-  for (const Json& row : now.at("runs")) {
-    const Json* const old = old_rows.row(key(row, "scene"), key(row, "detector"));
+  add_members("machine", texts_of(before.machine), texts_of(now.machine), out);
+  add_members("library", before.libraries, now.libraries, out);
+  const auto name = [](const results::Run& row) { return row.scene + "  " + row.detector; };
+  for (const results::Run& row : now.runs) {
+    const results::Run* const old = before.run(row.scene, row.detector);
     const std::string change = old == nullptr ? "new" : row_change(*old, row);
-    if (!change.empty()) out.push_back(row_name(row) + ": " + change);
+    if (!change.empty()) out.push_back(name(row) + ": " + change);
   }
-  for (const Json& old : before.at("runs"))
-    if (rows.row(key(old, "scene"), key(old, "detector")) == nullptr)
-      out.push_back(row_name(old) + ": gone");
+  for (const results::Run& old : before.runs)
+    if (now.run(old.scene, old.detector) == nullptr) out.push_back(name(old) + ": gone");
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/results/results.h"
+
 namespace contactcheck {
 
 /// The same schema. Without recordings, cases, times and shares per frame, and episodes; machine,
@@ -19,7 +21,7 @@ std::string baseline_text(const nlohmann::ordered_json& baseline);
 /// What another baseline in its place changes, a line each: machine and libraries, rows that are
 /// new or gone, statuses, contacts, counts at the finest level; empty when nothing of it changed.
 /// Times are not compared.
-std::vector<std::string> baseline_changes(const nlohmann::ordered_json& before,
-                                          const nlohmann::ordered_json& now);
+std::vector<std::string> baseline_changes(const results::Results& before,
+                                          const results::Results& now);
 
 }  // namespace contactcheck

@@ -1,7 +1,6 @@
 #include "reference/gate/coverage.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "reference/gate/blame.h"
@@ -9,9 +8,6 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
-using Rows = std::vector<const Json*>;
-
 Check failure(const std::string& rule, const std::string& reason) {
   Check out;
   out.rule = rule;
@@ -36,35 +32,35 @@ Check idle_rule(const Rule& rule) {
   return out;
 }
 
-void add_idle(const Rule& rule, const Patterns& patterns, const char* key, const Rows& rows,
+void add_idle(const Rule& rule, const Patterns& patterns, const char* what,
+              std::string RowName::*name, const std::vector<RowName>& rows,
               std::vector<Check>& out) {
   for (const std::string& pattern : patterns.wanted) {
-    const bool used = std::any_of(rows.begin(), rows.end(), [&](const Json* row) {
-      return matches(pattern, row->at(key).get<std::string>());
-    });
+    const bool used = std::any_of(rows.begin(), rows.end(),
+                                  [&](const RowName& row) { return matches(pattern, row.*name); });
     if (used) continue;
     out.push_back(failure(rule.name, "matches nothing: no row of the rule has a " +
-                                         std::string(key) + " " + in_quotes(pattern)));
+                                         std::string(what) + " " + in_quotes(pattern)));
     out.back().why = rule.why;
   }
 }
 
-Check lost(const Json& old, const std::string& reason) {
+Check lost(const results::Run& old, const std::string& reason) {
   Check out = failure(kBaselineRule, reason);
-  out.scene = old.at("scene").get<std::string>();
-  out.detector = old.at("detector").get<std::string>();
+  out.scene = old.scene;
+  out.detector = old.detector;
   return out;
 }
 
 // Status and message of a row that ended well before.
-Check ended(const RowIndex& now, const Json& row) {
+Check ended(const results::Results& now, const results::Run& row) {
   static const Rule accuracy = [] {
     Rule rule;
     rule.measure = find_measure("status");
     return rule;
   }();
-  Check out = lost(row, row.at("message").get<std::string>());
-  out.measured = "status " + row.at("status").get<std::string>();
+  Check out = lost(row, row.message);
+  out.measured = std::string("status ") + name_of(row.status);
   out.allowed = "ok, that of the baseline";
   out.frame = worst_frame(accuracy, now, row);
   out.rerun = rerun_command(accuracy, now, row);
@@ -73,27 +69,26 @@ Check ended(const RowIndex& now, const Json& row) {
 
 }  // namespace
 
-std::vector<Check> idle_patterns(const Rule& rule, const Rows& rows) {
+std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows) {
   if (rows.empty()) return {idle_rule(rule)};
   std::vector<Check> out;
-  add_idle(rule, rule.scenes, "scene", rows, out);
-  add_idle(rule, rule.detectors, "detector", rows, out);
+  add_idle(rule, rule.scenes, "scene", &RowName::scene, rows, out);
+  add_idle(rule, rule.detectors, "detector", &RowName::detector, rows, out);
   return out;
 }
 
-std::vector<Check> lost_rows(const RowIndex& now, const RowIndex& before) {
+std::vector<Check> lost_rows(const results::Results& now, const results::Results& before) {
   std::vector<Check> out;
   std::set<std::string> lost_scenes;
-  for (const Json& old : before.results().at("runs")) {
-    const auto scene = old.at("scene").get<std::string>();
-    const Json* const row = now.row(scene, old.at("detector").get<std::string>());
+  for (const results::Run& old : before.runs) {
+    const results::Run* const row = now.run(old.scene, old.detector);
     if (row != nullptr) {
-      if (old.at("status") == "ok" && row->at("status") != "ok") out.push_back(ended(now, *row));
-    } else if (now.has_scene(scene)) {
+      if (old.ok() && !row->ok()) out.push_back(ended(now, *row));
+    } else if (now.scene(old.scene) != nullptr || now.has_runs_of(old.scene)) {
       out.push_back(lost(old, "the baseline has this detector in this scene, the results do not"));
-    } else if (lost_scenes.insert(scene).second) {
+    } else if (lost_scenes.insert(old.scene).second) {
       out.push_back(failure(kBaselineRule, "the baseline has this scene, the results do not"));
-      out.back().scene = scene;
+      out.back().scene = old.scene;
     }
   }
   return out;

@@ -20,8 +20,7 @@ enum class MeasureKind {
 };
 
 struct Measure {
-  const char* name;   ///< in a policy
-  const char* field;  ///< of its place in results.json, where it has one of its own
+  const char* name;  ///< in a policy
   MeasureKind kind;
   const char* unit;        ///< behind a number; "" for counts and shares
   double least, greatest;  ///< a limit outside cannot be meant

@@ -1,12 +1,11 @@
 #include "reference/gate/reading.h"
 
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "reference/scene/json_value.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 
 Reading without(const std::string& why) {
   Reading out;
@@ -14,82 +13,101 @@ Reading without(const std::string& why) {
   return out;
 }
 
-Reading number_or(const Json& value, const std::string& why_null) {
-  if (value.is_null()) return without(why_null);
+Reading number(double value) {
   Reading out;
-  out.value = value.get<double>();
+  out.value = value;
   return out;
 }
 
-std::string why_no_level(const std::string& level, const Json& row) {
-  const Json reasons = row.value("not_judged", Json::object());
-  const std::string head = "level " + level + " is not judged";
-  if (reasons.contains(level)) return head + ": " + reasons.at(level).get<std::string>();
+Reading number_or(const std::optional<double>& value, const std::string& why_none) {
+  return value ? number(*value) : without(why_none);
+}
+
+std::string why_no_level(Level level, const results::Run& row) {
+  const std::string head = std::string("level ") + name_of(level) + " is not judged";
+  const auto reason = row.not_judged.find(level);
+  if (reason != row.not_judged.end()) return head + ": " + reason->second;
   return head + ": the detector does not claim it, or the scene does not ask for it";
 }
 
-Reading read_level(const Rule& rule, const Json& row) {
-  const std::string level = level_of(rule, row);
-  if (level.empty()) return without("no level that the detector claims was judged");
-  if (rule.rounded && !row.contains("levels_rounded"))
+Reading count_of(const std::string& measure, const results::LevelCounts& counts,
+                 const std::string& level) {
+  if (measure == "missed") return number(static_cast<double>(counts.missed));
+  if (measure == "spurious") return number(static_cast<double>(counts.spurious));
+  if (measure == "recall")
+    return number_or(counts.recall, "there is no true contact at level " + level);
+  return number_or(counts.spurious_rate, "nothing was reported at level " + level);
+}
+
+Reading read_level(const Rule& rule, const results::Run& row) {
+  const std::optional<Level> level = level_of(rule, row);
+  if (!level) return without("no level that the detector claims was judged");
+  if (rule.rounded && row.levels_rounded.empty())
     return without("the detector is fed doubles: nothing is rounded");
-  const Json& levels = row.at(rule.rounded ? "levels_rounded" : "levels");
-  if (!levels.contains(level)) return without(why_no_level(level, row));
-  if (levels.at(level).value("informative", false))
-    return without("level " + level + " is informative for this detector: shown, never gated");
-  const std::string nothing = rule.measure->name == std::string("recall")
-                                  ? "there is no true contact at level " + level
-                                  : "nothing was reported at level " + level;
-  Reading out = number_or(levels.at(level).at(rule.measure->field), nothing);
+  const results::Levels& levels = rule.rounded ? row.levels_rounded : row.levels;
+  const auto counts = levels.find(*level);
+  if (counts == levels.end()) return without(why_no_level(*level, row));
+  const std::string name = name_of(*level);
+  if (counts->second.informative)
+    return without("level " + name + " is informative for this detector: shown, never gated");
+  Reading out = count_of(rule.measure->name, counts->second, name);
   out.level = level;
   return out;
 }
 
-Reading read_geometry(const Rule& rule, const Json& row) {
-  const Json value = row.at("geometry").value(rule.measure->field, Json());
+Reading read_geometry(const Rule& rule, const results::Run& row) {
+  using results::Geometry;
+  using Error = std::optional<double> Geometry::*;
+  static const std::pair<std::string, Error> kErrors[] = {
+      {"missed_length", &Geometry::missed_length},
+      {"covered_length_fraction", &Geometry::covered_length_fraction},
+      {"spurious_distance_max", &Geometry::spurious_distance_max},
+      {"depth_error_max", &Geometry::depth_error_max},
+      {"depth_error_p95", &Geometry::depth_error_p95},
+      {"depth_error_mean", &Geometry::depth_error_mean},
+      {"normal_error_deg_max", &Geometry::normal_error_deg_max},
+      {"normal_error_deg_p95", &Geometry::normal_error_deg_p95},
+      {"normal_error_deg_mean", &Geometry::normal_error_deg_mean},
+      {"hover_gap_max", &Geometry::hover_gap_max}};
+  std::optional<double> value;
+  if (rule.measure->name == std::string("late_frames")) value = row.geometry.late_frames;
+  for (const auto& [name, error] : kErrors)
+    if (rule.measure->name == name) value = row.geometry.*error;
   return number_or(value, std::string(rule.measure->name) + " was not measured in this row");
 }
 
-Reading read_stages(const Rule& rule, const Json& row) {
+Reading read_stages(const Rule& rule, const results::Run& row) {
   double sum = 0.0;
   bool found = false;
-  for (const Json& stage : row.at("stages")) {
-    if (!rule.stage.empty() && stage.at("name") != rule.stage) continue;
+  for (const results::Stage& stage : row.stages) {
+    if (!rule.stage.empty() && stage.name != rule.stage) continue;
     found = true;
-    sum += stage.at("missed").get<double>();
+    sum += static_cast<double>(stage.missed);
   }
   if (!found)
     return without(rule.stage.empty() ? "the detector has no stages"
                                       : "the detector has no stage \"" + rule.stage + "\"");
-  return number_or(sum, "");
+  return number(sum);
 }
 
-// Values of this row in a list of sightings.
-double sightings_of_row(const Json& sightings, const Json& row) {
-  std::size_t count = 0;
-  for (const Json& s : sightings)
-    if (s.at("scene") == row.at("scene") && s.at("detector") == row.at("detector"))
-      count += s.at("values").size();
-  return static_cast<double>(count);
-}
-
-Reading read_defects(const Json& results, const Json& row) {
-  if (!results.contains("known_defects"))
+Reading read_defects(const results::Results& results, const results::Run& row) {
+  if (!results.known_defects)
     return without("the results hold no comparison with known defects: no hard cases ran");
-  const Json& defects = results.at("known_defects");
-  return number_or(sightings_of_row(defects.at("unlisted"), row) +
-                       sightings_of_row(defects.at("not_shown"), row),
-                   "");
+  std::size_t count = 0;
+  for (const auto* sightings :
+       {&results.known_defects->unlisted, &results.known_defects->not_shown})
+    for (const results::Sightings& s : *sightings)
+      if (s.scene == row.scene && s.detector == row.detector) count += s.values.size();
+  return number(static_cast<double>(count));
 }
 
 }  // namespace
 
-std::string level_of(const Rule& rule, const Json& row) {
-  if (!rule.level.empty()) return rule.level;
-  return row.at("per_frame").value("level", "");
+std::optional<Level> level_of(const Rule& rule, const results::Run& row) {
+  return rule.level.empty() ? row.per_frame.level : level_from_name(rule.level);
 }
 
-Reading read_measure(const Rule& rule, const RowIndex& results, const Json& row) {
+Reading read_measure(const Rule& rule, const results::Results& results, const results::Run& row) {
   switch (rule.measure->kind) {
     case MeasureKind::kLevel:
       return read_level(rule, row);
@@ -98,21 +116,21 @@ Reading read_measure(const Rule& rule, const RowIndex& results, const Json& row)
     case MeasureKind::kStages:
       return read_stages(rule, row);
     case MeasureKind::kDefects:
-      return read_defects(results.results(), row);
+      return read_defects(results, row);
     default:
-      return number_or(row.at(rule.measure->field), "");
+      return number(static_cast<double>(row.memory_bytes));
   }
 }
 
-Reading read_oracle_wrong(const Json& scene) {
-  return number_or(scene.at("pairs").at("rational").at("oracle_wrong"), "");
+Reading read_oracle_wrong(const results::Scene& scene) {
+  return number(static_cast<double>(scene.pairs->oracle_wrong));
 }
 
 std::string measured_text(const Rule& rule, const Reading& reading) {
   const std::string unit = rule.measure->unit;
   std::string out = std::string(rule.measure->name) + " " + shown(*reading.value);
   if (!unit.empty()) out += " " + unit;
-  if (!reading.level.empty()) out += " at level " + reading.level;
+  if (reading.level) out += std::string(" at level ") + name_of(*reading.level);
   if (rule.rounded) out += " of the rounded input";
   if (!rule.stage.empty()) out += " in stage " + rule.stage;
   return out;

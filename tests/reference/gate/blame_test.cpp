@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/gate/gate_world.h"
 
 namespace contactcheck {
@@ -21,38 +22,38 @@ Rule rule_about(const char* measure, const std::string& level = "") {
 TEST(WorstFrame, OfAFamilyNamesTheValue) {
   Json results = sample_results();
   row_of(results, "hard-gap", "exact")["per_frame"]["missed"] = {0, 1, 0};
-  const RowIndex index(results);
-  EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.row("hard-gap", "exact")),
+  const results::Results index = results::from_json(results);
+  EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.run("hard-gap", "exact")),
             "frame 1 (1e-9)");
 }
 
 TEST(WorstFrame, OfEqualOnesIsTheFirst) {
   Json results = sample_results();
   row_of(results, "touch", "paper")["per_frame"]["missed"] = {0, 0, 4, 1, 4, 0, 0, 0};
-  const RowIndex index(results);
-  EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.row("touch", "paper")), "frame 2");
+  const results::Results index = results::from_json(results);
+  EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.run("touch", "paper")), "frame 2");
 }
 
 TEST(WorstFrame, OfChangedContactsMayBeOneWithSpuriousOnes) {
   Json results = sample_results();
   row_of(results, "touch", "paper")["per_frame"]["missed"] = std::vector<int>(8, 0);
-  const RowIndex index(results);
-  EXPECT_EQ(worst_frame(rule_about("contact_hash"), index, *index.row("touch", "paper")),
+  const results::Results index = results::from_json(results);
+  EXPECT_EQ(worst_frame(rule_about("contact_hash"), index, *index.run("touch", "paper")),
             "frame 5");
 }
 
 TEST(WorstFrame, IsNotGuessedFromAnotherLevel) {
   const Json results = sample_results();
-  const RowIndex index(results);
-  EXPECT_EQ(worst_frame(rule_about("missed", "body"), index, *index.row("touch", "paper")), "");
+  const results::Results index = results::from_json(results);
+  EXPECT_EQ(worst_frame(rule_about("missed", "body"), index, *index.run("touch", "paper")), "");
 }
 
 std::string again(const Json& results, const std::string& scene, const std::string& detector,
                   const char* measure = "missed") {
-  const RowIndex index(results);
+  const results::Results index = results::from_json(results);
   Rule rule = rule_about(measure);
   rule.reference = "ref";
-  return rerun_command(rule, index, *index.row(scene, detector));
+  return rerun_command(rule, index, *index.run(scene, detector));
 }
 
 TEST(RerunCommand, NamesTheFileThatTheRunNamed) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::test {
@@ -152,7 +153,9 @@ Policy policy_of(const std::string& rest) {
 }
 
 std::vector<Check> checks_of(const std::string& rest, const Json& results, const Json* baseline) {
-  return run_gate(policy_of(rest), results, baseline).checks;
+  const results::Results now = results::from_json(results);
+  const results::Results before = baseline == nullptr ? now : results::from_json(*baseline);
+  return run_gate(policy_of(rest), now, baseline == nullptr ? nullptr : &before).checks;
 }
 
 Check check_of(const std::string& detector, const std::string& measure, const Json& results,

@@ -17,9 +17,10 @@ std::size_t lines_for(std::size_t vertices) {
 
 std::vector<Vec3> rest_vertices(std::size_t count, std::size_t lines) {
   std::vector<Vec3> out;
-  for (std::size_t v = 0; v < count; ++v)
-    out.emplace_back(static_cast<double>(v % lines), static_cast<double>(v / lines % lines),
-                     static_cast<double>(v / lines / lines));
+  for (std::size_t v = 0; v < count; ++v) {
+    const std::size_t x = v % lines, y = v / lines % lines, z = v / lines / lines;
+    out.emplace_back(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+  }
   // So that the mesh fills its box along every axis.
   if (count > 0) out.back() = Vec3::Constant(static_cast<double>(lines - 1));
   return out;

@@ -103,7 +103,7 @@ class Validation {
     for (std::uint32_t lane = 0; lane < state_.tree->blocks[index].children; ++lane) {
       const TreeChild child = state_.tree->blocks[index].child[lane];
       path_.push_back({index, lane});
-      const std::string broken = child.leaf() ? leaf(child.index()) : block(child.index());
+      std::string broken = child.leaf() ? leaf(child.index()) : block(child.index());
       path_.pop_back();
       if (!broken.empty()) return broken;
     }

@@ -56,11 +56,12 @@ std::size_t depth_of(std::string_view json) {
   return deepest;
 }
 
+std::filesystem::path schema_file() { return fixtures_directory() / "results.schema.json"; }
+
 // "" when there is none, or no schema to go by.
 std::string defect_of(const Json& results) {
-  const std::filesystem::path schema_file = fixtures_directory() / "results.schema.json";
-  if (!std::filesystem::is_regular_file(schema_file)) return "";
-  return schema_defect(Json::parse(read_file_bytes(schema_file, "schema file")), results);
+  if (!std::filesystem::is_regular_file(schema_file())) return "";
+  return schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), results);
 }
 
 // The place that the report could not use. It is looked for only then: results of another program
@@ -89,6 +90,9 @@ results::Results results_in(const std::filesystem::path& file) {
 }
 
 void ResultsFile::require_schema() const {
+  // Without a schema, what is missing would pass for the default: nothing missed.
+  if (!std::filesystem::is_regular_file(schema_file()))
+    throw InputError(file_.string() + ": cannot be checked: there is no " + schema_file().string());
   const std::string found = defect_of(results_);
   if (!found.empty()) throw InputError(file_.string() + ": not complete: " + found);
 }

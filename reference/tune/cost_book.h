@@ -23,7 +23,7 @@ struct ModelKey {
 
 /// A candidate costs its ratio to the anchor in its own model, all runs pooled. The anchor's own
 /// time is known in the scene's own model, from one run; in any other it is that times what all
-/// runs so far say in the middle (middle_of), for every candidate of the model alike.
+/// runs so far say in the middle (median_ratio), for every candidate of the model alike.
 class CostBook {
  public:
   /// What the anchor takes for a frame in the scene's own model. @pre above 0

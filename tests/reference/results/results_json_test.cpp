@@ -1,10 +1,14 @@
 // The kept results of timed runs, read and written again.
 #include "reference/results/results_json.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "core/types/check.h"
+#include "reference/results/results_file.h"
+#include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::results {
 namespace {
@@ -16,14 +20,14 @@ Json read(const std::string& file) {
   return Json::parse(in);
 }
 
-class ResultsFile : public testing::TestWithParam<const char*> {};
+class KeptFile : public testing::TestWithParam<const char*> {};
 
-TEST_P(ResultsFile, IsTheSameWhenItIsReadAndWritten) {
+TEST_P(KeptFile, IsTheSameWhenItIsReadAndWritten) {
   const Json json = read(GetParam());
   EXPECT_EQ(to_json(from_json(json)).dump(1), json.dump(1));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kept, ResultsFile,
+INSTANTIATE_TEST_SUITE_P(Results, KeptFile,
                          testing::Values(CONTACTCHECK_KEPT_RESULTS "/default.json",
                                          CONTACTCHECK_KEPT_RESULTS "/default-again.json",
                                          CONTACTCHECK_KEPT_RESULTS "/hard.json",
@@ -32,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Kept, ResultsFile,
                                          CONTACTCHECK_KEPT_RESULTS "/shard2/results.json"));
 
 // Files by hand or stripped leave out what may be missing; nothing that they have is lost.
-TEST(ResultsFile, WithLessThanARunWritesGetsDefaultsAndLosesNothing) {
+TEST(SparseFile, WithLessThanARunWritesGetsDefaultsAndLosesNothing) {
   for (const char* file :
        {CONTACTCHECK_EXAMPLE_RESULTS, CONTACTCHECK_FIXTURES "/baselines/ci.json"}) {
     const Json json = read(file);
@@ -61,6 +65,17 @@ TEST(FromJson, RefusesWhatIsOfAnotherTypeOrUnknown) {
                            R"({"runs": [{"status": "ok", "levels": {"edge": {}}}]})",
                            R"({"version": 7})", R"({"runs": [{"frames": "many"}]})"})
     EXPECT_THROW(from_json(Json::parse(text)), Json::exception) << text;
+}
+
+// What is missing has its default, which reads as nothing missed.
+TEST(ResultsIn, RefusesWhereThereIsNoSchemaToCheckBy) {
+  const test::Scratch scratch;
+  EXPECT_EQ(results_in(CONTACTCHECK_KEPT_RESULTS "/default.json").scenes.size(), 3u);
+  const test::Environment elsewhere("CONTACTCHECK_FIXTURES", scratch.folder().string());
+  EXPECT_THAT([] { results_in(CONTACTCHECK_KEPT_RESULTS "/default.json"); },
+              testing::ThrowsMessage<InputError>(testing::AllOf(
+                  testing::HasSubstr("cannot be checked"),
+                  testing::HasSubstr(scratch.folder().string() + "/results.schema.json"))));
 }
 
 }  // namespace

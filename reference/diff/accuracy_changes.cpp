@@ -31,22 +31,6 @@ NamedLevels levels_of(const results::Run& run) {
   return named;
 }
 
-using NamedErrors = std::vector<std::pair<const char*, std::optional<double>>>;
-
-NamedErrors errors_of(const results::Geometry& g) {
-  return {{"covered_length_fraction", g.covered_length_fraction},
-          {"depth_error_max", g.depth_error_max},
-          {"depth_error_mean", g.depth_error_mean},
-          {"depth_error_p95", g.depth_error_p95},
-          {"hover_gap_max", g.hover_gap_max},
-          {"late_frames", g.late_frames},
-          {"missed_length", g.missed_length},
-          {"normal_error_deg_max", g.normal_error_deg_max},
-          {"normal_error_deg_mean", g.normal_error_deg_mean},
-          {"normal_error_deg_p95", g.normal_error_deg_p95},
-          {"spurious_distance_max", g.spurious_distance_max}};
-}
-
 /// Collects the changes of one row.
 class RowComparison {
  public:
@@ -114,7 +98,8 @@ class RowComparison {
   }
 
   void compare_geometry() {
-    const NamedErrors before = errors_of(before_.geometry), after = errors_of(after_.geometry);
+    const results::NamedErrors before = results::errors_of(before_.geometry),
+                               after = results::errors_of(after_.geometry);
     for (std::size_t i = 0; i < after.size(); ++i) {
       const auto& [key, is] = after[i];
       const std::optional<double> was = before[i].second;

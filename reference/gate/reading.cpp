@@ -1,7 +1,5 @@
 #include "reference/gate/reading.h"
 
-#include <utility>
-
 #include "reference/scene/json_value.h"
 
 namespace contactcheck {
@@ -56,23 +54,9 @@ Reading read_level(const Rule& rule, const results::Run& row) {
 }
 
 Reading read_geometry(const Rule& rule, const results::Run& row) {
-  using results::Geometry;
-  using Error = std::optional<double> Geometry::*;
-  static const std::pair<std::string, Error> kErrors[] = {
-      {"missed_length", &Geometry::missed_length},
-      {"covered_length_fraction", &Geometry::covered_length_fraction},
-      {"spurious_distance_max", &Geometry::spurious_distance_max},
-      {"depth_error_max", &Geometry::depth_error_max},
-      {"depth_error_p95", &Geometry::depth_error_p95},
-      {"depth_error_mean", &Geometry::depth_error_mean},
-      {"normal_error_deg_max", &Geometry::normal_error_deg_max},
-      {"normal_error_deg_p95", &Geometry::normal_error_deg_p95},
-      {"normal_error_deg_mean", &Geometry::normal_error_deg_mean},
-      {"hover_gap_max", &Geometry::hover_gap_max}};
   std::optional<double> value;
-  if (rule.measure->name == std::string("late_frames")) value = row.geometry.late_frames;
-  for (const auto& [name, error] : kErrors)
-    if (rule.measure->name == name) value = row.geometry.*error;
+  for (const auto& [name, error] : results::errors_of(row.geometry))
+    if (rule.measure->name == name) value = error;
   return number_or(value, std::string(rule.measure->name) + " was not measured in this row");
 }
 

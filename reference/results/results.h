@@ -16,6 +16,9 @@
 
 namespace contactcheck::results {
 
+/// The field `schema` of the files that this program reads and writes.
+inline constexpr const char* kSchema = "contactcheck-results/1";
+
 using Texts = std::map<std::string, std::string>;
 
 struct Machine {
@@ -67,6 +70,10 @@ struct Geometry {
   std::optional<long> late_frames;
   std::vector<Episode> episodes;
 };
+
+using NamedErrors = std::vector<std::pair<std::string, std::optional<double>>>;
+/// The errors of a row by their names in the file, sorted; the same names for every row.
+NamedErrors errors_of(const Geometry& geometry);
 
 struct Stage {
   std::string name, unit;

@@ -12,8 +12,6 @@ namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "contactcheck-results/1";
-
 // "[json.exception.type_error.302] sentence"
 std::string sentence_of(const Json::exception& e) {
   const std::string what = e.what();
@@ -32,8 +30,8 @@ Json read_results(const std::filesystem::path& file) {
     throw InputError(file.string() + ": " + sentence_of(e));
   }
   const auto schema = results.is_object() ? results.find("schema") : results.end();
-  if (!results.is_object() || schema == results.end() || *schema != kSchema)
-    throw InputError(file.string() + ": field schema is not \"" + kSchema + "\"");
+  if (!results.is_object() || schema == results.end() || *schema != results::kSchema)
+    throw InputError(file.string() + ": field schema is not \"" + results::kSchema + "\"");
   check_json_depth(bytes, file);
   return results;
 }

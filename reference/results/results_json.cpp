@@ -1,6 +1,5 @@
 #include "reference/results/results_json.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -64,6 +63,7 @@ class Reader {
  public:
   static constexpr bool kReads = true;
   explicit Reader(const Json& json) : json_(json) {}
+  const Json& json() const { return json_; }
 
   template <typename T>
   void operator()(const char* key, T& value) {
@@ -292,13 +292,10 @@ void fields(Io& io, Semantics& s) {
 }
 
 // `prepare` stands in the times of every question.
-template <typename Io>
-void times_fields(Io& io, Run& run) {
-  const bool timed = !run.times.empty();
-  io.part("time_ms", [&](auto& times) {
-    times("prepare", run.prepare_ms);
-    if (timed) fields(times, run.times.front());
-  });
+Json times_json(const Run& run, const QuestionTimes& times) {
+  Json out = {{"prepare", run.prepare_ms}};
+  out.update(written(times));
+  return out;
 }
 
 void read_times(const Json& json, Run& run) {
@@ -311,13 +308,14 @@ void read_times(const Json& json, Run& run) {
     read(other, run.times.emplace_back());
 }
 
+Json own_times(const Run& run) {
+  if (run.times.empty()) return {{"prepare", run.prepare_ms}};
+  return times_json(run, run.times.front());
+}
+
 Json other_questions(const Run& run) {
   Json out = Json::array();
-  for (std::size_t i = 1; i < run.times.size(); ++i) {
-    Json times = {{"prepare", run.prepare_ms}};
-    times.update(written(run.times[i]));
-    out.push_back(std::move(times));
-  }
+  for (std::size_t i = 1; i < run.times.size(); ++i) out.push_back(times_json(run, run.times[i]));
   return out;
 }
 
@@ -341,7 +339,11 @@ void fields(Io& io, Run& run) {
   io("geometry", run.geometry);
   io("stages", run.stages);
   io.unless_empty("counters", run.counters);
-  if constexpr (!Io::kReads) times_fields(io, run);
+  if constexpr (Io::kReads) {
+    read_times(io.json(), run);
+  } else {
+    io("time_ms", own_times(run));
+  }
   io("memory_bytes", run.memory_bytes);
   io("contact_hash", run.contact_hash);
   io("float_environment", run.float_environment);
@@ -605,9 +607,6 @@ void read(const Json& json, T& value) {
     if (!json.is_object()) throw Json::type_error::create(304, "not an object", &json);
     Reader reader(json);
     fields(reader, value);
-    if constexpr (std::is_same_v<T, Run>) {
-      if (value.ok()) read_times(json, value);
-    }
   } else if constexpr (std::is_same_v<T, Json>) {
     value = json;
   } else {
@@ -663,36 +662,6 @@ Json written(const T& value) {
 
 }  // namespace
 
-const char* name_of(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return "ok";
-    case Status::kError:
-      return "error";
-    case Status::kAbsent:
-      return "absent";
-    case Status::kRefused:
-      return "refused";
-  }
-  return "unknown";
-}
-
-const Scene* Results::scene(const std::string& id) const {
-  for (const Scene& scene : scenes)
-    if (scene.id == id) return &scene;
-  return nullptr;
-}
-
-bool Results::has_runs_of(const std::string& scene) const {
-  return std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.scene == scene; });
-}
-
-const Run* Results::run(const std::string& scene, const std::string& detector) const {
-  for (const Run& run : runs)
-    if (run.scene == scene && run.detector == detector) return &run;
-  return nullptr;
-}
-
 Results from_json(const nlohmann::ordered_json& json) {
   Results results;
   read(json, results);
@@ -700,7 +669,7 @@ Results from_json(const nlohmann::ordered_json& json) {
 }
 
 nlohmann::ordered_json to_json(const Results& results) {
-  Json out = {{"schema", "contactcheck-results/1"}};
+  Json out = {{"schema", kSchema}};
   out.update(written(results));
   return out;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/adapters/register.h"
+#include "reference/results/results.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
 #include "reference/run/partial_results.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 // What a run says that has no scene.
 SuiteRecord record_of(const SuiteRequest& request, const Json& resumed) {
-  SuiteRecord record{{{"schema", "contactcheck-results/1"},
+  SuiteRecord record{{{"schema", results::kSchema},
                       {"version", CONTACTCHECK_VERSION},
                       {"command", request.command},
                       {"machine", describe_machine()},

@@ -105,17 +105,16 @@ Ratio relative_cost(const std::vector<PairedRun>& runs) {
   return bootstrap(cost, [&](Resampler& resampler) {
     std::vector<std::size_t> drawn;
     for (std::size_t i = 0; i < runs.size(); ++i) drawn.push_back(resampler.below(runs.size()));
-    double sum = 0.0, weights = 0.0;
+    std::vector<FramePairs> again;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const FramePairs& frame = frames[draws_frames ? resampler.below(frames.size()) : i];
       std::vector<double> values;
       for (const std::size_t run : drawn)
         for (std::size_t r = 0; r < frame.quotients[run].size(); ++r)
           values.push_back(frame.quotients[run][resampler.below(frame.quotients[run].size())]);
-      sum += frame.weight * median(std::move(values));
-      weights += frame.weight;
+      again.push_back({frame.weight, {std::move(values)}});
     }
-    return sum / weights;
+    return mean_cost(again);
   });
 }
 

@@ -10,8 +10,8 @@
 #include "reference/certify/frame_certificate.h"
 #include "reference/certify/frame_text.h"
 #include "reference/certify/ply.h"
-#include "reference/compare/run_result_json.h"
 #include "reference/oracle/oracle.h"
+#include "reference/results/results.h"
 #include "reference/scene/file_text.h"
 
 namespace contactcheck::certify {
@@ -74,7 +74,7 @@ class Exporter {
                         {"title", scene_.title},
                         {"scene_frames", scene_.frames},
                         {"every", every},
-                        {"contact_hash", hex(summary_.contact_hash)},
+                        {"contact_hash", results::hex(summary_.contact_hash)},
                         {"bodies", bodies_},
                         {"frames", frames_},
                         {"crc32", checksums_}};

@@ -19,16 +19,16 @@ std::filesystem::path known_defects_file() {
 }
 
 int defects_command(const std::filesystem::path& file, bool write) {
-  const ResultsFile results(file);
-  const auto run = results.read([](const auto& json) { return sightings_of(json); });
-  const auto versions = results.read([](const auto& json) { return versions_in(json); });
+  const results::Results results = results_in(file);
+  const SightingsOfRun run = sightings_of(results);
+  const LibraryVersions versions = versions_in(results);
   KnownDefects known = read_known_defects(known_defects_file());
   if (write) {
     known = updated(known, run, versions, library_of);
     write_known_defects(known_defects_file(), known);
   }
   const DefectComparison comparison = compare_defects(known, run, versions);
-  std::fputs(defects_text(to_json(known, comparison)).c_str(), stdout);
+  std::fputs(defects_text(in_results(known, comparison)).c_str(), stdout);
   if (write) std::printf("%s\n", known_defects_file().c_str());
   return comparison.not_shown.empty() && comparison.unlisted.empty() ? 0 : kSurprised;
 }

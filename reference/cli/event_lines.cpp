@@ -3,14 +3,17 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "reference/compare/nullable.h"
-
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr auto kInterval = std::chrono::milliseconds(250);
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 // Messages of libraries may hold any bytes; JSON takes UTF-8 alone.
 std::string line_of(const Json& event) {
@@ -35,18 +38,17 @@ std::string progress_event(const SuiteProgress& p, std::optional<double> seconds
   return line_of({{"event", "progress"},
                   {"scene", p.scene_id},
                   {"detector", p.detector.empty() ? Json(nullptr) : Json(p.detector)},
-                  {"frame", nullable(p.frame)},
+                  {"frame", or_null(p.frame)},
                   {"of", p.frames},
                   {"share", p.share},
-                  {"seconds_left", nullable(seconds_left)}});
+                  {"seconds_left", or_null(seconds_left)}});
 }
 
 std::string scene_event(const SceneEnd& end) {
   Json runs = Json::array();
-  for (const Json& run : end.runs)
-    runs.push_back({{"detector", run.at("detector")},
-                    {"status", run.at("status")},
-                    {"message", run.at("message")}});
+  for (const results::Run& run : end.runs)
+    runs.push_back(
+        {{"detector", run.detector}, {"status", name_of(run.status)}, {"message", run.message}});
   return line_of({{"event", "scene"},
                   {"scene", end.scene_id},
                   {"resumed", end.resumed},

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
@@ -14,17 +13,10 @@ namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-ShardResults read_shard(const fs::path& file) {
-  const ResultsFile results(file);
-  results.require_schema();
-  return {file, results.read([](const Json& json) { return json; })};
-}
 
 // Goals and known defects are this program's own words.
 void require_own_version(const ShardResults& shard) {
-  const auto version = shard.results.at("version").get<std::string>();
+  const std::string& version = shard.results.version;
   if (version != CONTACTCHECK_VERSION)
     throw InputError(shard.file.string() + ": was written by contactcheck " + version +
                      ", and this is " CONTACTCHECK_VERSION
@@ -42,7 +34,7 @@ void require_other_folder(const ShardResults& shard, const fs::path& out) {
 
 int merge_command(const std::vector<std::string>& files, const fs::path& out) {
   std::vector<ShardResults> given;
-  for (const std::string& file : files) given.push_back(read_shard(file));
+  for (const std::string& file : files) given.push_back({file, results_in(file)});
   const std::vector<ShardResults> shards = checked_shards(std::move(given));
   for (const ShardResults& shard : shards) {
     require_own_version(shard);
@@ -51,11 +43,11 @@ int merge_command(const std::vector<std::string>& files, const fs::path& out) {
   check_out(out);
   const OutLock lock(out);
   SuiteOutcome outcome;
-  const Json results =
+  const results::Results results =
       merge_shards(shards, out, read_known_defects(known_defects_file()), &outcome);
   const auto reports = report_texts(results, out, all_report_formats());
   write_report(out, reports);
-  std::printf("merged %zu shards, %zu scenes\n%s  %s\n", shards.size(), results.at("scenes").size(),
+  std::printf("merged %zu shards, %zu scenes\n%s  %s\n", shards.size(), results.scenes.size(),
               (out / "results.json").c_str(), report_paths(out, reports).c_str());
   return exit_code_of(outcome);
 }

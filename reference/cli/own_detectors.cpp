@@ -76,10 +76,6 @@ std::vector<std::string> OwnDetectors::records() const {
   return out;
 }
 
-std::string OwnDetectors::in_results() const {
-  return plugins.empty() ? "" : plugins_in_results(plugins).dump();
-}
-
 bool names_library(const std::string& text) {
   const std::string file = text.substr(0, text.find(':'));
   return file.find('/') != std::string::npos || file.ends_with(".so");

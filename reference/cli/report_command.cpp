@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "reference/cli/commands.h"
 #include "reference/cli/report_folder.h"
@@ -10,11 +9,7 @@ namespace contactcheck {
 int report_command(const std::filesystem::path& file, const std::vector<std::string>& formats,
                    const std::filesystem::path& out) {
   check_report_formats(formats);
-  const ResultsFile results(file);
-  const std::filesystem::path folder = file.parent_path();
-  const auto files = results.read([&](const auto& json) {
-    return report_texts(with_reproduction(json, folder), folder, formats);
-  });
+  const auto files = report_texts(results_in(file), file.parent_path(), formats);
   write_report(out, files);
   std::printf("%s\n", report_paths(out, files).c_str());
   return 0;

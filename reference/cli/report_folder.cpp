@@ -39,6 +39,20 @@ void check_places(const fs::path& folder, const std::map<std::string, std::strin
   }
 }
 
+// What `reproduce` made of the same run, as JSON; "" where there is none.
+std::string reproduction_of(const results::Results& results, const fs::path& folder) {
+  const fs::path file = folder / "reproduction.json";
+  if (!fs::exists(file)) return "";
+  std::string bytes = read_file_bytes(file, "reproduction file");
+  const auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
+  if (!reproduction.is_object())
+    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
+  check_json_depth(bytes, file);
+  // Another run into the same folder leaves the file of an earlier one there.
+  const auto command = reproduction.find("command");
+  return command != reproduction.end() && *command == results.command ? bytes : "";
+}
+
 }  // namespace
 
 std::vector<std::string> all_report_formats() { return {"csv", "html", "md"}; }
@@ -49,29 +63,16 @@ void check_report_formats(const std::vector<std::string>& formats) {
       throw InputError("--format \"" + format + "\" is not known; allowed: csv, html, md");
 }
 
-std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+std::map<std::string, std::string> report_texts(const results::Results& results,
                                                 const fs::path& folder,
                                                 const std::vector<std::string>& formats) {
   std::map<std::string, std::string> files;
   if (wanted("md", formats)) files = report_files(results);
   if (wanted("csv", formats)) files["report.csv"] = csv_report(results);
   if (wanted("html", formats) && has_html_report())
-    files["report.html"] = html_report(results, view_bytes(results, folder));
+    files["report.html"] =
+        html_report(results, reproduction_of(results, folder), view_bytes(results, folder));
   return files;
-}
-
-nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results, const fs::path& folder) {
-  const fs::path file = folder / "reproduction.json";
-  if (!fs::exists(file)) return results;
-  const std::string bytes = read_file_bytes(file, "reproduction file");
-  auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
-  if (!reproduction.is_object())
-    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
-  check_json_depth(bytes, file);
-  // Another run into the same folder leaves the file of an earlier one there.
-  if (reproduction.contains("command") && reproduction["command"] == results.at("command"))
-    results["reproduction"] = std::move(reproduction);
-  return results;
 }
 
 std::string report_paths(const fs::path& folder, const std::map<std::string, std::string>& files) {

@@ -3,9 +3,10 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -17,15 +18,11 @@ void check_report_formats(const std::vector<std::string>& formats);
 
 /// Texts by path below the report's folder; pictures (plots/*.svg) come with "md". "html" gives
 /// nothing in a build without npm; its 3D view shows the recordings in `folder`, where results.json
-/// stands. @pre check_report_formats passed
-std::map<std::string, std::string> report_texts(const nlohmann::ordered_json& results,
+/// stands, and the tables of the paper where the reproduction.json there is of the same run.
+/// @pre check_report_formats passed @throws InputError when that is no JSON
+std::map<std::string, std::string> report_texts(const results::Results& results,
                                                 const std::filesystem::path& folder,
                                                 const std::vector<std::string>& formats);
-
-/// Results with what `reproduce` has made of them ("reproduction"), for the HTML report, where the
-/// reproduction.json beside them is of the same run. @throws InputError when that is no JSON
-nlohmann::ordered_json with_reproduction(nlohmann::ordered_json results,
-                                         const std::filesystem::path& folder);
 
 /// Where the reports among `files` are, one behind the other; also what was left out, and why.
 std::string report_paths(const std::filesystem::path& folder,

@@ -60,7 +60,7 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   arguments.closed_loop = true;
   SuiteOutcome outcome;
   const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
-  const Json& results = reported.results;
+  const results::Results& results = reported.results;
   const std::vector<PaperFinding> findings = check_paper(tables);
   Json reproduction = reproduce(results, tables);
   reproduction["paper"] = paper_json(tables, findings);
@@ -68,8 +68,7 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   write_file_atomically(arguments.out / "reproduction.md",
                         reproduction_markdown(reproduction) + paper_markdown(tables, findings));
   // Once more, now that the page can have the paper's tables.
-  write_report(arguments.out, report_texts(with_reproduction(results, arguments.out), arguments.out,
-                                           all_report_formats()));
+  write_report(arguments.out, report_texts(results, arguments.out, all_report_formats()));
   print(arguments.out, reproduction, arguments.quiet);
   return outcome.unlisted_error ? kExitUnlistedError : 0;
 }

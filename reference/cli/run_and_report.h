@@ -1,7 +1,6 @@
 // What `run` and `reproduce` share: run the scenes, write results.json and its reports.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/detect/registry.h"
@@ -12,9 +11,9 @@
 namespace contactcheck {
 
 struct ReportedRun {
-  nlohmann::ordered_json results;  ///< as written
-  std::string reports;             ///< their paths, for a person
-  OutLock lock;                    ///< of --out
+  results::Results results;  ///< as written
+  std::string reports;       ///< their paths, for a person
+  OutLock lock;              ///< of --out
 };
 
 /// @throws InputError, before anything is written, for bad arguments

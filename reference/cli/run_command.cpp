@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -33,7 +32,6 @@ namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 void check_simulation_of(const SceneTask& task, const DetectorCatalog& catalog,
                          const Scene& scene) {
@@ -71,17 +69,17 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
 }
 
 void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {
-  const Json& results = run_and_reports.results;
+  const results::Results& results = run_and_reports.results;
   if (!arguments.quiet) {
     const std::string tables = terminal_tables(results, isatty(STDOUT_FILENO) != 0);
     std::fwrite(tables.data(), 1, tables.size(), stdout);
   }
-  for (const Json& run : results.at("runs"))
-    if (run.at("status") == "absent")
-      std::printf("absent: %s: %s\n", run.at("detector").get<std::string>().c_str(),
-                  run.at("message").get<std::string>().c_str());
-  for (const Json& scene : results.value("resumed", Json::array()))
-    std::printf("resumed: %s: finished by an earlier run\n", scene.get<std::string>().c_str());
+  for (const results::Run& run : results.runs)
+    if (run.status == results::Status::kAbsent)
+      std::printf("absent: %s: %s\n", run.detector.c_str(), run.message.c_str());
+  if (results.resumed)
+    for (const std::string& scene : *results.resumed)
+      std::printf("resumed: %s: finished by an earlier run\n", scene.c_str());
   std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
               run_and_reports.reports.c_str());
 }
@@ -169,7 +167,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   const OwnDetectors own =
       bring_in(arguments.detectors, arguments.commands, request.settings, catalog);
   request.settings.plugins = own.records();
-  request.plugins = own.in_results();
+  request.plugins = plugins_in_results(own.plugins);
   RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
@@ -204,7 +202,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
   OutLock lock(request.out);
   Watcher watcher(arguments);
   watcher.events.print(start_event(request));
-  Json results = run_suite(request, watcher.listener(), outcome);
+  results::Results results = run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();
   const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);

@@ -106,13 +106,23 @@ class TaskMaker {
     for (const SuiteScene& scene : suite.scenes)
       add_scene(file_of(scene, fixtures_),
                 scene.detectors.empty() ? suite.detectors : scene.detectors);
-    for (SuiteGoal goal : suite.goals) {
-      goal.detector = catalog_.parse(goal.detector).name;
-      if (goal.kind == SuiteGoal::Kind::kOver) goal.other = catalog_.parse(goal.other).name;
+    for (const SuiteGoal& wanted : suite.goals) {
+      results::Goal& goal = tasks_.goals.emplace_back();
+      goal = {wanted.name,
+              wanted.scene,
+              catalog_.parse(wanted.detector).name,
+              wanted.part,
+              {},
+              {},
+              {},
+              wanted.at_least,
+              wanted.at_most};
+      if (wanted.kind == SuiteGoal::Kind::kPerPair) goal.per = "pair";
+      if (wanted.kind == SuiteGoal::Kind::kOverScene) goal.over_scene = wanted.other;
+      if (wanted.kind != SuiteGoal::Kind::kOver) continue;
+      goal.over = catalog_.parse(wanted.other).name;
       for (SceneTask& task : tasks_.scenes)
-        if (task.file == find_scene(goal.scene, fixtures_) && goal.kind == SuiteGoal::Kind::kOver)
-          add_new(goal.other, task.references);
-      tasks_.goals.push_back(std::move(goal));
+        if (task.file == find_scene(goal.scene, fixtures_)) add_new(goal.over, task.references);
     }
   }
 

@@ -12,7 +12,7 @@ namespace contactcheck {
 
 struct RunTasks {
   std::vector<SceneTask> scenes;
-  std::vector<SuiteGoal> goals;  ///< of all suites, canonical
+  std::vector<results::Goal> goals;  ///< of all suites, canonical
 };
 
 /// Names of detectors become canonical, with --threads and --isa as options of those that have

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace contactcheck {
@@ -11,9 +12,9 @@ bool holds(const std::vector<BodyPair>& pairs, const BodyPair& pair) {
   return std::binary_search(pairs.begin(), pairs.end(), pair);
 }
 
-std::vector<Episode> episodes_of(const BodyPair& pair, const BodyPairsPerFrame& truth,
-                                 const BodyPairsPerFrame& reported) {
-  std::vector<Episode> out;
+std::vector<results::Episode> episodes_of(const BodyPair& pair, const BodyPairsPerFrame& truth,
+                                          const BodyPairsPerFrame& reported) {
+  std::vector<results::Episode> out;
   bool open = false;
   for (std::size_t f = 0; f < truth.size(); ++f) {
     const bool is_true = holds(truth[f], pair), is_reported = holds(reported[f], pair);
@@ -27,7 +28,7 @@ std::vector<Episode> episodes_of(const BodyPair& pair, const BodyPairsPerFrame& 
     }
     open = is_true || is_reported;
   }
-  for (Episode& e : out) {
+  for (results::Episode& e : out) {
     if (e.first_true && e.first_reported)
       e.late_frames = static_cast<long>(*e.first_reported) - static_cast<long>(*e.first_true);
   }
@@ -36,17 +37,27 @@ std::vector<Episode> episodes_of(const BodyPair& pair, const BodyPairsPerFrame& 
 
 }  // namespace
 
-std::vector<Episode> find_episodes(const BodyPairsPerFrame& truth,
-                                   const BodyPairsPerFrame& reported) {
+std::vector<results::Episode> find_episodes(const BodyPairsPerFrame& truth,
+                                            const BodyPairsPerFrame& reported) {
   std::set<BodyPair> pairs;
   for (const auto& frame : truth) pairs.insert(frame.begin(), frame.end());
   for (const auto& frame : reported) pairs.insert(frame.begin(), frame.end());
-  std::vector<Episode> out;
+  std::vector<results::Episode> out;
   for (const BodyPair& pair : pairs) {
-    const std::vector<Episode> found = episodes_of(pair, truth, reported);
+    const std::vector<results::Episode> found = episodes_of(pair, truth, reported);
     out.insert(out.end(), found.begin(), found.end());
   }
   return out;
+}
+
+void sum_up_episodes(results::Geometry& geometry) {
+  std::optional<double>& gap = geometry.hover_gap_max;
+  std::optional<long>& late = geometry.late_frames;
+  for (const results::Episode& e : geometry.episodes) {
+    if (e.hover_gap) gap = std::max(gap.value_or(0.0), *e.hover_gap);
+    if (e.late_frames && (!late || std::labs(*e.late_frames) > std::labs(*late)))
+      late = e.late_frames;
+  }
 }
 
 double bisect_hover_gap(double before, double after, double tolerance,

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -13,8 +13,12 @@ using BodyPairsPerFrame = std::vector<std::vector<BodyPair>>;
 
 /// An episode is a longest run of frames in which a pair is in true or in reported contact.
 /// late_frames is set where the run has both; hover_gap is left to the caller.
-std::vector<Episode> find_episodes(const BodyPairsPerFrame& truth,
-                                   const BodyPairsPerFrame& reported);
+std::vector<results::Episode> find_episodes(const BodyPairsPerFrame& truth,
+                                            const BodyPairsPerFrame& reported);
+
+/// Sets what a scene's episodes come to: hover_gap_max, of the gaps that are known, and
+/// late_frames.
+void sum_up_episodes(results::Geometry& geometry);
 
 /// The true distance at the moment a detector first reports contact, by bisecting time.
 /// `reports(t)`: does it report the pair at t; `distance(t)`: true distance, metres. Halves

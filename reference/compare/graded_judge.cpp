@@ -26,7 +26,7 @@ std::size_t end_of_group(const Contacts& contacts, std::size_t first, Key key) {
 }
 
 bool shallower(const VertexContact& x, const VertexContact& y) { return x.depth < y.depth; }
-std::vector<HistogramBin> bins_of(Histogram histogram, const std::vector<double>& errors) {
+std::vector<results::HistogramBin> bins_of(Histogram histogram, const std::vector<double>& errors) {
   for (double error : errors) histogram.add(error);
   return histogram.bins();
 }
@@ -35,8 +35,8 @@ bool less_deep(const PieceContact& x, const PieceContact& y) { return x.depth < 
 
 }  // namespace
 
-ErrorSpread spread_of(std::vector<double>& errors) {
-  ErrorSpread out;
+results::ErrorSpread spread_of(std::vector<double>& errors) {
+  results::ErrorSpread out;
   out.judged = errors.size();
   if (errors.empty()) return out;
   std::sort(errors.begin(), errors.end());
@@ -127,15 +127,15 @@ void GradedJudge::add_frame(const Truth& truth, const std::vector<double>& conto
   if (semantics_.depth == DepthKind::kVertexSurface) add_vertices(truth, reported, geometry);
 }
 
-GradedErrors GradedJudge::errors() {
-  GradedErrors out;
+results::Geometry GradedJudge::errors() {
+  results::Geometry out;
   if (semantics_.claims(Level::kTriangle) || semantics_.claims(Level::kCell)) {
     out.missed_length = missed_;
     if (contour_ > 0.0) out.covered_length_fraction = (contour_ - missed_) / contour_;
   }
   if (semantics_.claims(Level::kTriangle))
     out.spurious_distance_max = spurious_distance_.value_or(0.0);
-  out.spurious_distances = spurious_distances_.bins();
+  out.spurious_distance_histogram = spurious_distances_.bins();
   out.depth = spread_of(depth_errors_);
   out.depth.histogram = bins_of(Histogram::of_lengths(), depth_errors_);
   out.normal_deg = spread_of(normal_errors_);

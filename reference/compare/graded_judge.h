@@ -6,9 +6,10 @@
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
 #include "core/types/semantics.h"
-#include "reference/compare/run_result.h"
+#include "reference/compare/histogram.h"
 #include "reference/oracle/oracle.h"
 #include "reference/oracle/surface_geometry.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -16,7 +17,7 @@ namespace contactcheck {
 inline constexpr double kNormalFloor = 1e-9;
 
 /// Max, mean and 95th percentile (nearest rank). Sorts `errors`.
-ErrorSpread spread_of(std::vector<double>& errors);
+results::ErrorSpread spread_of(std::vector<double>& errors);
 
 /// Holds what a detector reports against lengths, distances and depths, frame by frame.
 ///
@@ -41,7 +42,8 @@ class GradedJudge {
 
   /// The share of the last frame's contour that is covered.
   std::optional<double> last_covered_fraction() const { return last_covered_; }
-  GradedErrors errors();
+  /// Without episodes and what is said of them.
+  results::Geometry errors();
 
  private:
   bool covers(const ContactSet& reported, const ElementPair& pair) const;

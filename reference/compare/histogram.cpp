@@ -58,8 +58,8 @@ void Histogram::add(double value) {
   ++counts_[std::min(bin, counts_.size() - 1)];
 }
 
-std::vector<HistogramBin> Histogram::bins() const {
-  std::vector<HistogramBin> out;
+std::vector<results::HistogramBin> Histogram::bins() const {
+  std::vector<results::HistogramBin> out;
   for (std::size_t i = 0; i < counts_.size(); ++i)
     if (counts_[i] > 0) out.push_back({(*edges_)[i], (*edges_)[i + 1], counts_[i]});
   return out;

@@ -4,13 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace contactcheck {
+#include "reference/results/results.h"
 
-/// Errors from `from` on and below `below`; the last bin of all holds `below`, too.
-struct HistogramBin {
-  double from = 0.0, below = 0.0;
-  std::uint64_t count = 0;
-};
+namespace contactcheck {
 
 class Histogram {
  public:
@@ -22,7 +18,7 @@ class Histogram {
   /// @pre value >= 0; beyond the last edge it counts in the last bin
   void add(double value);
   /// Those that hold any, in order.
-  std::vector<HistogramBin> bins() const;
+  std::vector<results::HistogramBin> bins() const;
 
  private:
   explicit Histogram(const std::vector<double>& edges);

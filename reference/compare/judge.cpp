@@ -66,7 +66,17 @@ Judge::Judge(const std::vector<Body>& bodies, const Semantics& semantics, std::v
              std::size_t listed)
     : bodies_(bodies), semantics_(semantics), wanted_(std::move(levels)), listed_(listed) {
   for (Level level : wanted_) levels_[level];
-  if (!wanted_.empty()) per_frame_.level = name_of(finest(wanted_, semantics_));
+  if (!wanted_.empty()) per_frame_.level = finest(wanted_, semantics_);
+}
+
+results::Levels Judge::levels() const {
+  results::Levels out = levels_;
+  for (auto& [level, counts] : out) {
+    counts.set_rates();
+    if (level == Level::kNear) counts.margin = semantics_.margin;
+    counts.informative = !semantics_.claims(level);
+  }
+  return out;
 }
 
 void Judge::note(Level level, const char* kind, std::size_t frame, const ElementPair& pair) {
@@ -95,14 +105,15 @@ void Judge::note_and_list(Level level, std::size_t frame, const std::vector<T>& 
                           const std::vector<T>& spurious) {
   if (!missed.empty()) note(level, "missed", frame, as_pair(missed.front()));
   if (!spurious.empty()) note(level, "spurious", frame, as_pair(spurious.front()));
-  if (listed_ == 0 || per_frame_.level != name_of(level)) return;
+  if (listed_ == 0 || per_frame_.level != level) return;
   if (missed.empty() && spurious.empty()) return;
   differences_.push_back({frame, listed(missed), listed(spurious)});
 }
 
 template <typename T>
-LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vector<T>& truth,
-                                const std::vector<T>& reported) {
+results::LevelCounts Judge::compare_sets(Level level, std::size_t frame,
+                                         const std::vector<T>& truth,
+                                         const std::vector<T>& reported) {
   std::vector<T> missed, spurious;
   std::set_difference(truth.begin(), truth.end(), reported.begin(), reported.end(),
                       std::back_inserter(missed));
@@ -114,8 +125,8 @@ LevelCounts Judge::compare_sets(Level level, std::size_t frame, const std::vecto
 }
 
 // Truth, hit and missed count triangle pairs; reported and spurious count cell pairs.
-LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
-                               const std::vector<ElementPair>& reported) {
+results::LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>& truth,
+                                        const std::vector<ElementPair>& reported) {
   std::vector<char> covers(reported.size(), 0);
   std::vector<ElementPair> missed, spurious;
   for (const ElementPair& pair : truth)
@@ -128,8 +139,9 @@ LevelCounts Judge::judge_cells(std::size_t frame, const std::vector<ElementPair>
           spurious.size()};
 }
 
-LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& truth,
-                               const ContactSet& reported, const std::vector<NearPair>& near) {
+results::LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& truth,
+                                        const ContactSet& reported,
+                                        const std::vector<NearPair>& near) {
   switch (level) {
     case Level::kBody: {
       std::vector<BodyPair> bodies = truth.surface.bodies;
@@ -166,9 +178,9 @@ LevelCounts Judge::judge_level(Level level, std::size_t frame, const Truth& trut
 void Judge::add_frame(std::size_t frame, const Truth& truth, const ContactSet& reported,
                       const std::vector<NearPair>& near) {
   for (Level level : wanted_) {
-    const LevelCounts counts = judge_level(level, frame, truth, reported, near);
+    const results::LevelCounts counts = judge_level(level, frame, truth, reported, near);
     levels_[level] += counts;
-    if (per_frame_.level != name_of(level)) continue;
+    if (per_frame_.level != level) continue;
     per_frame_.truth.push_back(counts.truth);
     per_frame_.missed.push_back(counts.missed);
     per_frame_.spurious.push_back(counts.spurious);

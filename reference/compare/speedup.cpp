@@ -89,14 +89,15 @@ bool all_reported(const ProcessSamples& processes, Mode mode) {
   return true;
 }
 
-PhaseTimes phase_times(const ProcessSamples& processes, const std::vector<std::size_t>& frames,
-                       const std::vector<std::size_t>& contact, Mode mode) {
+results::PhaseTimes phase_times(const ProcessSamples& processes,
+                                const std::vector<std::size_t>& frames,
+                                const std::vector<std::size_t>& contact, Mode mode) {
   const Draw all = everything(processes);
   const auto mean = [&](const std::vector<std::size_t>& over, const Value& value) {
     return total(processes, over, mode, value, all) * kMillisecondsPerNanosecond /
            static_cast<double>(over.size());
   };
-  PhaseTimes out;
+  results::PhaseTimes out;
   if (!processes.front().lazy_map)
     out.map = mean(frames, [](const PhaseSample& s) { return s.map; });
   out.update = mean(frames, [](const PhaseSample& s) { return s.update; });
@@ -111,12 +112,12 @@ PhaseTimes phase_times(const ProcessSamples& processes, const std::vector<std::s
 
 }  // namespace
 
-QuestionTimes summarize_times(const ProcessSamples& processes,
-                              const std::vector<bool>& contact_frames) {
+results::QuestionTimes summarize_times(const ProcessSamples& processes,
+                                       const std::vector<bool>& contact_frames) {
   const std::vector<std::size_t> frames = common_frames(processes, processes);
   CONTACTCHECK_INVARIANT(!frames.empty(), "times of at least one frame");
   const std::vector<std::size_t> contact = only_contact(frames, contact_frames);
-  QuestionTimes out;
+  results::QuestionTimes out;
   out.question = processes.front().question;
   out.timed_frames = frames.size();
   out.timed_contact_frames = contact.size();
@@ -126,26 +127,27 @@ QuestionTimes summarize_times(const ProcessSamples& processes,
   return out;
 }
 
-std::map<std::size_t, double> cold_frame_ms(const ProcessSamples& processes) {
+std::vector<std::optional<double>> cold_frame_ms(const ProcessSamples& processes,
+                                                 std::size_t frames) {
   const Draw all = everything(processes);
-  std::map<std::size_t, double> out;
+  std::vector<std::optional<double>> out(frames);
   for (const auto& [frame, samples] : processes.front().frames)
-    out[frame] = frame_median(
-                     processes, frame, &FrameSamples::cold,
-                     [](const PhaseSample& s) { return s.total(); }, all) *
-                 kMillisecondsPerNanosecond;
+    out.at(frame) = frame_median(
+                        processes, frame, &FrameSamples::cold,
+                        [](const PhaseSample& s) { return s.total(); }, all) *
+                    kMillisecondsPerNanosecond;
   return out;
 }
 
-std::optional<Speedup> compute_speedup(const ProcessSamples& reference,
-                                       const ProcessSamples& detector,
-                                       const std::vector<bool>& contact_frames) {
+std::optional<results::Speedup> compute_speedup(const ProcessSamples& reference,
+                                                const ProcessSamples& detector,
+                                                const std::vector<bool>& contact_frames) {
   const std::vector<std::size_t> frames = common_frames(reference, detector);
   if (frames.empty()) return std::nullopt;
   const auto whole = [](const PhaseSample& s) { return s.total(); };
   const auto unmapped = [](const PhaseSample& s) { return s.update + s.query; };
   const std::vector<std::size_t> contact = only_contact(frames, contact_frames);
-  Speedup out;
+  results::Speedup out;
   out.cold = ratio_of(reference, detector, frames, &FrameSamples::cold, whole);
   out.hot = ratio_of(reference, detector, frames, &FrameSamples::hot, whole);
   if (!contact.empty())

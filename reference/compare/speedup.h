@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -33,17 +33,18 @@ struct QuestionSamples {
 using ProcessSamples = std::vector<QuestionSamples>;
 
 /// @pre processes is not empty and holds at least one frame
-QuestionTimes summarize_times(const ProcessSamples& processes,
-                              const std::vector<bool>& contact_frames);
+results::QuestionTimes summarize_times(const ProcessSamples& processes,
+                                       const std::vector<bool>& contact_frames);
 
-/// Median over repeats per frame, cold, milliseconds; by frame.
-std::map<std::size_t, double> cold_frame_ms(const ProcessSamples& processes);
+/// Median over repeats per frame, cold, milliseconds; none of a frame that was not timed.
+std::vector<std::optional<double>> cold_frame_ms(const ProcessSamples& processes,
+                                                 std::size_t frames);
 
 /// time(reference) / time(detector) over the frames both were timed on. The intervals
 /// are bootstraps over processes and, within each, over repeats. None when the two share no timed
 /// frame.
-std::optional<Speedup> compute_speedup(const ProcessSamples& reference,
-                                       const ProcessSamples& detector,
-                                       const std::vector<bool>& contact_frames);
+std::optional<results::Speedup> compute_speedup(const ProcessSamples& reference,
+                                                const ProcessSamples& detector,
+                                                const std::vector<bool>& contact_frames);
 
 }  // namespace contactcheck

@@ -29,8 +29,13 @@ bool StageLosses::covers(const StageTrace& trace, const StageRecord& stage,
 void StageLosses::add_frame(const StageTrace& trace,
                             const std::vector<ElementPair>& true_triangles) {
   if (stages_.empty()) {
-    for (const StageRecord& s : trace.stages)
-      stages_.push_back({s.name, s.unit, 0, 0, 0, 0, s.visited_unit});
+    for (const StageRecord& s : trace.stages) {
+      results::Stage& stage = stages_.emplace_back();
+      stage.name = s.name;
+      stage.unit = s.unit;
+      stage.visited_unit = s.visited_unit;
+      if (!s.visited_unit.empty()) stage.visited = 0;
+    }
   }
   CONTACTCHECK_INVARIANT(stages_.size() == trace.stages.size(), "stages do not change over frames");
   std::vector<ElementPair> alive = true_triangles;
@@ -38,7 +43,7 @@ void StageLosses::add_frame(const StageTrace& trace,
     const StageRecord& stage = trace.stages[i];
     stages_[i].in += stage.in;
     stages_[i].out += stage.out;
-    stages_[i].visited += stage.visited;
+    if (stages_[i].visited) *stages_[i].visited += stage.visited;
     const auto lost = std::remove_if(alive.begin(), alive.end(), [&](const ElementPair& pair) {
       return !covers(trace, stage, pair);
     });

@@ -5,7 +5,7 @@
 
 #include "core/deform/body.h"
 #include "core/detect/detector.h"
-#include "reference/compare/run_result.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -17,13 +17,13 @@ class StageLosses {
   /// its own output does not.
   void add_frame(const StageTrace& trace, const std::vector<ElementPair>& true_triangles);
 
-  const std::vector<StageResult>& stages() const { return stages_; }
+  const std::vector<results::Stage>& stages() const { return stages_; }
 
  private:
   bool covers(const StageTrace& trace, const StageRecord& stage, const ElementPair& pair) const;
 
   const std::vector<Body>& bodies_;
-  std::vector<StageResult> stages_;
+  std::vector<results::Stage> stages_;
 };
 
 }  // namespace contactcheck

@@ -1,13 +1,11 @@
 #include "reference/defects/comparison.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 
 std::string version_in(const LibraryVersions& versions, const std::string& library) {
   const auto found = versions.find(library);
@@ -37,36 +35,22 @@ std::set<Sighting> listed_for(const KnownDefects& known, const LibraryVersions& 
 }
 
 template <typename Name>
-Json names_of(const KnownDefect& defect, Name name) {
+std::vector<std::string> names_of(const KnownDefect& defect, Name name) {
   std::set<std::string> names;
   for (const Sighting& s : defect.seen) names.insert(name(s));
-  return names;
-}
-
-Json defect_json(const KnownDefect& d, const DefectComparison::Count& count) {
-  return {{"library", d.library},
-          {"version", d.version},
-          {"issue", d.issue},
-          {"kind", name_of(d.kind)},
-          {"sentence", d.sentence},
-          {"detectors", names_of(d, [](const Sighting& s) { return s.detector; })},
-          {"scenes", names_of(d, [](const Sighting& s) { return s.scene; })},
-          {"listed", count.listed},
-          {"shown", count.shown},
-          {"other_version", count.other_version}};
+  return {names.begin(), names.end()};
 }
 
 // Values of one detector, scene and kind together, in the order of the list.
-Json grouped(const std::vector<Sighting>& sightings) {
-  Json out = Json::array();
+std::vector<results::Sightings> grouped(const std::vector<Sighting>& sightings) {
+  std::vector<results::Sightings> out;
   for (const Sighting& s : sightings) {
-    const Json head = {{"detector", s.detector}, {"scene", s.scene}, {"kind", name_of(s.kind)}};
-    auto same = std::find_if(out.begin(), out.end(), [&](const Json& group) {
-      return std::all_of(head.items().begin(), head.items().end(),
-                         [&](const auto& field) { return group.at(field.key()) == field.value(); });
+    auto same = std::find_if(out.begin(), out.end(), [&](const results::Sightings& group) {
+      return group.detector == s.detector && group.scene == s.scene &&
+             group.kind == name_of(s.kind);
     });
-    if (same == out.end()) same = out.insert(out.end(), head);
-    (*same)["values"].push_back(s.value);
+    if (same == out.end()) same = out.insert(out.end(), {s.detector, s.scene, name_of(s.kind), {}});
+    same->values.push_back(s.value);
   }
   return out;
 }
@@ -119,10 +103,9 @@ void take_out(const std::vector<Sighting>& gone, KnownDefects& known) {
 
 }  // namespace
 
-LibraryVersions versions_in(const Json& results) {
+LibraryVersions versions_in(const results::Results& results) {
   LibraryVersions versions = {{"contactcheck", "any"}};
-  for (const auto& [library, version] : results.at("libraries").items())
-    versions[library] = version.get<std::string>();
+  for (const auto& [library, version] : results.libraries) versions[library] = version;
   return versions;
 }
 
@@ -142,13 +125,19 @@ bool any_unlisted_error(const DefectComparison& comparison) {
                      [](const Sighting& s) { return s.kind == SightingKind::kError; });
 }
 
-Json to_json(const KnownDefects& known, const DefectComparison& comparison) {
-  Json defects = Json::array();
-  for (std::size_t i = 0; i < known.defects.size(); ++i)
-    defects.push_back(defect_json(known.defects[i], comparison.counts[i]));
-  return {{"defects", defects},
-          {"not_shown", grouped(comparison.not_shown)},
-          {"unlisted", grouped(comparison.unlisted)}};
+results::KnownDefects in_results(const KnownDefects& known, const DefectComparison& comparison) {
+  results::KnownDefects out;
+  for (std::size_t i = 0; i < known.defects.size(); ++i) {
+    const KnownDefect& d = known.defects[i];
+    const DefectComparison::Count& count = comparison.counts[i];
+    out.defects.push_back({d.library, d.version, d.issue, name_of(d.kind), d.sentence,
+                           names_of(d, [](const Sighting& s) { return s.detector; }),
+                           names_of(d, [](const Sighting& s) { return s.scene; }), count.listed,
+                           count.shown, count.other_version});
+  }
+  out.not_shown = grouped(comparison.not_shown);
+  out.unlisted = grouped(comparison.unlisted);
+  return out;
 }
 
 KnownDefects updated(const KnownDefects& known, const SightingsOfRun& run,

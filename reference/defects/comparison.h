@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,8 @@ namespace contactcheck {
 using LibraryVersions = std::map<std::string, std::string>;
 
 /// Of the libraries of a run. Our own detectors are of version "any": the list lies beside their
-/// source. @throws nlohmann::json::exception when results have no such fields
-LibraryVersions versions_in(const nlohmann::ordered_json& results);
+/// source.
+LibraryVersions versions_in(const results::Results& results);
 
 struct DefectComparison {
   struct Count {
@@ -35,11 +34,8 @@ DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun
 /// True when some detector failed where the list has no error.
 bool any_unlisted_error(const DefectComparison& comparison);
 
-/// What `results` of schema contactcheck-results/1 say about the list:
-/// {"defects": [{"library", "version", "issue", "kind", "sentence", "detectors", "scenes",
-/// "listed", "shown", "other_version"}], "not_shown": [{"detector", "scene", "kind", "values"}],
-/// "unlisted": [the same]}
-nlohmann::ordered_json to_json(const KnownDefects& known, const DefectComparison& comparison);
+/// What results.json says about the list.
+results::KnownDefects in_results(const KnownDefects& known, const DefectComparison& comparison);
 
 /// Of which library a detector is made; by its canonical name.
 using LibraryOf = std::function<std::string(const std::string& detector)>;

@@ -1,55 +1,44 @@
 #include "reference/defects/sightings.h"
 
-#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/types/check.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 
-constexpr SightingKind kWrongAnswers[] = {SightingKind::kMissed, SightingKind::kSpurious};
+using results::Run;
 
-const Json& scene_of(const Json& results, const Json& run) {
-  for (const Json& scene : results.at("scenes"))
-    if (scene.at("id") == run.at("scene")) return scene;
-  return results.at("scenes").at(results.at("scenes").size());  // throws: there is none
-}
-
-Sighting sighting_in(const Json& run) {
-  return {run.at("detector").get<std::string>(), run.at("scene").get<std::string>(),
-          SightingKind::kMissed, kNoCase};
-}
-
-void add_answers(const Json& values, const Json& run, SightingsOfRun& out) {
-  Sighting s = sighting_in(run);
-  for (const SightingKind kind : kWrongAnswers) {
+void add_answers(const results::Family& family, const Run& run, SightingsOfRun& out) {
+  Sighting s{run.detector, run.scene, SightingKind::kMissed, kNoCase};
+  const auto add = [&](SightingKind kind, const std::vector<std::uint64_t>& counts) {
     s.kind = kind;
-    const Json& counts = run.at("per_frame").at(name_of(kind));
+    if (counts.size() > family.values.size())
+      throw InputError("results of " + run.detector + " on " + run.scene + ": more frames than " +
+                       "the family has cases");
     for (std::size_t frame = 0; frame < counts.size(); ++frame) {
-      s.value = values.at(frame).get<std::string>();
+      s.value = family.values[frame];
       out.possible.insert(s);
       if (counts[frame] != 0) out.seen.insert(s);
     }
-  }
-}
-
-// The case at which a detector failed; behind the last one where none is known.
-std::size_t failed_case(const Json& values, const Json& run) {
-  if (run.at("status") != "error" || !run.contains("failed_frame")) return values.size();
-  return run.at("failed_frame").get_ref<const Json::number_unsigned_t&>();
+  };
+  add(SightingKind::kMissed, run.per_frame.missed);
+  add(SightingKind::kSpurious, run.per_frame.spurious);
 }
 
 // It would have failed at an earlier case, were that one bad too; of the later ones nobody knows.
-void add_errors(const Json& values, const Json& run, SightingsOfRun& out) {
-  Sighting s = sighting_in(run);
-  s.kind = SightingKind::kError;
+void add_errors(const std::vector<std::string>& values, const Run& run, SightingsOfRun& out) {
+  const bool failed = run.status == results::Status::kError;
+  // Behind the last case where none is known.
+  const std::size_t failed_case = failed ? run.failed_frame.value_or(values.size()) : values.size();
+  Sighting s{run.detector, run.scene, SightingKind::kError, kNoCase};
   out.possible.insert(s);  // with no case to blame
-  const std::size_t failed = failed_case(values, run);
-  for (std::size_t i = 0; i <= failed && i < values.size(); ++i) {
-    s.value = values[i].get<std::string>();
+  for (std::size_t i = 0; i <= failed_case && i < values.size(); ++i) {
+    s.value = values[i];
     out.possible.insert(s);
   }
-  if (run.at("status") != "error") return;
-  s.value = failed < values.size() ? values[failed].get<std::string>() : kNoCase;
+  if (!failed) return;
+  s.value = failed_case < values.size() ? values[failed_case] : kNoCase;
   out.seen.insert(s);
 }
 
@@ -67,17 +56,15 @@ const char* name_of(SightingKind kind) {
   return "";
 }
 
-SightingsOfRun sightings_of(const Json& results) {
+SightingsOfRun sightings_of(const results::Results& results) {
   SightingsOfRun out;
-  for (const Json& run : results.at("runs")) {
-    const Json& scene = scene_of(results, run);
-    if (scene.contains("unjudged")) continue;  // no detector was asked
-    const bool family = scene.contains("family");
-    const Json values = family ? scene.at("family").at("values") : Json::array();
-    const bool answered = run.at("status") == "ok";
-    if (answered || run.at("status") == "error") add_errors(values, run, out);
-    if (answered && family && !run.at("per_frame").value("level", "").empty())
-      add_answers(values, run, out);
+  for (const Run& run : results.runs) {
+    const results::Scene* scene = results.scene(run.scene);
+    if (scene == nullptr) throw InputError("results have no scene \"" + run.scene + "\"");
+    if (!scene->unjudged.empty()) continue;  // no detector was asked
+    if (run.ok() || run.status == results::Status::kError)
+      add_errors(scene->family ? scene->family->values : std::vector<std::string>{}, run, out);
+    if (run.ok() && scene->family && run.per_frame.level) add_answers(*scene->family, run, out);
   }
   return out;
 }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <compare>
-#include <nlohmann/json_fwd.hpp>
 #include <set>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -39,7 +40,8 @@ struct SightingsOfRun {
 
 /// Of families: every case at the finest level judged. Of other scenes: errors alone, since what a
 /// detector misses there is its result and no fact of a library's version.
-/// @throws nlohmann::json::exception when results do not have the schema's fields
-SightingsOfRun sightings_of(const nlohmann::ordered_json& results);
+/// @throws InputError when a row's scene is not among the scenes, or a family has other cases than
+/// a row of it
+SightingsOfRun sightings_of(const results::Results& results);
 
 }  // namespace contactcheck

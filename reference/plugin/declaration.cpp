@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reference/compare/semantics_json.h"
 #include "reference/plugin/header_order.h"
+#include "reference/results/results_json.h"
 #include "reference/scene/id_check.h"
 
 namespace contactcheck {
@@ -136,7 +136,7 @@ Declaration read_declaration(const JsonField& field) {
 }
 
 nlohmann::ordered_json to_json(const Declaration& d) {
-  Json options = Json::array(), needs = Json::array(), semantics = to_json(d.semantics);
+  Json options = Json::array(), needs = Json::array(), semantics = results::to_json(d.semantics);
   for (const OptionInfo& option : d.options) options.push_back(option_json(option));
   if (d.needs_vertices) needs.push_back("vertices");
   if (d.needs_nodes) needs.push_back("nodes");

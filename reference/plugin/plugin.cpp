@@ -6,9 +6,9 @@
 #include "core/types/check.h"
 #include "core/types/hash.h"
 #include "reference/adapters/register.h"
-#include "reference/compare/run_result_json.h"
 #include "reference/plugin/pipe_detector.h"
 #include "reference/plugin/plugin_library.h"
+#include "reference/results/results.h"
 #include "reference/run/job.h"
 #include "reference/scene/shell_word.h"
 
@@ -85,7 +85,7 @@ std::string content_of(const PluginSource& source) {
   } else {
     add_named_files(source.text, hash);
   }
-  return hex(hash.digest());
+  return results::hex(hash.digest());
 }
 
 nlohmann::ordered_json to_json(const Plugin& plugin) {
@@ -124,16 +124,14 @@ DetectorCatalog with_plugins(const DetectorCatalog& catalog,
   return out;
 }
 
-nlohmann::ordered_json plugins_in_results(const std::vector<Plugin>& plugins) {
-  auto out = nlohmann::ordered_json::array();
+std::vector<results::Plugin> plugins_in_results(const std::vector<Plugin>& plugins) {
+  std::vector<results::Plugin> out;
   for (const Plugin& plugin : plugins) {
     const bool library = plugin.source.kind == PluginKind::kLibrary;
     const std::string& text = plugin.source.text;
-    out.push_back({{"detector", plugin.declaration.id},
-                   {"kind", name_of(plugin.source.kind)},
-                   {"source", library ? fs::path(text).filename().string() : text},
-                   {"content", plugin.content},
-                   {"version", plugin.declaration.version}});
+    out.push_back({plugin.declaration.id, name_of(plugin.source.kind),
+                   library ? fs::path(text).filename().string() : text, plugin.content,
+                   plugin.declaration.version});
   }
   return out;
 }

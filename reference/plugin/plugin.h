@@ -52,6 +52,6 @@ DetectorCatalog with_plugins(const DetectorCatalog& catalog,
                              const std::vector<std::string>& records);
 
 /// What results.json says of them: id, kind, file name or command, content, version.
-nlohmann::ordered_json plugins_in_results(const std::vector<Plugin>& plugins);
+std::vector<results::Plugin> plugins_in_results(const std::vector<Plugin>& plugins);
 
 }  // namespace contactcheck

@@ -100,7 +100,7 @@ void DefectSearch::refuse_without_finding(const std::vector<ReductionTask>& task
   const std::string place = tasks.size() == 1 ? where(task) : task.scene + ", every frame";
   const std::string wanted = (task.kind.empty() ? "wrong" : task.kind) +
                              (task.level.empty() ? "" : " at level " + task.level);
-  if (last_.status != RunStatus::kOk)
+  if (last_.status != results::Status::kOk)
     throw InputError(place + ": nothing is " + wanted + ": the answer of " + detector_ + " is \"" +
                      name_of(last_.status) + "\": " + last_.message);
   throw InputError(place + ": nothing is " + wanted + (is_case_ ? " any more" : "") +

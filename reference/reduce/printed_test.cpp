@@ -92,7 +92,7 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
     return {"any answer, but an answer",
             described(c.finding) + (verdict.message.empty() ? "" : ": " + verdict.message)};
   const Disagreement& d = disagreement_of(verdict, c.finding);
-  const LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
+  const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
   return {pair_text(c, d) + " " + truth_text(d.level, missed),
           counted(counts.reported, d.level) + " of " + std::to_string(counts.truth) +

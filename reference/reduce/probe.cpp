@@ -97,7 +97,7 @@ ProbeVerdict Probe::end_of_process(const std::string& limit) {
   if (!limit.empty() || !leaves_by_itself()) connection_->process.kill();
   const int status = connection_->process.reap();
   ProbeVerdict verdict;
-  verdict.status = RunStatus::kError;
+  verdict.status = results::Status::kError;
   verdict.how = limit.empty() ? describe_status(status) : limit;
   verdict.message = printable_line(connection_->process.error_text());
   connection_.reset();

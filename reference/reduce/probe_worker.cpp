@@ -51,19 +51,6 @@ Scene scene_of(const std::string& request) {
   return scene;
 }
 
-ProbeVerdict verdict_of(const RunResult& result) {
-  ProbeVerdict out;
-  out.status = result.status;
-  out.message = result.message;
-  if (result.status == RunStatus::kError) out.how = "threw";
-  if (result.status != RunStatus::kOk) return out;
-  out.levels = result.levels;
-  out.not_judged = result.not_judged;
-  out.missed_length = result.graded.missed_length.value_or(0.0);
-  out.disagreements = result.disagreements;
-  return out;
-}
-
 class ProbeWorker {
  public:
   ProbeWorker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd)
@@ -78,31 +65,37 @@ class ProbeWorker {
       const JudgedScene judged = judge_scene(scene, true, progress_);
       JudgingTools tools(judged);
       if (!channel_.send("")) return;
-      if (!channel_.send(to_text(verdict_of(judge(tools))))) return;
+      if (!channel_.send(to_text(judge(tools)))) return;
     }
   }
 
  private:
   // As a worker of a run books it (run/guarded_call.cpp).
-  RunResult judge(JudgingTools& tools) {
-    RunResult result;
+  ProbeVerdict judge(JudgingTools& tools) {
+    ProbeVerdict out;
     const FloatEnvironmentGuard guard;
     try {
       const std::unique_ptr<Detector> detector = catalog_.make(spec_);
-      run_accuracy(tools, 0, *detector, progress_, result);
+      results::Run run;
+      AccuracyOutcome accuracy = run_accuracy(tools, 0, *detector, progress_, run);
+      out.levels = run.levels;
+      out.not_judged = run.not_judged;
+      out.missed_length = run.geometry.missed_length.value_or(0.0);
+      out.disagreements = std::move(accuracy.disagreements);
     } catch (const Unavailable& e) {
-      result.status = RunStatus::kAbsent;
-      result.message = e.what();
+      out.status = results::Status::kAbsent;
+      out.message = e.what();
     } catch (const RefusedInput& e) {
-      result.status = RunStatus::kRefused;
-      result.message = e.what();
+      out.status = results::Status::kRefused;
+      out.message = e.what();
     } catch (...) {
-      result.status = RunStatus::kError;
-      result.message = current_exception_text();
+      out.status = results::Status::kError;
+      out.message = current_exception_text();
+      out.how = "threw";
     }
     guard.check_and_restore();
     surroundings_.restore();
-    return result;
+    return out;
   }
 
   DetectorSpec spec_;

@@ -13,11 +13,13 @@ using Json = nlohmann::json;
 
 constexpr const char* kError = "error";
 
-Json counts_json(const LevelCounts& c) {
+Json counts_json(const results::LevelCounts& c) {
   return {c.truth, c.reported, c.hit, c.missed, c.spurious};
 }
 
-LevelCounts counts_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)}; }
+results::LevelCounts counts_from(const Json& j) {
+  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)};
+}
 
 Json disagreement_json(const Disagreement& d) {
   return {d.level, d.kind, d.pair.body_a, d.pair.body_b, d.pair.a, d.pair.b};
@@ -72,7 +74,7 @@ std::string to_text(const ProbeVerdict& v) {
 ProbeVerdict verdict_from_text(const std::string& text) try {
   const Json j = Json::parse(text);
   ProbeVerdict v;
-  v.status = static_cast<RunStatus>(j.at("status").get<int>());
+  v.status = static_cast<results::Status>(j.at("status").get<int>());
   v.message = j.at("message");
   v.how = j.at("how");
   v.missed_length = j.at("missed_length");
@@ -97,9 +99,9 @@ bool names_triangles(const Finding& finding) {
 
 std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,
                                   const std::string& kind) {
-  if (verdict.status == RunStatus::kError && level.empty() && matches(kind, kError))
+  if (verdict.status == results::Status::kError && level.empty() && matches(kind, kError))
     return Finding{"", kError, verdict.how};
-  if (verdict.status != RunStatus::kOk) return std::nullopt;
+  if (verdict.status != results::Status::kOk) return std::nullopt;
   for (const Level l : kFineToCoarse) {
     if (!matches(level, name_of(l))) continue;
     const Disagreement* d = find(verdict, name_of(l), kind);
@@ -111,8 +113,8 @@ std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string
 
 bool shows(const ProbeVerdict& verdict, const Finding& finding) {
   if (finding.kind == kError)
-    return verdict.status == RunStatus::kError && verdict.how == finding.how;
-  return verdict.status == RunStatus::kOk &&
+    return verdict.status == results::Status::kError && verdict.how == finding.how;
+  return verdict.status == results::Status::kOk &&
          find(verdict, finding.level, finding.kind) != nullptr &&
          (!finding.crossing || crosses(verdict, finding.level, finding.kind));
 }

@@ -7,16 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/compare/judge.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
 struct ProbeVerdict {
-  RunStatus status = RunStatus::kOk;
+  results::Status status = results::Status::kOk;
   std::string message;  ///< of a status other than ok
   /// Of an error, in words that are the same for the same way: "threw", "signal 11 (...)".
   std::string how;
-  std::map<Level, LevelCounts> levels;
+  results::Levels levels;
   std::map<Level, std::string> not_judged;
   double missed_length = 0.0;  ///< metres of contour, as far as it is judged
   /// The first missed and the first spurious contact of each level claimed.

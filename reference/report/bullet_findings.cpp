@@ -1,32 +1,32 @@
 #include "reference/report/bullet_findings.h"
 
-#include <nlohmann/json.hpp>
-
 #include "reference/report/format.h"
 #include "reference/report/markdown_table.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::LevelCounts;
+using results::Run;
 
-std::string level_field(const Json& run, const char* level, const char* field) {
-  if (run.is_null() || !run.at("levels").contains(level)) return "-";
-  const Json& value = run.at("levels").at(level).at(field);
-  return std::string(field) == "recall" ? format_rate(value) : format_count(value);
+std::string count_at(const Run& run, Level level, std::uint64_t LevelCounts::*count) {
+  const LevelCounts* counts = counts_of(run, level);
+  return counts == nullptr ? "-" : format_count(counts->*count);
 }
 
-std::string scale_finding(const Json& results) {
+std::string recall_at(const Run& run, Level level) {
+  const LevelCounts* counts = counts_of(run, level);
+  return counts == nullptr ? "-" : format_rate(counts->recall);
+}
+
+std::string scale_finding(const results::Results& results) {
   std::string rows;
-  for (const Json& scene : results.at("scenes")) {
-    const auto id = scene.at("id").get<std::string>();
-    const Json scaled = find_run(results, id, "bullet-vf"),
-               plain = find_run(results, id, "bullet-vf:scale=1");
-    if (scaled.is_null() || plain.is_null() || whole_number(scene.at("contact_frames")) == 0)
-      continue;
-    rows +=
-        table_line({id, format_number(scaled.at("semantics").at("scale")),
-                    level_field(scaled, "body", "recall"), level_field(scaled, "near", "recall"),
-                    level_field(plain, "body", "recall"), level_field(plain, "near", "recall")});
+  for (const results::Scene& scene : results.scenes) {
+    const Run *scaled = find_run(results, scene.id, "bullet-vf"),
+              *plain = find_run(results, scene.id, "bullet-vf:scale=1");
+    if (scaled == nullptr || plain == nullptr || scene.contact_frames == 0) continue;
+    rows += table_line({scene.id, format_number(scaled->semantics.scale),
+                        recall_at(*scaled, Level::kBody), recall_at(*scaled, Level::kNear),
+                        recall_at(*plain, Level::kBody), recall_at(*plain, Level::kNear)});
   }
   return titled_table(
       "### Bullet's vertex-face query at scale 1: small triangles do not exist\n\n"
@@ -43,16 +43,15 @@ std::string scale_finding(const Json& results) {
       rows);
 }
 
-std::string inside_finding(const Json& results) {
+std::string inside_finding(const results::Results& results) {
   std::string rows;
-  for (const Json& scene : results.at("scenes")) {
-    const auto id = scene.at("id").get<std::string>();
-    const Json run = find_run(results, id, "bullet-vf");
-    if (run.is_null() || !run.at("levels").contains("vertex")) continue;
-    if (whole_number(scene.at("contact_frames")) == 0) continue;
-    rows += table_line({id, format_millimetres(run.at("semantics").at("margin")),
-                        level_field(run, "vertex", "truth"), level_field(run, "vertex", "hit"),
-                        level_field(run, "vertex", "spurious")});
+  for (const results::Scene& scene : results.scenes) {
+    const Run* run = find_run(results, scene.id, "bullet-vf");
+    const LevelCounts* counts = run == nullptr ? nullptr : counts_of(*run, Level::kVertex);
+    if (counts == nullptr || scene.contact_frames == 0) continue;
+    rows += table_line({scene.id, format_millimetres(run->semantics.margin),
+                        format_count(counts->truth), format_count(counts->hit),
+                        format_count(counts->spurious)});
   }
   return titled_table(
       "### Bullet's vertex-face query is an unsigned proximity query\n\n"
@@ -69,27 +68,24 @@ std::string inside_finding(const Json& results) {
 
 // Of the normals judged, those that point into the half of directions away from the way out; "-"
 // where the results hold no histogram.
-std::string turned_normals(const Json& geometry) {
-  if (!geometry.contains("normal_error_deg_histogram")) return "-";
-  std::int64_t turned = 0;
-  for (const Json& bin : geometry.at("normal_error_deg_histogram"))
-    if (bin.at("from").get<double>() >= 90.0) turned += whole_number(bin.at("count"));
+std::string turned_normals(const results::ErrorSpread& normals) {
+  if (normals.histogram.empty()) return "-";
+  std::uint64_t turned = 0;
+  for (const results::HistogramBin& bin : normals.histogram)
+    if (bin.from >= 90.0) turned += bin.count;
   return std::to_string(turned);
 }
 
-std::string normal_finding(const Json& results) {
+std::string normal_finding(const results::Results& results) {
   std::string rows;
-  for (const Json& scene : results.at("scenes")) {
-    const auto id = scene.at("id").get<std::string>();
-    const Json run = find_run(results, id, "bullet-vf");
-    if (run.is_null()) continue;
-    const Json& geometry = run.at("geometry");
-    const Json largest = geometry.value("normal_error_deg_max", Json(nullptr));
-    if (largest.is_null() || largest.get<double>() < 90.0) continue;
-    rows += table_line({id, format_count(geometry.value("normal_judged", Json(nullptr))),
-                        turned_normals(geometry),
-                        format_number(geometry.value("normal_error_deg_mean", Json(nullptr))),
-                        format_number(largest)});
+  for (const results::Scene& scene : results.scenes) {
+    const Run* run = find_run(results, scene.id, "bullet-vf");
+    if (run == nullptr) continue;
+    const results::ErrorSpread& normals = run->geometry.normal_deg;
+    if (!normals.max || *normals.max < 90.0) continue;
+    rows += table_line({scene.id, normals.judged > 0 ? format_count(normals.judged) : "-",
+                        turned_normals(normals), format_number(normals.mean),
+                        format_number(normals.max)});
   }
   return titled_table(
       "### Bullet's vertex-face normals turn with the side of the vertex\n\n"
@@ -105,16 +101,15 @@ std::string normal_finding(const Json& results) {
       rows);
 }
 
-std::string cluster_finding(const Json& results) {
+std::string cluster_finding(const results::Results& results) {
   std::string rows;
-  for (const Json& scene : results.at("scenes")) {
-    const auto id = scene.at("id").get<std::string>();
+  for (const results::Scene& scene : results.scenes) {
     for (const char* detector : {"bullet-cl", "bullet-cl:k=256"}) {
-      const Json run = find_run(results, id, detector);
-      if (run.is_null()) continue;
-      rows +=
-          table_line({id, detector, level_field(run, "body", "truth"),
-                      level_field(run, "body", "missed"), level_field(run, "body", "spurious")});
+      const Run* run = find_run(results, scene.id, detector);
+      if (run == nullptr) continue;
+      rows += table_line({scene.id, detector, count_at(*run, Level::kBody, &LevelCounts::truth),
+                          count_at(*run, Level::kBody, &LevelCounts::missed),
+                          count_at(*run, Level::kBody, &LevelCounts::spurious)});
     }
   }
   return titled_table(
@@ -131,7 +126,7 @@ std::string cluster_finding(const Json& results) {
 
 }  // namespace
 
-std::string bullet_findings(const Json& results) {
+std::string bullet_findings(const results::Results& results) {
   return scale_finding(results) + inside_finding(results) + normal_finding(results) +
          cluster_finding(results);
 }

@@ -2,32 +2,27 @@
 
 #include <algorithm>
 #include <functional>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
-#include "core/types/semantics.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using results::ErrorSpread;
+using results::Geometry;
+using results::LevelCounts;
+using results::PhaseTimes;
+using results::QuestionTimes;
+using results::Run;
+using results::Speedup;
 
 struct CsvColumn {
   std::string title;
-  std::function<Json(const Json& run)> value;
+  std::function<std::string(const Run& run)> text;
 };
-
-// Null where any step of the way is missing: rows that are not `ok` have next to nothing.
-Json at_path(const Json& run, const std::vector<std::string>& path) {
-  const Json* place = &run;
-  for (const std::string& step : path) {
-    if (!place->is_object() || !place->contains(step)) return nullptr;
-    place = &place->at(step);
-  }
-  return *place;
-}
 
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -36,97 +31,136 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string cell(const Json& value) {
-  if (value.is_null()) return "";
-  return quoted(value.is_string() ? value.get<std::string>() : value.dump());
+std::string csv_text(const std::string& text) { return text; }
+// As in results.json.
+template <typename Number>
+std::string csv_text(Number number) {
+  return nlohmann::json(number).dump();
+}
+template <typename T>
+std::string csv_text(const std::optional<T>& value) {
+  return value ? csv_text(*value) : "";
 }
 
 class Columns {
  public:
-  explicit Columns(const Json& results) {
+  explicit Columns(const results::Results& results) {
     add_identity();
-    add_levels();
+    for (const Level level : kLevels) add_level(level);
     add_geometry();
     add_times();
     for (const std::string& reference : references_of(results)) add_speedup(reference);
-    add("memory_bytes", {"memory_bytes"});
-    add("contact_hash", {"contact_hash"});
-    add("recording", {"recording"});
+    add_members("", "", ok_run, std::pair("memory_bytes", &Run::memory_bytes),
+                std::pair("contact_hash", &Run::contact_hash));
+    add_members("", "", any_run, std::pair("recording", &Run::recording));
   }
 
   const std::vector<CsvColumn>& all() const { return columns_; }
 
  private:
-  void add(const std::string& title, std::vector<std::string> path) {
-    columns_.push_back(
-        {title, [path = std::move(path)](const Json& r) { return at_path(r, path); }});
+  static const Run* any_run(const Run& run) { return &run; }
+  static const Run* ok_run(const Run& run) { return run.ok() ? &run : nullptr; }
+  // Other programs leave the frames of runs that are not `ok` out.
+  static const Run* run_of_frames(const Run& run) { return run.frames > 0 ? &run : ok_run(run); }
+  static const QuestionTimes* own_times(const Run& run) {
+    return run.times.empty() ? nullptr : &run.times.front();
+  }
+
+  // Of what `part` finds in a run; cells are empty where that is null.
+  template <typename Part, typename... Members>
+  void add_members(const std::string& before, const std::string& after, Part part,
+                   std::pair<const char*, Members>... members) {
+    (columns_.push_back({before + members.first + after,
+                         [=](const Run& run) {
+                           const auto* found = part(run);
+                           return found == nullptr ? "" : csv_text(found->*members.second);
+                         }}),
+     ...);
   }
 
   void add_identity() {
-    for (const char* key : {"scene", "detector", "status", "message"}) add(key, {key});
-    columns_.push_back({"options", [](const Json& run) -> Json {
-                          const Json options = at_or_null(run, "options");
-                          if (options.is_null() || options.empty()) return nullptr;
-                          return options_text(options);
+    add_members("", "", any_run, std::pair("scene", &Run::scene),
+                std::pair("detector", &Run::detector));
+    columns_.push_back({"status", [](const Run& run) { return name_of(run.status); }});
+    add_members("", "", any_run, std::pair("message", &Run::message));
+    columns_.push_back({"options", [](const Run& run) {
+                          return run.options.empty() ? "" : options_text(run.options);
                         }});
-    for (const char* key : {"frames", "contact_frames"}) add(key, {key});
-    add("finest_level", {"per_frame", "level"});
+    add_members("", "", run_of_frames, std::pair("frames", &Run::frames),
+                std::pair("contact_frames", &Run::contact_frames));
+    columns_.push_back({"finest_level", finest_level});
   }
 
-  void add_levels() {
-    for (const std::string& level : level_names())
-      for (const std::string count :
-           {"truth", "reported", "hit", "missed", "spurious", "recall", "spurious_rate"})
-        add(level + "_" + count, {"levels", level, count});
+  void add_level(Level level) {
+    add_members(
+        name_of(level), "", [=](const Run& run) { return counts_of(run, level); },
+        std::pair("_truth", &LevelCounts::truth), std::pair("_reported", &LevelCounts::reported),
+        std::pair("_hit", &LevelCounts::hit), std::pair("_missed", &LevelCounts::missed),
+        std::pair("_spurious", &LevelCounts::spurious), std::pair("_recall", &LevelCounts::recall),
+        std::pair("_spurious_rate", &LevelCounts::spurious_rate));
   }
 
-  // Title with the unit, key of `geometry`.
   void add_geometry() {
-    using Named = std::pair<const char*, const char*>;
-    for (const auto& [title, key] :
-         std::initializer_list<Named>{{"missed_length_m", "missed_length"},
-                                      {"covered_length_fraction", "covered_length_fraction"},
-                                      {"spurious_distance_max_m", "spurious_distance_max"},
-                                      {"depth_error_max_m", "depth_error_max"},
-                                      {"depth_error_p95_m", "depth_error_p95"},
-                                      {"depth_error_mean_m", "depth_error_mean"},
-                                      {"normal_error_max_deg", "normal_error_deg_max"},
-                                      {"normal_error_p95_deg", "normal_error_deg_p95"},
-                                      {"normal_error_mean_deg", "normal_error_deg_mean"},
-                                      {"hover_gap_max_m", "hover_gap_max"},
-                                      {"late_frames", "late_frames"}})
-      add(title, {"geometry", key});
+    const auto geometry = [](const Run& run) { return &run.geometry; };
+    const auto add_spread = [&](const char* name, const char* unit, auto spread) {
+      add_members(
+          name, unit, [=](const Run& run) { return &(run.geometry.*spread); },
+          std::pair("_max", &ErrorSpread::max), std::pair("_p95", &ErrorSpread::p95),
+          std::pair("_mean", &ErrorSpread::mean));
+    };
+    add_members("", "", geometry, std::pair("missed_length_m", &Geometry::missed_length),
+                std::pair("covered_length_fraction", &Geometry::covered_length_fraction),
+                std::pair("spurious_distance_max_m", &Geometry::spurious_distance_max));
+    add_spread("depth_error", "_m", &Geometry::depth);
+    add_spread("normal_error", "_deg", &Geometry::normal_deg);
+    add_members("", "", geometry, std::pair("hover_gap_max_m", &Geometry::hover_gap_max),
+                std::pair("late_frames", &Geometry::late_frames));
   }
 
   void add_times() {
-    for (const char* key : {"question", "timed_frames", "repeats"}) add(key, {"time_ms", key});
-    add("prepare_ms", {"time_ms", "prepare"});
-    for (const std::string part : {"cold", "hot"})
-      for (const std::string phase :
-           {"map", "update", "query", "frame", "contact_frame", "self_reported"})
-        add(part + "_" + phase + "_ms", {"time_ms", part, phase});
-    columns_.push_back({"speedup_question", [](const Json& run) -> Json {
-                          if (!run.contains("speedup")) return nullptr;
-                          return compared_question(run);
+    columns_.push_back({"question", [](const Run& run) {
+                          return run.times.empty() ? "" : name_of(own_times(run)->question);
+                        }});
+    add_members("", "", own_times, std::pair("timed_frames", &QuestionTimes::timed_frames),
+                std::pair("repeats", &QuestionTimes::repeats));
+    add_members("", "", ok_run, std::pair("prepare_ms", &Run::prepare_ms));
+    add_phases("cold", &QuestionTimes::cold);
+    add_phases("hot", &QuestionTimes::hot);
+    columns_.push_back({"speedup_question", [](const Run& run) {
+                          return run.times.empty() ? "" : name_of(compared_question(run));
                         }});
   }
 
+  void add_phases(const char* name, PhaseTimes QuestionTimes::*phases) {
+    const auto part = [=](const Run& run) {
+      return run.times.empty() ? nullptr : &(run.times.front().*phases);
+    };
+    add_members(name, "_ms", part, std::pair("_map", &PhaseTimes::map),
+                std::pair("_update", &PhaseTimes::update), std::pair("_query", &PhaseTimes::query),
+                std::pair("_frame", &PhaseTimes::frame),
+                std::pair("_contact_frame", &PhaseTimes::contact_frame),
+                std::pair("_self_reported", &PhaseTimes::self_reported));
+  }
+
   void add_speedup(const std::string& reference) {
-    for (const char* part : {"cold", "hot"})
-      for (const char* key : {"ratio", "low", "high"})
-        columns_.push_back(
-            {"vs_" + reference + "_" + part + "_" + key, [=](const Json& run) {
-               if (!run.contains("speedup")) return Json(nullptr);
-               return at_path(speedup_of(run, compared_question(run), reference), {part, key});
-             }});
+    for (const auto& [name, ratio] :
+         {std::pair("_cold", &Speedup::cold), std::pair("_hot", &Speedup::hot)})
+      add_members(
+          "vs_" + reference + name, "",
+          [=, ratio = ratio](const Run& run) {
+            const Speedup* speedup = speedup_of(run, compared_question(run), reference);
+            return speedup == nullptr ? nullptr : &(speedup->*ratio);
+          },
+          std::pair("_ratio", &Ratio::value), std::pair("_low", &Ratio::low),
+          std::pair("_high", &Ratio::high));
   }
 
   // In the order of their first speed-up.
-  static std::vector<std::string> references_of(const Json& results) {
+  static std::vector<std::string> references_of(const results::Results& results) {
     std::vector<std::string> names;
-    for (const Json& run : results.at("runs"))
-      for (const Json& by_reference : at_or_null(run, "speedup"))
-        for (const auto& [name, speedup] : by_reference.items())
+    for (const Run& run : results.runs)
+      for (const auto& [question, by_reference] : run.speedup)
+        for (const auto& [name, speedup] : by_reference)
           if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     return names;
   }
@@ -136,14 +170,14 @@ class Columns {
 
 }  // namespace
 
-std::string csv_report(const Json& results) {
+std::string csv_report(const results::Results& results) {
   const Columns columns(results);
   std::string text;
   const auto end_line = [&] { text.replace(text.size() - 1, 1, "\r\n"); };
   for (const CsvColumn& column : columns.all()) text += quoted(column.title) + ",";
   end_line();
-  for (const Json& run : results.at("runs")) {
-    for (const CsvColumn& column : columns.all()) text += cell(column.value(run)) + ",";
+  for (const Run& run : results.runs) {
+    for (const CsvColumn& column : columns.all()) text += quoted(column.text(run)) + ",";
     end_line();
   }
   return text;

@@ -1,8 +1,9 @@
 // The results as a table for spreadsheets and scripts: report.csv (fixtures/README.md).
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -10,7 +11,6 @@ namespace contactcheck {
 /// Numbers as results.json has them; a cell is empty where there is no value. The columns are the
 /// same for all results but for the references, of which there are those that some run has a
 /// speed-up against.
-/// @throws nlohmann::json::exception when results are not as the schema says
-std::string csv_report(const nlohmann::ordered_json& results);
+std::string csv_report(const results::Results& results);
 
 }  // namespace contactcheck

@@ -1,28 +1,26 @@
 #include "reference/report/error_counts.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "reference/report/format.h"
+#include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
 
-std::optional<double> share(std::int64_t part, std::int64_t whole) {
-  if (whole <= 0) return {};
+std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return {};
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 }  // namespace
 
-bool ErrorCounts::add(const nlohmann::ordered_json& run, const std::string& level) {
-  const auto& levels = run.at("levels");
-  if (!levels.contains(level) || levels.at(level).value("informative", false)) return false;
-  const auto& counts = levels.at(level);
-  truth += whole_number(counts.at("truth"));
-  reported += whole_number(counts.at("reported"));
-  missed += whole_number(counts.at("missed"));
-  spurious += whole_number(counts.at("spurious"));
+bool ErrorCounts::add(const results::Run& run, std::optional<Level> level) {
+  const results::LevelCounts* counts = counts_of(run, level);
+  if (counts == nullptr || counts->informative) return false;
+  truth += counts->truth;
+  reported += counts->reported;
+  missed += counts->missed;
+  spurious += counts->spurious;
   return true;
 }
 

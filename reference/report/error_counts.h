@@ -2,19 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
 struct ErrorCounts {
-  std::int64_t truth = 0, reported = 0, missed = 0, spurious = 0;
+  std::uint64_t truth = 0, reported = 0, missed = 0, spurious = 0;
 
   /// Adds those of a run that is `ok`, at this level. False where that was not judged or is no
   /// claim of its detector.
-  /// @throws nlohmann::json::exception when the run is not as the schema says
-  bool add(const nlohmann::ordered_json& run, const std::string& level);
+  bool add(const results::Run& run, std::optional<Level> level);
 
   /// missed / truth; nothing where there was nothing to find.
   std::optional<double> missed_share() const;

@@ -1,27 +1,35 @@
 #include "reference/report/family_result.h"
 
-#include "reference/report/format.h"
+#include "core/types/check.h"
+#include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+
+template <typename T>
+const T& of_case(const std::vector<T>& list, std::size_t frame, const results::Scene& scene) {
+  if (frame < list.size()) return list[frame];
+  throw InputError("the results of family \"" + scene.id + "\" are not complete: frame " +
+                   std::to_string(frame) + " is missing");
+}
+
 }  // namespace
 
-std::string FamilyResult::level() const {
-  return run.contains("per_frame") ? run.at("per_frame").value("level", "") : "";
+const std::string& FamilyResult::value(std::size_t frame) const {
+  return of_case(scene.family->values, frame, scene);
 }
 
-std::string FamilyResult::value(std::size_t frame) const {
-  return scene.at("family").at("values").at(frame).get<std::string>();
+std::uint64_t FamilyResult::at(Counts counts, std::size_t frame) const {
+  return of_case(run.per_frame.*counts, frame, scene);
 }
 
-std::int64_t FamilyResult::at(const char* kind, std::size_t frame) const {
-  return whole_number(run.at("per_frame").at(kind).at(frame));
+bool FamilyResult::wrong_at(std::size_t frame) const {
+  return at(&results::PerFrame::missed, frame) + at(&results::PerFrame::spurious, frame) > 0;
 }
 
-std::int64_t FamilyResult::sum(const char* kind) const {
-  std::int64_t sum = 0;
-  for (std::size_t f = 0; judged() && f < cases(); ++f) sum += at(kind, f);
+std::uint64_t FamilyResult::sum(Counts counts) const {
+  std::uint64_t sum = 0;
+  for (std::size_t f = 0; judged() && f < cases(); ++f) sum += at(counts, f);
   return sum;
 }
 
@@ -32,23 +40,21 @@ std::size_t FamilyResult::wrong() const {
 }
 
 std::optional<std::size_t> FamilyResult::failed_frame() const {
-  if (!failed() || !run.contains("failed_frame")) return {};
-  const auto frame = static_cast<std::size_t>(whole_number(run.at("failed_frame")));
-  value(frame);  // throws where there is no such case
-  return frame;
+  if (!failed() || !run.failed_frame) return {};
+  value(*run.failed_frame);  // throws where there is no such case
+  return run.failed_frame;
 }
 
 std::optional<double> FamilyResult::milliseconds() const {
-  if (!judged() || !run.at("time_ms").contains("cold")) return {};
-  return run.at("time_ms").at("cold").at("frame").get<double>();
+  if (!judged() || run.times.empty()) return {};
+  return run.times.front().cold.frame;
 }
 
-std::vector<FamilyResult> family_results(const Json& results) {
+std::vector<FamilyResult> family_results(const results::Results& results) {
   std::vector<FamilyResult> out;
-  for (const Json& scene : results.at("scenes")) {
-    if (!scene.contains("family")) continue;
-    for (const Json& run : results.at("runs"))
-      if (run.at("scene") == scene.at("id")) out.push_back({scene, run});
+  for (const results::Scene& scene : results.scenes) {
+    if (!scene.family) continue;
+    for (const results::Run* run : runs_of_scene(results, scene.id)) out.push_back({scene, *run});
   }
   return out;
 }

@@ -2,34 +2,36 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reference/results/results.h"
+
 namespace contactcheck {
 
-/// Refers to results that must outlive it. Whatever is not as the schema says throws
-/// nlohmann::json::exception.
+/// Refers to results that must outlive it. The schema does not say how long their lists are:
+/// whatever is of a case that is not there throws InputError.
 struct FamilyResult {
-  const nlohmann::ordered_json& scene;
-  const nlohmann::ordered_json& run;
+  /// truth, missed or spurious.
+  using Counts = std::vector<std::uint64_t> results::PerFrame::*;
 
-  std::string detector() const { return run.at("detector").get<std::string>(); }
-  bool judged() const { return run.at("status") == "ok" && !level().empty(); }
-  bool failed() const { return run.at("status") == "error"; }
-  bool refused() const { return run.at("status") == "refused"; }
-  /// The finest level judged; empty when none was.
-  std::string level() const;
+  const results::Scene& scene;  ///< a family
+  const results::Run& run;
 
-  std::size_t cases() const { return scene.at("family").at("values").size(); }
+  const std::string& detector() const { return run.detector; }
+  bool judged() const { return run.ok() && run.per_frame.level; }
+  bool failed() const { return run.status == results::Status::kError; }
+  bool refused() const { return run.status == results::Status::kRefused; }
+
+  std::size_t cases() const { return scene.family->values.size(); }
   /// Of the parameter, in that case.
-  std::string value(std::size_t frame) const;
-  /// `kind`: "truth", "missed" or "spurious". @pre judged()
-  std::int64_t at(const char* kind, std::size_t frame) const;
-  bool wrong_at(std::size_t frame) const { return at("missed", frame) + at("spurious", frame) > 0; }
+  const std::string& value(std::size_t frame) const;
+  /// @pre judged()
+  std::uint64_t at(Counts counts, std::size_t frame) const;
+  bool wrong_at(std::size_t frame) const;
   /// Over all cases; 0 where nothing was judged.
-  std::int64_t sum(const char* kind) const;
+  std::uint64_t sum(Counts counts) const;
   std::size_t wrong() const;
   /// Wrong somewhere, or without an answer because of an error.
   bool goes_wrong() const { return failed() || wrong() > 0; }
@@ -40,6 +42,6 @@ struct FamilyResult {
 };
 
 /// In the order of scenes, then of runs.
-std::vector<FamilyResult> family_results(const nlohmann::ordered_json& results);
+std::vector<FamilyResult> family_results(const results::Results& results);
 
 }  // namespace contactcheck

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace contactcheck {
 namespace {
@@ -23,54 +22,72 @@ std::string significant(double value) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
-// Beyond this, JSON numbers are not whole in every program that reads them.
-constexpr double kLargestWhole = 0x1p53;
-
 }  // namespace
 
-std::int64_t whole_number(const nlohmann::ordered_json& value) {
-  const bool whole = value.is_number() && value.get<double>() == std::trunc(value.get<double>()) &&
-                     std::fabs(value.get<double>()) <= kLargestWhole;
-  if (!whole)
-    throw nlohmann::ordered_json::type_error::create(
-        302, value.dump() + " is not a whole number within 2^53", &value);
-  return value.get<std::int64_t>();
-}
-
-std::string format_rate(const nlohmann::ordered_json& value) {
-  if (value.is_null()) return "-";
-  const double rate = value.get<double>();
+std::string format_rate(std::optional<double> value) {
+  if (!value) return "-";
+  const double rate = *value;
   if (rate == 1.0 || rate == 0.0) return fmt::format("{:.0f}", rate);
   const double cut = std::min(std::floor(rate * kRateSteps * (1.0 + kSlack)), kRateSteps - 1.0);
   return fmt::format("{:.5f}", cut / kRateSteps);
 }
 
-std::string format_error_rate(const nlohmann::ordered_json& value) {
-  if (value.is_null()) return "-";
-  const double rate = value.get<double>();
+std::string format_error_rate(std::optional<double> value) {
+  if (!value) return "-";
+  const double rate = *value;
   if (rate == 1.0 || rate == 0.0) return fmt::format("{:.0f}", rate);
   const double raised = std::max(std::ceil(rate * kRateSteps * (1.0 - kSlack)), 1.0);
   return fmt::format("{:.5f}", raised / kRateSteps);
 }
 
-std::string format_number(const nlohmann::ordered_json& value) {
-  return value.is_null() ? "-" : significant(value.get<double>());
+std::string format_number(std::optional<double> value) { return value ? significant(*value) : "-"; }
+
+std::string format_count(std::optional<std::int64_t> value) {
+  return value ? std::to_string(*value) : "-";
 }
 
-std::string format_count(const nlohmann::ordered_json& value) {
-  return value.is_null() ? "-" : fmt::format("{}", whole_number(value));
+std::string format_millimetres(std::optional<double> value) {
+  return value ? significant(1e3 * *value) : "-";
 }
 
-std::string format_millimetres(const nlohmann::ordered_json& value) {
-  return value.is_null() ? "-" : significant(1e3 * value.get<double>());
+std::string format_percent(double share) {
+  if (share == 0.0 || share == 1.0) return fmt::format("{:.0f} %", 100.0 * share);
+  if (share < 1e-4) return "< 0.01 %";
+  if (share > 0.999) return "> 99.9 %";
+  const int digits = share < 0.01 ? 2 : 1;
+  // Halves go up: an error is not shown smaller than it is.
+  const double steps = digits == 2 ? 100.0 : 10.0;
+  return fmt::format("{:.{}f} %", std::round(100.0 * share * steps) / steps, digits);
 }
 
-std::string format_ratio(const nlohmann::ordered_json& ratio, bool interval) {
-  if (ratio.is_null()) return "-";
-  std::string text = significant(ratio.at("ratio").get<double>()) + "x";
-  if (interval)
-    text += " [" + significant(ratio.at("low").get<double>()) + ", " +
-            significant(ratio.at("high").get<double>()) + "]";
+std::string grouped_digits(std::uint64_t value) {
+  std::string text = std::to_string(value);
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
+  return text;
+}
+
+std::string plural(std::uint64_t n, const std::string& one) {
+  return grouped_digits(n) + " " + one + (n == 1 ? "" : "s");
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string short_list(const std::vector<std::string>& names, std::size_t most) {
+  if (names.size() <= most + 1) return listed(names);
+  std::string text;
+  for (std::size_t i = 0; i < most; ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return text + " and " + std::to_string(names.size() - most) + " more";
+}
+
+std::string format_ratio(const std::optional<Ratio>& ratio, bool interval) {
+  if (!ratio) return "-";
+  std::string text = significant(ratio->value) + "x";
+  if (interval) text += " [" + significant(ratio->low) + ", " + significant(ratio->high) + "]";
   return text;
 }
 

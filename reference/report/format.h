@@ -1,27 +1,37 @@
-// How numbers are shown: short, and never rounded to a better value than they are.
+// How numbers are shown: short, and never rounded to a better value than they are. "-" stands for
+// what was not measured.
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
-/// @throws nlohmann's type_error when the value is no whole number, or beyond 2^53
-std::int64_t whole_number(const nlohmann::ordered_json& value);
-
 /// "1" only for exactly 1, otherwise cut (not rounded) to five decimals: 0.99999 never reads as 1.
-/// "-" for null.
-std::string format_rate(const nlohmann::ordered_json& value);
+std::string format_rate(std::optional<double> value);
 /// The same for a rate of errors: raised to five decimals, 0.000001 never reads as 0.
-std::string format_error_rate(const nlohmann::ordered_json& value);
-/// Three significant digits, "-" for null.
-std::string format_number(const nlohmann::ordered_json& value);
-/// Whole numbers; "-" for null.
-std::string format_count(const nlohmann::ordered_json& value);
-/// Metres as millimetres with three significant digits; "0" for exactly 0; "-" for null.
-std::string format_millimetres(const nlohmann::ordered_json& value);
-/// "12.3x [11.8, 12.9]"; "-" for null.
-std::string format_ratio(const nlohmann::ordered_json& ratio, bool interval);
+std::string format_error_rate(std::optional<double> value);
+/// Three significant digits.
+std::string format_number(std::optional<double> value);
+/// Whole numbers.
+std::string format_count(std::optional<std::int64_t> value);
+/// Metres as millimetres with three significant digits; "0" for exactly 0.
+std::string format_millimetres(std::optional<double> value);
+/// A share of errors in percent: never "0 %" for more than none, nor "100 %" for less than all.
+std::string format_percent(double share);
+/// 12,345,678
+std::string grouped_digits(std::uint64_t value);
+/// "1 scene", "1,200 scenes"
+std::string plural(std::uint64_t n, const std::string& one);
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& names);
+/// The first `most`, and how many there are besides.
+std::string short_list(const std::vector<std::string>& names, std::size_t most);
+/// "12.3x", with `interval` "12.3x [11.8, 12.9]".
+std::string format_ratio(const std::optional<Ratio>& ratio, bool interval);
 
 }  // namespace contactcheck

@@ -1,34 +1,29 @@
 #include "reference/report/goals_table.h"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
 #include "reference/report/format.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::MeasuredGoal;
 
-std::string unit_of(const Json& goal) { return goal.contains("per") ? " us" : "x"; }
+std::string unit_of(const MeasuredGoal& goal) { return goal.per.empty() ? "x" : " us"; }
 
-std::string wanted(const Json& goal) {
-  const bool least = goal.contains("at_least");
-  return (least ? ">= " : "<= ") + format_number(goal.at(least ? "at_least" : "at_most")) +
+std::string wanted(const MeasuredGoal& goal) {
+  return (goal.at_least ? ">= " + format_number(goal.at_least)
+                        : "<= " + format_number(goal.at_most)) +
          unit_of(goal);
 }
 
-std::string measured(const Json& goal) {
-  if (goal.at("measured").is_null()) return "-";
-  std::string out = format_number(goal.at("measured")) + unit_of(goal);
-  if (goal.contains("low"))
-    out += " [" + format_number(goal.at("low")) + ", " + format_number(goal.at("high")) + "]";
+std::string measured(const MeasuredGoal& goal) {
+  if (!goal.measured) return "-";
+  std::string out = format_number(goal.measured) + unit_of(goal);
+  if (goal.low) out += " [" + format_number(goal.low) + ", " + format_number(goal.high) + "]";
   return out;
 }
 
-std::string verdict(const Json& goal) {
-  if (goal.at("met").is_null()) return "not measured: " + goal.at("why").get<std::string>();
-  return goal.at("met").get<bool>() ? "yes" : "no";
+std::string met_text(const MeasuredGoal& goal) {
+  if (!goal.met) return "not measured: " + goal.why;
+  return *goal.met ? "yes" : "no";
 }
 
 }  // namespace
@@ -40,12 +35,11 @@ const std::vector<Column>& goal_columns() {
   return columns;
 }
 
-std::vector<std::vector<std::string>> goal_lines(const Json& results) {
+std::vector<std::vector<std::string>> goal_lines(const results::Results& results) {
   std::vector<std::vector<std::string>> lines;
-  for (const Json& goal : results.value("goals", Json::array()))
-    lines.push_back({goal.at("goal").get<std::string>(), goal.at("scene").get<std::string>(),
-                     goal.at("detector").get<std::string>(), wanted(goal), measured(goal),
-                     verdict(goal)});
+  for (const MeasuredGoal& goal : results.goals)
+    lines.push_back(
+        {goal.goal, goal.scene, goal.detector, wanted(goal), measured(goal), met_text(goal)});
   return lines;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "reference/report/family_result.h"
@@ -14,29 +13,29 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::PerFrame;
 
 struct DetectorSum {
   std::string level;
   std::size_t families = 0, right_families = 0, cases = 0, right = 0, failed = 0, refused = 0;
-  std::int64_t missed = 0, spurious = 0;
+  std::uint64_t missed = 0, spurious = 0;
   double milliseconds = 0.0;  // of the families timed
   std::size_t timed = 0;
   double slowest = -1.0;
   std::string slowest_family;
 
   void add(const FamilyResult& result) {
-    if (result.run.at("status") == "absent") return;
+    if (result.run.status == results::Status::kAbsent) return;
     ++families;
     failed += result.failed();
     refused += result.refused();
     if (!result.judged()) return;
-    level = result.level();
+    level = finest_level(result.run);
     cases += result.cases();
     right += result.cases() - result.wrong();
     right_families += result.wrong() == 0;
-    missed += result.sum("missed");
-    spurious += result.sum("spurious");
+    missed += result.sum(&PerFrame::missed);
+    spurious += result.sum(&PerFrame::spurious);
     if (const std::optional<double> time = result.milliseconds()) add_time(*time, result);
   }
 
@@ -45,7 +44,7 @@ struct DetectorSum {
     ++timed;
     if (time <= slowest) return;
     slowest = time;
-    slowest_family = result.scene.at("id").get<std::string>();
+    slowest_family = result.scene.id;
   }
 
   std::vector<std::string> line(const std::string& detector) const {
@@ -66,22 +65,18 @@ struct DetectorSum {
 std::vector<std::string> wrong_line(const FamilyResult& result) {
   if (result.failed()) {
     const std::optional<std::size_t> frame = result.failed_frame();
-    return {result.detector(),
-            frame ? result.value(*frame) : "-",
-            result.run.at("message").get<std::string>(),
-            "-",
-            "-",
-            "-"};
+    return {
+        result.detector(), frame ? result.value(*frame) : "-", result.run.message, "-", "-", "-"};
   }
   std::size_t first = 0;
   while (!result.wrong_at(first)) ++first;
   return {result.detector(),
           result.value(first),
-          fmt::format("{} missed, {} spurious of {} true", result.at("missed", first),
-                      result.at("spurious", first), result.at("truth", first)),
+          fmt::format("{} missed, {} spurious of {} true", result.at(&PerFrame::missed, first),
+                      result.at(&PerFrame::spurious, first), result.at(&PerFrame::truth, first)),
           fmt::format("{} of {}", result.wrong(), result.cases()),
-          fmt::format("{}", result.sum("missed")),
-          fmt::format("{}", result.sum("spurious"))};
+          fmt::format("{}", result.sum(&PerFrame::missed)),
+          fmt::format("{}", result.sum(&PerFrame::spurious))};
 }
 
 const std::vector<Column>& wrong_columns() {
@@ -91,20 +86,19 @@ const std::vector<Column>& wrong_columns() {
   return columns;
 }
 
-std::string family_table(const Json& scene, const std::vector<FamilyResult>& all) {
-  std::string rows;
+// Of a family.
+std::string family_table(const results::Scene& scene, const std::vector<FamilyResult>& all) {
+  std::string rows, first;
   for (const FamilyResult& result : all) {
-    if (&result.scene != &scene) continue;
-    if (result.goes_wrong()) rows += table_line(wrong_line(result));
+    if (&result.scene != &scene || !result.goes_wrong()) continue;
+    rows += table_line(wrong_line(result));
+    first = result.value(0);
   }
   if (rows.empty()) return "";
-  const Json& family = scene.at("family");
-  const auto text = [&](const char* key) { return family.at(key).get<std::string>(); };
+  const results::Family& family = *scene.family;
   return fmt::format("`{}`: {}. Parameter: {}, {} values from {} on. Hard for: {}. From: {}.\n\n",
-                     scene.at("id").get<std::string>(), scene.at("title").get<std::string>(),
-                     text("parameter"), family.at("values").size(),
-                     family.at("values").at(0).get<std::string>(), text("stresses"),
-                     text("origin")) +
+                     scene.id, scene.title, family.parameter, family.values.size(), first,
+                     family.stresses, family.origin) +
          fmt::format("![Missed and spurious, case by case]({})\n\n", stability_plot_file(scene)) +
          table_head(wrong_columns()) + rows + "\n";
 }
@@ -125,7 +119,7 @@ const std::vector<Column>& hard_columns() {
   return columns;
 }
 
-std::vector<std::vector<std::string>> hard_lines(const Json& results) {
+std::vector<std::vector<std::string>> hard_lines(const results::Results& results) {
   std::vector<std::string> order;
   std::map<std::string, DetectorSum> sums;
   for (const FamilyResult& result : family_results(results)) {
@@ -138,7 +132,7 @@ std::vector<std::vector<std::string>> hard_lines(const Json& results) {
   return lines;
 }
 
-std::string hard_cases_markdown(const Json& results) {
+std::string hard_cases_markdown(const results::Results& results) {
   std::string rows;
   for (const auto& cells : hard_lines(results)) rows += table_line(cells);
   if (rows.empty()) return "";
@@ -149,8 +143,8 @@ std::string hard_cases_markdown(const Json& results) {
       table_head(hard_columns()) + rows + "\n### Where they go wrong\n\n";
   std::string tables;
   const std::vector<FamilyResult> all = family_results(results);
-  for (const Json& scene : results.at("scenes"))
-    if (scene.contains("family")) tables += family_table(scene, all);
+  for (const results::Scene& scene : results.scenes)
+    if (scene.family) tables += family_table(scene, all);
   return out + (tables.empty() ? "Nowhere.\n\n" : tables);
 }
 

@@ -2,7 +2,6 @@
 // of the parameter on it goes wrong.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -13,10 +12,10 @@ namespace contactcheck {
 /// One line per detector: families and cases, how many of them it answered as it claims, missed and
 /// spurious, errors, and what a case costs. Empty without families.
 const std::vector<Column>& hard_columns();
-std::vector<std::vector<std::string>> hard_lines(const nlohmann::ordered_json& results);
+std::vector<std::vector<std::string>> hard_lines(const results::Results& results);
 
 /// Markdown: those lines and, per family, who goes wrong from which value on. Empty without
 /// families.
-std::string hard_cases_markdown(const nlohmann::ordered_json& results);
+std::string hard_cases_markdown(const results::Results& results);
 
 }  // namespace contactcheck

@@ -7,6 +7,7 @@
 
 #include "core/types/check.h"
 #include "reference/report/web/report_template.h"
+#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
@@ -49,9 +50,12 @@ void fill_in(std::string& page, std::string_view placeholder, const std::string&
 
 bool has_html_report() { return !kReportTemplate.empty(); }
 
-std::string html_report(const nlohmann::ordered_json& results, std::string_view view) {
+std::string html_report(const results::Results& results, const std::string& reproduction,
+                        std::string_view view) {
+  nlohmann::ordered_json data = results::to_json(results);
+  if (!reproduction.empty()) data["reproduction"] = nlohmann::ordered_json::parse(reproduction);
   std::string page(kReportTemplate);
-  fill_in(page, "@results@", packed(results.dump()));
+  fill_in(page, "@results@", packed(data.dump()));
   fill_in(page, "@view@", packed(view));
   return page;
 }

@@ -1,17 +1,22 @@
 // Wrong answers that libraries are known to give, beside those that a run shows.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
+/// "Of 12 listed wrong answers that this run could show, 10 show and 2 do not; 0 show that are not
+/// listed."
+std::string known_defects_sentence(const results::KnownDefects& known);
+
 /// Of the field `known_defects` of results.json: what is listed and shows, what is listed and does
 /// not, what shows and is not listed. Empty where results have no such field.
-std::string known_defects_markdown(const nlohmann::ordered_json& results);
+std::string known_defects_markdown(const results::Results& results);
 
 /// The same field's value in plain lines, for a terminal: all of it, or only what differs.
-std::string defects_text(const nlohmann::ordered_json& known_defects);
-std::string defects_summary(const nlohmann::ordered_json& known_defects);
+std::string defects_text(const results::KnownDefects& known);
+std::string defects_summary(const results::KnownDefects& known);
 
 }  // namespace contactcheck

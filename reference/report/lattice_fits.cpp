@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "reference/report/format.h"
@@ -14,8 +12,6 @@
 
 namespace contactcheck {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Every frame has as many vertices: the mean of the squares is that of all of them.
 double overall_rms(const std::vector<double>& frames) {
@@ -33,22 +29,19 @@ struct BodyFit {
 };
 
 // Bodies without a frame have no error to tell.
-std::vector<BodyFit> fits_of(const Json& scene) {
+std::vector<BodyFit> fits_of(const results::Scene& scene) {
   std::vector<BodyFit> out;
-  for (const Json& fit : scene.value("fits", Json::array())) {
-    const auto rms = fit.at("rms").get<std::vector<double>>();
-    const auto max = fit.at("max").get<std::vector<double>>();
+  for (const auto& [body, rms, max] : scene.fits) {
     if (rms.empty() || max.empty()) continue;
     const auto worst = std::max_element(max.begin(), max.end());
-    out.push_back(
-        {fit.at("body").get<std::string>(), overall_rms(rms), *worst, worst - max.begin()});
+    out.push_back({body, overall_rms(rms), *worst, worst - max.begin()});
   }
   return out;
 }
 
 }  // namespace
 
-std::string fits_line(const Json& scene) {
+std::string fits_line(const results::Scene& scene) {
   const std::vector<BodyFit> fits = fits_of(scene);
   if (fits.empty()) return "";
   const BodyFit& worst = *std::max_element(
@@ -58,7 +51,7 @@ std::string fits_line(const Json& scene) {
       format_millimetres(worst.max), worst.body, worst.frame);
 }
 
-std::string fits_markdown(const Json& scene) {
+std::string fits_markdown(const results::Scene& scene) {
   std::string rows;
   for (const BodyFit& fit : fits_of(scene))
     rows += table_line({fit.body, format_millimetres(fit.rms), format_millimetres(fit.max),

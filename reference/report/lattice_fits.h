@@ -1,17 +1,18 @@
 // What a report says of lattices that were fitted to recordings: how far the scene is from them.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
 /// "judged with lattices fitted to recordings: vertices at most 1.20 mm off (body cloth, frame 7)",
 /// of the vertex farthest from where it was recorded. Empty for scenes without a fitted lattice.
-std::string fits_line(const nlohmann::ordered_json& scene);
+std::string fits_line(const results::Scene& scene);
 
 /// Markdown: per body the error over all frames and the worst frame. Empty for scenes without a
 /// fitted lattice.
-std::string fits_markdown(const nlohmann::ordered_json& scene);
+std::string fits_markdown(const results::Scene& scene);
 
 }  // namespace contactcheck

@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "reference/report/bar_plot.h"
 #include "reference/report/error_counts.h"
-#include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::Run;
 
 /// Those that the pictures are of, and how to call them.
 struct ChosenScenes {
@@ -22,53 +20,48 @@ struct ChosenScenes {
   std::string words;
 };
 
-ChosenScenes chosen_scenes(const Json& results) {
+ChosenScenes chosen_scenes(const results::Results& results) {
   std::set<std::string> scenes, families;
-  for (const Json& scene : results.at("scenes"))
-    (scene.contains("family") ? families : scenes).insert(scene.at("id").get<std::string>());
+  for (const results::Scene& scene : results.scenes)
+    (scene.family ? families : scenes).insert(scene.id);
   if (scenes.empty()) return {families, fmt::format("{} families of hard cases", families.size())};
   if (scenes.size() == 1) return {scenes, "scene " + *scenes.begin()};
   return {scenes, fmt::format("{} scenes", scenes.size())};
 }
 
-std::vector<const Json*> ok_runs(const Json& results, const ChosenScenes& scenes) {
-  std::vector<const Json*> runs;
-  for (const Json& run : results.at("runs"))
-    if (run.at("status") == "ok" && scenes.ids.contains(run.at("scene").get<std::string>()))
-      runs.push_back(&run);
+std::vector<const Run*> ok_runs(const results::Results& results, const ChosenScenes& scenes) {
+  std::vector<const Run*> runs;
+  for (const Run& run : results.runs)
+    if (run.ok() && scenes.ids.contains(run.scene)) runs.push_back(&run);
   return runs;
 }
 
-std::string detector_of(const Json& run) { return run.at("detector").get<std::string>(); }
-
 // Counts of different levels do not add up: a detector has a sum per level.
 struct LevelSum : ErrorCounts {
-  std::string detector, level;
+  std::string detector;
+  Level level = {};
 };
 
-std::vector<LevelSum> sums_of(const std::vector<const Json*>& runs) {
+std::vector<LevelSum> sums_of(const std::vector<const Run*>& runs) {
   std::vector<LevelSum> sums;
-  for (const Json* run : runs) {
-    const std::string detector = detector_of(*run), level = finest_level(*run);
+  for (const Run* run : runs) {
+    if (!run->per_frame.level) continue;
+    const Level level = *run->per_frame.level;
     auto sum = std::find_if(sums.begin(), sums.end(), [&](const LevelSum& s) {
-      return s.detector == detector && s.level == level;
+      return s.detector == run->detector && s.level == level;
     });
-    if (sum == sums.end()) {
-      sum = sums.insert(sums.end(), LevelSum{});
-      sum->detector = detector;
-      sum->level = level;
-    }
+    if (sum == sums.end()) sum = sums.insert(sums.end(), LevelSum{{}, run->detector, level});
     sum->add(*run, level);
   }
   return sums;
 }
 
-std::string part_of(std::int64_t part, std::int64_t whole) {
-  return fmt::format("{} of {}", format_count(part), format_count(whole));
+std::string part_of(std::uint64_t part, std::uint64_t whole) {
+  return fmt::format("{} of {}", part, whole);
 }
 
 BarRow errors_row(const LevelSum& sum) {
-  const std::string name = fmt::format("{} ({})", sum.detector, sum.level);
+  const std::string name = fmt::format("{} ({})", sum.detector, name_of(sum.level));
   const std::string missed = "missed " + part_of(sum.missed, sum.truth),
                     spurious = "spurious " + part_of(sum.spurious, sum.reported);
   return {name,
@@ -79,12 +72,12 @@ BarRow errors_row(const LevelSum& sum) {
 
 struct StageLoss {
   std::string stage;
-  std::int64_t missed = 0;
+  std::uint64_t missed = 0;
 };
 
 struct DetectorLosses {
   std::string detector;
-  std::int64_t truth = 0;  // pairs of triangles
+  std::uint64_t truth = 0;  // pairs of triangles
   std::vector<StageLoss> stages;
   bool any() const {
     return std::any_of(stages.begin(), stages.end(), [](const auto& s) { return s.missed > 0; });
@@ -101,23 +94,22 @@ auto& named(List& list, Member member, const std::string& name) {
 }
 
 // Stages cover pairs of triangles, and so do the counts of these levels.
-std::int64_t true_triangle_pairs(const Json& run) {
-  const std::string level = finest_level(run);
-  if (level != "cell" && level != "triangle") return 0;
-  const Json& levels = run.at("levels");
-  return levels.contains(level) ? whole_number(levels.at(level).at("truth")) : 0;
+std::uint64_t true_triangle_pairs(const Run& run) {
+  const std::optional<Level> level = run.per_frame.level;
+  if (level != Level::kCell && level != Level::kTriangle) return 0;
+  const results::LevelCounts* counts = counts_of(run, level);
+  return counts == nullptr ? 0 : counts->truth;
 }
 
-std::vector<DetectorLosses> losses_of(const std::vector<const Json*>& runs) {
+std::vector<DetectorLosses> losses_of(const std::vector<const Run*>& runs) {
   std::vector<DetectorLosses> all;
-  for (const Json* run : runs) {
-    const std::int64_t truth = true_triangle_pairs(*run);
-    if (truth <= 0 || !run->contains("stages") || run->at("stages").empty()) continue;
-    DetectorLosses& losses = named(all, &DetectorLosses::detector, detector_of(*run));
+  for (const Run* run : runs) {
+    const std::uint64_t truth = true_triangle_pairs(*run);
+    if (truth == 0 || run->stages.empty()) continue;
+    DetectorLosses& losses = named(all, &DetectorLosses::detector, run->detector);
     losses.truth += truth;
-    for (const Json& stage : run->at("stages"))
-      named(losses.stages, &StageLoss::stage, stage.at("name").get<std::string>()).missed +=
-          whole_number(stage.at("missed"));
+    for (const results::Stage& stage : run->stages)
+      named(losses.stages, &StageLoss::stage, stage.name).missed += stage.missed;
   }
   std::erase_if(all, [](const DetectorLosses& losses) { return !losses.any(); });
   return all;
@@ -148,16 +140,15 @@ BarRow losses_row(const DetectorLosses& losses, const std::vector<std::string>& 
                             static_cast<double>(stage.missed) / static_cast<double>(losses.truth),
                             fmt::format("{}: {} true pairs lost in {}", losses.detector,
                                         part_of(stage.missed, losses.truth), stage.stage)});
-    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", stage.stage,
-                             format_count(stage.missed));
+    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", stage.stage, stage.missed);
   }
-  row.words += fmt::format(" of {}", format_count(losses.truth));
+  row.words += fmt::format(" of {}", losses.truth);
   return row;
 }
 
 }  // namespace
 
-std::string errors_picture(const Json& results) {
+std::string errors_picture(const results::Results& results) {
   const ChosenScenes scenes = chosen_scenes(results);
   BarChart chart;
   chart.title = "Who misses contacts and who invents them: " + scenes.words;
@@ -172,7 +163,7 @@ std::string errors_picture(const Json& results) {
   return bar_plot(chart);
 }
 
-std::string stages_picture(const Json& results) {
+std::string stages_picture(const results::Results& results) {
   const ChosenScenes scenes = chosen_scenes(results);
   const std::vector<DetectorLosses> all = losses_of(ok_runs(results, scenes));
   BarChart chart;
@@ -186,7 +177,7 @@ std::string stages_picture(const Json& results) {
   return bar_plot(chart);
 }
 
-std::string loss_markdown(const Json& results) {
+std::string loss_markdown(const results::Results& results) {
   std::string out;
   if (!errors_picture(results).empty())
     out += fmt::format(

@@ -1,8 +1,9 @@
 // Who errs and in which stage, as pictures for Markdown: the HTML report has the same with tables.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -14,15 +15,13 @@ inline constexpr const char* kStagesFile = "plots/stage_losses.svg";
 /// which share of its reports is spurious, at the finest level that it claims (a row per level
 /// where scenes differ in that), summed over all scenes; over the families of hard cases where
 /// there is nothing else. Empty where nobody errs.
-/// @throws nlohmann::json::exception when results are not as the schema says
-std::string errors_picture(const nlohmann::ordered_json& results);
+std::string errors_picture(const results::Results& results);
 
 /// An SVG document: for every detector whose stages lost true pairs of triangles, how many in which
 /// stage, as shares of the true ones, over the same scenes. Empty where none did.
-/// @throws nlohmann::json::exception when results are not as the schema says
-std::string stages_picture(const nlohmann::ordered_json& results);
+std::string stages_picture(const results::Results& results);
 
 /// The section that shows both; empty without pictures.
-std::string loss_markdown(const nlohmann::ordered_json& results);
+std::string loss_markdown(const results::Results& results);
 
 }  // namespace contactcheck

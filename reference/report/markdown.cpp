@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "reference/report/claims.h"
@@ -22,27 +21,25 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::Run;
 
-std::string machine_section(const Json& results) {
-  const Json& m = results.at("machine");
+std::string machine_section(const results::Results& results) {
+  const results::Machine& m = results.machine;
   std::string libraries;
-  for (const auto& [name, version] : results.at("libraries").items())
-    libraries += (libraries.empty() ? "" : ", ") + name + " " + version.get<std::string>();
+  for (const auto& [name, version] : results.libraries)
+    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
   return fmt::format(
       "- command: `{}`\n- machine: {}, {} cores, {}, {}\n- built with {}, {}\n- libraries: {}\n"
       "- contactcheck {}, schema {}\n\n",
-      results.at("command").get<std::string>(), m.at("cpu").get<std::string>(),
-      whole_number(m.at("cores")), m.at("isa").get<std::string>(), m.at("os").get<std::string>(),
-      m.at("compiler").get<std::string>(), m.at("build").get<std::string>(), libraries,
-      results.at("version").get<std::string>(), results.at("schema").get<std::string>());
+      results.command, m.cpu, m.cores, m.isa, m.os, m.compiler, m.build, libraries, results.version,
+      results::kSchema);
 }
 
 // Their times are of another process than the others'.
-std::string resumed_line(const Json& results) {
+std::string resumed_line(const results::Results& results) {
   std::string scenes;
-  for (const Json& scene : results.value("resumed", Json::array()))
-    scenes += (scenes.empty() ? "" : ", ") + scene.get<std::string>();
+  for (const std::string& scene : results.resumed.value_or(std::vector<std::string>{}))
+    scenes += (scenes.empty() ? "" : ", ") + scene;
   if (scenes.empty()) return "";
   return fmt::format(
       "Taken over from an earlier run that was interrupted (`--resume`), with the times measured "
@@ -51,48 +48,46 @@ std::string resumed_line(const Json& results) {
 }
 
 // Whoever reads a part must not take it for the whole.
-std::string parts_line(const Json& results) {
-  if (results.contains("shard")) {
-    const Json& shard = results.at("shard");
+std::string parts_line(const results::Results& results) {
+  if (results.shard)
     return fmt::format(
         "Shard {} of {}: {} of the {} scenes of `{}`; `contactcheck merge` puts the shards "
         "together.\n\n",
-        whole_number(shard.at("index")), whole_number(shard.at("of")), results.at("scenes").size(),
-        shard.at("scenes").size(), shard.at("command").get<std::string>());
-  }
-  if (!results.contains("merged")) return "";
+        results.shard->index, results.shard->of, results.scenes.size(),
+        results.shard->scenes.size(), results.shard->command);
+  if (results.merged.empty()) return "";
   return fmt::format("Put together from {} shards (`contactcheck merge`).\n\n",
-                     results.at("merged").size());
+                     results.merged.size());
 }
 
-std::string bodies_table(const Json& scene) {
+std::string bodies_table(const results::Scene& scene) {
   std::string out =
       "| body | mesh | vertices | triangles | cells | solid | notes |\n"
       "|---|---|--:|--:|--:|---|---|\n";
-  for (const Json& b : scene.at("bodies"))
-    out += table_line({b.at("name").get<std::string>(), b.at("source").get<std::string>(),
-                       format_count(b.at("vertices")), format_count(b.at("triangles")),
-                       format_count(b.at("cells")), b.at("solid").get<bool>() ? "yes" : "no",
-                       b.at("notes").get<std::string>()});
+  for (const results::SceneBody& b : scene.bodies)
+    out += table_line({b.name, b.source, format_count(b.vertices), format_count(b.triangles),
+                       format_count(b.cells), b.solid ? "yes" : "no", b.notes});
   return out + "\n";
 }
 
 // "body 12, triangle 334, vertex not judged: open"
-std::string truth_line(const Json& scene) {
+std::string truth_line(const results::Scene& scene) {
   std::string out;
-  for (const auto& [level, count] : scene.at("truth").items())
-    out += (out.empty() ? "" : ", ") + level + " " +
-           (count.is_string() ? count.get<std::string>() : format_count(count));
+  for (const auto& [level, truth] : scene.truth) {
+    const auto* count = std::get_if<std::uint64_t>(&truth);
+    out += (out.empty() ? "" : ", ") + std::string(name_of(level)) + " " +
+           (count != nullptr ? format_count(*count) : std::get<std::string>(truth));
+  }
   return "True contacts, summed over frames: " + out + ".\n\n";
 }
 
-std::string result_table(const std::vector<Json>& runs) {
+std::string result_table(const RunList& runs) {
   std::string out = table_head(result_columns());
-  for (const Json& run : runs) out += table_line(result_cells(run));
+  for (const Run* run : runs) out += table_line(result_cells(*run));
   return out + "\n";
 }
 
-std::string summary_section(const Json& results) {
+std::string summary_section(const results::Results& results) {
   std::string out =
       "## Summary\n\nSums over scenes; speed-ups are the smallest and the largest of any "
       "scene.\n\n" +
@@ -101,7 +96,7 @@ std::string summary_section(const Json& results) {
   return out + "\n";
 }
 
-std::string goals_section(const Json& results) {
+std::string goals_section(const results::Results& results) {
   std::string rows;
   for (const auto& cells : goal_lines(results)) rows += table_line(cells);
   if (rows.empty()) return "";
@@ -111,57 +106,44 @@ std::string goals_section(const Json& results) {
          table_head(goal_columns()) + rows + "\n";
 }
 
-std::string disagreements_list(const Json& results, const std::string& scene) {
+std::string disagreements_list(const results::Results& results, const std::string& scene) {
   std::string out;
-  for (const Json& d : results.at("disagreements")) {
-    if (d.at("scene") != scene) continue;
-    out += fmt::format("- {}: first {} at level {} in frame {}: `{}`\n",
-                       d.at("detector").get<std::string>(), d.at("kind").get<std::string>(),
-                       d.at("level").get<std::string>(), whole_number(d.at("frame")),
-                       d.at("case").get<std::string>());
-  }
+  for (const results::Disagreement& d : results.disagreements)
+    if (d.scene == scene)
+      out += fmt::format("- {}: first {} at level {} in frame {}: `{}`\n", d.detector, d.kind,
+                         d.level, d.frame, d.case_file);
   return out.empty() ? "" : "Disagreements with the truth (first of each kind):\n\n" + out + "\n";
 }
 
 // What a reader must know about single runs and no table shows.
-std::string notes_list(const std::vector<Json>& runs) {
+std::string notes_list(const RunList& runs) {
   std::string out;
-  for (const Json& run : runs) {
-    if (run.at("status") != "ok") continue;
-    const auto detector = run.at("detector").get<std::string>();
-    for (const char* kind : {"float_environment", "notes"})
-      for (const Json& note : run.value(kind, Json::array()))
-        out += fmt::format("- {}: {}\n", detector, note.get<std::string>());
-    const Json not_judged = run.value("not_judged", Json::object());
-    for (const auto& [level, why] : not_judged.items())
-      out += fmt::format("- {}: level {} {}\n", detector, level, why.get<std::string>());
+  for (const Run* run : runs) {
+    for (const auto* notes : {&run->float_environment, &run->notes})
+      for (const std::string& note : *notes) out += fmt::format("- {}: {}\n", run->detector, note);
+    for (const auto& [level, why] : run->not_judged)
+      out += fmt::format("- {}: level {} {}\n", run->detector, name_of(level), why);
   }
   return out.empty() ? "" : "Notes:\n\n" + out + "\n";
 }
 
-std::string scene_section(const Json& results, const Json& scene) {
-  const auto id = scene.at("id").get<std::string>();
-  const std::vector<Json> runs = runs_of_scene(results, id);
-  return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", id,
-                     scene.at("title").get<std::string>(), whole_number(scene.at("frames")),
-                     whole_number(scene.at("contact_frames")), format_number(scene.at("size"))) +
+std::string scene_section(const results::Results& results, const results::Scene& scene) {
+  const RunList runs = runs_of_scene(results, scene.id);
+  return fmt::format("## {}\n\n{}. {} frames, {} with contact, size {} m.\n\n", scene.id,
+                     scene.title, scene.frames, scene.contact_frames, format_number(scene.size)) +
          bodies_table(scene) + truth_line(scene) + fits_markdown(scene) + pairs_markdown(scene) +
          result_table(runs) + separation_tables(scene, runs) + levels_table(runs) +
          graded_table(runs) + stages_table(runs) + times_table(runs) + counters_table(runs) +
-         speedups_table(runs) + notes_list(runs) + disagreements_list(results, id);
+         speedups_table(runs) + notes_list(runs) + disagreements_list(results, scene.id);
 }
 
 // What each detector claims, from its first run that is `ok`.
-std::string semantics_section(const Json& results) {
+std::string semantics_section(const results::Results& results) {
   std::set<std::string> seen;
   std::string rows;
-  for (const Json& run : results.at("runs")) {
-    const auto detector = run.at("detector").get<std::string>();
-    if (run.at("status") != "ok" || !run.at("semantics").contains("levels")) continue;
-    if (seen.insert(detector).second)
-      rows += table_line(
-          {detector, options_text(run.at("options")), semantics_text(run.at("semantics"))});
-  }
+  for (const Run& run : results.runs)
+    if (run.ok() && !run.semantics.levels.empty() && seen.insert(run.detector).second)
+      rows += table_line({run.detector, options_text(run.options), semantics_text(run.semantics)});
   if (rows.empty()) return "";
   return "## What each detector claims\n\nA level that is not claimed is not judged.\n\n" +
          table_head({{"detector", true, ""}, {"options", true, ""}, {"claims", true, ""}}) + rows +
@@ -176,7 +158,7 @@ std::string legend() {
 
 }  // namespace
 
-std::string markdown_report(const Json& results) {
+std::string markdown_report(const results::Results& results) {
   std::string out = "# contactcheck report\n\n" + machine_section(results) + parts_line(results) +
                     resumed_line(results) + summary_section(results) +
                     speed_error_markdown(results) + loss_markdown(results) +
@@ -185,8 +167,8 @@ std::string markdown_report(const Json& results) {
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   // Families are told by who goes wrong in them; tables of every detector would bury that.
-  for (const Json& scene : results.at("scenes"))
-    if (!scene.contains("family")) out += scene_section(results, scene);
+  for (const results::Scene& scene : results.scenes)
+    if (!scene.family) out += scene_section(results, scene);
   return out + semantics_section(results) + legend();
 }
 

@@ -1,34 +1,40 @@
 #include "reference/report/run_row.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cmath>
 
 #include "reference/report/format.h"
 #include "reference/results/references.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::Run;
 
 // "missed/spurious" of the level body, where it is judged.
-std::string body_errors(const Json& run) {
-  const Json body = at_or_null(run.at("levels"), "body");
-  if (body.is_null()) return "-";
-  return format_count(body.at("missed")) + "/" + format_count(body.at("spurious"));
+std::string body_errors(const Run& run) {
+  const results::LevelCounts* body = counts_of(run, Level::kBody);
+  if (body == nullptr) return "-";
+  return format_count(body->missed) + "/" + format_count(body->spurious);
 }
 
 // Ours, with a pipe's way in it, and beside it what the detector says of itself.
-std::string cold_frame(const Json& run) {
-  const Json cold = at_or_null(run.at("time_ms"), "cold");
-  if (cold.is_null()) return "-";
-  const Json own = at_or_null(cold, "self_reported");
-  const std::string text = format_number(cold.at("frame"));
-  return own.is_null() ? text : text + " (own " + format_number(own) + ")";
+std::string cold_frame(const Run& run) {
+  if (run.times.empty()) return "-";
+  const results::PhaseTimes& cold = run.times.front().cold;
+  const std::string text = format_number(cold.frame);
+  return cold.self_reported ? text + " (own " + format_number(cold.self_reported) + ")" : text;
 }
 
-std::string speed_cell(const Json& run, const char* reference) {
-  const Json s = speedup_of(run, compared_question(run), reference);
-  return s.is_null() ? "-" : format_ratio(s.at("cold"), false);
+std::string speed_cell(const Run& run, const char* reference) {
+  const results::Speedup* s = speedup_of(run, compared_question(run), reference);
+  return s == nullptr ? "-" : format_ratio(s->cold, false);
+}
+
+template <typename Value>
+std::string names_of(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value value : values) text += (text.empty() ? "" : ", ") + std::string(name_of(value));
+  return text;
 }
 
 }  // namespace
@@ -57,97 +63,100 @@ const std::vector<Column>& result_columns() {
   return columns;
 }
 
-std::vector<std::string> result_cells(const Json& run) {
-  const auto detector = run.at("detector").get<std::string>();
-  if (run.at("status") != "ok") {
+std::vector<std::string> result_cells(const Run& run) {
+  if (!run.ok()) {
     std::vector<std::string> cells(result_columns().size(), "");
-    cells[0] = detector;
-    cells[1] = run.at("status").get<std::string>();
-    cells[2] = run.at("message").get<std::string>();
+    cells[0] = run.detector;
+    cells[1] = name_of(run.status);
+    cells[2] = run.message;
     return cells;
   }
-  const std::string level = finest_level(run);
-  const Json counts = at_or_null(run.at("levels"), level.c_str());
-  const auto count = [&](const char* key) {
-    return counts.is_null() ? std::string("-") : format_count(counts.at(key));
+  const results::LevelCounts* counts = counts_of(run, run.per_frame.level);
+  const auto count = [&](std::uint64_t results::LevelCounts::*member) {
+    return counts == nullptr ? "-" : format_count(counts->*member);
   };
-  const Json& geometry = run.at("geometry");
-  std::vector<std::string> cells = {detector,
-                                    level,
-                                    count("truth"),
-                                    counts.is_null() ? "-" : format_rate(counts.at("recall")),
-                                    count("missed"),
-                                    count("spurious"),
+  std::vector<std::string> cells = {run.detector,
+                                    finest_level(run),
+                                    count(&results::LevelCounts::truth),
+                                    counts == nullptr ? "-" : format_rate(counts->recall),
+                                    count(&results::LevelCounts::missed),
+                                    count(&results::LevelCounts::spurious),
                                     body_errors(run),
-                                    format_millimetres(geometry.at("hover_gap_max")),
-                                    format_count(geometry.at("late_frames")),
+                                    format_millimetres(run.geometry.hover_gap_max),
+                                    format_count(run.geometry.late_frames),
                                     cold_frame(run),
-                                    compared_question(run)};
+                                    name_of(compared_question(run))};
   for (const char* reference : kReferences) cells.push_back(speed_cell(run, reference));
   return cells;
 }
 
-nlohmann::ordered_json at_or_null(const Json& j, const char* key) {
-  const auto it = j.find(key);
-  return it == j.end() ? Json(nullptr) : *it;
+const results::LevelCounts* counts_of(const Run& run, std::optional<Level> level) {
+  const auto counts = level ? run.levels.find(*level) : run.levels.end();
+  return counts == run.levels.end() ? nullptr : &counts->second;
 }
 
-nlohmann::ordered_json find_run(const Json& results, const std::string& scene,
-                                const std::string& detector) {
-  for (const Json& run : results.at("runs"))
-    if (run.at("scene") == scene && run.at("detector") == detector && run.at("status") == "ok")
-      return run;
-  return nullptr;
+const Run* find_run(const results::Results& results, const std::string& scene,
+                    const std::string& detector) {
+  const Run* run = results.run(scene, detector);
+  return run != nullptr && run->ok() ? run : nullptr;
 }
 
-nlohmann::ordered_json speedup_of(const Json& run, const std::string& question,
-                                  const std::string& reference) {
-  const Json by_question = at_or_null(at_or_null(run, "speedup"), question.c_str());
-  return by_question.is_null() ? Json(nullptr) : at_or_null(by_question, reference.c_str());
+const results::Speedup* speedup_of(const Run& run, Question question,
+                                   const std::string& reference) {
+  const auto by_reference = run.speedup.find(question);
+  if (by_reference == run.speedup.end()) return nullptr;
+  const auto speedup = by_reference->second.find(reference);
+  return speedup == by_reference->second.end() ? nullptr : &speedup->second;
 }
 
-std::string compared_question(const Json& run) {
-  const Json questions = at_or_null(run.at("semantics"), "questions");
-  return std::find(questions.begin(), questions.end(), "triangles") != questions.end() ? "triangles"
-                                                                                       : "body";
+Question compared_question(const Run& run) {
+  const std::vector<Question>& questions = run.semantics.questions;
+  return std::find(questions.begin(), questions.end(), Question::kTriangles) != questions.end()
+             ? Question::kTriangles
+             : Question::kBody;
 }
 
-std::string options_text(const Json& options) {
+std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool hot) {
+  double ms = 0.0, frames = 0.0;
+  for (const Run* run : runs) {
+    if (run->times.empty()) return {};
+    const results::QuestionTimes& times = run->times.front();
+    const auto n = static_cast<double>(run->frames);
+    ms += n * (hot ? times.hot : times.cold).frame;
+    frames += n;
+  }
+  const double mean = ms / frames;
+  return std::isfinite(mean) && mean > 0.0 ? std::optional(mean) : std::nullopt;
+}
+
+std::string options_text(const results::Texts& options) {
   std::string text;
-  for (const auto& [name, value] : options.items())
-    text += (text.empty() ? "" : ", ") + name + "=" +
-            (value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& [name, value] : options) text += (text.empty() ? "" : ", ") + name + "=" + value;
   return text.empty() ? "-" : text;
 }
 
-std::string semantics_text(const Json& s) {
-  const auto names = [&](const char* key) {
-    std::string text;
-    for (const Json& name : s.value(key, Json::array()))
-      text += (text.empty() ? "" : ", ") + name.get<std::string>();
-    return text;
-  };
-  std::string text = "levels " + names("levels");
-  if (!names("informative").empty()) text += "; informative " + names("informative");
-  text += "; questions " + names("questions") + "; " + s.value("body", "surface") + ", " +
-          s.value("touching", "closed") + ", " + (s.value("exact", false) ? "exact" : "not exact");
-  if (s.value("margin", 0.0) > 0.0)
-    text += "; margin " + format_millimetres(s.at("margin")) + " mm";
-  text += "; " + s.value("precision", "double") + " precision";
-  if (s.value("local_origin", false)) text += " about a local origin";
-  if (s.value("scale", 1.0) != 1.0) text += ", scale " + format_number(s.at("scale"));
-  if (s.value("depth_kind", "none") != std::string("none"))
-    text += "; depth " + s.value("depth_kind", "none");
-  if (!s.value("means", "").empty()) text += "; " + s.value("means", "");
+std::string semantics_text(const Semantics& s) {
+  std::string text = "levels " + names_of(s.levels);
+  if (!s.informative.empty()) text += "; informative " + names_of(s.informative);
+  text += "; questions " + names_of(s.questions) + (s.solid ? "; solid, " : "; surface, ") +
+          (s.closed ? "closed, " : "open, ") + (s.exact ? "exact" : "not exact");
+  if (s.margin > 0.0) text += "; margin " + format_millimetres(s.margin) + " mm";
+  text += std::string("; ") + name_of(s.precision) + " precision";
+  if (s.local_origin) text += " about a local origin";
+  if (s.scale != 1.0) text += ", scale " + format_number(s.scale);
+  if (s.depth != DepthKind::kNone) text += std::string("; depth ") + name_of(s.depth);
+  if (!s.means.empty()) text += "; " + s.means;
   return text;
 }
 
-std::string finest_level(const Json& run) { return run.at("per_frame").value("level", ""); }
+std::string finest_level(const Run& run) {
+  return run.per_frame.level ? name_of(*run.per_frame.level) : "";
+}
 
-std::vector<nlohmann::ordered_json> runs_of_scene(const Json& results, const std::string& scene) {
-  std::vector<Json> out;
-  for (const Json& run : results.at("runs"))
-    if (run.at("scene") == scene) out.push_back(run);
+std::vector<const Run*> runs_of_scene(const results::Results& results, const std::string& scene) {
+  std::vector<const Run*> out;
+  for (const Run& run : results.runs)
+    if (run.scene == scene) out.push_back(&run);
   return out;
 }
 

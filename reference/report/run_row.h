@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -18,29 +20,33 @@ struct Column {
 const std::vector<Column>& result_columns();
 
 /// The cells of one run, one per column. Runs that are not `ok` show their status and message.
-std::vector<std::string> result_cells(const nlohmann::ordered_json& run);
+std::vector<std::string> result_cells(const results::Run& run);
 
-/// A member of an object, or null: results of older versions lack what was not measured then.
-nlohmann::ordered_json at_or_null(const nlohmann::ordered_json& j, const char* key);
+/// Those of a level; null where it was not judged, or where there is no level.
+const results::LevelCounts* counts_of(const results::Run& run, std::optional<Level> level);
 /// The run of a detector on a scene when it is `ok`, else null.
-nlohmann::ordered_json find_run(const nlohmann::ordered_json& results, const std::string& scene,
-                                const std::string& detector);
-/// speedup[question][reference] of a run, or null.
-nlohmann::ordered_json speedup_of(const nlohmann::ordered_json& run, const std::string& question,
-                                  const std::string& reference);
+const results::Run* find_run(const results::Results& results, const std::string& scene,
+                             const std::string& detector);
+/// The speed-up over a reference in a question, or null.
+const results::Speedup* speedup_of(const results::Run& run, Question question,
+                                   const std::string& reference);
 /// The question a run is compared in: triangles where it answers them, else body.
-std::string compared_question(const nlohmann::ordered_json& run);
+Question compared_question(const results::Run& run);
+
+/// Milliseconds per frame, caches cold or hot: the mean over all frames of these runs, each with
+/// its own question. Nothing where one of them was not timed.
+std::optional<double> mean_frame_ms(const std::vector<const results::Run*>& runs, bool hot);
 
 /// "margin=0.001, scale=0"; "-" without options.
-std::string options_text(const nlohmann::ordered_json& options);
+std::string options_text(const results::Texts& options);
 /// What a detector claims, in words: levels, questions, surface or solid, exactness, margin,
 /// precision, depth.
-std::string semantics_text(const nlohmann::ordered_json& semantics);
+std::string semantics_text(const Semantics& semantics);
 
 /// The finest level that a run which is `ok` was judged at; "" without one.
-std::string finest_level(const nlohmann::ordered_json& run);
+std::string finest_level(const results::Run& run);
 /// The runs of one scene, in file order.
-std::vector<nlohmann::ordered_json> runs_of_scene(const nlohmann::ordered_json& results,
-                                                  const std::string& scene);
+std::vector<const results::Run*> runs_of_scene(const results::Results& results,
+                                               const std::string& scene);
 
 }  // namespace contactcheck

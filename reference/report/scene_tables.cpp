@@ -1,57 +1,43 @@
 #include "reference/report/scene_tables.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "reference/report/format.h"
 #include "reference/report/markdown_table.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::Run;
 
-bool is_ok(const Json& run) { return run.at("status") == "ok"; }
-std::string detector_of(const Json& run) { return run.at("detector").get<std::string>(); }
-
-std::string level_rows(const Json& run, const Json& levels, const std::string& against) {
+std::string level_rows(const Run& run, const results::Levels& levels, const char* against) {
   std::string rows;
-  for (const auto& [level, c] : levels.items()) {
-    std::string name = level;
-    if (c.contains("margin")) name += " (below " + format_millimetres(c.at("margin")) + " mm)";
-    if (c.value("informative", false)) name += ", informative";
-    rows += table_line({detector_of(run), name, against, format_count(c.at("truth")),
-                        format_count(c.at("reported")), format_count(c.at("missed")),
-                        format_count(c.at("spurious")), format_rate(c.at("recall")),
-                        format_error_rate(c.at("spurious_rate"))});
+  for (const auto& [level, c] : levels) {
+    std::string name = name_of(level);
+    if (c.margin) name += " (below " + format_millimetres(c.margin) + " mm)";
+    if (c.informative) name += ", informative";
+    rows += table_line({run.detector, name, against, format_count(c.truth),
+                        format_count(c.reported), format_count(c.missed), format_count(c.spurious),
+                        format_rate(c.recall), format_error_rate(c.spurious_rate)});
   }
   return rows;
 }
 
-std::string spread_text(const Json& g, const char* stem, bool millimetres) {
-  std::string text;
-  for (const char* which : {"max", "mean", "p95"}) {
-    const Json value = at_or_null(g, (std::string(stem) + "_" + which).c_str());
-    text += (text.empty() ? "" : " / ");
-    text += millimetres ? format_millimetres(value) : format_number(value);
-  }
-  return text;
+std::string spread_text(const results::ErrorSpread& spread,
+                        std::string (*format)(std::optional<double>)) {
+  return format(spread.max) + " / " + format(spread.mean) + " / " + format(spread.p95);
 }
 
-bool has_graded(const Json& g) {
-  return !at_or_null(g, "covered_length_fraction").is_null() ||
-         !at_or_null(g, "depth_error_max").is_null() ||
-         g.value("depth_kind", "none") != std::string("none");
+bool has_graded(const results::Geometry& g) {
+  return g.covered_length_fraction || g.depth.max || g.depth_kind != DepthKind::kNone;
 }
 
 }  // namespace
 
 std::string levels_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run)) continue;
-    rows += level_rows(run, run.at("levels"), "doubles");
-    if (run.contains("levels_rounded"))
-      rows += level_rows(run, run.at("levels_rounded"), "values fed");
-  }
+  for (const Run* run : runs)
+    rows += level_rows(*run, run->levels, "doubles") +
+            level_rows(*run, run->levels_rounded, "values fed");
   return titled_table("Every level judged (sums over frames):",
                       {{"detector", true, ""},
                        {"level", true, ""},
@@ -67,15 +53,14 @@ std::string levels_table(const RunList& runs) {
 
 std::string graded_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run) || !has_graded(run.at("geometry"))) continue;
-    const Json& g = run.at("geometry");
+  for (const Run* run : runs) {
+    const results::Geometry& g = run->geometry;
+    if (!has_graded(g)) continue;
     rows += table_line(
-        {detector_of(run), format_millimetres(at_or_null(g, "missed_length")),
-         format_rate(at_or_null(g, "covered_length_fraction")),
-         format_millimetres(at_or_null(g, "spurious_distance_max")), g.value("depth_kind", "none"),
-         format_count(at_or_null(g, "depth_judged")), spread_text(g, "depth_error", true),
-         format_count(at_or_null(g, "normal_judged")), spread_text(g, "normal_error_deg", false)});
+        {run->detector, format_millimetres(g.missed_length), format_rate(g.covered_length_fraction),
+         format_millimetres(g.spurious_distance_max), name_of(g.depth_kind),
+         format_count(g.depth.judged), spread_text(g.depth, format_millimetres),
+         format_count(g.normal_deg.judged), spread_text(g.normal_deg, format_number)});
   }
   return titled_table(
       "Graded errors (lengths in mm, angles in degrees; max / mean / 95th percentile):",
@@ -93,18 +78,11 @@ std::string graded_table(const RunList& runs) {
 
 std::string stages_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run)) continue;
-    for (const Json& s : run.at("stages")) {
-      const std::string visited =
-          s.contains("visited")
-              ? format_count(s.at("visited")) + " " + s.at("visited_unit").get<std::string>()
-              : "-";
-      rows += table_line({detector_of(run), s.at("name").get<std::string>(),
-                          s.at("unit").get<std::string>(), format_count(s.at("in")),
-                          format_count(s.at("out")), visited, format_count(s.at("missed"))});
-    }
-  }
+  for (const Run* run : runs)
+    for (const results::Stage& s : run->stages)
+      rows += table_line({run->detector, s.name, s.unit, format_count(s.in), format_count(s.out),
+                          s.visited ? format_count(*s.visited) + " " + s.visited_unit : "-",
+                          format_count(s.missed)});
   return titled_table("Which stage lost which true triangle pairs (sums over frames):",
                       {{"detector", true, ""},
                        {"stage", true, ""},
@@ -118,18 +96,16 @@ std::string stages_table(const RunList& runs) {
 
 std::string times_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run) || !run.at("time_ms").contains("cold")) continue;
-    const Json& t = run.at("time_ms");
-    rows += table_line(
-        {detector_of(run), t.at("question").get<std::string>(), format_number(t.at("prepare")),
-         format_number(t.at("cold").at("map")), format_number(t.at("cold").at("update")),
-         format_number(t.at("cold").at("query")), format_number(t.at("cold").at("frame")),
-         format_number(t.at("cold").at("contact_frame")),
-         format_number(at_or_null(t.at("cold"), "self_reported")),
-         format_number(t.at("hot").at("frame")), format_count(t.at("timed_frames")),
-         format_count(t.at("repeats")),
-         format_number(run.at("memory_bytes").get<double>() / 1048576.0)});
+  for (const Run* run : runs) {
+    if (run->times.empty()) continue;
+    const results::QuestionTimes& t = run->times.front();
+    rows += table_line({run->detector, name_of(t.question), format_number(run->prepare_ms),
+                        format_number(t.cold.map), format_number(t.cold.update),
+                        format_number(t.cold.query), format_number(t.cold.frame),
+                        format_number(t.cold.contact_frame), format_number(t.cold.self_reported),
+                        format_number(t.hot.frame), format_count(t.timed_frames),
+                        format_count(t.repeats),
+                        format_number(static_cast<double>(run->memory_bytes) / 1048576.0)});
   }
   return titled_table("Times in milliseconds per frame (medians over repeats; cold unless said):",
                       {{"detector", true, ""},
@@ -150,16 +126,15 @@ std::string times_table(const RunList& runs) {
 
 std::string counters_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run) || !run.contains("counters")) continue;
+  for (const Run* run : runs) {
     std::string counts;
-    for (const auto& [name, sum] : run.at("counters").items()) {
+    for (const auto& [name, sum] : run->counters) {
       std::string words = name;
       std::replace(words.begin(), words.end(), '_', ' ');
-      counts += (counts.empty() ? "" : ", ") +
-                format_number(sum.get<double>() / run.at("frames").get<double>()) + " " + words;
+      const double mean = static_cast<double>(sum) / static_cast<double>(run->frames);
+      counts += (counts.empty() ? "" : ", ") + format_number(mean) + " " + words;
     }
-    rows += table_line({detector_of(run), counts});
+    if (!counts.empty()) rows += table_line({run->detector, counts});
   }
   return titled_table("Work per frame (means):", {{"detector", true, ""}, {"counted", true, ""}},
                       rows);
@@ -167,20 +142,15 @@ std::string counters_table(const RunList& runs) {
 
 std::string speedups_table(const RunList& runs) {
   std::string rows;
-  for (const Json& run : runs) {
-    if (!is_ok(run)) continue;
-    const Json speedups = at_or_null(run, "speedup");
-    for (const auto& [question, references] : speedups.items())
-      for (const auto& [reference, s] : references.items()) {
-        if (reference == detector_of(run)) continue;
-        rows +=
-            table_line({detector_of(run), options_text(at_or_null(run, "options")), question,
-                        reference, options_text(at_or_null(s, "reference_options")),
-                        format_ratio(s.at("cold"), true), format_ratio(at_or_null(s, "hot"), true),
-                        format_ratio(at_or_null(s, "contact_frames"), true),
-                        format_ratio(at_or_null(s, "without_map"), true)});
-      }
-  }
+  for (const Run* run : runs)
+    for (const auto& [question, references] : run->speedup)
+      for (const auto& [reference, s] : references)
+        if (reference != run->detector)
+          rows +=
+              table_line({run->detector, options_text(run->options), name_of(question), reference,
+                          options_text(s.reference_options), format_ratio(s.cold, true),
+                          format_ratio(s.hot, true), format_ratio(s.contact_frames, true),
+                          format_ratio(s.without_map, true)});
   return titled_table(
       "Speed-ups: time of the reference / time of the detector on the same question, frames and "
       "repeats, with 95 % intervals:",

@@ -1,13 +1,14 @@
 // The Markdown tables of one scene beside the result table. Each is empty where its results are.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "reference/results/results.h"
+
 namespace contactcheck {
 
-using RunList = std::vector<nlohmann::ordered_json>;
+using RunList = std::vector<const results::Run*>;
 
 /// Every level of every detector: against the truth of the doubles and, for single precision,
 /// against the truth of the values fed.

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "reference/report/format.h"
@@ -11,87 +13,67 @@
 
 namespace contactcheck {
 namespace {
-
-using Json = nlohmann::ordered_json;
+using results::Run;
 
 // The frames of one separation among the values of all frames; none where there are none.
-std::vector<Json> values_at(const Json& run, const char* key, std::size_t separation,
-                            std::size_t orientations) {
-  const Json& per_frame = run.at("per_frame");
-  const auto values = per_frame.find(key);
-  if (values == per_frame.end() || !values->is_array() ||
-      values->size() < (separation + 1) * orientations)
-    return {};
-  const auto first = values->begin() + static_cast<std::ptrdiff_t>(separation * orientations);
-  return {first, first + static_cast<std::ptrdiff_t>(orientations)};
+template <typename Value>
+std::span<const Value> values_at(const std::vector<Value>& values, std::size_t separation,
+                                 std::size_t orientations) {
+  if (values.size() < (separation + 1) * orientations) return {};
+  return std::span(values).subspan(separation * orientations, orientations);
 }
 
-std::string median_time(const std::vector<Json>& values) {
+std::string median_time(std::span<const std::optional<double>> values) {
   std::vector<double> times;
-  for (const Json& value : values)
-    if (value.is_number()) times.push_back(value.get<double>());
-  if (times.empty()) return "-";
-  return format_number(median(std::move(times)));
+  for (const std::optional<double>& value : values)
+    if (value) times.push_back(*value);
+  return times.empty() ? "-" : format_number(median(std::move(times)));
 }
 
-std::string sum_text(const std::vector<Json>& values) {
+std::string sum_text(std::span<const std::uint64_t> values) {
   if (values.empty()) return "-";
-  std::uint64_t sum = 0;
-  for (const Json& value : values) sum += value.get<std::uint64_t>();
-  return format_count(sum);
-}
-
-std::vector<std::string> titles_of(const Json& sweep) {
-  std::vector<std::string> titles;
-  for (const Json& separation : sweep.at("separations"))
-    titles.push_back(fmt::format("{:g} %", 100.0 * separation.get<double>()));
-  return titles;
-}
-
-// `titles` must outlive them.
-std::vector<Column> columns_of(const std::vector<std::string>& titles) {
-  std::vector<Column> columns = {{"detector", true, ""}};
-  for (const std::string& title : titles) columns.push_back({title.c_str(), false, ""});
-  return columns;
+  return format_count(std::accumulate(values.begin(), values.end(), std::uint64_t{0}));
 }
 
 template <typename Cell>
-std::string table(const std::string& paragraph, const Json& sweep, const RunList& runs,
+std::string table(const std::string& paragraph, const results::Sweep& sweep, const RunList& runs,
                   const Cell& cell) {
+  std::vector<Column> columns = {{"detector", true, ""}};
+  for (const double separation : sweep.separations)
+    columns.push_back({fmt::format("{:g} %", 100.0 * separation), false, ""});
   std::string rows;
-  for (const Json& run : runs) {
-    if (run.at("status") != "ok") continue;
-    std::vector<std::string> cells = {run.at("detector").get<std::string>()};
-    for (std::size_t s = 0; s < sweep.at("separations").size(); ++s) cells.push_back(cell(run, s));
+  for (const Run* run : runs) {
+    if (!run->ok()) continue;
+    std::vector<std::string> cells = {run->detector};
+    for (std::size_t s = 0; s < sweep.separations.size(); ++s) cells.push_back(cell(*run, s));
     rows += table_line(cells);
   }
-  const std::vector<std::string> titles = titles_of(sweep);
-  return titled_table(paragraph, columns_of(titles), rows);
+  return titled_table(paragraph, columns, rows);
 }
 
 bool timed(const RunList& runs) {
-  return std::any_of(runs.begin(), runs.end(), [](const Json& run) {
-    return run.at("status") == "ok" && run.at("per_frame").contains("frame_ms");
-  });
+  return std::any_of(runs.begin(), runs.end(),
+                     [](const Run* run) { return run->per_frame.frame_ms.has_value(); });
 }
 
 }  // namespace
 
-std::string separation_tables(const Json& scene, const RunList& runs) {
-  if (!scene.contains("sweep")) return "";
-  const Json& sweep = scene.at("sweep");
-  const auto orientations = sweep.at("orientations").get<std::size_t>();
-  const auto time = [&](const Json& run, std::size_t s) {
-    return median_time(values_at(run, "frame_ms", s, orientations));
+std::string separation_tables(const results::Scene& scene, const RunList& runs) {
+  if (!scene.sweep) return "";
+  const results::Sweep& sweep = *scene.sweep;
+  const std::size_t orientations = sweep.orientations;
+  const auto time = [&](const Run& run, std::size_t s) {
+    const auto& times = run.per_frame.frame_ms;
+    return times ? median_time(values_at(*times, s, orientations)) : "-";
   };
-  const auto errors = [&](const Json& run, std::size_t s) {
-    return sum_text(values_at(run, "missed", s, orientations)) + " / " +
-           sum_text(values_at(run, "spurious", s, orientations));
+  const auto errors = [&](const Run& run, std::size_t s) {
+    return sum_text(values_at(run.per_frame.missed, s, orientations)) + " / " +
+           sum_text(values_at(run.per_frame.spurious, s, orientations));
   };
   std::string out = fmt::format(
       "Distance sweep: {} orientations at each separation, given in % of the size ({} m); below 0 "
       "the second body is pushed so far beyond the first touch.\n\n",
-      orientations, format_number(scene.at("size")));
+      orientations, format_number(scene.size));
   if (timed(runs))
     out += table(
         "Time of a frame against separation (ms, cold, medians over the orientations that "

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "core/types/semantics.h"
-#include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
-using Runs = std::vector<const Json*>;
+using results::Run;
+using Runs = std::vector<const Run*>;
 
 /// Scenes that one chart can be drawn for.
 struct Choice {
@@ -25,13 +23,12 @@ struct Choice {
   std::vector<std::string> scenes;
 };
 
-std::vector<Choice> choices_of(const Json& results) {
+std::vector<Choice> choices_of(const results::Results& results) {
   std::vector<Choice> choices;
   Choice all{"", {}}, hard{"", {}};
-  for (const Json& scene : results.at("scenes")) {
-    const auto id = scene.at("id").get<std::string>();
-    (scene.contains("family") ? hard : all).scenes.push_back(id);
-    if (!scene.contains("family")) choices.push_back({"scene " + id, {id}});
+  for (const results::Scene& scene : results.scenes) {
+    (scene.family ? hard : all).scenes.push_back(scene.id);
+    if (!scene.family) choices.push_back({"scene " + scene.id, {scene.id}});
   }
   all.words = fmt::format("all {} scenes", all.scenes.size());
   hard.words = fmt::format("all {} families of hard cases", hard.scenes.size());
@@ -43,11 +40,10 @@ std::vector<Choice> choices_of(const Json& results) {
 /// All runs by scene and detector.
 class RunIndex {
  public:
-  explicit RunIndex(const Json& results) {
-    for (const Json& run : results.at("runs")) {
-      const auto detector = run.at("detector").get<std::string>();
-      if (seen_.insert(detector).second) detectors_.push_back(detector);
-      if (run.at("status") == "ok") ok_[{run.at("scene").get<std::string>(), detector}] = &run;
+  explicit RunIndex(const results::Results& results) {
+    for (const Run& run : results.runs) {
+      if (seen_.insert(run.detector).second) detectors_.push_back(run.detector);
+      if (run.ok()) ok_[{run.scene, run.detector}] = &run;
     }
   }
 
@@ -63,44 +59,30 @@ class RunIndex {
  private:
   std::set<std::string> seen_;
   std::vector<std::string> detectors_;
-  std::map<std::pair<std::string, std::string>, const Json*> ok_;
+  std::map<std::pair<std::string, std::string>, const Run*> ok_;
 };
 
-// Mean over all frames of these runs; nothing where one of them was not timed.
-std::optional<double> mean_frame_ms(const Runs& runs) {
-  double ms = 0.0, frames = 0.0;
-  for (const Json* run : runs) {
-    const Json& times = run->at("time_ms");
-    if (!times.contains("cold")) return {};
-    const auto n = static_cast<double>(whole_number(run->at("frames")));
-    ms += n * times.at("cold").at("frame").get<double>();
-    frames += n;
-  }
-  const double mean = ms / frames;
-  return std::isfinite(mean) && mean > 0.0 ? std::optional(mean) : std::nullopt;
-}
-
-bool claims(const Json& run, const std::string& level) {
-  const Json& levels = run.at("levels");
-  return levels.contains(level) && !levels.at(level).value("informative", false);
+bool claims(const Run& run, std::optional<Level> level) {
+  const results::LevelCounts* counts = counts_of(run, level);
+  return counts != nullptr && !counts->informative;
 }
 
 // Counts of different levels do not add up: where the finest one is not the same in all scenes that
-// were judged, it is the finest that the detector claims in each of them; "" where there is none.
-std::string common_level(const Runs& runs) {
+// were judged, it is the finest that the detector claims in each of them.
+std::optional<Level> common_level(const Runs& runs) {
   Runs judged;
-  std::set<std::string> finest;
-  for (const Json* run : runs) {
-    if (!claims(*run, finest_level(*run))) continue;
+  std::set<Level> finest;
+  for (const Run* run : runs) {
+    if (!claims(*run, run->per_frame.level)) continue;
     judged.push_back(run);
-    finest.insert(finest_level(*run));
+    finest.insert(*run->per_frame.level);
   }
   if (finest.size() == 1) return *finest.begin();
   for (const Level level : kFineToCoarse)
     if (std::all_of(judged.begin(), judged.end(),
-                    [&](const Json* run) { return claims(*run, name_of(level)); }))
-      return name_of(level);
-  return "";
+                    [&](const Run* run) { return claims(*run, level); }))
+      return level;
+  return {};
 }
 
 /// A point, or why there is none.
@@ -112,16 +94,17 @@ struct Attempt {
 Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scenes) {
   if (runs.size() < scenes)
     return {{}, fmt::format("ended well in {} of {} scenes", runs.size(), scenes)};
-  const auto ms = mean_frame_ms(runs);
+  const auto ms = mean_frame_ms(runs, false);
   if (!ms) return {{}, "not timed"};
   SpeedErrorPoint point;
-  point.level = common_level(runs);
+  const std::optional<Level> level = common_level(runs);
   bool judged = false;
-  for (const Json* run : runs) judged = point.add(*run, point.level) || judged;
+  for (const Run* run : runs) judged = point.add(*run, level) || judged;
   const auto error = point.worse_share();
   if (!judged || !error) return {{}, "nothing to judge"};
   point.detector = detector;
-  point.question = runs.front()->at("time_ms").at("question").get<std::string>();
+  point.question = runs.front()->times.front().question;
+  point.level = *level;
   point.ms = *ms;
   point.error = *error;
   return {std::move(point), ""};
@@ -149,7 +132,7 @@ void mark_front(std::vector<SpeedErrorPoint>& points) {
   std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
     return std::pair(a->ms, a->error) < std::pair(b->ms, b->error);
   });
-  std::map<std::string, double> least;  // error so far, by question
+  std::map<Question, double> least;  // error so far, by question
   for (SpeedErrorPoint* point : order) {
     const auto [it, first] = least.try_emplace(point->question, point->error);
     point->on_front = first || point->error < it->second;
@@ -159,7 +142,7 @@ void mark_front(std::vector<SpeedErrorPoint>& points) {
 
 // A point needs every scene: the first choice that at most half of the detectors fall out of,
 // compared with the best.
-SpeedError speed_error(const Json& results) {
+SpeedError speed_error(const results::Results& results) {
   const RunIndex index(results);
   std::vector<SpeedError> charts;
   for (const Choice& choice : choices_of(results)) charts.push_back(chart_of(choice, index));

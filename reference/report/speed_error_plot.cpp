@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -25,20 +24,19 @@ constexpr double kRadius = 5.5;
 constexpr double kNameLetter = 6.7, kNameHeight = 12, kLetter = 6.7;
 
 struct Shape {
-  const char* question;
+  Question question;
   const char* outline;
   const char* means;
 };
 constexpr Shape kShapes[] = {
-    {"triangles", "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z", "timed: all pairs of triangles"},
-    {"body", "M-4.5-4.5h9v9h-9Z", "timed: which bodies touch"},
-    {"cells", "M0-5.5L5.5 4.5h-11Z", "timed: all pairs of cells"},
-    {"contacts", "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"}};
+    {Question::kTriangles, "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z", "timed: all pairs of triangles"},
+    {Question::kBody, "M-4.5-4.5h9v9h-9Z", "timed: which bodies touch"},
+    {Question::kCells, "M0-5.5L5.5 4.5h-11Z", "timed: all pairs of cells"},
+    {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"}};
 
-const Shape& shape_of(const std::string& question) {
-  for (const Shape& shape : kShapes)
-    if (question == shape.question) return shape;
-  return kShapes[0];
+const Shape& shape_of(Question question) {
+  return *std::find_if(std::begin(kShapes), std::end(kShapes),
+                       [&](const Shape& shape) { return shape.question == question; });
 }
 
 std::string class_of(std::size_t group) { return fmt::format("dot g{}", group); }
@@ -69,7 +67,7 @@ struct LegendEntry {
 // Of groups and questions that have a point.
 std::vector<LegendEntry> legend_of(const Points& points) {
   std::set<std::size_t> groups;
-  std::set<std::string> questions;
+  std::set<Question> questions;
   for (const SpeedErrorPoint& point : points) {
     groups.insert(group_of(point.detector));
     questions.insert(point.question);
@@ -97,8 +95,8 @@ double highest_error(const Points& points) {
 std::string sentence_of(const SpeedErrorPoint& p) {
   return fmt::format(
       "{}: {} ms per frame (question {}), missed {} of {}, spurious {} of {} (level {})",
-      p.detector, format_number(p.ms), p.question, p.missed, p.truth, p.spurious, p.reported,
-      p.level);
+      p.detector, format_number(p.ms), name_of(p.question), p.missed, p.truth, p.spurious,
+      p.reported, name_of(p.level));
 }
 
 class SpeedErrorPlot {
@@ -175,7 +173,7 @@ class SpeedErrorPlot {
   }
 
   // Steps that part what is beaten, to the right and above, from what nothing does.
-  void draw_front(const std::string& question) {
+  void draw_front(Question question) {
     Points front;
     for (const SpeedErrorPoint& p : points_)
       if (p.on_front && p.question == question) front.push_back(p);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "reference/report/format.h"
@@ -13,7 +12,6 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 
 const std::vector<Column>& columns() {
   static const std::vector<Column> columns = {{"detector", true, ""},  {"question timed", true, ""},
@@ -26,9 +24,9 @@ const std::vector<Column>& columns() {
 
 std::vector<std::string> cells_of(const SpeedErrorPoint& p) {
   return {p.detector,
-          p.question,
+          name_of(p.question),
           format_number(p.ms),
-          p.level,
+          name_of(p.level),
           format_count(p.truth),
           format_count(p.missed),
           format_count(p.reported),
@@ -52,7 +50,7 @@ std::string left_out_line(const SpeedError& chart) {
 
 }  // namespace
 
-std::string speed_error_markdown(const Json& results) {
+std::string speed_error_markdown(const results::Results& results) {
   const SpeedError chart = speed_error(results);
   if (chart.points.empty()) return "";
   std::string rows;
@@ -68,10 +66,8 @@ std::string speed_error_markdown(const Json& results) {
          table_head(columns()) + rows + "\n" + left_out_line(chart);
 }
 
-std::string speed_error_picture(const Json& results) {
-  const Json& machine = results.at("machine");
-  return speed_error_plot(speed_error(results), machine.at("cpu").get<std::string>() + ", " +
-                                                    machine.at("isa").get<std::string>());
+std::string speed_error_picture(const results::Results& results) {
+  return speed_error_plot(speed_error(results), results.machine.cpu + ", " + results.machine.isa);
 }
 
 }  // namespace contactcheck

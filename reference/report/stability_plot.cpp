@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "reference/report/svg.h"
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 using Anchor = Svg::Anchor;
 
 constexpr double kSquare = 22, kGap = 2, kCaptionLetter = 7.2, kEdge = 16;
@@ -25,7 +23,7 @@ constexpr const char* kColours =
     "@media(prefers-color-scheme:dark){.right{fill:#2d333b}\n"
     ".missed{fill:#58a6ff}.spurious{fill:#f0883e}.error{fill:#e6edf3}.cross{stroke:#0d1117}}\n";
 
-double share(std::int64_t part, std::int64_t whole) {
+double share_of(std::int64_t part, std::int64_t whole) {
   return whole <= 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
@@ -33,7 +31,7 @@ double opacity_of(double share) { return kFaintest + (1.0 - kFaintest) * std::mi
 
 class StabilityPlot {
  public:
-  StabilityPlot(const Json& scene, std::vector<FamilyResult> rows)
+  StabilityPlot(const results::Scene& scene, std::vector<FamilyResult> rows)
       : scene_(scene),
         rows_(std::move(rows)),
         left_(kEdge + label_width()),
@@ -51,8 +49,8 @@ class StabilityPlot {
 
  private:
   std::size_t cases() const { return rows_[0].cases(); }
-  std::string parameter() const { return scene_.at("family").at("parameter").get<std::string>(); }
-  std::string title() const { return scene_.at("title").get<std::string>(); }
+  const std::string& parameter() const { return scene_.family->parameter; }
+  const std::string& title() const { return scene_.title; }
 
   double label_width() const {
     std::size_t longest = 0;
@@ -98,12 +96,14 @@ class StabilityPlot {
 
   void draw_judged(std::size_t row, std::size_t c) {
     const FamilyResult& result = rows_[row];
-    const std::int64_t truth = result.at("truth", c), missed = result.at("missed", c),
-                       spurious = result.at("spurious", c);
+    const std::int64_t truth = result.at(&results::PerFrame::truth, c),
+                       missed = result.at(&results::PerFrame::missed, c),
+                       spurious = result.at(&results::PerFrame::spurious, c);
     svg_.begin_group(fmt::format("{} at {}: {} missed of {}, {} spurious", result.detector(),
                                  result.value(c), missed, truth, spurious));
-    half(x_of(c), y_of(row), "missed", share(missed, truth));
-    half(x_of(c), y_of(row) + kSquare / 2, "spurious", share(spurious, truth - missed + spurious));
+    half(x_of(c), y_of(row), "missed", share_of(missed, truth));
+    half(x_of(c), y_of(row) + kSquare / 2, "spurious",
+         share_of(spurious, truth - missed + spurious));
     svg_.end_group();
   }
 
@@ -117,15 +117,15 @@ class StabilityPlot {
     const FamilyResult& result = rows_[row];
     const double x = x_of(c), y = y_of(row);
     if (result.failed_frame() != c) return svg_.rectangle(x, y, kSquare, kSquare, "unknown");
-    svg_.begin_group(fmt::format("{} at {}: {}", result.detector(), result.value(c),
-                                 result.run.at("message").get<std::string>()));
+    svg_.begin_group(
+        fmt::format("{} at {}: {}", result.detector(), result.value(c), result.run.message));
     svg_.rectangle(x, y, kSquare, kSquare, "error");
     svg_.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
     svg_.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
     svg_.end_group();
   }
 
-  const Json& scene_;
+  const results::Scene& scene_;
   std::vector<FamilyResult> rows_;
   double left_;
   Svg svg_;
@@ -134,14 +134,14 @@ class StabilityPlot {
 }  // namespace
 
 // Results may come from anywhere: an id must not lead out of the folder.
-std::string stability_plot_file(const Json& scene) {
-  std::string name = scene.at("id").get<std::string>();
+std::string stability_plot_file(const results::Scene& scene) {
+  std::string name = scene.id;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
   return "plots/" + name + ".svg";
 }
 
-std::string stability_plot(const Json& scene, const std::vector<FamilyResult>& results) {
+std::string stability_plot(const results::Scene& scene, const std::vector<FamilyResult>& results) {
   std::vector<FamilyResult> rows;
   for (const FamilyResult& result : results)
     if (&result.scene == &scene && result.goes_wrong()) rows.push_back(result);

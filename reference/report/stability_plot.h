@@ -1,11 +1,11 @@
 // Error against the parameter of a family of hard cases, as a picture.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "reference/report/family_result.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -13,10 +13,9 @@ namespace contactcheck {
 /// parameter; of each square the upper half says which share of the true contacts was missed, the
 /// lower half which share of those reported is none. Empty when nobody goes wrong.
 /// @pre `results` are the family_results of the results that `scene` is a part of
-std::string stability_plot(const nlohmann::ordered_json& scene,
-                           const std::vector<FamilyResult>& results);
+std::string stability_plot(const results::Scene& scene, const std::vector<FamilyResult>& results);
 
 /// Where the report expects it, beside report.md: "plots/ID.svg".
-std::string stability_plot_file(const nlohmann::ordered_json& scene);
+std::string stability_plot_file(const results::Scene& scene);
 
 }  // namespace contactcheck

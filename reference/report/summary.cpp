@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "reference/report/format.h"
@@ -10,7 +9,8 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
+using results::LevelCounts;
+using results::Run;
 
 struct Range {
   std::optional<double> low, high;
@@ -26,68 +26,54 @@ struct Range {
 };
 
 struct Sums {
-  std::string detector, level, question;
+  std::string detector;
+  std::optional<Level> level;
+  std::string question;
   std::size_t scenes = 0, not_ok = 0;
-  long long truth = 0, hit = 0, missed = 0, spurious = 0, body_missed = 0, body_spurious = 0;
-  bool has_level = false, has_body = false;
+  std::optional<LevelCounts> counts, body;  ///< none: nothing judged, which is no perfect score
   std::optional<double> hover;
   std::array<Range, kReferences.size()> speedups;
 };
 
-void add_speed(const Json& run, const char* reference, Range& range) {
-  const Json s = speedup_of(run, compared_question(run), reference);
-  if (!s.is_null()) range.add(s.at("cold").at("ratio").get<double>());
+void add_counts(const LevelCounts* counts, std::optional<LevelCounts>& sum) {
+  if (counts == nullptr) return;
+  if (!sum) sum.emplace();
+  *sum += *counts;
 }
 
-void add_levels(const Json& run, Sums& sums) {
-  const Json& levels = run.at("levels");
-  if (levels.contains(sums.level)) {
-    sums.has_level = true;
-    const Json& c = levels.at(sums.level);
-    sums.truth += whole_number(c.at("truth"));
-    sums.hit += whole_number(c.at("hit"));
-    sums.missed += whole_number(c.at("missed"));
-    sums.spurious += whole_number(c.at("spurious"));
-  }
-  if (levels.contains("body")) {
-    sums.has_body = true;
-    sums.body_missed += whole_number(levels.at("body").at("missed"));
-    sums.body_spurious += whole_number(levels.at("body").at("spurious"));
-  }
-}
-
-void add_run(const Json& run, Sums& sums) {
-  if (run.at("status") != "ok") {
+void add_run(const Run& run, Sums& sums) {
+  if (!run.ok()) {
     ++sums.not_ok;
     return;
   }
   ++sums.scenes;
-  sums.question = compared_question(run);
-  add_levels(run, sums);
-  const Json& hover = run.at("geometry").at("hover_gap_max");
-  if (!hover.is_null()) sums.hover = std::max(sums.hover.value_or(0.0), hover.get<double>());
+  sums.question = name_of(compared_question(run));
+  add_counts(counts_of(run, sums.level), sums.counts);
+  add_counts(counts_of(run, Level::kBody), sums.body);
+  if (const auto hover = run.geometry.hover_gap_max)
+    sums.hover = std::max(sums.hover.value_or(0.0), *hover);
   for (std::size_t i = 0; i < kReferences.size(); ++i)
-    add_speed(run, kReferences[i], sums.speedups[i]);
+    if (const auto* speedup = speedup_of(run, compared_question(run), kReferences[i]))
+      sums.speedups[i].add(speedup->cold.value);
 }
 
-std::vector<std::string> cells_of(const Sums& s) {
-  const Json recall = s.truth == 0
-                          ? Json(nullptr)
-                          : Json(static_cast<double>(s.hit) / static_cast<double>(s.truth));
-  // Nothing judged is no perfect score.
-  const auto judged = [&](long long n) { return s.has_level ? std::to_string(n) : "-"; };
+std::vector<std::string> cells_of(Sums s) {
+  if (s.counts) s.counts->set_rates();
+  const auto count = [&](std::uint64_t LevelCounts::*member) {
+    return s.counts ? format_count(*s.counts.*member) : "-";
+  };
   const std::string scenes =
       std::to_string(s.scenes) + (s.not_ok ? " (" + std::to_string(s.not_ok) + " not ok)" : "");
   std::vector<std::string> cells = {
       s.detector,
       scenes,
-      s.level,
-      judged(s.truth),
-      format_rate(recall),
-      judged(s.missed),
-      judged(s.spurious),
-      s.has_body ? std::to_string(s.body_missed) + "/" + std::to_string(s.body_spurious) : "-",
-      s.hover ? format_millimetres(*s.hover) : "-",
+      s.level ? name_of(*s.level) : "",
+      count(&LevelCounts::truth),
+      s.counts ? format_rate(s.counts->recall) : "-",
+      count(&LevelCounts::missed),
+      count(&LevelCounts::spurious),
+      s.body ? format_count(s.body->missed) + "/" + format_count(s.body->spurious) : "-",
+      format_millimetres(s.hover),
       s.question};
   for (const Range& range : s.speedups) cells.push_back(range.text());
   return cells;
@@ -95,18 +81,16 @@ std::vector<std::string> cells_of(const Sums& s) {
 
 // Counts of different levels do not add up: a detector has a line per level. A run that is not `ok`
 // has no level and counts in the detector's first line.
-Sums& line_of(const Json& run, std::vector<Sums>& all) {
-  const auto name = run.at("detector").get<std::string>();
-  const bool ok = run.at("status") == "ok";
-  const std::string level = ok ? finest_level(run) : "";
+Sums& line_of(const Run& run, std::vector<Sums>& all) {
   for (Sums& s : all) {
-    if (s.detector != name || (ok && s.scenes > 0 && s.level != level)) continue;
-    if (ok) s.level = level;
+    if (s.detector != run.detector || (run.ok() && s.scenes > 0 && s.level != run.per_frame.level))
+      continue;
+    if (run.ok()) s.level = run.per_frame.level;
     return s;
   }
   Sums& added = all.emplace_back();
-  added.detector = name;
-  added.level = level;
+  added.detector = run.detector;
+  added.level = run.per_frame.level;
   return added;
 }
 
@@ -126,9 +110,9 @@ const std::vector<Column>& summary_columns() {
   return columns;
 }
 
-std::vector<std::vector<std::string>> summary_lines(const Json& results) {
+std::vector<std::vector<std::string>> summary_lines(const results::Results& results) {
   std::vector<Sums> all;
-  for (const Json& run : results.at("runs")) add_run(run, line_of(run, all));
+  for (const Run& run : results.runs) add_run(run, line_of(run, all));
   std::vector<std::vector<std::string>> lines;
   for (const Sums& s : all) lines.push_back(cells_of(s));
   return lines;

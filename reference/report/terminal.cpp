@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "reference/report/format.h"
 #include "reference/report/goals_table.h"
@@ -16,7 +15,6 @@
 
 namespace contactcheck {
 namespace {
-using Json = nlohmann::ordered_json;
 using Line = std::vector<std::string>;
 
 constexpr const char* kRed = "\x1b[31m";
@@ -74,17 +72,15 @@ std::string table(const std::vector<Column>& columns, const std::vector<Line>& l
   return out + "\n";
 }
 
-std::string scene_head(const Json& scene, bool color) {
-  std::int64_t triangles = 0;
-  for (const Json& body : scene.at("bodies")) triangles += whole_number(body.at("triangles"));
+std::string scene_head(const results::Scene& scene, bool color) {
+  std::size_t triangles = 0;
+  for (const results::SceneBody& body : scene.bodies) triangles += body.triangles;
   std::string more;
   for (const std::string& line : {pairs_line(scene), fits_line(scene)})
     if (!line.empty()) more += "  " + line + "\n";
   return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n{}",
-                     paint(scene.at("id").get<std::string>(), kBold, color),
-                     scene.at("title").get<std::string>(), scene.at("bodies").size(), triangles,
-                     whole_number(scene.at("frames")), whole_number(scene.at("contact_frames")),
-                     more);
+                     paint(scene.id, kBold, color), scene.title, scene.bodies.size(), triangles,
+                     scene.frames, scene.contact_frames, more);
 }
 
 std::string legend() {
@@ -96,18 +92,17 @@ std::string legend() {
 
 }  // namespace
 
-std::string terminal_tables(const Json& results, bool color) {
+std::string terminal_tables(const results::Results& results, bool color) {
   std::string out;
-  for (const Json& scene : results.at("scenes")) {
-    if (scene.contains("family")) continue;
+  for (const results::Scene& scene : results.scenes) {
+    if (scene.family) continue;
     std::vector<Line> lines;
-    for (const Json& run : runs_of_scene(results, scene.at("id").get<std::string>()))
-      lines.push_back(result_cells(run));
+    for (const results::Run* run : runs_of_scene(results, scene.id))
+      lines.push_back(result_cells(*run));
     out += scene_head(scene, color) + table(result_columns(), lines, color);
-    if (scene.contains("sweep"))
-      out += "  time and errors against separation: report.md and report.html\n\n";
+    if (scene.sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
-  if (results.at("scenes").size() > 1)
+  if (results.scenes.size() > 1)
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
            table(summary_columns(), summary_lines(results), color);
@@ -115,9 +110,9 @@ std::string terminal_tables(const Json& results, bool color) {
     out += paint("hard cases", kBold, color) +
            "  who goes wrong where: report.md, \"Where they go wrong\"\n" +
            table(hard_columns(), hard_lines(results), color);
-  if (results.contains("known_defects"))
-    out += paint("known defects", kBold, color) + "\n" +
-           defects_summary(results.at("known_defects")) + "\n";
+  if (results.known_defects)
+    out += paint("known defects", kBold, color) + "\n" + defects_summary(*results.known_defects) +
+           "\n";
   if (!goal_lines(results).empty())
     out += paint("goals", kBold, color) + "\n" + table(goal_columns(), goal_lines(results), color);
   return out + legend();

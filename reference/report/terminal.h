@@ -1,12 +1,13 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
 /// The result tables of all scenes as aligned plain text, with a legend. `color` adds ANSI colours
 /// to misses, spurious contacts and errors.
-std::string terminal_tables(const nlohmann::ordered_json& results, bool color);
+std::string terminal_tables(const results::Results& results, bool color);
 
 }  // namespace contactcheck

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "reference/report/run_row.h"
+#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using results::Run;
 
 // The comparisons of the paper: one level against none, two levels against one.
 struct Comparison {
@@ -21,25 +23,19 @@ struct Comparison {
 constexpr std::array<Comparison, 2> kComparisons = {Comparison{kMethods[0], kMethods[1]},
                                                     Comparison{kMethods[1], kMethods[2]}};
 
-const Json* scene_entry(const Json& results, const std::string& id) {
-  for (const Json& scene : results.at("scenes"))
-    if (scene.at("id") == id) return &scene;
-  return nullptr;
-}
-
 Json count(double paper, double ours) {
   return {{"paper", paper}, {"ours", ours}, {"difference_percent", 100.0 * (ours - paper) / paper}};
 }
 
-Json counts_of(const PaperScene& paper, const Json& scene) {
-  double vertices = 0.0, triangles = 0.0, cells = 0.0;
-  for (const Json& body : scene.at("bodies")) {
-    vertices += body.at("vertices").get<double>();
-    triangles += body.at("triangles").get<double>();
-    cells += body.at("cells").get<double>();
-  }
+Json counts_of(const PaperScene& paper, const results::Scene& scene) {
   const auto real = [](std::size_t n) { return static_cast<double>(n); };
-  return {{"objects", count(real(paper.objects), real(scene.at("bodies").size()))},
+  double vertices = 0.0, triangles = 0.0, cells = 0.0;
+  for (const results::SceneBody& body : scene.bodies) {
+    vertices += real(body.vertices);
+    triangles += real(body.triangles);
+    cells += real(body.cells);
+  }
+  return {{"objects", count(real(paper.objects), real(scene.bodies.size()))},
           {"vertices", count(real(paper.vertices), vertices)},
           {"triangles", count(real(paper.triangles), triangles)},
           {"cells", count(real(paper.cells), cells)}};
@@ -59,32 +55,49 @@ Json paper_times(const PaperTables& tables, const std::string& scene, const std:
   return nullptr;
 }
 
-// The finest level that the detector claims.
-const Json& finest_level(const Json& run) {
-  return run.at("levels").at(run.at("per_frame").at("level").get<std::string>());
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
-Json our_times(const Json& run) {
-  Json out = run.at("step_ms");
-  out.erase("test_by_repeat");
-  out.erase("total_by_repeat");
-  const Json& level = finest_level(run);
-  out["level"] = run.at("per_frame").at("level");
-  for (const char* key : {"truth", "missed", "spurious", "recall"}) out[key] = level.at(key);
-  out["contact_hash"] = run.at("contact_hash");
-  return out;
+// At the finest level that the detector claims.
+const results::LevelCounts& finest_counts(const Run& run) {
+  return run.levels.at(run.per_frame.level.value());
 }
 
-bool timed(const Json& run) { return run.contains("step_ms"); }
+Json our_times(const Run& run) {
+  const results::StepTimes& t = *run.step_ms;
+  const results::LevelCounts& counts = finest_counts(run);
+  return {{"steps", t.steps},
+          {"repeats", t.repeats},
+          {"mss", t.mss},
+          {"cell", t.cell},
+          {"test", t.test},
+          {"response", t.response},
+          {"total", t.total},
+          {"level", name_of(*run.per_frame.level)},
+          {"truth", counts.truth},
+          {"missed", counts.missed},
+          {"spurious", counts.spurious},
+          {"recall", or_null(counts.recall)},
+          {"contact_hash", run.contact_hash}};
+}
 
-Json steps_of(const Json& results, const PaperTables& tables, const std::string& paper_scene) {
+// Null where it did not end well, or whole steps were not timed.
+const Run* timed_run(const results::Results& results, const std::string& paper_scene,
+                     const std::string& detector) {
+  const Run* run = find_run(results, scene_of_paper(paper_scene), detector);
+  return run != nullptr && run->step_ms ? run : nullptr;
+}
+
+Json steps_of(const results::Results& results, const PaperTables& tables,
+              const std::string& paper_scene) {
   Json out = Json::array();
   for (const char* method : kMethods) {
     Json row = {{"method", method}, {"paper_reports", paper_times(tables, paper_scene, method)}};
     for (const MethodReading& reading : kReadings) {
-      const Json run =
-          find_run(results, scene_of_paper(paper_scene), method + std::string(reading.suffix));
-      row[reading.id] = timed(run) ? our_times(run) : Json(nullptr);
+      const Run* run = timed_run(results, paper_scene, method + std::string(reading.suffix));
+      row[reading.id] = run != nullptr ? our_times(*run) : Json(nullptr);
     }
     out.push_back(std::move(row));
   }
@@ -92,33 +105,32 @@ Json steps_of(const Json& results, const PaperTables& tables, const std::string&
 }
 
 // The quotient of the medians, and the range of the quotients of repeats that ran together.
-Json ratio_by_repeat(const Json& before, const Json& after, const char* part) {
-  const std::string repeats = std::string(part) + "_by_repeat";
+Json ratio_by_repeat(double before, double after, const std::vector<double>& befores,
+                     const std::vector<double>& afters) {
   std::vector<double> quotients;
-  for (std::size_t r = 0; r < before.at(repeats).size(); ++r)
-    quotients.push_back(before.at(repeats)[r].get<double>() / after.at(repeats)[r].get<double>());
+  for (std::size_t r = 0; r < befores.size(); ++r) quotients.push_back(befores[r] / afters.at(r));
   const auto [low, high] = std::minmax_element(quotients.begin(), quotients.end());
-  const double ratio = before.at(part).get<double>() / after.at(part).get<double>();
+  const double ratio = before / after;
   return {{"ratio", ratio}, {"low", std::min(ratio, *low)}, {"high", std::max(ratio, *high)}};
 }
 
 // Pairs of cells that the spheres let through to the hash, over all frames.
-Json into_hash(const Json& run) {
-  for (const Json& stage : run.at("stages"))
-    if (stage.at("name") == "hash") return stage.at("in");
+Json into_hash(const Run& run) {
+  for (const results::Stage& stage : run.stages)
+    if (stage.name == "hash") return stage.in;
   return nullptr;
 }
 
-Json our_ratio(const Json& before, const Json& after) {
-  return {{"test", ratio_by_repeat(before.at("step_ms"), after.at("step_ms"), "test")},
-          {"total", ratio_by_repeat(before.at("step_ms"), after.at("step_ms"), "total")},
-          {"test_share_before", before.at("step_ms").at("test").get<double>() /
-                                    before.at("step_ms").at("total").get<double>()},
+Json our_ratio(const Run& before, const Run& after) {
+  const results::StepTimes &b = *before.step_ms, &a = *after.step_ms;
+  return {{"test", ratio_by_repeat(b.test, a.test, b.test_by_repeat, a.test_by_repeat)},
+          {"total", ratio_by_repeat(b.total, a.total, b.total_by_repeat, a.total_by_repeat)},
+          {"test_share_before", b.test / b.total},
           {"into_hash_before", into_hash(before)},
           {"into_hash_after", into_hash(after)},
-          {"same_contacts", before.at("contact_hash") == after.at("contact_hash")},
-          {"missed_before", finest_level(before).at("missed")},
-          {"missed_after", finest_level(after).at("missed")}};
+          {"same_contacts", before.contact_hash == after.contact_hash},
+          {"missed_before", finest_counts(before).missed},
+          {"missed_after", finest_counts(after).missed}};
 }
 
 Json paper_ratio(const PaperTables& tables, const std::string& scene, const Comparison& c) {
@@ -136,17 +148,17 @@ Json paper_ratio(const PaperTables& tables, const std::string& scene, const Comp
   return nullptr;
 }
 
-Json ratios_of(const Json& results, const PaperTables& tables, const std::string& scene) {
+Json ratios_of(const results::Results& results, const PaperTables& tables,
+               const std::string& scene) {
   Json out = Json::array();
   for (const Comparison& c : kComparisons) {
     Json row = {
         {"before", c.before}, {"after", c.after}, {"paper_reports", paper_ratio(tables, scene, c)}};
     for (const MethodReading& reading : kReadings) {
-      const Json before =
-          find_run(results, scene_of_paper(scene), c.before + std::string(reading.suffix));
-      const Json after =
-          find_run(results, scene_of_paper(scene), c.after + std::string(reading.suffix));
-      row[reading.id] = timed(before) && timed(after) ? our_ratio(before, after) : Json(nullptr);
+      const Run* before = timed_run(results, scene, c.before + std::string(reading.suffix));
+      const Run* after = timed_run(results, scene, c.after + std::string(reading.suffix));
+      const bool timed = before != nullptr && after != nullptr;
+      row[reading.id] = timed ? our_ratio(*before, *after) : Json(nullptr);
     }
     out.push_back(std::move(row));
   }
@@ -154,22 +166,23 @@ Json ratios_of(const Json& results, const PaperTables& tables, const std::string
 }
 
 // The paper's proposal, as it is written: how many whole steps fit into the time they simulate.
-Json frame_rate_of(const Json& results, const Json& scene, const std::string& paper_scene) {
-  const Json run = find_run(results, scene_of_paper(paper_scene), kMethods[2]);
-  if (!timed(run) || !scene.contains("simulation")) return nullptr;
-  const double step_ms = run.at("step_ms").at("total").get<double>();
-  const double simulated_ms = 1e3 * scene.at("simulation").at("step").get<double>();
+Json frame_rate_of(const results::Results& results, const results::Scene& scene,
+                   const std::string& paper_scene) {
+  const Run* run = timed_run(results, paper_scene, kMethods[2]);
+  if (run == nullptr || !scene.simulation) return nullptr;
+  const double step_ms = run->step_ms->total;
+  const double simulated_ms = 1e3 * scene.simulation->step;
   return {{"detector", kMethods[2]},
           {"steps_per_second", 1e3 / step_ms},
           {"simulated_over_real_time", simulated_ms / step_ms}};
 }
 
-Json closed_loops_of(const Json& results, const std::string& scene) {
+Json closed_loops_of(const results::Results& results, const std::string& scene) {
   Json out = Json::array();
-  for (const Json& run : results.at("runs")) {
-    if (run.at("scene") != scene_of_paper(scene) || !run.contains("closed_loop")) continue;
-    Json row = {{"detector", run.at("detector")}};
-    row.update(run.at("closed_loop"));
+  for (const Run& run : results.runs) {
+    if (run.scene != scene_of_paper(scene) || !run.closed_loop) continue;
+    Json row = {{"detector", run.detector}};
+    row.update(results::to_json(*run.closed_loop));
     out.push_back(std::move(row));
   }
   return out;
@@ -230,17 +243,18 @@ Json sentences_of(const Json& ratios) {
   return out;
 }
 
-Json one_scene(const Json& results, const PaperTables& tables, const PaperScene& paper) {
-  const Json& scene = *scene_entry(results, scene_of_paper(paper.id));
+Json one_scene(const results::Results& results, const PaperTables& tables,
+               const PaperScene& paper) {
+  const results::Scene& scene = *results.scene(scene_of_paper(paper.id));
   Json ratios = ratios_of(results, tables, paper.id);
   Json loops = closed_loops_of(results, paper.id);
   Json hover = hover_of(loops);
   Json sentences = sentences_of(ratios);
   return {{"scene", paper.id},
           {"ours", scene_of_paper(paper.id)},
-          {"frames", scene.at("frames")},
-          {"contact_frames", scene.at("contact_frames")},
-          {"truth", scene.at("truth")},
+          {"frames", scene.frames},
+          {"contact_frames", scene.contact_frames},
+          {"truth", results::to_json(scene).at("truth")},
           {"counts", counts_of(paper, scene)},
           {"steps", steps_of(results, tables, paper.id)},
           {"ratios", std::move(ratios)},
@@ -282,16 +296,16 @@ Json means_of(const Json& scenes, const PaperTables& tables) {
 
 std::string scene_of_paper(const std::string& id) { return "paper-" + id; }
 
-Json reproduce(const Json& results, const PaperTables& tables) {
+Json reproduce(const results::Results& results, const PaperTables& tables) {
   Json scenes = Json::array();
   for (const PaperScene& paper : tables.scenes)
-    if (scene_entry(results, scene_of_paper(paper.id)) != nullptr)
+    if (results.scene(scene_of_paper(paper.id)) != nullptr)
       scenes.push_back(one_scene(results, tables, paper));
   Json means = means_of(scenes, tables);
   return {{"schema", "contactcheck-reproduction/1"},
-          {"version", results.at("version")},
-          {"command", results.at("command")},
-          {"machine", results.at("machine")},
+          {"version", results.version},
+          {"command", results.command},
+          {"machine", results::to_json(results.machine)},
           {"scenes", std::move(scenes)},
           {"means", std::move(means)}};
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "reference/reproduce/paper_tables.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -39,6 +40,6 @@ std::string scene_of_paper(const std::string& id);
 /// `means` over the scenes. Scenes that the results do not hold are left out. Described in
 /// fixtures/README.md, "The paper".
 /// @pre results of `contactcheck reproduce`: runs with `step_ms` and `closed_loop`
-nlohmann::ordered_json reproduce(const nlohmann::ordered_json& results, const PaperTables& tables);
+nlohmann::ordered_json reproduce(const results::Results& results, const PaperTables& tables);
 
 }  // namespace contactcheck

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "reference/report/format.h"
@@ -16,6 +17,18 @@ using Json = nlohmann::ordered_json;
 
 std::string text(const Json& value) { return value.get<std::string>(); }
 
+// Null is what was not measured.
+std::optional<double> real(const Json& value) {
+  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+}
+std::optional<std::int64_t> whole(const Json& value) {
+  return value.is_null() ? std::nullopt : std::optional(value.get<std::int64_t>());
+}
+std::optional<Ratio> ratio(const Json& value) {
+  if (value.is_null()) return std::nullopt;
+  return Ratio{value.at("ratio"), value.at("low"), value.at("high")};
+}
+
 // Names at the left, figures at the right.
 std::string head(const std::vector<const char*>& titles) {
   std::vector<Column> columns;
@@ -26,7 +39,7 @@ std::string head(const std::vector<const char*>& titles) {
 std::string counts_table(const Json& counts) {
   std::string out = head({"count", "paper", "ours", "difference"});
   for (const auto& [name, c] : counts.items())
-    out += table_line({name, format_count(c.at("paper")), format_count(c.at("ours")),
+    out += table_line({name, format_count(whole(c.at("paper"))), format_count(whole(c.at("ours"))),
                        fmt::format("{:+.2f} %", c.at("difference_percent").get<double>())});
   return out + "\n";
 }
@@ -35,7 +48,7 @@ std::vector<std::string> time_cells(const Json& t) {
   if (t.is_null()) return {"-", "-", "-", "-", "-"};
   std::vector<std::string> cells;
   for (const char* part : {"mss", "cell", "test", "response", "total"})
-    cells.push_back(format_number(t.at(part)));
+    cells.push_back(format_number(real(t.at(part))));
   return cells;
 }
 
@@ -47,9 +60,9 @@ std::string time_line(const std::string& method, const std::string& whose, const
     cells.insert(cells.end(), {"-", "-", "-"});
   } else {
     cells.push_back(text(times.at("level")));
-    cells.push_back(
-        fmt::format("{} of {}", format_count(times.at("missed")), format_count(times.at("truth"))));
-    cells.push_back(format_count(times.at("spurious")));
+    cells.push_back(fmt::format("{} of {}", format_count(whole(times.at("missed"))),
+                                format_count(whole(times.at("truth")))));
+    cells.push_back(format_count(whole(times.at("spurious"))));
   }
   return table_line(cells);
 }
@@ -85,10 +98,11 @@ std::string ratios_table(const Json& ratios) {
       const Json& ours = row.at(reading.id);
       if (ours.is_null()) continue;
       out += table_line({from, to, fmt::format("ours, {}", reading.id),
-                         format_ratio(ours.at("test"), true), format_ratio(ours.at("total"), true),
+                         format_ratio(ratio(ours.at("test")), true),
+                         format_ratio(ratio(ours.at("total")), true),
                          ours.at("same_contacts").get<bool>() ? "yes" : "no",
-                         fmt::format("{}, {}", format_count(ours.at("missed_before")),
-                                     format_count(ours.at("missed_after")))});
+                         fmt::format("{}, {}", format_count(whole(ours.at("missed_before"))),
+                                     format_count(whole(ours.at("missed_after"))))});
     }
   }
   return out + "\n";
@@ -100,12 +114,13 @@ std::string closed_loop_line(const Json& loop) {
   std::string recalls;
   for (const auto& [level, counts] : loop.at("levels").items())
     recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
-                           format_rate(counts.at("recall")));
-  return table_line({text(loop.at("detector")), format_millimetres(loop.at("hover_at_rest_max")),
-                     format_millimetres(loop.at("hover_at_rest_mean")),
-                     format_millimetres(loop.at("deepest_penetration")),
-                     format_number(loop.at("energy_gain")), format_number(loop.at("last_speed")),
-                     format_count(loop.at("tunnelling_events")), recalls});
+                           format_rate(real(counts.at("recall"))));
+  return table_line(
+      {text(loop.at("detector")), format_millimetres(real(loop.at("hover_at_rest_max"))),
+       format_millimetres(real(loop.at("hover_at_rest_mean"))),
+       format_millimetres(real(loop.at("deepest_penetration"))),
+       format_number(real(loop.at("energy_gain"))), format_number(real(loop.at("last_speed"))),
+       format_count(whole(loop.at("tunnelling_events"))), recalls});
 }
 
 std::string closed_loop_table(const Json& loops) {
@@ -132,8 +147,8 @@ std::string hover_line(const Json& hover) {
   if (hover.is_null()) return "";
   std::string out =
       fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm", kMethods[2],
-                  format_millimetres(hover.at(kMethods[2])), kTraditional,
-                  format_millimetres(hover.at(kTraditional)));
+                  format_millimetres(real(hover.at(kMethods[2]))), kTraditional,
+                  format_millimetres(real(hover.at(kTraditional))));
   if (!hover.at("factor").is_null())
     out += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
   return out + ".\n\n";
@@ -142,8 +157,8 @@ std::string hover_line(const Json& hover) {
 std::string scene_section(const Json& scene) {
   std::string out =
       fmt::format("## {}\n\nScene `{}`, {} frames, {} with contact.\n\n", text(scene.at("scene")),
-                  text(scene.at("ours")), format_count(scene.at("frames")),
-                  format_count(scene.at("contact_frames")));
+                  text(scene.at("ours")), format_count(whole(scene.at("frames"))),
+                  format_count(whole(scene.at("contact_frames"))));
   out += counts_table(scene.at("counts"));
   out += "Milliseconds per whole step, timed in lockstep from the same states, cold.\n\n" +
          times_table(scene.at("steps"));
@@ -174,8 +189,9 @@ std::string introduction(const Json& reproduction) {
   std::string out = fmt::format(
       "# The paper's tables beside ours\n\n- command: `{}`\n- machine: {}, {} cores, {}, {}\n"
       "- contactcheck {}\n\nReadings of the method:\n\n",
-      text(reproduction.at("command")), text(machine.at("cpu")), format_count(machine.at("cores")),
-      text(machine.at("isa")), text(machine.at("os")), text(reproduction.at("version")));
+      text(reproduction.at("command")), text(machine.at("cpu")),
+      format_count(whole(machine.at("cores"))), text(machine.at("isa")), text(machine.at("os")),
+      text(reproduction.at("version")));
   for (const MethodReading& reading : kReadings)
     out += fmt::format("- `{}`: {}\n", reading.id, reading.says);
   return out +
@@ -204,8 +220,8 @@ std::string reproduction_terminal(const Json& reproduction) {
             "  {:<10} {:<22} {:>8.3f}x {:>24} {:>24}  {}\n", text(scene.at("scene")),
             part == std::string("test") ? "collision test" : "frames per second",
             row.at("paper_reports").at(part).get<double>(),
-            format_ratio(row.at("safe").at(part), true),
-            row.at("paper").is_null() ? "-" : format_ratio(row.at("paper").at(part), true),
+            format_ratio(ratio(row.at("safe").at(part)), true),
+            row.at("paper").is_null() ? "-" : format_ratio(ratio(row.at("paper").at(part)), true),
             row.at("safe").at("same_contacts").get<bool>() ? "yes" : "no");
     }
   return out;

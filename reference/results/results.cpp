@@ -1,8 +1,43 @@
 #include "reference/results/results.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace contactcheck::results {
+
+namespace {
+
+std::optional<double> rate(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> members_of(const Machine& m) {
+  return {{"cpu", m.cpu}, {"cores", std::to_string(m.cores)}, {"isa", m.isa},
+          {"os", m.os},   {"compiler", m.compiler},           {"build", m.build}};
+}
+
+LevelCounts& LevelCounts::operator+=(const LevelCounts& other) {
+  truth += other.truth;
+  reported += other.reported;
+  hit += other.hit;
+  missed += other.missed;
+  spurious += other.spurious;
+  return *this;
+}
+
+void LevelCounts::set_rates() {
+  recall = rate(hit, truth);
+  spurious_rate = rate(spurious, reported);
+}
+
+std::string hex(std::uint64_t hash) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
 
 const char* name_of(Status status) {
   switch (status) {
@@ -36,15 +71,15 @@ const Run* Results::run(const std::string& scene, const std::string& detector) c
 
 NamedErrors errors_of(const Geometry& g) {
   return {{"covered_length_fraction", g.covered_length_fraction},
-          {"depth_error_max", g.depth_error_max},
-          {"depth_error_mean", g.depth_error_mean},
-          {"depth_error_p95", g.depth_error_p95},
+          {"depth_error_max", g.depth.max},
+          {"depth_error_mean", g.depth.mean},
+          {"depth_error_p95", g.depth.p95},
           {"hover_gap_max", g.hover_gap_max},
           {"late_frames", g.late_frames},
           {"missed_length", g.missed_length},
-          {"normal_error_deg_max", g.normal_error_deg_max},
-          {"normal_error_deg_mean", g.normal_error_deg_mean},
-          {"normal_error_deg_p95", g.normal_error_deg_p95},
+          {"normal_error_deg_max", g.normal_deg.max},
+          {"normal_error_deg_mean", g.normal_deg.mean},
+          {"normal_error_deg_p95", g.normal_deg.p95},
           {"spurious_distance_max", g.spurious_distance_max}};
 }
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/types/contact_set.h"
 #include "core/types/semantics.h"
 #include "reference/statistics/statistics.h"
 
@@ -26,12 +27,21 @@ struct Machine {
   std::size_t cores = 0;
 };
 
+/// By the names in the file, in its order.
+std::vector<std::pair<std::string, std::string>> members_of(const Machine& machine);
+
 /// Sums over frames at one level.
 struct LevelCounts {
   std::uint64_t truth = 0, reported = 0, hit = 0, missed = 0, spurious = 0;
-  std::optional<double> recall, spurious_rate;  ///< none over nothing
-  std::optional<double> margin;                 ///< of the level near
-  bool informative = false;                     ///< not claimed: shown, never gated
+  /// hit / truth and spurious / reported; none over nothing.
+  std::optional<double> recall = {}, spurious_rate = {};
+  std::optional<double> margin = {};  ///< of the level near
+  bool informative = false;           ///< not claimed: shown, never gated
+
+  bool perfect() const { return missed == 0 && spurious == 0; }
+  /// The counts alone.
+  LevelCounts& operator+=(const LevelCounts& other);
+  void set_rates();
 };
 
 using Levels = std::map<Level, LevelCounts>;
@@ -44,30 +54,36 @@ struct PerFrame {
   std::optional<std::vector<std::optional<double>>> frame_ms;  ///< of a timed run; none: not timed
 };
 
+/// Errors from `from` on and below `below`; the last bin of all holds `below`, too.
 struct HistogramBin {
   double from = 0.0, below = 0.0;
   std::uint64_t count = 0;
 };
 
+/// A stretch of frames in which two bodies touch or are said to.
 struct Episode {
-  std::vector<std::size_t> bodies;
+  BodyPair bodies;
   std::optional<std::size_t> first_true, first_reported;  ///< frames
   std::optional<double> hover_gap;
-  std::optional<long> late_frames;
+  std::optional<long> late_frames;  ///< reported minus true, signed
 };
 
+/// Errors over all contacts that could be judged; values only where there was one.
+struct ErrorSpread {
+  std::uint64_t judged = 0;
+  std::optional<double> max, mean, p95;
+  std::vector<HistogramBin> histogram;
+};
+
+/// Graded errors: pair counts depend on tessellation, these do not.
 struct Geometry {
   std::optional<double> missed_length, covered_length_fraction, spurious_distance_max;
   std::vector<HistogramBin> spurious_distance_histogram;
   DepthKind depth_kind = DepthKind::kNone;
-  std::uint64_t depth_judged = 0;
-  std::optional<double> depth_error_max, depth_error_mean, depth_error_p95;
-  std::vector<HistogramBin> depth_error_histogram;
-  std::uint64_t normal_judged = 0;
-  std::optional<double> normal_error_deg_max, normal_error_deg_mean, normal_error_deg_p95;
-  std::vector<HistogramBin> normal_error_deg_histogram;
+  ErrorSpread depth;       ///< |reported - true|
+  ErrorSpread normal_deg;  ///< to the nearest of the true ways out
   std::optional<double> hover_gap_max;
-  std::optional<long> late_frames;
+  std::optional<long> late_frames;  ///< of the largest size over all episodes
   std::vector<Episode> episodes;
 };
 
@@ -95,22 +111,35 @@ struct QuestionTimes {
   PhaseTimes cold, hot;
 };
 
-/// time(reference) / time(detector).
+/// time(reference) / time(detector) over the same frames.
 struct Speedup {
   Ratio cold, hot;
-  std::optional<Ratio> contact_frames, without_map;
+  std::optional<Ratio> contact_frames;  ///< cold; none without a timed contact frame
+  std::optional<Ratio> without_map;     ///< cold; none when one side maps lazily
   Texts reference_options;
 };
 
+/// The motion that a detector drives, judged by the oracle on its own frames.
 struct ClosedLoop {
-  std::string error;  ///< not empty: there is nothing else
-  std::size_t steps = 0;
-  Levels levels;
-  std::optional<double> hover_at_rest_max, hover_at_rest_mean, deepest_penetration, energy_gain;
-  double last_speed = 0.0;
+  std::string error;      ///< not empty: why there is no motion (it diverged), and nothing else
+  std::size_t steps = 0;  ///< of the simulation
+  Levels levels;          ///< the detector's answers on the frames that it drove
+  /// The true distance of every pair of bodies that the detector reports in the last tenth of the
+  /// frames (0 where they touch or sink in); none without such a pair.
+  std::optional<double> hover_at_rest_max, hover_at_rest_mean;
+  /// The deepest vertex inside another body, over all frames; none where no body is solid.
+  std::optional<double> deepest_penetration;
+  /// (highest total energy - energy at the start) / highest kinetic energy: above 0 response or
+  /// integrator put energy in.
+  std::optional<double> energy_gain;
+  double last_speed = 0.0;  ///< m/s, root of the mean square over the mass: is it at rest?
+  /// Pairs of bodies that leave a true contact on the other side: the direction between their
+  /// centres has turned by more than 90 degrees since the last frame before that contact.
   std::size_t tunnelling_events = 0;
 };
 
+/// Whole simulation steps, timed in lockstep: every detector steps from the same recorded states.
+/// Milliseconds per step: medians over repeats.
 struct StepTimes {
   std::size_t steps = 0, repeats = 0;
   double mss = 0.0, cell = 0.0, test = 0.0, response = 0.0, total = 0.0;
@@ -119,6 +148,9 @@ struct StepTimes {
 
 enum class Status { kOk, kError, kAbsent, kRefused };
 const char* name_of(Status status);
+
+/// As a hash stands in the file: "0x0123456789abcdef".
+std::string hex(std::uint64_t hash);
 
 /// One detector on one scene. Of one that is not `ok` everything from per_frame on is empty.
 struct Run {
@@ -213,6 +245,8 @@ struct Goal {
   std::string goal, scene, detector, part;
   std::string over, over_scene, per;  ///< one of them
   std::optional<double> at_least, at_most;
+
+  bool operator==(const Goal&) const = default;
 };
 
 struct MeasuredGoal : Goal {
@@ -246,6 +280,8 @@ struct ShardScene {
   std::string id;
   std::vector<std::string> detectors, references;
   std::string content;
+
+  bool operator==(const ShardScene&) const = default;
 };
 
 struct Shard {

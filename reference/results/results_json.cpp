@@ -25,6 +25,7 @@ void read(const Json& json, std::vector<std::pair<std::string, T>>& values);
 template <typename Key, typename T>
 void read(const Json& json, std::map<Key, T>& values);
 void read(const Json& json, Texts& values);
+void read(const Json& json, BodyPair& pair);
 void read(const Json& json, std::variant<std::uint64_t, std::string>& value);
 
 template <typename T>
@@ -38,6 +39,7 @@ Json written(const std::vector<std::pair<std::string, T>>& values);
 template <typename Key, typename T>
 Json written(const std::map<Key, T>& values);
 Json written(const std::variant<std::uint64_t, std::string>& value);
+Json written(const BodyPair& pair);
 
 template <typename Names>
 auto named(const Json& json, const Names& values) {
@@ -181,16 +183,16 @@ void fields(Io& io, Geometry& g) {
   io("spurious_distance_max", g.spurious_distance_max);
   io("spurious_distance_histogram", g.spurious_distance_histogram);
   io("depth_kind", g.depth_kind);
-  io("depth_judged", g.depth_judged);
-  io("depth_error_max", g.depth_error_max);
-  io("depth_error_mean", g.depth_error_mean);
-  io("depth_error_p95", g.depth_error_p95);
-  io("depth_error_histogram", g.depth_error_histogram);
-  io("normal_judged", g.normal_judged);
-  io("normal_error_deg_max", g.normal_error_deg_max);
-  io("normal_error_deg_mean", g.normal_error_deg_mean);
-  io("normal_error_deg_p95", g.normal_error_deg_p95);
-  io("normal_error_deg_histogram", g.normal_error_deg_histogram);
+  io("depth_judged", g.depth.judged);
+  io("depth_error_max", g.depth.max);
+  io("depth_error_mean", g.depth.mean);
+  io("depth_error_p95", g.depth.p95);
+  io("depth_error_histogram", g.depth.histogram);
+  io("normal_judged", g.normal_deg.judged);
+  io("normal_error_deg_max", g.normal_deg.max);
+  io("normal_error_deg_mean", g.normal_deg.mean);
+  io("normal_error_deg_p95", g.normal_deg.p95);
+  io("normal_error_deg_histogram", g.normal_deg.histogram);
   io("hover_gap_max", g.hover_gap_max);
   io("late_frames", g.late_frames);
   io("episodes", g.episodes);
@@ -601,6 +603,10 @@ void read(const Json& json, std::variant<std::uint64_t, std::string>& value) {
   }
 }
 
+void read(const Json& json, BodyPair& pair) {
+  pair = {json.at(0).get<std::uint32_t>(), json.at(1).get<std::uint32_t>()};
+}
+
 template <typename T>
 void read(const Json& json, T& value) {
   if constexpr (HasFields<T>) {
@@ -645,6 +651,8 @@ Json written(const std::variant<std::uint64_t, std::string>& value) {
   return std::visit([](const auto& held) { return Json(held); }, value);
 }
 
+Json written(const BodyPair& pair) { return {pair.a, pair.b}; }
+
 template <typename T>
 Json written(const T& value) {
   if constexpr (HasFields<T>) {
@@ -667,6 +675,11 @@ Results from_json(const nlohmann::ordered_json& json) {
   read(json, results);
   return results;
 }
+
+nlohmann::ordered_json to_json(const Semantics& semantics) { return written(semantics); }
+nlohmann::ordered_json to_json(const Machine& machine) { return written(machine); }
+nlohmann::ordered_json to_json(const Scene& scene) { return written(scene); }
+nlohmann::ordered_json to_json(const ClosedLoop& loop) { return written(loop); }
 
 nlohmann::ordered_json to_json(const Results& results) {
   Json out = {{"schema", kSchema}};

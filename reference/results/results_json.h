@@ -13,5 +13,9 @@ Results from_json(const nlohmann::ordered_json& json);
 
 /// With the fields in the order of the file.
 nlohmann::ordered_json to_json(const Results& results);
+nlohmann::ordered_json to_json(const Semantics& semantics);
+nlohmann::ordered_json to_json(const Machine& machine);
+nlohmann::ordered_json to_json(const Scene& scene);
+nlohmann::ordered_json to_json(const ClosedLoop& loop);
 
 }  // namespace contactcheck::results

@@ -27,9 +27,11 @@ std::string wrong(const std::string& path, const Json& value, const std::string&
          wanted;
 }
 
+// Beyond 2^53 a double says nothing about the whole number that was meant.
 bool is_whole(const Json& value) {
   if (!value.is_number_float()) return value.is_number();
-  return value.get<double>() == std::trunc(value.get<double>());
+  const double number = value.get<double>();
+  return number == std::trunc(number) && std::fabs(number) <= 0x1p53;
 }
 
 bool is_of_type(const Json& value, const std::string& type) {

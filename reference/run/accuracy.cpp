@@ -40,19 +40,19 @@ bool judges_near(const std::vector<Level>& levels) {
 class AccuracyPass {
  public:
   AccuracyPass(JudgingTools& tools, std::uint32_t position, Detector& detector,
-               ProgressWriter& progress, RunResult& result)
+               ProgressWriter& progress, results::Run& run)
       : tools_(tools),
         scene_(*tools.judged.scene),
         position_(position),
         detector_(detector),
         progress_(progress),
-        result_(result),
+        run_(run),
         heap_before_(heap_in_use()) {}
 
   AccuracyOutcome run() {
     prepare();
     make_judges();
-    for (const Question question : result_.semantics.questions)
+    for (const Question question : run_.semantics.questions)
       outcome_.answers.push_back({question, {}});
     for (std::size_t f = 0; f < scene_.frames; ++f) add_frame(f);
     finish();
@@ -64,15 +64,15 @@ class AccuracyPass {
     progress_.enter(position_, 0, Phase::kPrepare);
     const auto start = std::chrono::steady_clock::now();
     detector_.prepare(scene_.bodies);
-    result_.prepare_ms = 1e3 * seconds_since(start);
-    note_environment(guard_, "prepare", result_);
-    result_.semantics = detector_.semantics();
+    run_.prepare_ms = 1e3 * seconds_since(start);
+    note_environment(guard_, "prepare", run_);
+    run_.semantics = detector_.semantics();
   }
 
   // After prepare(): only then are the semantics final.
   void make_judges() {
-    const Semantics& semantics = result_.semantics;
-    levels_ = judged_levels(scene_.bodies, semantics, scene_.levels, &result_.not_judged);
+    const Semantics& semantics = run_.semantics;
+    levels_ = judged_levels(scene_.bodies, semantics, scene_.levels, &run_.not_judged);
     judge_.emplace(scene_.bodies, semantics, levels_, scene_.pairs ? 0 : kListedPairs);
     graded_.emplace(scene_.bodies, semantics, scene_.size());
     losses_.emplace(scene_.bodies);
@@ -86,15 +86,15 @@ class AccuracyPass {
     const Frame frame = tools_.judged.frame(f);
     const AnswerCheck check(scene_, f);
     answer_own_question(frame, check);
-    if (f == 0) result_.memory_bytes = std::max(heap_in_use(), heap_before_) - heap_before_;
-    result_.contact_hash = chain_hash(result_.contact_hash, f, contacts_);
+    if (f == 0) run_.memory_bytes = std::max(heap_in_use(), heap_before_) - heap_before_;
+    hash_ = chain_hash(hash_, f, contacts_);
     truth_pairs_.push_back(tools_.judged.truth[f].surface.bodies);
     reported_pairs_.push_back(contacts_.bodies);
     answer_other_questions(check);
     progress_.enter(position_, f, Phase::kTrace);
     const StageTrace trace = detector_.trace();
     notes_.add_frame(detector_.notes());
-    note_environment(guard_, "trace", result_);
+    note_environment(guard_, "trace", run_);
     progress_.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
     judge_frame(frame);
     losses_->add_frame(trace, tools_.judged.truth[f].surface.triangles);
@@ -105,11 +105,11 @@ class AccuracyPass {
     const auto start = std::chrono::steady_clock::now();
     progress_.enter(position_, frame.index, Phase::kUpdate);
     detector_.update(frame);
-    note_environment(guard_, "update", result_);
+    note_environment(guard_, "update", run_);
     progress_.enter(position_, frame.index, Phase::kQuery);
     detector_.query(own(), contacts_);
     outcome_.seconds_per_frame += seconds_since(start) / static_cast<double>(scene_.frames);
-    note_environment(guard_, "query", result_);
+    note_environment(guard_, "query", run_);
     contacts_.canonicalize();
     check(contacts_);
     remember(own(), contacts_);
@@ -124,20 +124,20 @@ class AccuracyPass {
 
   void add_counts() {
     const std::vector<Count> counts = detector_.counts();
-    if (result_.counters.empty()) {
-      result_.counters = counts;
+    if (run_.counters.empty()) {
+      for (const Count& count : counts) run_.counters.emplace_back(count.name, count.value);
       return;
     }
-    CONTACTCHECK_INVARIANT(counts.size() == result_.counters.size(), "the same counts every frame");
-    for (std::size_t i = 0; i < counts.size(); ++i) result_.counters[i].value += counts[i].value;
+    CONTACTCHECK_INVARIANT(counts.size() == run_.counters.size(), "the same counts every frame");
+    for (std::size_t i = 0; i < counts.size(); ++i) run_.counters[i].second += counts[i].value;
   }
 
   void answer_other_questions(const AnswerCheck& check) {
-    for (Question question : result_.semantics.questions) {
+    for (Question question : run_.semantics.questions) {
       if (question == own()) continue;
       ask(detector_, question, check, other_);
       remember(question, other_);
-      note_environment(guard_, "query", result_);
+      note_environment(guard_, "query", run_);
       if (question == Question::kBody) contacts_.bodies = other_.bodies;
       if (question == Question::kContacts) {
         contacts_.piece_contacts = other_.piece_contacts;
@@ -150,7 +150,7 @@ class AccuracyPass {
     const std::size_t f = frame.index;
     const Truth& truth = tools_.judged.truth[f];
     std::vector<NearPair> near;
-    if (judges_near(levels_)) near = tools_.oracle.near(frame, result_.semantics.margin);
+    if (judges_near(levels_)) near = tools_.oracle.near(frame, run_.semantics.margin);
     judge_->add_frame(f, truth, contacts_, near);
     grade_frame(frame, truth);
     if (rounded_judge_) judge_rounded(f);
@@ -167,36 +167,39 @@ class AccuracyPass {
     const Truth& truth = rounded_->truth(f, tools_.oracle);
     std::vector<NearPair> near;
     if (judges_near(levels_))
-      near = tools_.oracle.near(rounded_->frame(f),
-                                result_.semantics.margin * result_.semantics.scale);
+      near = tools_.oracle.near(rounded_->frame(f), run_.semantics.margin * run_.semantics.scale);
     rounded_judge_->add_frame(f, truth, contacts_, near);
   }
 
   void finish() {
     const std::vector<bool>& contact = tools_.judged.contact_frames;
-    result_.frames = scene_.frames;
-    result_.contact_frames =
+    run_.frames = scene_.frames;
+    run_.contact_frames =
         static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
-    result_.levels = judge_->levels();
-    if (rounded_judge_) result_.levels_rounded = rounded_judge_->levels();
-    result_.per_frame = judge_->per_frame();
-    result_.differences = judge_->differences();
-    result_.per_frame.covered_length_fraction = covered_;
-    if (scene_.grades_lengths()) result_.graded = graded_->errors();
-    result_.disagreements = judge_->disagreements();
-    result_.stages = losses_->stages();
-    if (scene_.follows_time()) result_.episodes = find_episodes(truth_pairs_, reported_pairs_);
-    for (const std::string& note : notes_.summary()) result_.notes.push_back(note);
+    run_.levels = judge_->levels();
+    if (rounded_judge_) run_.levels_rounded = rounded_judge_->levels();
+    run_.per_frame = judge_->per_frame();
+    run_.per_frame.covered_length_fraction = covered_;
+    outcome_.differences = judge_->differences();
+    outcome_.disagreements = judge_->disagreements();
+    if (scene_.grades_lengths()) run_.geometry = graded_->errors();
+    run_.geometry.depth_kind = run_.semantics.depth;
+    if (scene_.follows_time())
+      run_.geometry.episodes = find_episodes(truth_pairs_, reported_pairs_);
+    sum_up_episodes(run_.geometry);  // once more when gaps are measured (hover.h)
+    run_.contact_hash = results::hex(hash_);
+    run_.stages = losses_->stages();
+    for (const std::string& note : notes_.summary()) run_.notes.push_back(note);
   }
 
-  Question own() const { return result_.semantics.questions.front(); }
+  Question own() const { return run_.semantics.questions.front(); }
 
   JudgingTools& tools_;
   const Scene& scene_;
   std::uint32_t position_;
   Detector& detector_;
   ProgressWriter& progress_;
-  RunResult& result_;
+  results::Run& run_;
   std::uint64_t heap_before_;
   const FloatEnvironmentGuard guard_;
   std::vector<Level> levels_;
@@ -204,6 +207,7 @@ class AccuracyPass {
   std::optional<GradedJudge> graded_;
   std::optional<StageLosses> losses_;
   RoundedScene* rounded_ = nullptr;
+  std::uint64_t hash_ = 0;
   ContactSet contacts_, other_;
   BodyPairsPerFrame truth_pairs_, reported_pairs_;
   std::vector<std::optional<double>> covered_;
@@ -214,8 +218,8 @@ class AccuracyPass {
 }  // namespace
 
 AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
-                             ProgressWriter& progress, RunResult& result) {
-  return AccuracyPass(tools, position, detector, progress, result).run();
+                             ProgressWriter& progress, results::Run& run) {
+  return AccuracyPass(tools, position, detector, progress, run).run();
 }
 
 }  // namespace contactcheck

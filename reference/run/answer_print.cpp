@@ -1,14 +1,11 @@
 #include "reference/run/answer_print.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/types/hash.h"
 
 namespace contactcheck {
 namespace {
-
-using nlohmann::json;
 
 enum List : std::size_t { kBodies, kCells, kTriangles, kVertices, kNear, kPieces, kWaysOut };
 
@@ -136,38 +133,6 @@ std::string raw_difference(const AnswerSizes& answer, const AnswerPrint& judged,
       return count_difference(list, answer[list], fewest);
   }
   return "";
-}
-
-json to_json(const JudgedAnswers& answers) {
-  json out = json::array();
-  for (const JudgedQuestion& question : answers) {
-    json frames = json::array();
-    for (const AnswerPrint& print : question.frames) {
-      json lists = json::array();
-      for (std::size_t list = 0; list < kAnswerLists; ++list)
-        if (print.sizes[list] > 0) lists.push_back({list, print.sizes[list], print.hashes[list]});
-      frames.push_back(std::move(lists));
-    }
-    out.push_back({{"question", static_cast<int>(question.question)}, {"frames", frames}});
-  }
-  return out;
-}
-
-JudgedAnswers judged_answers_from_json(const json& answers) {
-  JudgedAnswers out;
-  for (const json& question : answers) {
-    JudgedQuestion& read = out.emplace_back();
-    read.question = static_cast<Question>(question.at("question").get<int>());
-    for (const json& frame : question.at("frames")) {
-      AnswerPrint& print = read.frames.emplace_back();
-      for (const json& list : frame) {
-        const auto number = list.at(0).get<std::size_t>();
-        print.sizes.at(number) = list.at(1).get<std::uint64_t>();
-        print.hashes.at(number) = list.at(2).get<std::uint64_t>();
-      }
-    }
-  }
-  return out;
 }
 
 }  // namespace contactcheck

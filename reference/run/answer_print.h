@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -43,9 +42,6 @@ struct JudgedQuestion {
 };
 /// In the order of the detector's questions.
 using JudgedAnswers = std::vector<JudgedQuestion>;
-
-nlohmann::json to_json(const JudgedAnswers& answers);
-JudgedAnswers judged_answers_from_json(const nlohmann::json& answers);
 
 /// Where `answer` is not `judged` (of contacts: has more than 8 where the other has less than
 /// half): "it answered 0 pairs of triangles and not the 12 that were judged"; "" where it is.

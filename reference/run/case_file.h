@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "reference/compare/run_result.h"
+#include "reference/compare/judge.h"
 #include "reference/run/judged_scene.h"
 
 namespace contactcheck {

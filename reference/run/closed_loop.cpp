@@ -53,7 +53,7 @@ class TunnellingWatch {
 };
 
 // The distances of the pairs that are said to touch in the last tenth of the frames.
-void measure_hover(JudgingTools& tools, const SimulatedMotion& motion, ClosedLoop& out) {
+void measure_hover(JudgingTools& tools, const SimulatedMotion& motion, results::ClosedLoop& out) {
   constexpr std::size_t kTenth = 10;
   const std::size_t frames = motion.frames.size();
   double sum = 0.0;
@@ -68,7 +68,7 @@ void measure_hover(JudgingTools& tools, const SimulatedMotion& motion, ClosedLoo
   if (pairs > 0) out.hover_at_rest_mean = sum / static_cast<double>(pairs);
 }
 
-void measure_penetration(JudgingTools& tools, ClosedLoop& out) {
+void measure_penetration(JudgingTools& tools, results::ClosedLoop& out) {
   const std::vector<Body>& bodies = tools.judged.scene->bodies;
   if (std::none_of(bodies.begin(), bodies.end(),
                    [](const Body& body) { return body.shape->topology.solid; }))
@@ -82,7 +82,7 @@ void measure_penetration(JudgingTools& tools, ClosedLoop& out) {
   }
 }
 
-void measure_energy(const SimulatedMotion& motion, ClosedLoop& out) {
+void measure_energy(const SimulatedMotion& motion, results::ClosedLoop& out) {
   const double highest = *std::max_element(motion.energy.begin(), motion.energy.end());
   if (motion.highest_kinetic > 0.0)
     out.energy_gain = (highest - motion.energy.front()) / motion.highest_kinetic;
@@ -92,10 +92,10 @@ void measure_energy(const SimulatedMotion& motion, ClosedLoop& out) {
 
 }  // namespace
 
-ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
-                           const std::function<std::unique_ptr<Detector>()>& make,
-                           ProgressWriter& progress) {
-  ClosedLoop out;
+results::ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
+                                    const std::function<std::unique_ptr<Detector>()>& make,
+                                    ProgressWriter& progress) {
+  results::ClosedLoop out;
   SimulatedMotion motion;
   try {
     progress.enter(position, 0, Phase::kPrepare);  // a detector may hang while it is made
@@ -114,12 +114,11 @@ ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
   measure_hover(tools, motion, out);
   measure_penetration(tools, out);
   out.tunnelling_events = TunnellingWatch(judged).count();
-  RunResult result;
+  results::Run run;
   progress.enter(position, 0, Phase::kPrepare);
   const std::unique_ptr<Detector> again = make();
-  run_accuracy(tools, position, *again, progress, result);
-  out.levels = result.levels;
-  out.semantics = result.semantics;
+  run_accuracy(tools, position, *again, progress, run);
+  out.levels = run.levels;
   return out;
 }
 

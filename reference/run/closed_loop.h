@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/detect/detector.h"
-#include "reference/compare/simulation_result.h"
+#include "reference/results/results.h"
 #include "reference/run/shared_progress.h"
 #include "reference/scene/scene.h"
 
@@ -16,8 +16,8 @@ namespace contactcheck {
 /// `make` gives a fresh detector: one drives, another is judged on the frames.
 /// A motion that diverges is a result (ClosedLoop::error). What the detector throws passes through.
 /// @pre scene.simulation has a value; the detector can drive (see why_no_driver)
-ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
-                           const std::function<std::unique_ptr<Detector>()>& make,
-                           ProgressWriter& progress);
+results::ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
+                                    const std::function<std::unique_ptr<Detector>()>& make,
+                                    ProgressWriter& progress);
 
 }  // namespace contactcheck

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reference/compare/judge.h"
-
 namespace contactcheck {
 namespace {
 
@@ -19,9 +17,9 @@ struct Elements {
   bool first = true, second = true;
 };
 
-Elements elements_of(const std::string& level) {
-  const bool bodies = level == name_of(Level::kBody) || level == name_of(Level::kContainment);
-  return {!bodies, !bodies && level != name_of(Level::kVertex)};
+Elements elements_of(Level level) {
+  const bool bodies = level == Level::kBody || level == Level::kContainment;
+  return {!bodies, !bodies && level != Level::kVertex};
 }
 
 Json to_json(const ListedPairs& listed, Elements elements) {
@@ -44,7 +42,7 @@ ListedPairs first_of(const std::vector<ElementPair>& pairs) {
 
 }  // namespace
 
-Json truth_contacts(const JudgedScene& judged) {
+std::string truth_contacts(const JudgedScene& judged) {
   Json frames = Json::array();
   for (std::size_t f = 0; f < judged.truth.size(); ++f) {
     const std::vector<ElementPair>& triangles = judged.truth[f].surface.triangles;
@@ -53,28 +51,32 @@ Json truth_contacts(const JudgedScene& judged) {
     frame.update(to_json(first_of(triangles), Elements{}));
     frames.push_back(std::move(frame));
   }
-  return frames;
+  return frames.dump();
 }
 
-Json detector_contacts(const RunResult& run) {
-  const std::string& level = run.per_frame.level;
-  if (run.per_frame.truth.empty()) return nullptr;
+std::string detector_contacts(const results::Run& run,
+                              const std::vector<FrameDifferences>& differences) {
+  if (run.per_frame.truth.empty()) return "";
+  const Level level = run.per_frame.level.value();
   const Elements elements = elements_of(level);
   Json frames = Json::array();
-  for (const FrameDifferences& d : run.differences)
+  for (const FrameDifferences& d : differences)
     frames.push_back({{"frame", d.frame},
                       {"missed", to_json(d.missed, elements)},
                       {"spurious", to_json(d.spurious, elements)}});
-  return {{"detector", run.detector}, {"level", level}, {"frames", std::move(frames)}};
+  const Json out = {
+      {"detector", run.detector}, {"level", name_of(level)}, {"frames", std::move(frames)}};
+  return out.dump();
 }
 
-std::string contacts_text(const std::string& scene, const Json& truth, const Json& detectors) {
-  const Json file = {{"schema", kSchema},
-                     {"scene", scene},
-                     {"limit", kListedPairs},
-                     {"truth", truth},
-                     {"detectors", detectors}};
-  return file.dump() + "\n";
+std::string contacts_text(const std::string& scene, const std::string& truth,
+                          const std::vector<std::string>& detectors) {
+  const Json head = {{"schema", kSchema}, {"scene", scene}, {"limit", kListedPairs}};
+  std::string text = head.dump();
+  text.back() = ',';
+  text += "\"truth\":" + truth + ",\"detectors\":[";
+  for (std::size_t i = 0; i < detectors.size(); ++i) text += (i > 0 ? "," : "") + detectors[i];
+  return text + "]}\n";
 }
 
 std::string contacts_path(const std::string& scene) { return "contacts/" + scene + ".json"; }

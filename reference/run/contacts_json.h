@@ -2,23 +2,25 @@
 // contactcheck-contacts/1, fixtures/README.md). Everything in it was found by the judge.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/compare/judge.h"
+#include "reference/results/results.h"
 #include "reference/run/judged_scene.h"
 
 namespace contactcheck {
 
 /// The true pairs of triangles of every frame that has any.
-nlohmann::ordered_json truth_contacts(const JudgedScene& judged);
+std::string truth_contacts(const JudgedScene& judged);
 
-/// What a detector missed and made up, frame by frame; null where it was judged at no level.
-nlohmann::ordered_json detector_contacts(const RunResult& run);
+/// What a detector missed and made up, frame by frame; "" where it was judged at no level.
+std::string detector_contacts(const results::Run& run,
+                              const std::vector<FrameDifferences>& differences);
 
-/// The file's text. `detectors`: a list of detector_contacts().
-std::string contacts_text(const std::string& scene, const nlohmann::ordered_json& truth,
-                          const nlohmann::ordered_json& detectors);
+/// The file's text. `truth`: truth_contacts(); `detectors`: detector_contacts(), none empty.
+std::string contacts_text(const std::string& scene, const std::string& truth,
+                          const std::vector<std::string>& detectors);
 
 /// Where the file of a scene stands in the folder of a run: "contacts/SCENE.json".
 std::string contacts_path(const std::string& scene);

@@ -4,7 +4,6 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
-#include "reference/compare/run_result_json.h"
 #include "reference/oracle/oracle.h"
 #include "reference/run/job.h"
 #include "reference/run/judged_scene.h"
@@ -23,7 +22,7 @@ CaseTruth case_truth(const Scene& scene, std::size_t frame, Oracle& oracle) {
   out.value = scene.family->values[frame];
   out.bodies = truth.surface.bodies.size();
   out.containment = truth.containment.size();
-  out.hash = hex(chain_hash(0, 0, truth.surface));
+  out.hash = results::hex(chain_hash(0, 0, truth.surface));
   out.triangles = std::move(truth.surface.triangles);
   return out;
 }

@@ -1,12 +1,11 @@
 #include "reference/run/goals.h"
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using results::MeasuredGoal, results::Results, results::Run;
 
 /// Why a goal could not be measured, for the report.
 class NotMeasured : public std::runtime_error {
@@ -14,119 +13,87 @@ class NotMeasured : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-const Json& run_of(const Json& results, const std::string& scene, const std::string& detector) {
-  for (const Json& run : results.at("runs")) {
-    if (run.at("scene") != scene || run.at("detector") != detector) continue;
-    if (run.at("status") != "ok")
-      throw NotMeasured(detector + ": " + run.at("message").get<std::string>());
-    return run;
-  }
-  throw NotMeasured(detector + " did not run in " + scene);
+const Run& run_of(const Results& results, const std::string& scene, const std::string& detector) {
+  const Run* run = results.run(scene, detector);
+  if (run == nullptr) throw NotMeasured(detector + " did not run in " + scene);
+  if (!run->ok()) throw NotMeasured(detector + ": " + run->message);
+  return *run;
 }
 
-const Json& times_of(const Json& run) {
-  const Json& times = run.at("time_ms");
-  if (!times.contains("cold")) throw NotMeasured("nothing was timed");
-  return times;
+const results::QuestionTimes& times_of(const Run& run) {
+  if (run.times.empty()) throw NotMeasured("nothing was timed");
+  return run.times.front();
 }
 
-double frame_ms(const Json& run, const std::string& part) {
-  if (part != "contact_frames") return times_of(run).at(part).at("frame").get<double>();
-  const Json& time = times_of(run).at("cold").at("contact_frame");
-  if (time.is_null()) throw NotMeasured("no frame with contact was timed");
-  return time.get<double>();
+template <typename T>
+const T& timed_with_contact(const std::optional<T>& time) {
+  if (!time) throw NotMeasured("no frame with contact was timed");
+  return *time;
 }
 
-Json measured_over(const SuiteGoal& goal, const Json& results) {
-  run_of(results, goal.scene, goal.other);  // who did not run is named
-  const Json& run = run_of(results, goal.scene, goal.detector);
-  const std::string question = times_of(run).at("question").get<std::string>();
-  const Json& all = run.at("speedup");
-  if (!all.contains(question) || !all.at(question).contains(goal.other))
-    throw NotMeasured(goal.other + " does not answer the question " + question);
-  const Json& ratio = all.at(question).at(goal.other).at(goal.part);
-  if (ratio.is_null()) throw NotMeasured("no frame with contact was timed");
-  return {{"measured", ratio.at("ratio")},
-          {"low", ratio.at("low")},
-          {"high", ratio.at("high")},
-          {"unit", "x"}};
+double frame_ms(const Run& run, const std::string& part) {
+  const results::QuestionTimes& times = times_of(run);
+  if (part == "contact_frames") return timed_with_contact(times.cold.contact_frame);
+  return part == "hot" ? times.hot.frame : times.cold.frame;
 }
 
-Json measured_over_scene(const SuiteGoal& goal, const Json& results) {
+void measure_over(const Results& results, MeasuredGoal& goal) {
+  run_of(results, goal.scene, goal.over);  // who did not run is named
+  const Run& run = run_of(results, goal.scene, goal.detector);
+  const Question question = times_of(run).question;
+  const auto by_reference = run.speedup.find(question);
+  if (by_reference == run.speedup.end() || !by_reference->second.contains(goal.over))
+    throw NotMeasured(goal.over + " does not answer the question " + name_of(question));
+  const results::Speedup& speedup = by_reference->second.at(goal.over);
+  const Ratio ratio = goal.part == "contact_frames" ? timed_with_contact(speedup.contact_frames)
+                      : goal.part == "hot"          ? speedup.hot
+                                                    : speedup.cold;
+  goal.measured = ratio.value;
+  goal.low = ratio.low;
+  goal.high = ratio.high;
+  goal.unit = "x";
+}
+
+void measure_over_scene(const Results& results, MeasuredGoal& goal) {
   const double here = frame_ms(run_of(results, goal.scene, goal.detector), goal.part);
-  const double there = frame_ms(run_of(results, goal.other, goal.detector), goal.part);
-  return {{"measured", here / there}, {"unit", "x"}};
+  const double there = frame_ms(run_of(results, goal.over_scene, goal.detector), goal.part);
+  goal.measured = here / there;
+  goal.unit = "x";
 }
 
 // Over frames with contact: time and pairs of both are means over these.
-Json measured_per_pair(const SuiteGoal& goal, const Json& results) {
-  const Json& run = run_of(results, goal.scene, goal.detector);
-  const char* const state = goal.part == "hot" ? "hot" : "cold";
-  const Json& ms = times_of(run).at(state).at("contact_frame");
-  if (ms.is_null() || !run.at("levels").contains("triangle"))
-    throw NotMeasured("no frame with contact was timed");
-  const double pairs = run.at("levels").at("triangle").at("truth").get<double>() /
-                       run.at("contact_frames").get<double>();
-  return {{"measured", 1e3 * ms.get<double>() / pairs}, {"unit", "us"}};
+void measure_per_pair(const Results& results, MeasuredGoal& goal) {
+  const Run& run = run_of(results, goal.scene, goal.detector);
+  const results::QuestionTimes& times = times_of(run);
+  const double ms = timed_with_contact((goal.part == "hot" ? times.hot : times.cold).contact_frame);
+  const auto triangles = run.levels.find(Level::kTriangle);
+  if (triangles == run.levels.end()) throw NotMeasured("no frame with contact was timed");
+  const double pairs =
+      static_cast<double>(triangles->second.truth) / static_cast<double>(run.contact_frames);
+  goal.measured = 1e3 * ms / pairs;
+  goal.unit = "us";
 }
 
-Json measured(const SuiteGoal& goal, const Json& results) {
-  switch (goal.kind) {
-    case SuiteGoal::Kind::kOver:
-      return measured_over(goal, results);
-    case SuiteGoal::Kind::kOverScene:
-      return measured_over_scene(goal, results);
-    case SuiteGoal::Kind::kPerPair:
-      return measured_per_pair(goal, results);
-  }
-  throw NotMeasured("");
+void measure(const Results& results, MeasuredGoal& goal) {
+  if (!goal.over.empty()) return measure_over(results, goal);
+  if (!goal.over_scene.empty()) return measure_over_scene(results, goal);
+  measure_per_pair(results, goal);
 }
 
 }  // namespace
 
-Json to_json(const SuiteGoal& goal) {
-  Json out = {
-      {"goal", goal.name}, {"scene", goal.scene}, {"detector", goal.detector}, {"part", goal.part}};
-  if (goal.kind == SuiteGoal::Kind::kOver) out["over"] = goal.other;
-  if (goal.kind == SuiteGoal::Kind::kOverScene) out["over_scene"] = goal.other;
-  if (goal.kind == SuiteGoal::Kind::kPerPair) out["per"] = "pair";
-  if (goal.at_least) out["at_least"] = *goal.at_least;
-  if (goal.at_most) out["at_most"] = *goal.at_most;
-  return out;
-}
-
-SuiteGoal goal_from(const Json& json) {
-  SuiteGoal goal;
-  json.at("goal").get_to(goal.name);
-  json.at("scene").get_to(goal.scene);
-  json.at("detector").get_to(goal.detector);
-  json.at("part").get_to(goal.part);
-  if (json.contains("over")) {
-    goal.kind = SuiteGoal::Kind::kOver;
-    json.at("over").get_to(goal.other);
-  } else if (json.contains("over_scene")) {
-    goal.kind = SuiteGoal::Kind::kOverScene;
-    json.at("over_scene").get_to(goal.other);
-  } else {
-    goal.kind = SuiteGoal::Kind::kPerPair;
-  }
-  if (json.contains("at_least")) goal.at_least = json.at("at_least").get<double>();
-  if (json.contains("at_most")) goal.at_most = json.at("at_most").get<double>();
-  return goal;
-}
-
-Json measure_goals(const std::vector<SuiteGoal>& goals, const Json& results) {
-  Json out = Json::array();
-  for (const SuiteGoal& goal : goals) {
-    Json entry = to_json(goal);
+std::vector<MeasuredGoal> measure_goals(const std::vector<results::Goal>& goals,
+                                        const Results& results) {
+  std::vector<MeasuredGoal> out;
+  for (const results::Goal& goal : goals) {
+    MeasuredGoal& entry = out.emplace_back(MeasuredGoal{goal, {}, {}, {}, {}, {}, {}});
     try {
-      entry.update(measured(goal, results));
-      const auto value = entry.at("measured").get<double>();
-      entry["met"] = goal.at_least ? value >= *goal.at_least : value <= *goal.at_most;
+      measure(results, entry);
+      entry.met =
+          goal.at_least ? *entry.measured >= *goal.at_least : *entry.measured <= *goal.at_most;
     } catch (const NotMeasured& e) {
-      entry.update({{"measured", nullptr}, {"why", e.what()}, {"met", nullptr}});
+      entry.why = e.what();
     }
-    out.push_back(std::move(entry));
   }
   return out;
 }

@@ -9,9 +9,9 @@
 namespace contactcheck {
 namespace {
 
-void add_note(const std::string& note, RunResult& result) {
-  if (std::find(result.notes.begin(), result.notes.end(), note) == result.notes.end())
-    result.notes.push_back(note);
+void add_note(const std::string& note, results::Run& run) {
+  if (std::find(run.notes.begin(), run.notes.end(), note) == run.notes.end())
+    run.notes.push_back(note);
 }
 
 std::string place(const WorkerState& worker) {
@@ -26,25 +26,25 @@ void guarded(WorkerState& worker, WorkerEntry& entry, const std::function<void()
   try {
     work();
   } catch (const Unavailable& e) {
-    entry.result.status = RunStatus::kAbsent;
-    entry.result.message = e.what();
+    entry.run.status = results::Status::kAbsent;
+    entry.run.message = e.what();
   } catch (const RefusedInput& e) {
-    entry.result.status = RunStatus::kRefused;
-    entry.result.message = e.what();
+    entry.run.status = results::Status::kRefused;
+    entry.run.message = e.what();
   } catch (...) {
-    entry.result.status = RunStatus::kError;
-    entry.result.failed_frame = worker.progress.frame();
-    entry.result.message = place(worker) + current_exception_text();
+    entry.run.status = results::Status::kError;
+    entry.run.failed_frame = worker.progress.frame();
+    entry.run.message = place(worker) + current_exception_text();
   }
   guard.check_and_restore();  // whatever a call that threw has left behind
   // Emptying buffers may hang: that too is this detector's.
   worker.progress.enter(entry.position, worker.progress.frame(), Phase::kTrace);
-  for (const std::string& note : worker.surroundings.restore()) add_note(note, entry.result);
+  for (const std::string& note : worker.surroundings.restore()) add_note(note, entry.run);
 }
 
 void book_error(const WorkerState& worker, const std::string& what, WorkerEntry& entry) {
-  entry.result.status = RunStatus::kError;
-  entry.result.message = "scene " + worker.scene.id + ", " + what;
+  entry.run.status = results::Status::kError;
+  entry.run.message = "scene " + worker.scene.id + ", " + what;
 }
 
 }  // namespace contactcheck

@@ -60,7 +60,7 @@ class PairProbe {
 
 // The true first contact of a pair between two frames, found by the oracle alone and kept: it is
 // the same for all detectors.
-ContactMoment true_moment(JudgingTools& tools, PairProbe& probe, const Episode& e,
+ContactMoment true_moment(JudgingTools& tools, PairProbe& probe, const results::Episode& e,
                           double tolerance) {
   const std::size_t f = *e.first_true;
   const auto [entry, is_new] = tools.true_contacts.try_emplace({e.bodies, f});
@@ -80,7 +80,7 @@ ContactMoment true_moment(JudgingTools& tools, PairProbe& probe, const Episode& 
 
 // Silent until the surfaces are nearer than the tolerance, and not after they touch: no gap, by two
 // questions in place of a search. A search would have to ask a slow detector twenty times.
-bool reports_at_true_moment(JudgingTools& tools, PairProbe& probe, const Episode& e,
+bool reports_at_true_moment(JudgingTools& tools, PairProbe& probe, const results::Episode& e,
                             double tolerance) {
   if (e.first_true != e.first_reported) return false;
   const ContactMoment moment = true_moment(tools, probe, e, tolerance);
@@ -91,11 +91,11 @@ bool reports_at_true_moment(JudgingTools& tools, PairProbe& probe, const Episode
 }  // namespace
 
 void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& detector,
-                        ProgressWriter& progress, RunResult& result) {
+                        ProgressWriter& progress, results::Run& run) {
   const Scene& scene = *tools.judged.scene;
   const double tolerance = 1e-6 * scene.size();
   const FloatEnvironmentGuard guard;
-  for (Episode& e : result.episodes) {
+  for (results::Episode& e : run.geometry.episodes) {
     if (!e.first_reported) continue;
     const std::size_t f = *e.first_reported;
     const auto enter = [&progress, position, f](Phase phase) {
@@ -108,7 +108,7 @@ void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& d
     }
     PairProbe probe(tools, detector, e.bodies, enter);
     const bool no_gap = reports_at_true_moment(tools, probe, e, tolerance);
-    note_environment(guard, "query", result);
+    note_environment(guard, "query", run);
     if (no_gap) {
       e.hover_gap = 0.0;
       continue;
@@ -117,11 +117,12 @@ void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& d
         scene.time_of(f - 1), scene.time_of(f), tolerance,
         [&](double t) {
           const bool reported = probe.reports(t);
-          note_environment(guard, "query", result);
+          note_environment(guard, "query", run);
           return reported;
         },
         [&](double t) { return probe.distance(t); });
   }
+  sum_up_episodes(run.geometry);
 }
 
 }  // namespace contactcheck

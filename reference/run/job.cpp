@@ -8,10 +8,11 @@
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "core/types/input_file.h"
+#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 RunSettings settings_from(const json& j) {
   RunSettings s;
@@ -31,9 +32,7 @@ RunSettings settings_from(const json& j) {
   return s;
 }
 
-}  // namespace
-
-nlohmann::json to_json(const RunSettings& s) {
+json to_json(const RunSettings& s) {
   return {{"detectors", s.detectors},
           {"plugins", s.plugins},
           {"frames", s.frames},
@@ -47,6 +46,91 @@ nlohmann::json to_json(const RunSettings& s) {
           {"threads", s.threads},
           {"call_limit", s.call_limit},
           {"memory_limit", s.memory_limit}};
+}
+
+// Of the records of each list that has any.
+json to_json(const JudgedAnswers& answers) {
+  json out = json::array();
+  for (const JudgedQuestion& question : answers) {
+    json frames = json::array();
+    for (const AnswerPrint& print : question.frames) {
+      json lists = json::array();
+      for (std::size_t list = 0; list < kAnswerLists; ++list)
+        if (print.sizes[list] > 0) lists.push_back({list, print.sizes[list], print.hashes[list]});
+      frames.push_back(std::move(lists));
+    }
+    out.push_back({{"question", static_cast<int>(question.question)}, {"frames", frames}});
+  }
+  return out;
+}
+
+JudgedAnswers judged_answers_from(const json& answers) {
+  JudgedAnswers out;
+  for (const json& question : answers) {
+    JudgedQuestion& read = out.emplace_back();
+    read.question = static_cast<Question>(question.at("question").get<int>());
+    for (const json& frame : question.at("frames")) {
+      AnswerPrint& print = read.frames.emplace_back();
+      for (const json& list : frame) {
+        const auto number = list.at(0).get<std::size_t>();
+        print.sizes.at(number) = list.at(1).get<std::uint64_t>();
+        print.hashes.at(number) = list.at(2).get<std::uint64_t>();
+      }
+    }
+  }
+  return out;
+}
+
+json to_json(const std::vector<PhaseSample>& repeats) {
+  json out = json::array();
+  for (const PhaseSample& s : repeats) {
+    out.push_back({s.map, s.update, s.query});
+    if (s.reported) out.back().push_back(*s.reported);
+  }
+  return out;
+}
+
+std::vector<PhaseSample> repeats_from(const json& repeats) {
+  std::vector<PhaseSample> out;
+  for (const json& s : repeats) {
+    out.push_back({s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()});
+    if (s.size() > 3) out.back().reported = s.at(3).get<double>();
+  }
+  return out;
+}
+
+json to_json(const QuestionSamples& samples) {
+  json frames = json::array();
+  for (const auto& [frame, s] : samples.frames)
+    frames.push_back({{"frame", frame}, {"cold", to_json(s.cold)}, {"hot", to_json(s.hot)}});
+  return {{"question", static_cast<int>(samples.question)},
+          {"lazy_map", samples.lazy_map},
+          {"frames", frames}};
+}
+
+QuestionSamples samples_from(const json& samples) {
+  QuestionSamples out;
+  out.question = static_cast<Question>(samples.at("question").get<int>());
+  out.lazy_map = samples.at("lazy_map").get<bool>();
+  for (const json& f : samples.at("frames"))
+    out.frames[f.at("frame").get<std::size_t>()] = {repeats_from(f.at("cold")),
+                                                    repeats_from(f.at("hot"))};
+  return out;
+}
+
+// Texts of libraries may hold anything; JSON takes UTF-8 alone.
+std::string text_of(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> named_settings(const RunSettings& settings) {
+  const json all = to_json(settings);
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& [name, value] : all.items())
+    if (name != "detectors") out.emplace_back(name, text_of(value));
+  return out;
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {
@@ -87,11 +171,55 @@ Job read_job(const std::filesystem::path& file) {
   j.at("process").get_to(job.process);
   j.at("order").get_to(job.order);
   j.at("prefixes").get_to(job.prefixes);
-  for (const json& answers : j.at("answers"))
-    job.answers.push_back(judged_answers_from_json(answers));
+  for (const json& answers : j.at("answers")) job.answers.push_back(judged_answers_from(answers));
   job.answer_file = j.at("answer_file").get<std::string>();
   job.recording_file = j.at("recording_file").get<std::string>();
   return job;
+}
+
+// Scene, rows and disagreements are written as results.json has them.
+void write_answer(const std::filesystem::path& file, const SceneAnswer& answer) {
+  results::Results found;
+  found.scenes = {answer.scene};
+  found.disagreements = answer.disagreements;
+  json detectors = json::array();
+  for (const DetectorAnswer& d : answer.detectors) {
+    found.runs.push_back(d.run);
+    json samples = json::array();
+    for (const QuestionSamples& s : d.samples) samples.push_back(to_json(s));
+    detectors.push_back({{"position", d.position},
+                         {"samples", std::move(samples)},
+                         {"answers", to_json(d.answers)},
+                         {"contacts", d.contacts}});
+  }
+  const json out = {{"results", results::to_json(found)},
+                    {"contact_frames", answer.contact_frames},
+                    {"order", answer.order},
+                    {"prefixes", answer.prefixes},
+                    {"truth_contacts", answer.truth_contacts},
+                    {"detectors", std::move(detectors)}};
+  write_file_atomically(file, text_of(out));
+}
+
+SceneAnswer read_answer(const std::filesystem::path& file) {
+  const json j = json::parse(read_text_file(file));
+  results::Results found = results::from_json(j.at("results"));
+  SceneAnswer answer;
+  answer.scene = std::move(found.scenes.at(0));
+  answer.disagreements = std::move(found.disagreements);
+  j.at("contact_frames").get_to(answer.contact_frames);
+  j.at("order").get_to(answer.order);
+  j.at("prefixes").get_to(answer.prefixes);
+  j.at("truth_contacts").get_to(answer.truth_contacts);
+  for (const json& d : j.at("detectors")) {
+    DetectorAnswer& read = answer.detectors.emplace_back();
+    d.at("position").get_to(read.position);
+    read.run = std::move(found.runs.at(answer.detectors.size() - 1));
+    for (const json& samples : d.at("samples")) read.samples.push_back(samples_from(samples));
+    read.answers = judged_answers_from(d.at("answers"));
+    d.at("contacts").get_to(read.contacts);
+  }
+  return answer;
 }
 
 std::string read_text_file(const std::filesystem::path& file) {

@@ -1,14 +1,16 @@
-// What one run is asked to do, as the parent hands it to its workers.
+// What one run is asked to do, as the parent hands it to its workers, and what they hand back.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "reference/compare/speedup.h"
+#include "reference/results/results.h"
 #include "reference/run/answer_print.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/scene/scene.h"
@@ -36,7 +38,8 @@ struct RunSettings {
   std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
 };
 
-nlohmann::json to_json(const RunSettings& settings);
+/// Each by its name, values as JSON; the detectors, which every scene has of its own, left out.
+std::vector<std::pair<std::string, std::string>> named_settings(const RunSettings& settings);
 
 /// A scene that passes a limit while the oracle is at work.
 struct Unjudged {
@@ -65,6 +68,29 @@ struct Job {
 
 void write_job(const std::filesystem::path& file, const Job& job);
 Job read_job(const std::filesystem::path& file);
+
+/// What became of one detector in one process.
+struct DetectorAnswer {
+  std::uint32_t position = 0;  ///< in the job's list
+  results::Run run;            ///< without times: they are made of the samples of all processes
+  std::vector<QuestionSamples> samples;
+  JudgedAnswers answers;  ///< for the processes that only time; empty without them
+  std::string contacts;   ///< its part of contacts/SCENE.json (contacts_json.h); empty: none
+};
+
+/// A worker's answer to its job.
+struct SceneAnswer {
+  results::Scene scene;
+  std::vector<bool> contact_frames;
+  std::vector<std::size_t> order, prefixes;          ///< as in Job
+  std::vector<results::Disagreement> disagreements;  ///< each with the path of its case file
+  std::string truth_contacts;                        ///< of contacts/SCENE.json; empty: no file
+  std::vector<DetectorAnswer> detectors;
+};
+
+void write_answer(const std::filesystem::path& file, const SceneAnswer& answer);
+/// @throws nlohmann::json::exception for a file that write_answer did not write
+SceneAnswer read_answer(const std::filesystem::path& file);
 
 /// @throws InputError with the path when it is no regular file or cannot be read
 std::string read_text_file(const std::filesystem::path& file);

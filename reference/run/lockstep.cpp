@@ -8,6 +8,7 @@
 #include "reference/run/timing.h"
 #include "reference/simulate/driven_simulation.h"
 #include "reference/simulate/simulate_scene.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -51,7 +52,8 @@ struct Runner {
       work();
     } catch (...) {
       entry->error = "in lockstep: " + current_exception_text();
-      entry->times = {};
+      entry->steps = 0;
+      entry->sums.clear();
     }
   }
 };
@@ -76,8 +78,8 @@ void run_lockstep(const Scene& scene, Detector& driver, const LockstepSettings& 
       scene, driver, settings.steps,
       [&](std::size_t step) { progress.enter(SharedProgress::kNoDetector, step, Phase::kTruth); });
   for (LockstepEntry& entry : entries) {
-    entry.times.steps = states.size();
-    entry.times.sums.resize(settings.repeats);
+    entry.steps = states.size();
+    entry.sums.resize(settings.repeats);
   }
   std::vector<Runner> runners = make_runners(scene, entries, progress);
   CacheSweep sweep(settings.sweep_bytes);
@@ -89,10 +91,34 @@ void run_lockstep(const Scene& scene, Detector& driver, const LockstepSettings& 
         runner.guarded([&] {
           progress.enter(runner.entry->position, state.steps, Phase::kUpdate);
           sweep.run();
-          run_step(state, *runner.driven, runner.entry->times.sums[repeat], progress);
+          run_step(state, *runner.driven, runner.entry->sums[repeat], progress);
         });
         guard.check_and_restore();
       }
+}
+
+results::StepTimes step_times(const LockstepEntry& entry) {
+  const auto steps = static_cast<double>(entry.steps);
+  const auto per_step = [&](double StepSum::*part) {
+    std::vector<double> values;
+    for (const StepSum& sum : entry.sums) values.push_back(sum.*part);
+    return median(std::move(values)) / steps;
+  };
+  results::StepTimes out;
+  out.steps = entry.steps;
+  out.repeats = entry.sums.size();
+  const StepSum mean{per_step(&StepSum::mss), per_step(&StepSum::cell), per_step(&StepSum::test),
+                     per_step(&StepSum::response)};
+  out.mss = mean.mss;
+  out.cell = mean.cell;
+  out.test = mean.test;
+  out.response = mean.response;
+  out.total = mean.total();
+  for (const StepSum& sum : entry.sums) {
+    out.test_by_repeat.push_back(sum.test / steps);
+    out.total_by_repeat.push_back(sum.total() / steps);
+  }
+  return out;
 }
 
 }  // namespace contactcheck

@@ -9,17 +9,24 @@
 #include <vector>
 
 #include "core/detect/detector.h"
-#include "reference/compare/simulation_result.h"
+#include "reference/results/results.h"
 #include "reference/run/shared_progress.h"
 #include "reference/scene/scene.h"
 
 namespace contactcheck {
 
+/// One repeat of whole steps, summed over the timed steps, milliseconds.
+struct StepSum {
+  double mss = 0.0, cell = 0.0, test = 0.0, response = 0.0;
+  double total() const { return mss + cell + test + response; }
+};
+
 struct LockstepEntry {
   std::uint32_t position = 0;  ///< in the job's list
   std::unique_ptr<Detector> detector;
-  StepTimes times;    ///< filled
-  std::string error;  ///< what it threw; it is not called again and has no times
+  std::size_t steps = 0;      ///< timed ones; filled
+  std::vector<StepSum> sums;  ///< per repeat; repeat r of all entries ran together; filled
+  std::string error;          ///< what it threw; it is not called again and has no times
 };
 
 struct LockstepSettings {
@@ -34,5 +41,8 @@ struct LockstepSettings {
 /// @throws what the driver throws
 void run_lockstep(const Scene& scene, Detector& driver, const LockstepSettings& settings,
                   std::vector<LockstepEntry>& entries, ProgressWriter& progress);
+
+/// Per step: medians over repeats, and the whole by repeat. @pre entry was timed and has no error
+results::StepTimes step_times(const LockstepEntry& entry);
 
 }  // namespace contactcheck

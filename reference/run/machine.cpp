@@ -1,7 +1,6 @@
 #include "reference/run/machine.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
@@ -33,13 +32,15 @@ std::string compiler() {
 
 }  // namespace
 
-nlohmann::ordered_json describe_machine() {
-  return {{"cpu", value_in("/proc/cpuinfo", "model name", ':')},
-          {"cores", std::thread::hardware_concurrency()},
-          {"isa", simd_target()},
-          {"os", value_in("/etc/os-release", "PRETTY_NAME", '=')},
-          {"compiler", compiler()},
-          {"build", CONTACTCHECK_BUILD_TYPE}};
+results::Machine describe_machine() {
+  results::Machine machine;
+  machine.cpu = value_in("/proc/cpuinfo", "model name", ':');
+  machine.cores = std::thread::hardware_concurrency();
+  machine.isa = simd_target();
+  machine.os = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  machine.compiler = compiler();
+  machine.build = CONTACTCHECK_BUILD_TYPE;
+  return machine;
 }
 
 }  // namespace contactcheck

@@ -1,11 +1,10 @@
 // Where a result was measured.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
-/// {"cpu", "cores", "isa", "os", "compiler", "build"}
-nlohmann::ordered_json describe_machine();
+results::Machine describe_machine();
 
 }  // namespace contactcheck

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/types/check.h"
@@ -13,7 +12,6 @@ namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kPrefix = ".work";
 
@@ -69,10 +67,10 @@ void make_out_folders(const fs::path& out) {
 
 void make_contacts_folder(const fs::path& scratch) { make_folder(scratch, "contacts"); }
 
-void move_contacts(const fs::path& out, const fs::path& scratch, const Json& scenes) {
-  for (const Json& scene : scenes)
-    if (const std::string file = scene.value("contacts", ""); !file.empty())
-      rename_file(scratch / file, out / file);
+void move_contacts(const fs::path& out, const fs::path& scratch,
+                   const std::vector<results::Scene>& scenes) {
+  for (const results::Scene& scene : scenes)
+    if (!scene.contacts.empty()) rename_file(scratch / scene.contacts, out / scene.contacts);
 }
 
 void remove_old_cases(const fs::path& out) {
@@ -81,11 +79,11 @@ void remove_old_cases(const fs::path& out) {
     if (entry.is_regular_file() && is_case_file(entry.path())) fs::remove(entry.path(), ignored);
 }
 
-std::vector<fs::path> number_cases(Json& disagreements) {
+std::vector<fs::path> number_cases(std::vector<results::Disagreement>& disagreements) {
   std::vector<fs::path> files;
-  for (Json& d : disagreements) {
-    files.emplace_back(d.at("case").get<std::string>());
-    d["case"] = case_name(files.size());
+  for (results::Disagreement& d : disagreements) {
+    files.emplace_back(d.case_file);
+    d.case_file = case_name(files.size());
   }
   return files;
 }

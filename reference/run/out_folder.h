@@ -2,8 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -31,14 +32,14 @@ void make_contacts_folder(const std::filesystem::path& scratch);
 
 /// Moves what `scenes` name from the scratch folder.
 void move_contacts(const std::filesystem::path& out, const std::filesystem::path& scratch,
-                   const nlohmann::ordered_json& scenes);
+                   const std::vector<results::Scene>& scenes);
 
 /// Removes the case files of earlier runs and nothing else.
 void remove_old_cases(const std::filesystem::path& out);
 
 /// Gives the case files that workers have written running numbers over the whole suite: in
 /// `disagreements` they are named as move_cases will name them. Returns where they still stand.
-std::vector<std::filesystem::path> number_cases(nlohmann::ordered_json& disagreements);
+std::vector<std::filesystem::path> number_cases(std::vector<results::Disagreement>& disagreements);
 void move_cases(const std::filesystem::path& out, const std::vector<std::filesystem::path>& files);
 
 /// @throws InputError when it cannot be

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/compare/judge.h"
 #include "reference/oracle/oracle.h"
 #include "reference/scene/random_pairs.h"
 

@@ -1,9 +1,11 @@
 #include "reference/run/partial_results.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/results/results_json.h"
 #include "reference/run/job.h"
 
 namespace contactcheck {
@@ -12,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "contactcheck-partial/1";
+constexpr const char* kSchema = "contactcheck-partial/2";
 constexpr std::string_view kSuffix = ".partial.json", kTemporary = ".tmp";
 
 // Also what a run that was killed in the middle of writing has left.
@@ -21,9 +23,9 @@ bool is_ours(const std::string& name) {
          (name.find(kSuffix) != std::string::npos && name.ends_with(kTemporary));
 }
 
-bool recordings_exist(const fs::path& out, const Json& runs) {
-  return std::all_of(runs.begin(), runs.end(), [&](const Json& run) {
-    return !run.contains("recording") || fs::exists(out / run.at("recording").get<std::string>());
+bool recordings_exist(const fs::path& out, const std::vector<results::Run>& runs) {
+  return std::all_of(runs.begin(), runs.end(), [&](const results::Run& run) {
+    return run.recording.empty() || fs::exists(out / run.recording);
   });
 }
 
@@ -37,42 +39,42 @@ fs::path PartialResults::file_of(const std::string& id) const {
 }
 
 std::optional<FinishedScene> PartialResults::take(const std::string& id,
-                                                  const Json& identity) const {
+                                                  const std::string& identity) const {
   if (!fs::is_regular_file(file_of(id))) return std::nullopt;
+  FinishedScene scene;
   try {
-    Json file = Json::parse(read_text_file(file_of(id)));
+    const Json file = Json::parse(read_text_file(file_of(id)));
     if (file.at("schema") != kSchema || file.at("identity") != identity) return std::nullopt;
-    if (!recordings_exist(out_, file.at("runs"))) return std::nullopt;
-    return unpacked(id, std::move(file));
+    // Of a list that is not there the reader would make an empty one.
+    for (const char* list : {"scenes", "runs", "disagreements"}) file.at("results").at(list);
+    results::Results results = results::from_json(file.at("results"));
+    if (results.scenes.size() != 1) return std::nullopt;
+    scene = {std::move(results.scenes.front()), std::move(results.runs),
+             std::move(results.disagreements), file.at("contacts").get<std::string>()};
   } catch (const Json::exception&) {
     return std::nullopt;
   }
-}
-
-FinishedScene PartialResults::unpacked(const std::string& id, Json file) const {
-  FinishedScene scene;
-  scene.scene = std::move(file.at("scene"));
-  scene.runs = std::move(file.at("runs"));
-  file.at("contacts").get_to(scene.contacts);
+  if (!recordings_exist(out_, scene.runs)) return std::nullopt;
   std::size_t number = 0;
-  for (Json& d : file.at("disagreements")) {
+  for (results::Disagreement& d : scene.disagreements) {
     const fs::path text_file = scratch_ / (id + ".resumed" + std::to_string(number++));
-    write_file_atomically(text_file, d.at("case").get<std::string>());
-    d["case"] = text_file.string();
-    scene.disagreements.push_back(std::move(d));
+    write_file_atomically(text_file, d.case_file);
+    d.case_file = text_file.string();
   }
   return scene;
 }
 
-void PartialResults::keep(const std::string& id, const Json& identity,
+void PartialResults::keep(const std::string& id, const std::string& identity,
                           const FinishedScene& scene) const {
-  Json disagreements = scene.disagreements;
-  for (Json& d : disagreements) d["case"] = read_text_file(d.at("case").get<std::string>());
+  results::Results results;
+  results.scenes = {scene.scene};
+  results.runs = scene.runs;
+  results.disagreements = scene.disagreements;
+  // In the file a case stands itself, in place of its path.
+  for (results::Disagreement& d : results.disagreements) d.case_file = read_text_file(d.case_file);
   const Json file = {{"schema", kSchema},
                      {"identity", identity},
-                     {"scene", scene.scene},
-                     {"runs", scene.runs},
-                     {"disagreements", std::move(disagreements)},
+                     {"results", results::to_json(results)},
                      {"contacts", scene.contacts}};
   std::error_code error;
   fs::create_directories(folder_, error);

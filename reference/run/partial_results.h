@@ -3,17 +3,20 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
 /// All that results.json will hold of one scene. The `case` of a disagreement is still the absolute
 /// path of a file in the run's scratch folder.
 struct FinishedScene {
-  nlohmann::ordered_json scene, runs = nlohmann::ordered_json::array(),
-                                disagreements = nlohmann::ordered_json::array();
+  results::Scene scene;
+  std::vector<results::Run> runs;
+  std::vector<results::Disagreement> disagreements;
   std::string contacts;  ///< text of contacts/SCENE.json; empty: there is no such file
 };
 
@@ -27,18 +30,15 @@ class PartialResults {
 
   /// The scene as an earlier run has finished it, if that run was of the same `identity` (see
   /// RunIdentity). A file that is damaged counts as none.
-  std::optional<FinishedScene> take(const std::string& id,
-                                    const nlohmann::ordered_json& identity) const;
+  std::optional<FinishedScene> take(const std::string& id, const std::string& identity) const;
   /// @throws InputError when it cannot be written
-  void keep(const std::string& id, const nlohmann::ordered_json& identity,
-            const FinishedScene& scene) const;
+  void keep(const std::string& id, const std::string& identity, const FinishedScene& scene) const;
   void drop(const std::string& id) const;
   /// Drops all, and the folder unless somebody else has put something there.
   void clear() const;
 
  private:
   std::filesystem::path file_of(const std::string& id) const;
-  FinishedScene unpacked(const std::string& id, nlohmann::ordered_json file) const;
 
   std::filesystem::path out_, folder_, scratch_;
 };

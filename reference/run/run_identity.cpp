@@ -2,17 +2,19 @@
 
 #include "core/types/hash.h"
 #include "reference/adapters/register.h"
-#include "reference/compare/run_result_json.h"
+#include "reference/results/results.h"
 #include "reference/run/machine.h"
 
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 void add_file(const std::filesystem::path& file, Fnv1a& hash) {
   const std::string bytes = read_text_file(file);
   hash.bytes(bytes.data(), bytes.size());
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return name + ": " + value + "\n";
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ std::string content_of(const SceneText& text, const Scene& scene) {
   for (const auto& frame : scene.recorded)
     for (const std::vector<Vec3>& nodes : frame)
       hash.bytes(nodes.data(), sizeof(Vec3) * nodes.size());
-  return hex(hash.digest());
+  return results::hex(hash.digest());
 }
 
 std::string content_of(const PairSpec& pairs) {
@@ -41,23 +43,23 @@ std::string content_of(const PairSpec& pairs) {
 std::string hash_of_file(const std::filesystem::path& file) {
   Fnv1a hash;
   add_file(file, hash);
-  return hex(hash.digest());
+  return results::hex(hash.digest());
 }
 
-RunIdentity::RunIdentity(const SuiteRequest& request) : settings_(request.settings) {
-  common_ = {{"version", CONTACTCHECK_VERSION},
-             {"program", hash_of_file(request.executable)},
-             {"libraries", library_versions()},
-             {"machine", describe_machine()}};
+RunIdentity::RunIdentity(const SuiteRequest& request) {
+  common_ =
+      line("version", CONTACTCHECK_VERSION) + line("program", hash_of_file(request.executable));
+  for (const auto& [library, version] : library_versions()) common_ += line(library, version);
+  for (const auto& [member, value] : results::members_of(describe_machine()))
+    common_ += line(member, value);
+  for (const auto& [setting, value] : named_settings(request.settings))
+    common_ += line(setting, value);
 }
 
-Json RunIdentity::of(const SceneTask& task) const {
-  RunSettings settings = settings_;
-  settings.detectors = task.detectors;
-  Json identity = common_;
-  identity["settings"] = to_json(settings);
-  identity["references"] = task.references;
-  identity["content"] = task.content;
+std::string RunIdentity::of(const SceneTask& task) const {
+  std::string identity = common_ + line("content", task.content);
+  for (const std::string& name : task.detectors) identity += line("detector", name);
+  for (const std::string& name : task.references) identity += line("reference", name);
   return identity;
 }
 

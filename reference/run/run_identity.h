@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "reference/run/suite_run.h"
@@ -30,11 +29,11 @@ class RunIdentity {
  public:
   /// @throws InputError when the program's file cannot be read
   explicit RunIdentity(const SuiteRequest& request);
-  nlohmann::ordered_json of(const SceneTask& task) const;
+  /// The same text for the same results.
+  std::string of(const SceneTask& task) const;
 
  private:
-  const RunSettings& settings_;
-  nlohmann::ordered_json common_;
+  std::string common_;
 };
 
 }  // namespace contactcheck

@@ -4,11 +4,11 @@
 
 namespace contactcheck {
 
-void note_environment(const FloatEnvironmentGuard& guard, const char* call, RunResult& result) {
+void note_environment(const FloatEnvironmentGuard& guard, const char* call, results::Run& run) {
   const std::string changed = guard.check_and_restore();
   if (changed.empty()) return;
   const std::string text = std::string(call) + " changed " + changed;
-  auto& list = result.float_environment;
+  auto& list = run.float_environment;
   if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
 }
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "reference/compare/run_result.h"
+#include "reference/results/results.h"
 #include "reference/run/float_environment.h"
 
 namespace contactcheck {
 
 /// Notes that `call` left the floating-point environment changed, and restores it.
-void note_environment(const FloatEnvironmentGuard& guard, const char* call, RunResult& result);
+void note_environment(const FloatEnvironmentGuard& guard, const char* call, results::Run& run);
 
 /// Counts in how many frames a detector said each of its sentences.
 class FrameNotes {

@@ -1,9 +1,8 @@
-// What the processes of one scene have answered, put together as results.json has it.
+// What the processes of one scene have answered, as one scene of results.json.
 #pragma once
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,7 @@ using SampleListener = decltype(SuiteListener::samples);
 /// References to what the caller keeps for the call.
 struct SceneAnswers {
   const SceneTask& task;
-  const std::vector<nlohmann::ordered_json>& answers;  ///< per process, the one that judged first
+  const std::vector<SceneAnswer>& answers;  ///< per process, the one that judged first
   const BrokenDetectors& broken;
   bool recorded = false;  ///< the scene's recording stands in its place
 };

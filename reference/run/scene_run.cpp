@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,7 +14,6 @@
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 class SceneRun {
@@ -39,30 +37,23 @@ class SceneRun {
   FinishedScene finish() {
     const fs::path recording = request_.out / "recordings" / (task_.id + ".ccr");
     job_.recording_file = fs::absolute(recording);
-    std::vector<Json> answers;
+    std::vector<SceneAnswer> answers;
     answers.push_back(run_process(0));
     job_.recording_file.clear();
-    job_.order = answers.front().at("order").get<std::vector<std::size_t>>();
-    job_.prefixes = answers.front().at("prefixes").get<std::vector<std::size_t>>();
-    job_.answers = answers_of(answers.front());
+    job_.order = answers.front().order;
+    job_.prefixes = answers.front().prefixes;
+    job_.answers.resize(task_.detectors.size());  // of those that broke the process: none
+    for (const DetectorAnswer& detector : answers.front().detectors)
+      job_.answers.at(detector.position) = detector.answers;
     for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
       answers.push_back(run_process(p));
-    const bool recorded = answers.front().contains("truth_contacts") && fs::exists(recording);
+    const bool recorded = !answers.front().truth_contacts.empty() && fs::exists(recording);
     return put_together({task_, answers, broken_, recorded}, listener_.samples);
   }
 
  private:
-  // Of those that broke it: none.
-  std::vector<JudgedAnswers> answers_of(const Json& first) const {
-    std::vector<JudgedAnswers> answers(task_.detectors.size());
-    for (const Json& entry : first.at("runs"))
-      answers.at(entry.at("position").get<std::size_t>()) =
-          judged_answers_from_json(entry.value("answers", Json::array()));
-    return answers;
-  }
-
   // Runs one process; whoever dies in a detector runs again without it.
-  Json run_process(std::size_t process) {
+  SceneAnswer run_process(std::size_t process) {
     job_.process = process;
     job_.answer_file = scratch_ / (task_.id + "." + std::to_string(process) + ".answer");
     const fs::path job_file = scratch_ / (task_.id + "." + std::to_string(process) + ".job");
@@ -71,7 +62,7 @@ class SceneRun {
       const WorkerOutcome outcome =
           run_supervised(request_.executable, job_file, job_.settings,
                          [&](const WorkerProgress& worker) { report(process, worker); });
-      if (outcome.done) return Json::parse(read_text_file(job_.answer_file));
+      if (outcome.done) return read_answer(job_.answer_file);
       book(outcome);
     }
   }

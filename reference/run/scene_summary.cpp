@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "reference/compare/judge.h"
-#include "reference/compare/run_result_json.h"
 
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using LevelTruth = std::map<Level, std::variant<std::uint64_t, std::string>>;
 
 // Summed over frames; levels that the scene does not ask for are absent.
-Json truth_json(const JudgedScene& judged) {
-  std::map<Level, std::size_t> sums;
+LevelTruth truth_of(const JudgedScene& judged) {
+  std::map<Level, std::uint64_t> sums;
   for (const Truth& t : judged.truth) {
     sums[Level::kBody] += t.surface.bodies.size();
     sums[Level::kContainment] += t.containment.size();
@@ -22,11 +20,15 @@ Json truth_json(const JudgedScene& judged) {
     sums[Level::kTriangle] += t.surface.triangles.size();
     sums[Level::kVertex] += t.surface.vertices.size();
   }
-  Json out = Json::object();
+  LevelTruth out;
   for (const auto& [level, sum] : sums) {
     if (!judged.scene->judges(level)) continue;
     const std::string why = obstacle_to_judging(level, judged.scene->bodies);
-    out[name_of(level)] = why.empty() ? Json(sum) : Json(why);
+    if (why.empty()) {
+      out[level] = sum;
+    } else {
+      out[level] = why;
+    }
   }
   return out;
 }
@@ -42,79 +44,61 @@ std::uint64_t truth_hash(const JudgedScene& judged) {
 }
 
 // Per value, so that a report can set answers beside it.
-Json family_json(const JudgedScene& judged) {
+results::Family family_of(const JudgedScene& judged) {
   const CaseFamily& family = *judged.scene->family;
-  Json pairs = Json::array();
-  for (const Truth& t : judged.truth) pairs.push_back(t.surface.triangles.size());
-  return {{"parameter", family.parameter},
-          {"values", family.values},
-          {"origin", family.origin},
-          {"stresses", family.stresses},
-          {"true_pairs", std::move(pairs)}};
+  results::Family out{family.parameter, family.origin, family.stresses, family.values,
+                      /*true_pairs=*/{}};
+  for (const Truth& t : judged.truth) out.true_pairs.push_back(t.surface.triangles.size());
+  return out;
 }
 
-Json pairs_json(const PairSpec& spec, const PairTally& tally) {
-  Json kinds = Json::object();
+results::RandomPairs pairs_of(const PairSpec& spec, const PairTally& tally) {
+  results::RandomPairs out{spec.count, spec.seed,       tally.touching(),
+                           {},         tally.checked(), tally.oracle_wrong};
   for (std::size_t k = 0; k < kPairKinds; ++k)
-    kinds[name_of(static_cast<PairKind>(k))] = {{"pairs", tally.kinds[k].pairs},
-                                                {"touching", tally.kinds[k].touching}};
-  return {{"count", spec.count},
-          {"seed", spec.seed},
-          {"touching", tally.touching()},
-          {"per_kind", std::move(kinds)},
-          {"rational", {{"checked", tally.checked()}, {"oracle_wrong", tally.oracle_wrong}}}};
+    out.per_kind.emplace_back(
+        name_of(static_cast<PairKind>(k)),
+        results::PairKindTally{tally.kinds[k].pairs, tally.kinds[k].touching});
+  return out;
 }
 
-Json bodies_json(const Scene& scene) {
-  Json bodies = Json::array();
+std::vector<results::SceneBody> bodies_of(const Scene& scene) {
+  std::vector<results::SceneBody> bodies;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodyShape& shape = *scene.bodies[b].shape;
-    bodies.push_back({{"name", scene.bodies[b].name},
-                      {"source", scene.origins[b].source},
-                      {"notes", scene.origins[b].notes},
-                      {"vertices", shape.mesh.vertices.size()},
-                      {"triangles", shape.mesh.triangles.size()},
-                      {"cells", shape.lattice ? shape.lattice->cells.size() : 0},
-                      {"solid", shape.topology.solid}});
+    bodies.push_back({scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
+                      shape.mesh.vertices.size(), shape.mesh.triangles.size(),
+                      shape.lattice ? shape.lattice->cells.size() : 0, shape.topology.solid});
   }
   return bodies;
 }
 
-Json fits_json(const Scene& scene) {
-  Json fits = Json::array();
-  for (const FitError& fit : scene.fits)
-    fits.push_back({{"body", scene.bodies[fit.body].name}, {"rms", fit.rms}, {"max", fit.max}});
-  return fits;
-}
-
 }  // namespace
 
-nlohmann::ordered_json scene_summary(const JudgedScene& judged,
-                                     const std::vector<double>& separations) {
+results::Scene scene_summary(const JudgedScene& judged, const std::vector<double>& separations) {
   const Scene& scene = *judged.scene;
   const std::vector<bool>& contact = judged.contact_frames;
-  Json out = {{"id", scene.id},
-              {"title", scene.title},
-              {"frames", scene.frames},
-              {"time_step", scene.time_step},
-              {"size", scene.size()},
-              {"contact_frames", std::count(contact.begin(), contact.end(), true)},
-              {"truth", truth_json(judged)},
-              {"truth_hash", hex(truth_hash(judged))},
-              {"bodies", bodies_json(scene)}};
-  if (!separations.empty()) out["separation"] = separations;
-  if (scene.family) out["family"] = family_json(judged);
+  results::Scene out;
+  out.id = scene.id;
+  out.title = scene.title;
+  out.frames = scene.frames;
+  out.time_step = scene.time_step;
+  out.size = scene.size();
+  out.contact_frames = static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
+  out.truth = truth_of(judged);
+  out.truth_hash = results::hex(truth_hash(judged));
+  out.bodies = bodies_of(scene);
+  out.separation = separations;
+  if (scene.family) out.family = family_of(judged);
   if (scene.sweep)
-    out["sweep"] = {{"separations", scene.sweep->separations},
-                    {"orientations", scene.sweep->orientations},
-                    {"seed", scene.sweep->seed},
-                    {"tolerance", kSweepTolerance * scene.size()}};
-  if (!scene.fits.empty()) out["fits"] = fits_json(scene);
-  if (judged.pairs) out["pairs"] = pairs_json(scene.pairs->spec(), *judged.pairs);
+    out.sweep = {scene.sweep->separations, scene.sweep->orientations, scene.sweep->seed,
+                 kSweepTolerance * scene.size()};
+  for (const FitError& fit : scene.fits)
+    out.fits.push_back({scene.bodies[fit.body].name, fit.rms, fit.max});
+  if (judged.pairs) out.pairs = pairs_of(scene.pairs->spec(), *judged.pairs);
   if (scene.simulation)
-    out["simulation"] = {{"driver", scene.simulation->driver},
-                         {"step", scene.simulation->settings.time_step},
-                         {"every", scene.simulation->every}};
+    out.simulation = {scene.simulation->driver, scene.simulation->settings.time_step,
+                      scene.simulation->every};
   return out;
 }
 

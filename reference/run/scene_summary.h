@@ -1,8 +1,9 @@
 // What results.json says about a scene itself.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <vector>
 
+#include "reference/results/results.h"
 #include "reference/run/judged_scene.h"
 
 namespace contactcheck {
@@ -10,7 +11,7 @@ namespace contactcheck {
 /// Bodies, frames, what is really there at every level that the scene asks for, and the
 /// contact_hash of a detector that finds exactly the true pairs of triangles; `separations` per
 /// frame, where there are any (separation.h).
-nlohmann::ordered_json scene_summary(const JudgedScene& judged,
-                                     const std::vector<double>& separations = {});
+results::Scene scene_summary(const JudgedScene& judged,
+                             const std::vector<double>& separations = {});
 
 }  // namespace contactcheck

@@ -1,10 +1,10 @@
 #include "reference/run/shard_merge.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/types/check.h"
-#include "reference/run/goals.h"
 #include "reference/run/job.h"
 #include "reference/run/out_folder.h"
 #include "reference/run/suite_output.h"
@@ -12,7 +12,6 @@
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 void copy_file_to(const fs::path& file, const fs::path& target) {
@@ -26,79 +25,60 @@ class Merger {
   Merger(const std::vector<ShardResults>& shards, const fs::path& out, const fs::path& scratch)
       : shards_(shards), out_(out), scratch_(scratch), output_(out, scratch) {}
 
-  Json merge(const KnownDefects& known_defects, SuiteOutcome* outcome) {
-    const Json& run = shards_.front().record().at("scenes");
-    for (std::size_t i = 0; i < run.size(); ++i)
-      output_.add(scene_of(shards_[i % shards_.size()], run[i].at("id").get<std::string>()));
-    SuiteRecord record{head(), tail(), {}, known_defects, false};
-    for (const Json& goal : shards_.front().record().at("goals"))
-      record.goals.push_back(goal_from(goal));
-    return output_.write(record, outcome);
+  results::Results merge(const KnownDefects& known_defects, SuiteOutcome* outcome) {
+    const results::Results& first = shards_.front().results;
+    results::Results whole;
+    whole.version = first.version;
+    whole.command = first.shard->command;
+    whole.machine = first.machine;
+    whole.libraries = first.libraries;
+    whole.plugins = first.plugins;
+    for (const ShardResults& shard : shards_) {
+      whole.merged.push_back(shard.results.command);
+      if (shard.results.resumed) whole.resumed.emplace();
+    }
+    const std::vector<results::ShardScene>& run = first.shard->scenes;
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      const ShardResults& shard = shards_[i % shards_.size()];
+      output_.add(scene_of(shard, run[i].id));
+      if (shard.results.resumed && holds(*shard.results.resumed, run[i].id))
+        whole.resumed->push_back(run[i].id);
+    }
+    return output_.write(std::move(whole), first.shard->goals, known_defects, outcome);
   }
 
  private:
-  Json head() const {
-    const Json& first = shards_.front().results;
-    Json head = {{"schema", first.at("schema")},
-                 {"version", first.at("version")},
-                 {"command", shards_.front().record().at("command")},
-                 {"machine", first.at("machine")},
-                 {"libraries", first.at("libraries")}};
-    if (first.contains("plugins")) head["plugins"] = first.at("plugins");
-    return head;
-  }
-
-  // Scenes that any shard took over from an interrupted run, in the order of the run.
-  Json resumed() const {
-    Json out = Json::array();
-    const Json& run = shards_.front().record().at("scenes");
-    for (std::size_t i = 0; i < run.size(); ++i)
-      for (const Json& id : shards_[i % shards_.size()].results.value("resumed", Json::array()))
-        if (id == run[i].at("id")) out.push_back(id);
-    return out;
-  }
-
-  Json tail() const {
-    Json tail = Json::object(), commands = Json::array();
-    bool any_resumed = false;
-    for (const ShardResults& shard : shards_) {
-      any_resumed = any_resumed || shard.results.contains("resumed");
-      commands.push_back(shard.results.at("command"));
-    }
-    if (any_resumed) tail["resumed"] = resumed();
-    tail["merged"] = std::move(commands);
-    return tail;
+  static bool holds(const std::vector<std::string>& ids, const std::string& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
   }
 
   FinishedScene scene_of(const ShardResults& shard, const std::string& id) {
     FinishedScene finished;
-    for (const Json& scene : shard.results.at("scenes"))
-      if (scene.at("id") == id) finished.scene = scene;
-    for (const Json& run : shard.results.at("runs"))
-      if (run.at("scene") == id) finished.runs.push_back(run);
-    for (const Json& disagreement : shard.results.at("disagreements"))
-      if (disagreement.at("scene") == id)
+    finished.scene = *shard.results.scene(id);
+    for (const results::Run& run : shard.results.runs)
+      if (run.scene == id) finished.runs.push_back(run);
+    for (const results::Disagreement& disagreement : shard.results.disagreements)
+      if (disagreement.scene == id)
         finished.disagreements.push_back(with_case(shard, disagreement));
-    if (const std::string name = finished.scene.value("contacts", ""); !name.empty())
-      finished.contacts = read_text_file(shard.folder() / name);
+    if (!finished.scene.contacts.empty())
+      finished.contacts = read_text_file(shard.folder() / finished.scene.contacts);
     copy_recording(shard, finished.runs);
     return finished;
   }
 
   // A copy of its case file, for the output to move.
-  Json with_case(const ShardResults& shard, Json disagreement) {
+  results::Disagreement with_case(const ShardResults& shard, results::Disagreement disagreement) {
     const fs::path copy = scratch_ / ("merged" + std::to_string(cases_++));
-    copy_file_to(shard.folder() / disagreement.at("case").get<std::string>(), copy);
-    disagreement["case"] = copy.string();
+    copy_file_to(shard.folder() / disagreement.case_file, copy);
+    disagreement.case_file = copy.string();
     return disagreement;
   }
 
-  void copy_recording(const ShardResults& shard, const Json& runs) const {
-    for (const Json& run : runs) {
-      const std::string name = run.value("recording", "");
-      if (name.empty()) continue;
-      copy_file_to(shard.folder() / name, scratch_ / "recording");
-      rename_file(scratch_ / "recording", out_ / name);
+  void copy_recording(const ShardResults& shard, const std::vector<results::Run>& runs) const {
+    for (const results::Run& run : runs) {
+      if (run.recording.empty()) continue;
+      copy_file_to(shard.folder() / run.recording, scratch_ / "recording");
+      rename_file(scratch_ / "recording", out_ / run.recording);
       return;  // it is the same for all
     }
   }
@@ -111,8 +91,8 @@ class Merger {
 
 }  // namespace
 
-Json merge_shards(const std::vector<ShardResults>& shards, const fs::path& out,
-                  const KnownDefects& known_defects, SuiteOutcome* outcome) {
+results::Results merge_shards(const std::vector<ShardResults>& shards, const fs::path& out,
+                              const KnownDefects& known_defects, SuiteOutcome* outcome) {
   make_out_folders(out);
   const ScratchFolder scratch(fs::absolute(out));
   make_contacts_folder(scratch.path());

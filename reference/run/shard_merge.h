@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "reference/run/shard_set.h"
@@ -16,8 +15,8 @@ namespace contactcheck {
 /// shards' commands; the command is the run's. Returns the results.
 /// @pre `shards` are checked_shards, none of them in `out`
 /// @throws InputError when something cannot be read or written
-nlohmann::ordered_json merge_shards(const std::vector<ShardResults>& shards,
-                                    const std::filesystem::path& out,
-                                    const KnownDefects& known_defects, SuiteOutcome* outcome);
+results::Results merge_shards(const std::vector<ShardResults>& shards,
+                              const std::filesystem::path& out, const KnownDefects& known_defects,
+                              SuiteOutcome* outcome);
 
 }  // namespace contactcheck

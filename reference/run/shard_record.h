@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "reference/run/suite_run.h"
@@ -14,12 +13,11 @@ namespace contactcheck {
 /// Files by the name that results have for them, and where they are now.
 using NamedFiles = std::map<std::string, std::filesystem::path>;
 
-/// `index`, `of`, `command` (of the whole run), `program` (hash of its file), `settings`, `goals`,
-/// and `scenes`, those of the whole run. @pre request.shard
+/// All of it but `files`. @pre request.shard
 /// @throws InputError when the program's file cannot be read
-nlohmann::ordered_json shard_record(const SuiteRequest& request);
+results::Shard shard_record(const SuiteRequest& request);
 
 /// Hashes of the files' bytes by name. @throws InputError when one cannot be read
-nlohmann::ordered_json file_hashes(const NamedFiles& files);
+results::Texts file_hashes(const NamedFiles& files);
 
 }  // namespace contactcheck

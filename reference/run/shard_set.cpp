@@ -1,24 +1,34 @@
 #include "reference/run/shard_set.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "core/types/check.h"
 #include "reference/run/contacts_json.h"
 #include "reference/run/run_identity.h"
+#include "reference/scene/file_text.h"
 #include "reference/scene/id_check.h"
 
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const ShardResults& shard, const std::string& why) {
   throw InputError(shard.file.string() + ": " + why);
 }
 
-std::string quoted(const Json& value) { return value.dump(-1, ' ', true); }
+using Members = std::map<std::string, std::string>;
+
+// A library may lie in another folder: its content counts.
+Members plugins_of(const results::Results& results) {
+  Members out;
+  for (const results::Plugin& p : results.plugins)
+    out[p.detector] =
+        p.kind + " " + p.content + " " + p.version + (p.kind == "library" ? "" : " " + p.source);
+  return out;
+}
 
 /// Holds one shard against the first.
 class Comparison {
@@ -26,41 +36,55 @@ class Comparison {
   Comparison(const ShardResults& first, const ShardResults& shard) : first_(first), shard_(shard) {}
 
   void require_same_run() const {
-    same("field shard.of", first_.record().at("of"), shard_.record().at("of"));
-    same("the version of contactcheck", first_.results.at("version"), shard_.results.at("version"));
-    same("the program (field shard.program)", first_.record().at("program"),
-         shard_.record().at("program"));
-    same_members("library", first_.results.at("libraries"), shard_.results.at("libraries"));
-    same_members("setting", first_.record().at("settings"), shard_.record().at("settings"));
-    same_scenes(first_.record().at("scenes"), shard_.record().at("scenes"));
-    if (first_.record().at("goals") != shard_.record().at("goals"))
-      differ("the goals of the suites are others");
+    const results::Results &first = first_.results, &own = shard_.results;
+    same("field shard.of", std::to_string(first.shard->of), std::to_string(own.shard->of));
+    same("the version of contactcheck", in_quotes(first.version), in_quotes(own.version));
+    same("the program (field shard.program)", in_quotes(first.shard->program),
+         in_quotes(own.shard->program));
+    same_members("library", quoted(first.libraries), quoted(own.libraries));
+    same_members("plug-in", plugins_of(first), plugins_of(own));
+    const auto &first_settings = first.shard->settings, &own_settings = own.shard->settings;
+    const Members first_setting{first_settings.begin(), first_settings.end()};
+    same_members("setting", first_setting, {own_settings.begin(), own_settings.end()});
+    same_scenes(first.shard->scenes, own.shard->scenes);
+    if (first.shard->goals != own.shard->goals) differ("the goals of the suites are others");
     // Times of two machines do not go into one file.
-    if (first_.record().at("settings").at("timing").get<bool>())
-      same_members("machine", first_.results.at("machine"), shard_.results.at("machine"));
+    if (const auto timing = first_setting.find("timing");
+        timing != first_setting.end() && timing->second == "true")
+      same_members("machine", quoted(members_of(first.machine)), quoted(members_of(own.machine)));
   }
 
  private:
+  static Members quoted(const std::vector<std::pair<std::string, std::string>>& texts) {
+    Members out;
+    for (const auto& [name, text] : texts) out[name] = in_quotes(text);
+    return out;
+  }
   [[noreturn]] void differ(const std::string& what) const {
     refuse(shard_, what + " than in " + first_.file.string() + ": these are shards of two runs");
   }
-  void same(const std::string& what, const Json& first, const Json& own) const {
+  void same(const std::string& what, const std::string& first, const std::string& own) const {
     if (first != own)
-      refuse(shard_, what + " is " + quoted(own) + ", in " + first_.file.string() + " it is " +
-                         quoted(first) + ": these are shards of two runs");
+      refuse(shard_, what + " is " + own + ", in " + first_.file.string() + " it is " + first +
+                         ": these are shards of two runs");
   }
-  void same_members(const std::string& kind, const Json& first, const Json& own) const {
-    Json all = first;
-    all.update(own);
-    for (const auto& [key, ignored] : all.items())
-      same(kind + " " + key, first.value(key, Json()), own.value(key, Json()));
+  void same_members(const std::string& kind, const Members& first, const Members& own) const {
+    Members all = first;
+    all.insert(own.begin(), own.end());
+    const auto value = [](const Members& members, const std::string& name) {
+      const auto found = members.find(name);
+      return found == members.end() ? "null" : found->second;
+    };
+    for (const auto& [name, ignored] : all)
+      same(kind + " " + name, value(first, name), value(own, name));
   }
-  void same_scenes(const Json& first, const Json& own) const {
-    same("the number of scenes", first.size(), own.size());
+  void same_scenes(const std::vector<results::ShardScene>& first,
+                   const std::vector<results::ShardScene>& own) const {
+    same("the number of scenes", std::to_string(first.size()), std::to_string(own.size()));
     for (std::size_t i = 0; i < own.size(); ++i) {
-      same("scene " + std::to_string(i + 1), first[i].at("id"), own[i].at("id"));
+      same("scene " + std::to_string(i + 1), in_quotes(first[i].id), in_quotes(own[i].id));
       if (first[i] != own[i])
-        differ("scene " + quoted(own[i].at("id")) +
+        differ("scene " + in_quotes(own[i].id) +
                " has other detectors, or another file or meshes,");
     }
   }
@@ -70,7 +94,7 @@ class Comparison {
 };
 
 void require_shard(const ShardResults& shard) {
-  if (!shard.results.contains("shard"))
+  if (!shard.results.shard)
     refuse(shard,
            "is no shard of a run (it has no field shard): merge takes what run --shard K/N "
            "has written");
@@ -80,20 +104,21 @@ void require_shard(const ShardResults& shard) {
 
 // Every scene that it holds, in order, with every detector, and nothing else.
 void require_complete(const ShardResults& shard) {
-  const Json &run = shard.record().at("scenes"), &scenes = shard.results.at("scenes"),
-             &runs = shard.results.at("runs");
+  const std::vector<results::ShardScene>& run = shard.record().scenes;
+  const std::vector<results::Scene>& scenes = shard.results.scenes;
+  const std::vector<results::Run>& runs = shard.results.runs;
   std::size_t scene = 0, row = 0;
   for (std::size_t i = 0; i < run.size(); ++i) {
     if (!shard.shard().holds(i)) continue;
-    const Json& id = run[i].at("id");
-    if (!is_id(id.get<std::string>())) refuse(shard, "field shard.scenes: no id: " + quoted(id));
-    if (scene >= scenes.size() || scenes[scene].at("id") != id)
-      refuse(shard, "not complete: scene " + quoted(id) + " is not in its place");
+    const std::string& id = run[i].id;
+    if (!is_id(id)) refuse(shard, "field shard.scenes: no id: " + in_quotes(id));
+    if (scene >= scenes.size() || scenes[scene].id != id)
+      refuse(shard, "not complete: scene " + in_quotes(id) + " is not in its place");
     ++scene;
-    for (const Json& detector : run[i].at("detectors")) {
-      if (row >= runs.size() || runs[row].at("scene") != id || runs[row].at("detector") != detector)
-        refuse(shard, "not complete: detector " + quoted(detector) + " on scene " + quoted(id) +
-                          " is not in its place");
+    for (const std::string& detector : run[i].detectors) {
+      if (row >= runs.size() || runs[row].scene != id || runs[row].detector != detector)
+        refuse(shard, "not complete: detector " + in_quotes(detector) + " on scene " +
+                          in_quotes(id) + " is not in its place");
       ++row;
     }
   }
@@ -103,44 +128,39 @@ void require_complete(const ShardResults& shard) {
 
 // Names of files come from outside: these are the only ones that a run gives.
 void require_names(const ShardResults& shard) {
-  for (const Json& scene : shard.results.at("scenes"))
-    if (const std::string name = scene.value("contacts", "");
-        !name.empty() && name != contacts_path(scene.at("id").get<std::string>()))
-      refuse(shard, "no name of a contacts file: \"" + name + "\"");
-  for (const Json& run : shard.results.at("runs"))
-    if (const std::string name = run.value("recording", "");
-        !name.empty() && name != "recordings/" + run.at("scene").get<std::string>() + ".ccr")
-      refuse(shard, "no name of a recording: \"" + name + "\"");
-  for (const Json& d : shard.results.at("disagreements")) {
-    const std::string name = d.at("case").get<std::string>();
-    if (!name.starts_with("cases/") || !is_id(name.substr(6)))
-      refuse(shard, "no name of a case file: \"" + name + "\"");
-  }
+  for (const results::Scene& scene : shard.results.scenes)
+    if (!scene.contacts.empty() && scene.contacts != contacts_path(scene.id))
+      refuse(shard, "no name of a contacts file: " + in_quotes(scene.contacts));
+  for (const results::Run& run : shard.results.runs)
+    if (!run.recording.empty() && run.recording != "recordings/" + run.scene + ".ccr")
+      refuse(shard, "no name of a recording: " + in_quotes(run.recording));
+  for (const results::Disagreement& d : shard.results.disagreements)
+    if (!d.case_file.starts_with("cases/") || !is_id(d.case_file.substr(6)))
+      refuse(shard, "no name of a case file: " + in_quotes(d.case_file));
 }
 
 void require_file(const ShardResults& shard, const std::string& name) {
   const fs::path file = shard.folder() / name;
-  const Json hash = shard.record().at("files").value(name, Json());
+  const auto hash = shard.record().files.find(name);
   if (!fs::is_regular_file(file))
     throw InputError(file.string() + ": is missing; shard " + shard.shard().name() +
                      " has written it");
-  if (hash.is_null() || hash != hash_of_file(file))
+  if (hash == shard.record().files.end() || hash->second != hash_of_file(file))
     throw InputError(file.string() + ": is damaged, or not the one that shard " +
                      shard.shard().name() + " has written");
 }
 
 void require_files(const ShardResults& shard) {
   require_names(shard);
-  for (const Json& scene : shard.results.at("scenes"))
-    if (scene.contains("contacts")) require_file(shard, scene.at("contacts").get<std::string>());
+  for (const results::Scene& scene : shard.results.scenes)
+    if (!scene.contacts.empty()) require_file(shard, scene.contacts);
   std::string last;  // rows of one scene follow one another
-  for (const Json& run : shard.results.at("runs")) {
-    const std::string name = run.value("recording", "");
-    if (!name.empty() && name != last) require_file(shard, name);
-    last = name;
+  for (const results::Run& run : shard.results.runs) {
+    if (!run.recording.empty() && run.recording != last) require_file(shard, run.recording);
+    last = run.recording;
   }
-  for (const Json& d : shard.results.at("disagreements"))
-    require_file(shard, d.at("case").get<std::string>());
+  for (const results::Disagreement& d : shard.results.disagreements)
+    require_file(shard, d.case_file);
 }
 
 // @pre all are of one run
@@ -155,10 +175,6 @@ void require_each_once(const std::vector<ShardResults>& sorted) {
 }
 
 }  // namespace
-
-Shard ShardResults::shard() const {
-  return {record().at("index").get<std::size_t>(), record().at("of").get<std::size_t>()};
-}
 
 std::vector<ShardResults> checked_shards(std::vector<ShardResults> shards) {
   for (const ShardResults& shard : shards) require_shard(shard);

@@ -1,7 +1,5 @@
 #include "reference/run/suite_run.h"
 
-#include <nlohmann/json.hpp>
-
 #include "reference/adapters/register.h"
 #include "reference/results/results.h"
 #include "reference/run/machine.h"
@@ -15,30 +13,25 @@
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 // What a run says that has no scene.
-SuiteRecord record_of(const SuiteRequest& request, const Json& resumed) {
-  SuiteRecord record{{{"schema", results::kSchema},
-                      {"version", CONTACTCHECK_VERSION},
-                      {"command", request.command},
-                      {"machine", describe_machine()},
-                      {"libraries", library_versions()}},
-                     Json::object(),
-                     request.goals,
-                     request.known_defects,
-                     request.shard.has_value()};
-  if (!request.plugins.empty()) record.head["plugins"] = Json::parse(request.plugins);
-  if (request.resume) record.tail["resumed"] = resumed;
-  if (request.shard) record.tail["shard"] = shard_record(request);
+results::Results record_of(const SuiteRequest& request) {
+  results::Results record;
+  record.version = CONTACTCHECK_VERSION;
+  record.command = request.command;
+  record.machine = describe_machine();
+  for (const auto& library : library_versions()) record.libraries.push_back(library);
+  record.plugins = request.plugins;
+  if (request.resume) record.resumed.emplace();
+  if (request.shard) record.shard = shard_record(request);
   return record;
 }
 
 }  // namespace
 
-nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListener& listener,
-                                 SuiteOutcome* outcome) {
+results::Results run_suite(const SuiteRequest& request, const SuiteListener& listener,
+                           SuiteOutcome* outcome) {
   make_out_folders(request.out);
   const ScratchFolder scratch(fs::absolute(request.out));
   make_contacts_folder(scratch.path());
@@ -46,7 +39,7 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
   if (!request.resume) partial.clear();
   const RunIdentity identity(request);
   SuiteOutput output(request.out, scratch.path());
-  Json resumed = Json::array();
+  results::Results record = record_of(request);
   SuiteProgress progress;
   progress.scenes = request.tasks.size();
   for (; progress.scene < request.tasks.size(); ++progress.scene) {
@@ -60,10 +53,11 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
                        static_cast<double>(progress.scenes);
       listener.progress(progress);
     };
-    std::optional<FinishedScene> finished = partial.take(task.id, identity.of(task));
+    std::optional<FinishedScene> finished;
+    if (request.resume) finished = partial.take(task.id, identity.of(task));
     const bool resumed_now = finished.has_value();
     if (resumed_now) {
-      resumed.push_back(task.id);
+      record.resumed->push_back(task.id);
     } else {
       partial.drop(task.id);  // its recording will be replaced
       report({});
@@ -73,7 +67,8 @@ nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListene
     listener.scene_end({task.id, resumed_now, finished->runs});
     output.add(std::move(*finished));
   }
-  Json results = output.write(record_of(request, resumed), outcome);
+  results::Results results =
+      output.write(std::move(record), request.goals, request.known_defects, outcome);
   partial.clear();
   return results;
 }

@@ -3,16 +3,15 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/compare/speedup.h"
 #include "reference/defects/known_defects.h"
+#include "reference/results/results.h"
 #include "reference/run/job.h"
 #include "reference/run/shard.h"
-#include "reference/scene/suite_file.h"
 
 namespace contactcheck {
 
@@ -36,13 +35,13 @@ struct ShardOfRun {
 
 struct SuiteRequest {
   std::vector<SceneTask> tasks;
-  std::vector<SuiteGoal> goals;      ///< canonical names of detectors
-  RunSettings settings;              ///< detectors are taken from the tasks
-  std::filesystem::path out;         ///< existing, writable
-  std::filesystem::path executable;  ///< this program, for its hidden subcommand `worker`
-  std::string command;               ///< for the record
-  std::string plugins;               ///< JSON for the record, see results.json; empty: none
-  KnownDefects known_defects;        ///< what wrong answers are set beside
+  std::vector<results::Goal> goals;      ///< canonical names of detectors
+  RunSettings settings;                  ///< detectors are taken from the tasks
+  std::filesystem::path out;             ///< existing, writable
+  std::filesystem::path executable;      ///< this program, for its hidden subcommand `worker`
+  std::string command;                   ///< for the record
+  std::vector<results::Plugin> plugins;  ///< for the record
+  KnownDefects known_defects;            ///< what wrong answers are set beside
   /// Take over the scenes that an interrupted run has left finished in `out` (see PartialResults).
   bool resume = false;
   std::optional<ShardOfRun> shard = {};  ///< then `tasks` are those that it holds
@@ -61,7 +60,7 @@ struct SuiteProgress {
 struct SceneEnd {
   std::string scene_id;
   bool resumed = false;  ///< taken over from an interrupted run
-  const nlohmann::ordered_json& runs;
+  const std::vector<results::Run>& runs;
 };
 
 /// What a run tells while it works.
@@ -82,7 +81,7 @@ struct SuiteOutcome {
 /// Writes out/results.json, out/recordings/, out/contacts/ and out/cases/, and until results.json
 /// is complete out/partial/. Returns the results as written.
 /// @throws InputError for bad scenes or an unwritable folder
-nlohmann::ordered_json run_suite(const SuiteRequest& request, const SuiteListener& listener,
-                                 SuiteOutcome* outcome);
+results::Results run_suite(const SuiteRequest& request, const SuiteListener& listener,
+                           SuiteOutcome* outcome);
 
 }  // namespace contactcheck

@@ -46,13 +46,13 @@ void judge_and_plan(WorkerState& worker) {
 // Not even mapped: what passed a limit once would pass it again.
 void leave_unjudged(WorkerState& worker) {
   worker.judged.scene = &worker.scene;
-  end_all(worker, RunStatus::kError, worker.job.unjudged->why, worker.job.unjudged->frame);
+  end_all(worker, results::Status::kError, worker.job.unjudged->why, worker.job.unjudged->frame);
 }
 
 void judge_and_time(WorkerState& worker) {
   worker.judged = judge_scene(worker.scene, worker.judges(), worker.progress);
   if (!worker.judged.refused.empty()) {
-    end_all(worker, RunStatus::kRefused, worker.judged.refused);
+    end_all(worker, results::Status::kRefused, worker.judged.refused);
   } else if (worker.judges()) {
     judge_and_plan(worker);
   } else {

@@ -15,14 +15,14 @@ void add_entry(std::uint32_t position, WorkerState& worker) {
   WorkerEntry entry;
   entry.position = position;
   entry.spec = worker.catalog.parse(worker.job.settings.detectors[position]);
-  entry.result.scene = worker.scene.id;
-  entry.result.detector = entry.spec.name;
-  entry.result.options = entry.spec.options;
-  entry.result.frames = worker.scene.frames;
+  entry.run.scene = worker.scene.id;
+  entry.run.detector = entry.spec.name;
+  entry.run.options = entry.spec.options;
+  entry.run.frames = worker.scene.frames;
   const DetectorInfo* info = worker.catalog.find(entry.spec.id);
   if (!info->absent_because.empty()) {
-    entry.result.status = RunStatus::kAbsent;
-    entry.result.message = info->absent_because;
+    entry.run.status = results::Status::kAbsent;
+    entry.run.message = info->absent_because;
   }
   worker.entries.push_back(std::move(entry));
 }
@@ -40,20 +40,18 @@ void dismiss(WorkerState& worker, WorkerEntry& entry) {
 
 void judge(JudgingTools& tools, WorkerState& worker, WorkerEntry& entry) {
   make_detector(worker, entry);
-  AccuracyOutcome outcome =
-      run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.result);
-  entry.seconds_per_frame = outcome.seconds_per_frame;
-  entry.answers = std::move(outcome.answers);
-  measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.result);
+  entry.accuracy = run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.run);
+  measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.run);
   if (!worker.job.settings.timing) dismiss(worker, entry);
 }
 
 // What it is timed with here was judged in another process.
 void take_over_answers(const WorkerState& worker, WorkerEntry& entry) {
-  entry.answers = worker.job.answers[entry.position];
+  const JudgedAnswers& answers = worker.job.answers[entry.position];
+  entry.accuracy.answers = answers;
   const bool same =
-      std::equal(entry.answers.begin(), entry.answers.end(),
-                 entry.result.semantics.questions.begin(), entry.result.semantics.questions.end(),
+      std::equal(answers.begin(), answers.end(), entry.run.semantics.questions.begin(),
+                 entry.run.semantics.questions.end(),
                  [](const JudgedQuestion& judged, Question now) { return judged.question == now; });
   if (!same) throw std::runtime_error("it answers other questions than when it was judged");
 }
@@ -66,13 +64,13 @@ void add_entries(WorkerState& worker) {
     if (std::find(skip.begin(), skip.end(), i) == skip.end()) add_entry(i, worker);
 }
 
-void end_all(WorkerState& worker, RunStatus status, const std::string& message,
+void end_all(WorkerState& worker, results::Status status, const std::string& message,
              std::optional<std::size_t> failed_frame) {
   for (WorkerEntry& entry : worker.entries) {
     if (!entry.usable()) continue;
-    entry.result.status = status;
-    entry.result.failed_frame = failed_frame;
-    entry.result.message = message;
+    entry.run.status = status;
+    entry.run.failed_frame = failed_frame;
+    entry.run.message = message;
   }
 }
 
@@ -84,10 +82,6 @@ void judge_detectors(WorkerState& worker) {
     worker.progress.part(kShareOfTruth + 0.4 * static_cast<double>(i) / count);
     if (!entry.usable()) continue;
     guarded(worker, entry, [&] { judge(tools, worker, entry); });
-    for (Disagreement& d : entry.result.disagreements) {
-      d.scene = worker.scene.id;
-      d.detector = entry.spec.name;
-    }
   }
 }
 
@@ -96,7 +90,7 @@ void prepare_detectors(WorkerState& worker) {
     if (!entry.usable() || worker.job.prefixes[entry.position] == 0) continue;
     guarded(worker, entry, [&] {
       make_detector(worker, entry);
-      entry.result.semantics = entry.detector->semantics();
+      entry.run.semantics = entry.detector->semantics();
       entry.detector->prepare(worker.scene.bodies);
       take_over_answers(worker, entry);
     });

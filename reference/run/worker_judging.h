@@ -9,7 +9,7 @@ namespace contactcheck {
 void add_entries(WorkerState& worker);
 
 /// Of a scene that was refused or cannot be judged: so ends every detector that could have run.
-void end_all(WorkerState& worker, RunStatus status, const std::string& message,
+void end_all(WorkerState& worker, results::Status status, const std::string& message,
              std::optional<std::size_t> failed_frame = {});
 
 /// Every usable detector is made, runs over all frames and is judged (accuracy.h, hover.h).

@@ -9,7 +9,7 @@ namespace contactcheck {
 namespace {
 
 bool drives(const WorkerEntry& entry) {
-  return entry.usable() && why_no_driver(entry.result.semantics).empty();
+  return entry.usable() && why_no_driver(entry.run.semantics).empty();
 }
 
 std::vector<LockstepEntry> lockstep_entries(WorkerState& worker) {
@@ -21,14 +21,14 @@ std::vector<LockstepEntry> lockstep_entries(WorkerState& worker) {
       worker.progress.enter(entry.position, 0, Phase::kPrepare);
       made = worker.catalog.make(entry.spec);
     });
-    if (made) lockstep.push_back({entry.position, std::move(made), StepTimes{}, ""});
+    if (made) lockstep.push_back({entry.position, std::move(made), 0, {}, ""});
   }
   return lockstep;
 }
 
 void end_lockstep(WorkerState& worker, LockstepEntry& timed, WorkerEntry& entry) {
   if (timed.error.empty()) {
-    entry.step_times = timed.times;
+    entry.run.step_ms = step_times(timed);
   } else {
     book_error(worker, timed.error, entry);
   }
@@ -56,7 +56,7 @@ void simulate_with_detectors(WorkerState& worker) {
   for (WorkerEntry& entry : worker.entries) {
     if (!drives(entry)) continue;
     guarded(worker, entry, [&] {
-      entry.closed_loop = run_closed_loop(
+      entry.run.closed_loop = run_closed_loop(
           worker.scene, entry.position, [&] { return worker.catalog.make(entry.spec); },
           worker.progress);
     });

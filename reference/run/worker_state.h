@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "core/detect/registry.h"
-#include "reference/compare/run_result.h"
-#include "reference/compare/simulation_result.h"
 #include "reference/compare/speedup.h"
-#include "reference/run/answer_print.h"
+#include "reference/results/results.h"
+#include "reference/run/accuracy.h"
 #include "reference/run/job.h"
 #include "reference/run/judged_scene.h"
 #include "reference/run/shared_progress.h"
@@ -26,14 +25,11 @@ struct WorkerEntry {
   std::uint32_t position = 0;  ///< in the job's list
   DetectorSpec spec;
   std::unique_ptr<Detector> detector;  ///< none: not yet made, dismissed, or not usable
-  RunResult result;
-  double seconds_per_frame = 0.0;  ///< see AccuracyOutcome
-  JudgedAnswers answers;           ///< the same; in a later process, the judging one's
+  results::Run run;
+  AccuracyOutcome accuracy;  ///< in a later process, its answers are the judging one's
   std::vector<QuestionSamples> samples;
-  std::optional<ClosedLoop> closed_loop;
-  std::optional<StepTimes> step_times;
 
-  bool usable() const { return result.status == RunStatus::kOk; }
+  bool usable() const { return run.ok(); }
 };
 
 /// Stays where it is: `judged` points to `scene`.

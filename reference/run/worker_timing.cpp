@@ -12,7 +12,7 @@ TimedEntry timed_entry(const WorkerEntry& entry, const JudgedQuestion& judged, s
   timed.position = entry.position;
   timed.detector = entry.detector.get();
   timed.question = judged.question;
-  timed.own = judged.question == entry.result.semantics.questions.front();
+  timed.own = judged.question == entry.run.semantics.questions.front();
   timed.judged = &judged.frames;
   timed.frames = frames;
   timed.samples.question = judged.question;
@@ -24,7 +24,7 @@ std::vector<TimedEntry> timed_entries(const WorkerState& worker) {
   std::vector<TimedEntry> timed;
   for (const WorkerEntry& entry : worker.entries) {
     if (!entry.usable() || !entry.detector) continue;
-    for (const JudgedQuestion& question : entry.answers)
+    for (const JudgedQuestion& question : entry.accuracy.answers)
       timed.push_back(timed_entry(entry, question, worker.job.prefixes[entry.position]));
   }
   return timed;
@@ -50,7 +50,7 @@ void plan_timing(WorkerState& worker) {
     if (!entry.usable()) continue;
     // One repeat runs cold and hot.
     worker.job.prefixes[entry.position] =
-        frames_within_budget(s.time_budget, 2.0 * entry.seconds_per_frame, s.repeats,
+        frames_within_budget(s.time_budget, 2.0 * entry.accuracy.seconds_per_frame, s.repeats,
                              s.fewest_timed_frames, worker.scene.frames);
   }
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "reference/compare/run_result.h"
+#include "reference/statistics/statistics.h"
 #include "reference/tune/candidate.h"
 
 namespace contactcheck {

@@ -1,11 +1,10 @@
 #include "reference/tune/measuring.h"
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "core/types/check.h"
-#include "reference/compare/run_result.h"
+#include "reference/results/results.h"
 #include "reference/run/out_folder.h"
 #include "reference/scene/any_scene.h"
 #include "reference/tune/lattice_variant.h"
@@ -14,24 +13,10 @@
 namespace contactcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-const Json* row_of(const Json& runs, const std::string& scene, const std::string& detector) {
-  for (const Json& run : runs)
-    if (run.at("scene") == scene && run.at("detector") == detector) return &run;
-  return nullptr;
-}
-
 // The cold time per frame within a question; none where it was not timed.
-std::optional<double> time_of(const Json& run, const std::string& question) {
-  const auto in = [&](const Json& times) -> std::optional<double> {
-    if (!times.is_object() || times.value("question", "") != question) return std::nullopt;
-    return times.at("cold").at("frame").get<double>();
-  };
-  if (run.contains("time_ms"))
-    if (const auto own = in(run.at("time_ms"))) return own;
-  for (const Json& other : run.value("time_ms_other_questions", Json::array()))
-    if (const auto time = in(other)) return time;
+std::optional<double> time_of(const results::Run& run, Question question) {
+  for (const results::QuestionTimes& times : run.times)
+    if (times.question == question) return times.cold.frame;
   return std::nullopt;
 }
 
@@ -47,29 +32,28 @@ PairedRun paired(const ProcessSamples* own, const ProcessSamples* anchor) {
   return own != nullptr && anchor != nullptr ? pair_up(*own, *anchor) : PairedRun{};
 }
 
-// Errors; the cost is still missing.
 // Without truth there is nothing to choose by.
-void expect_judged(const Json& scenes) {
-  for (const Json& scene : scenes)
-    if (scene.contains("unjudged")) throw InputError(scene.at("unjudged").get<std::string>());
+void expect_judged(const std::vector<results::Scene>& scenes) {
+  for (const results::Scene& scene : scenes)
+    if (!scene.unjudged.empty()) throw InputError(scene.unjudged);
 }
 
-Measurement errors_of(const Json& run, const std::string& level) {
+// Errors; the cost is still missing.
+Measurement errors_of(const results::Run& run, Level level) {
   Measurement m;
-  if (run.at("status") != "ok") {
-    m.failure = run.at("status").get<std::string>() + ": " + run.value("message", "");
+  if (!run.ok()) {
+    m.failure = std::string(name_of(run.status)) + ": " + run.message;
     return m;
   }
-  if (!run.at("levels").contains(level)) {
-    m.failure = "not judged at level " + level;
+  const auto counts = run.levels.find(level);
+  if (counts == run.levels.end()) {
+    m.failure = std::string("not judged at level ") + name_of(level);
     return m;
   }
-  const Json& counts = run.at("levels").at(level);
-  m.missed = counts.at("missed").get<std::uint64_t>();
-  m.spurious = counts.at("spurious").get<std::uint64_t>();
-  const Json& geometry = run.at("geometry");
-  if (!geometry.at("hover_gap_max").is_null()) m.hover = geometry.at("hover_gap_max").get<double>();
-  if (!geometry.at("late_frames").is_null()) m.late_frames = geometry.at("late_frames").get<long>();
+  m.missed = counts->second.missed;
+  m.spurious = counts->second.spurious;
+  if (run.geometry.hover_gap_max) m.hover = *run.geometry.hover_gap_max;
+  if (run.geometry.late_frames) m.late_frames = *run.geometry.late_frames;
   return m;
 }
 
@@ -133,16 +117,16 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
   for (const std::size_t i : batch) all.insert(key_of(candidates_[i]));
   const std::vector<ModelKey> keys(all.begin(), all.end());
   Times times;
-  const Json runs = run(keys, batch, times);
-  if (!book_.has_unit()) choose_anchor(runs, batch);
+  const results::Results results = run(keys, batch, times);
+  if (!book_.has_unit()) choose_anchor(results, batch);
   take_times(keys, batch, times);
   std::vector<Measurement> found;
-  for (const std::size_t i : batch) found.push_back(read(i, runs));
+  for (const std::size_t i : batch) found.push_back(read(i, results));
   return found;
 }
 
-Json Measuring::run(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
-                    Times& times) const {
+results::Results Measuring::run(const std::vector<ModelKey>& keys,
+                                const std::vector<std::size_t>& batch, Times& times) const {
   SuiteRequest suite;
   for (const ModelKey& key : keys) {
     SceneTask task = task_of(key, batch);
@@ -159,20 +143,21 @@ Json Measuring::run(const std::vector<ModelKey>& keys, const std::vector<std::si
     if (samples.front().question == request_.question) times[{scene, detector}] = samples;
   };
   SuiteOutcome outcome;
-  const Json results = run_suite(suite, listener, &outcome);
-  expect_judged(results.at("scenes"));
-  return results.at("runs");
+  results::Results results = run_suite(suite, listener, &outcome);
+  expect_judged(results.scenes);
+  return results;
 }
 
-void Measuring::choose_anchor(const Json& runs, const std::vector<std::size_t>& batch) {
+void Measuring::choose_anchor(const results::Results& results,
+                              const std::vector<std::size_t>& batch) {
   std::vector<std::string> names;
   if (!anchor_.empty()) names.push_back(anchor_);
   for (const std::size_t i : batch)
     if (key_of(candidates_[i]) == ModelKey{}) names.push_back(candidates_[i].detector);
   for (const std::string& name : names) {
-    const Json* run = row_of(runs, own_model().id, name);
-    const auto time = run == nullptr ? std::nullopt : time_of(*run, name_of(request_.question));
-    if (!time || run->at("status") != "ok" || !(*time > 0.0)) continue;
+    const results::Run* run = results.run(own_model().id, name);
+    const auto time = run == nullptr ? std::nullopt : time_of(*run, request_.question);
+    if (!time || !(*time > 0.0)) continue;
     anchor_ = name;
     book_.set_unit(*time);
     return;
@@ -191,12 +176,12 @@ void Measuring::take_times(const std::vector<ModelKey>& keys, const std::vector<
   }
 }
 
-Measurement Measuring::read(std::size_t index, const Json& runs) const {
+Measurement Measuring::read(std::size_t index, const results::Results& results) const {
   const TuneCandidate& candidate = candidates_[index];
   const ModelKey key = key_of(candidate);
-  const Json* run = row_of(runs, models_.at(key).id, candidate.detector);
+  const results::Run* run = results.run(models_.at(key).id, candidate.detector);
   CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
-  Measurement m = errors_of(*run, name_of(level_of(request_.question)));
+  Measurement m = errors_of(*run, level_of(request_.question));
   m.deviation = models_.at(key).deviation;
   if (m.failure.empty() && !book_.price(index, key, m))
     m.failure = std::string("not timed in the question ") + name_of(request_.question);

@@ -63,12 +63,12 @@ class Measuring {
   const Model& own_model() const { return models_.at({}); }
   SceneTask task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const;
   Model make_model(const ModelKey& key) const;
-  nlohmann::ordered_json run(const std::vector<ModelKey>& keys,
-                             const std::vector<std::size_t>& batch, Times& times) const;
-  void choose_anchor(const nlohmann::ordered_json& runs, const std::vector<std::size_t>& batch);
+  results::Results run(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
+                       Times& times) const;
+  void choose_anchor(const results::Results& results, const std::vector<std::size_t>& batch);
   void take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
                   const Times& times);
-  Measurement read(std::size_t index, const nlohmann::ordered_json& runs) const;
+  Measurement read(std::size_t index, const results::Results& results) const;
 
   const std::vector<TuneCandidate>& candidates_;
   MeasuringRequest request_;

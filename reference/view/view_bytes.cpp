@@ -58,29 +58,27 @@ std::string too_large(std::size_t limit) {
 }
 
 // "" where no run of the scene names one.
-std::string recording_of(const Json& results, const Json& scene) {
-  for (const Json& run : results.at("runs")) {
-    if (run.at("scene") != scene.at("id")) continue;
-    const auto name = run.value("recording", std::string());
-    if (!name.empty()) return name;
-  }
+std::string recording_of(const results::Results& results, const results::Scene& scene) {
+  for (const results::Run& run : results.runs)
+    if (run.scene == scene.id && !run.recording.empty()) return run.recording;
   return "";
 }
 
-SceneView read_scene(const fs::path& folder, const std::string& recording_name, const Json& scene) {
+SceneView read_scene(const fs::path& folder, const std::string& recording_name,
+                     const results::Scene& scene) {
   const Recording recording =
       read_recording_bytes(file_bytes(folder, recording_name), recording_name);
-  if (recording.scene != scene.at("id").get<std::string>())
+  if (recording.scene != scene.id)
     throw InputError("recording \"" + recording_name + "\": it is of the scene \"" +
                      recording.scene + "\".");
-  if (!scene.contains("contacts")) return scene_view(recording, nullptr);
-  const auto name = scene.at("contacts").get<std::string>();
+  if (scene.contacts.empty()) return scene_view(recording, nullptr);
+  const std::string& name = scene.contacts;
   return scene_view(recording, read_contacts(file_bytes(folder, name), name, recording));
 }
 
-Candidate candidate(const fs::path& folder, const std::string& recording, const Json& scene,
-                    std::size_t limit) {
-  Candidate out{scene.at("id").get<std::string>(), {}, ""};
+Candidate candidate(const fs::path& folder, const std::string& recording,
+                    const results::Scene& scene, std::size_t limit) {
+  Candidate out{scene.id, {}, ""};
   std::error_code error;  // is told by the read
   const std::uintmax_t size = fs::file_size(folder / recording, error);
   if (!error && size / kReadLimits > limit) {
@@ -134,9 +132,9 @@ std::string container(std::vector<Candidate>& scenes) {
 
 }  // namespace
 
-std::string view_bytes(const Json& results, const fs::path& folder, std::size_t limit) {
+std::string view_bytes(const results::Results& results, const fs::path& folder, std::size_t limit) {
   std::vector<Candidate> scenes;
-  for (const Json& scene : results.at("scenes")) {
+  for (const results::Scene& scene : results.scenes) {
     const std::string recording = recording_of(results, scene);
     if (!recording.empty()) scenes.push_back(candidate(folder, recording, scene, limit));
   }

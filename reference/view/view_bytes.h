@@ -32,8 +32,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
@@ -44,8 +45,8 @@ inline constexpr std::size_t kViewLimit = 9'500'000;
 /// From the recordings and contacts that `results` name, in `folder`, where results.json stands. A
 /// scene is left out, and named, when a file of its is missing or unreadable, or when the smaller
 /// scenes leave no room for it below `limit` compressed bytes. Empty when no scene of the results
-/// has a recording. @throws nlohmann::json::exception when results are not as the schema says
-std::string view_bytes(const nlohmann::ordered_json& results, const std::filesystem::path& folder,
+/// has a recording.
+std::string view_bytes(const results::Results& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
 
 }  // namespace contactcheck

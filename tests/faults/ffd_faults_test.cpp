@@ -25,37 +25,37 @@ FfdConfig safe_config() {
   return config;
 }
 
-RunResult accuracy_of(const FfdConfig& config) {
+results::Run accuracy_of(const FfdConfig& config) {
   const Scene scene = shallow();
   FfdDetector detector(config);
   SharedProgress page;
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
-  RunResult result;
+  results::Run result;
   JudgingTools tools(judged);
   run_accuracy(tools, 0, detector, progress, result);
   return result;
 }
 
-std::uint64_t lost_by(const RunResult& result, const std::string& stage) {
+std::uint64_t lost_by(const results::Run& result, const std::string& stage) {
   std::uint64_t lost = 0;
-  for (const StageResult& s : result.stages)
+  for (const results::Stage& s : result.stages)
     if (s.name.rfind(stage, 0) == 0) lost += s.missed;
   return lost;
 }
 
 TEST(ShrunkBounds, WholeOnesLoseNothing) {
-  const RunResult result = accuracy_of(safe_config());
+  const results::Run result = accuracy_of(safe_config());
   EXPECT_GT(result.levels.at(Level::kTriangle).truth, 0u);
   EXPECT_TRUE(result.levels.at(Level::kTriangle).perfect());
-  for (const StageResult& s : result.stages) EXPECT_EQ(s.missed, 0u) << s.name;
+  for (const results::Stage& s : result.stages) EXPECT_EQ(s.missed, 0u) << s.name;
 }
 
 TEST(ShrunkBounds, SpheresLoseEverythingAndTheirStageIsNamed) {
   FfdConfig config = safe_config();
   config.sphere_radius = 0.5;
-  const RunResult result = accuracy_of(config);
-  const LevelCounts& counts = result.levels.at(Level::kTriangle);
+  const results::Run result = accuracy_of(config);
+  const results::LevelCounts& counts = result.levels.at(Level::kTriangle);
   EXPECT_EQ(counts.missed, counts.truth);
   EXPECT_EQ(counts.spurious, 0u);
   EXPECT_EQ(lost_by(result, "sphere"), counts.missed);
@@ -65,15 +65,15 @@ TEST(ShrunkBounds, SpheresLoseEverythingAndTheirStageIsNamed) {
 TEST(ShrunkBounds, BoxesOfATenthOfTheirSizeLoseEverything) {
   FfdConfig config = safe_config();
   config.faults.cell_box = 0.1;
-  const RunResult result = accuracy_of(config);
+  const results::Run result = accuracy_of(config);
   EXPECT_EQ(result.levels.at(Level::kTriangle).missed, result.levels.at(Level::kTriangle).truth);
 }
 
 TEST(ShrunkBounds, BoxesLosePairsAndTheHashStageIsNamed) {
   FfdConfig config = safe_config();
   config.faults.cell_box = 0.9;
-  const RunResult result = accuracy_of(config);
-  const LevelCounts& counts = result.levels.at(Level::kTriangle);
+  const results::Run result = accuracy_of(config);
+  const results::LevelCounts& counts = result.levels.at(Level::kTriangle);
   EXPECT_GT(counts.missed, 0u);
   EXPECT_EQ(counts.spurious, 0u);
   EXPECT_EQ(lost_by(result, "hash"), counts.missed);
@@ -84,9 +84,9 @@ TEST(ShrunkBounds, LossesOfAllStagesAddUpToTheMissed) {
   FfdConfig config = safe_config();
   config.sphere_radius = 0.97;
   config.faults.cell_box = 0.97;
-  const RunResult result = accuracy_of(config);
+  const results::Run result = accuracy_of(config);
   std::uint64_t lost = 0;
-  for (const StageResult& s : result.stages) lost += s.missed;
+  for (const results::Stage& s : result.stages) lost += s.missed;
   EXPECT_GT(lost, 0u);
   EXPECT_EQ(lost, result.levels.at(Level::kTriangle).missed);
 }

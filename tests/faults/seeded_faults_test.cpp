@@ -30,26 +30,27 @@ Scene spheres() {
 struct Pass {
   Scene scene;
   JudgedScene judged;
-  RunResult result;
+  results::Run result;
+  AccuracyOutcome outcome;
 
   Pass(Scene s, Detector& detector, bool hover = false) : scene(std::move(s)) {
     SharedProgress page;
     ProgressWriter progress(&page);
     judged = judge_scene(scene, true, progress);
     JudgingTools tools(judged);
-    run_accuracy(tools, 0, detector, progress, result);
+    outcome = run_accuracy(tools, 0, detector, progress, result);
     if (!hover) return;
     measure_hover_gaps(tools, 0, detector, progress, result);
   }
-  const LevelCounts& at(Level level) const { return result.levels.at(level); }
+  const results::LevelCounts& at(Level level) const { return result.levels.at(level); }
   std::set<std::string> disagreements() const {
     std::set<std::string> out;
-    for (const Disagreement& d : result.disagreements) out.insert(d.level + " " + d.kind);
+    for (const Disagreement& d : outcome.disagreements) out.insert(d.level + " " + d.kind);
     return out;
   }
 };
 
-std::uint64_t truthful_hash() {
+std::string truthful_hash() {
   test::TruthfulDetector honest;
   return Pass(spheres(), honest).result.contact_hash;
 }
@@ -62,8 +63,8 @@ TEST(SeededFault, NoneIsPerfect) {
   EXPECT_TRUE(pass.at(Level::kTriangle).perfect());
   EXPECT_TRUE(pass.at(Level::kBody).perfect());
   EXPECT_THAT(pass.disagreements(), IsEmpty());
-  EXPECT_THAT(pass.result.late_frames_worst(), Optional(0));
-  EXPECT_THAT(pass.result.hover_gap_max(), Optional(testing::Lt(1e-6)));
+  EXPECT_THAT(pass.result.geometry.late_frames, Optional(0));
+  EXPECT_THAT(pass.result.geometry.hover_gap_max, Optional(testing::Lt(1e-6)));
 }
 
 TEST(SeededFault, EveryTenthPairDroppedIsMissedAndNothingElse) {
@@ -89,11 +90,11 @@ TEST(SeededFault, OnePairThatIsNotThereIsSpuriousAndEarly) {
   EXPECT_EQ(pass.at(Level::kTriangle).missed, 0u);
   EXPECT_THAT(pass.disagreements(), ElementsAre("triangle spurious"))
       << "its answer to the question body is right";
-  ASSERT_EQ(pass.result.episodes.size(), 1u);
-  const auto first_true = static_cast<long>(*pass.result.episodes[0].first_true);
+  ASSERT_EQ(pass.result.geometry.episodes.size(), 1u);
+  const auto first_true = static_cast<long>(*pass.result.geometry.episodes[0].first_true);
   EXPECT_GT(first_true, 0);
-  EXPECT_THAT(pass.result.late_frames_worst(), Optional(-first_true));
-  const auto& d = pass.result.disagreements.front();
+  EXPECT_THAT(pass.result.geometry.late_frames, Optional(-first_true));
+  const auto& d = pass.outcome.disagreements.front();
   EXPECT_EQ(d.frame, 0u);
   EXPECT_EQ(d.pair, pair);
 }
@@ -101,7 +102,7 @@ TEST(SeededFault, OnePairThatIsNotThereIsSpuriousAndEarly) {
 TEST(SeededFault, SwappedIdsAreMissedAndSpuriousInEqualNumber) {
   test::SwapsIds detector;
   const Pass pass(spheres(), detector);
-  const LevelCounts& counts = pass.at(Level::kTriangle);
+  const results::LevelCounts& counts = pass.at(Level::kTriangle);
   EXPECT_EQ(counts.truth, counts.reported) << "counts alone see nothing";
   EXPECT_GT(counts.missed, 0u);
   EXPECT_EQ(counts.missed, counts.spurious);
@@ -112,7 +113,7 @@ TEST(SeededFault, SwappedIdsAreMissedAndSpuriousInEqualNumber) {
 TEST(SeededFault, AnswerOfThePreviousFrameIsOneFrameLate) {
   test::AnswersLate detector;
   const Pass pass(spheres(), detector);
-  EXPECT_THAT(pass.result.late_frames_worst(), Optional(1));
+  EXPECT_THAT(pass.result.geometry.late_frames, Optional(1));
   EXPECT_EQ(pass.at(Level::kBody).missed, 1u);
   EXPECT_EQ(pass.at(Level::kBody).spurious, 1u);
   EXPECT_GT(pass.at(Level::kTriangle).missed, 0u);
@@ -141,7 +142,7 @@ TEST(SeededFault, TouchingThatIsNotCountedIsMissedInTouchingFramesAlone) {
   for (std::uint64_t missed : pass.result.per_frame.missed) misses.push_back(missed > 0);
   EXPECT_THAT(misses, ElementsAre(false, false, false, true, true, true, false, false, false));
   EXPECT_EQ(pass.at(Level::kTriangle).spurious, 0u);
-  EXPECT_THAT(pass.result.late_frames_worst(), Optional(3));
+  EXPECT_THAT(pass.result.geometry.late_frames, Optional(3));
   EXPECT_THAT(pass.disagreements(), ElementsAre("body missed", "triangle missed"));
 }
 
@@ -199,7 +200,7 @@ TEST(SeededFault, SpoiledArithmeticIsNamedAndRestored) {
   EXPECT_THAT(pass.result.float_environment,
               ElementsAre("query changed rounding mode, flush-to-zero"));
   EXPECT_TRUE(pass.at(Level::kTriangle).perfect());
-  EXPECT_THAT(pass.result.hover_gap_max(), Optional(testing::Lt(1e-6)));
+  EXPECT_THAT(pass.result.geometry.hover_gap_max, Optional(testing::Lt(1e-6)));
   EXPECT_EQ(outer.check_and_restore(), "") << "what comes next would be wrong";
 }
 #endif

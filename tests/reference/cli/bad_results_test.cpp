@@ -5,7 +5,11 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/types/check.h"
 #include "reference/report/markdown.h"
+#include "reference/results/results_json.h"
+#include "reference/results/schema_defect.h"
+#include "reference/scene/catalogue.h"
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
@@ -146,11 +150,14 @@ void for_each_place(const Json& value, const Json::json_pointer& place,
       for_each_place(value[i], place / i, action);
 }
 
-// Neither crashes nor leaves by another exception than the one that becomes a sentence.
+// Refused at the door, or else neither crashes nor leaves by another exception than the one that
+// becomes a sentence.
 bool reported(const Json& results) {
+  static const Json schema = Json::parse(text_of(fixtures_directory() / "results.schema.json"));
+  if (!schema_defect(schema, results).empty()) return false;
   try {
-    return !markdown_report(results).empty();
-  } catch (const Json::exception&) {
+    return !markdown_report(results::from_json(results)).empty();
+  } catch (const InputError&) {
     return false;
   }
 }

@@ -34,6 +34,7 @@ class DefectsCommand : public testing::Test {
     fs::create_directories(copy / "hard");
     for (const char* folder : {"scenes", "suites", "hard/families"})
       fs::create_directory_symlink(original / folder, copy / folder);
+    fs::create_symlink(original / "results.schema.json", copy / "results.schema.json");
     return copy;
   }
 

@@ -32,8 +32,11 @@ TEST(EventLines, ProgressNamesDetectorAndFrameOrNull) {
 }
 
 TEST(EventLines, SceneHasTheStatusOfEachRow) {
-  const Json runs = {{{"detector", "a"}, {"status", "ok"}, {"message", ""}, {"frames", 5}},
-                     {{"detector", "b"}, {"status", "error"}, {"message", "signal\n11"}}};
+  std::vector<results::Run> runs(2);
+  runs[0].detector = "a";
+  runs[1].detector = "b";
+  runs[1].status = results::Status::kError;
+  runs[1].message = "signal\n11";
   EXPECT_EQ(scene_event({"tiny", true, runs}),
             R"({"event":"scene","scene":"tiny","resumed":true,"runs":[)"
             R"({"detector":"a","status":"ok","message":""},)"

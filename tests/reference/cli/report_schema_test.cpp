@@ -6,6 +6,7 @@
 
 #include "reference/cli/report_folder.h"
 #include "reference/report/terminal.h"
+#include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 
 namespace contactcheck {
@@ -40,7 +41,8 @@ Json without(Json results, const Place& place) {
   return results;
 }
 
-void write_all_reports(const Json& results) {
+void write_all_reports(const Json& document) {
+  const results::Results results = results::from_json(document);
   report_texts(results, "no-folder", all_report_formats());
   terminal_tables(results, false);
 }
@@ -48,7 +50,7 @@ void write_all_reports(const Json& results) {
 TEST(ReportOfValidResults, TheExampleOfTheSchemaIsWritten) {
   const Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
   ASSERT_TRUE(is_valid(example));
-  const auto files = report_texts(example, "no-folder", {"md"});
+  const auto files = report_texts(results::from_json(example), "no-folder", {"md"});
   EXPECT_THAT(files.at("report.md"),
               testing::HasSubstr("| ffd-aabb-sphere2 | 1 | cell | 10 | 0.90000 | 1 | 1 |"));
   EXPECT_THAT(files.at("report.md"), testing::HasSubstr("bullet-vf:margin=0.001"));
@@ -72,7 +74,7 @@ TEST(ReportOfValidResults, OptionsMayBeNumbers) {
   Json example = read(CONTACTCHECK_EXAMPLE_RESULTS);
   example["runs"][1]["options"]["margin"] = 0.001;
   ASSERT_TRUE(is_valid(example));
-  EXPECT_THAT(report_texts(example, "no-folder", {"md"}).at("report.md"),
+  EXPECT_THAT(report_texts(results::from_json(example), "no-folder", {"md"}).at("report.md"),
               testing::HasSubstr("margin=0.001"));
 }
 

@@ -201,7 +201,7 @@ TEST_F(Resume, SaysWhatItTookOverAndLeavesNothingElse) {
 TEST_F(Resume, RowsAreThoseThatWereKept) {
   interrupt(both());
   Json file = Json::parse(text_of(kept()));
-  file.at("runs").at(0).at("message") = "as it was kept";
+  file.at("results").at("runs").at(0).at("message") = "as it was kept";
   std::ofstream(kept()) << file.dump();
   EXPECT_EQ(first_resumed().at("runs").at(0).at("message"), "as it was kept");
   EXPECT_EQ(last_.err, "") << "no scene is run";
@@ -262,7 +262,7 @@ TEST_F(Resume, DamagedFilesAreRunAgain) {
   interrupt(both());
   const std::string bytes = text_of(kept());
   Json without_runs = Json::parse(bytes);
-  without_runs.erase("runs");
+  without_runs.at("results").erase("runs");
   for (const std::string& damaged :
        {bytes.substr(0, bytes.size() / 2), std::string(), std::string("[]"), without_runs.dump(),
         std::string(100'000, '[')}) {

@@ -26,7 +26,7 @@ struct Script {
   }
 };
 
-std::vector<Episode> episodes_of(const std::string& frames) {
+std::vector<results::Episode> episodes_of(const std::string& frames) {
   Script script;
   script.add(frames, kPair);
   return find_episodes(script.truth, script.reported);
@@ -169,6 +169,25 @@ TEST(BisectHoverGap, EndsThoughTheGapJumps) {
   const auto distance = [](double t) { return t < 0.3 ? 1.0 : 0.2; };
   const auto reports = [](double t) { return t >= 0.3; };
   EXPECT_EQ(bisect_hover_gap(0.0, 1.0, 1e-6, reports, distance), 0.2);
+}
+
+results::Episode episode(std::optional<double> gap, std::optional<long> late) {
+  return {{0, 1}, {}, {}, gap, late};
+}
+
+TEST(SumUpEpisodes, NothingOfNone) {
+  results::Geometry geometry;
+  sum_up_episodes(geometry);
+  EXPECT_EQ(geometry.hover_gap_max, std::nullopt);
+  EXPECT_EQ(geometry.late_frames, std::nullopt);
+}
+
+TEST(SumUpEpisodes, TheLargestGapAndTheWorstLatenessWithItsSign) {
+  results::Geometry geometry;
+  geometry.episodes = {episode(0.5, 2), episode(std::nullopt, std::nullopt), episode(0.25, -3)};
+  sum_up_episodes(geometry);
+  EXPECT_EQ(geometry.hover_gap_max, 0.5);
+  EXPECT_EQ(geometry.late_frames, -3);
 }
 
 }  // namespace

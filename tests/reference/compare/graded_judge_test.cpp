@@ -32,7 +32,7 @@ struct Graded {
     data = test::make_frame(bodies, std::move(nodes));
     geometry.set_frame(data.frame());
   }
-  GradedErrors of(const Truth& truth, const std::vector<double>& contour, ContactSet answer) {
+  results::Geometry of(const Truth& truth, const std::vector<double>& contour, ContactSet answer) {
     answer.canonicalize();
     judge.add_frame(truth, contour, answer, geometry);
     return judge.errors();
@@ -67,7 +67,7 @@ TEST(SpreadOf, IsMaxMeanAndNearestRank) {
   EXPECT_EQ(spread_of(errors).judged, 0u);
   EXPECT_EQ(spread_of(errors).max, std::nullopt);
   for (int i = 100; i > 0; --i) errors.push_back(i);
-  const ErrorSpread spread = spread_of(errors);
+  const results::ErrorSpread spread = spread_of(errors);
   EXPECT_EQ(spread.judged, 100u);
   EXPECT_THAT(spread.max, Optional(100.0));
   EXPECT_THAT(spread.mean, Optional(50.5));
@@ -83,7 +83,7 @@ TEST(GradedJudge, MissedPairsWeighTheirLength) {
   answer.triangles = {{0, 1, 0, 0}};
   EXPECT_THAT(graded.of(truth, {3.0, 1.0}, answer).missed_length, Optional(1.0));
   EXPECT_THAT(graded.judge.last_covered_fraction(), Optional(0.75));
-  const GradedErrors both = graded.of(truth, {2.0, 2.0}, ContactSet{});
+  const results::Geometry both = graded.of(truth, {2.0, 2.0}, ContactSet{});
   EXPECT_THAT(both.missed_length, Optional(5.0));
   EXPECT_THAT(both.covered_length_fraction, Optional(3.0 / 8.0));
   EXPECT_THAT(graded.judge.last_covered_fraction(), Optional(0.0));
@@ -91,7 +91,7 @@ TEST(GradedJudge, MissedPairsWeighTheirLength) {
 
 TEST(GradedJudge, FrameWithoutContourHasNoShare) {
   Graded graded(test::labelled_bodies(), of_triangles());
-  const GradedErrors errors = graded.of(Truth{}, {}, ContactSet{});
+  const results::Geometry errors = graded.of(Truth{}, {}, ContactSet{});
   EXPECT_THAT(errors.missed_length, Optional(0.0));
   EXPECT_EQ(errors.covered_length_fraction, std::nullopt);
   EXPECT_EQ(graded.judge.last_covered_fraction(), std::nullopt);
@@ -103,7 +103,7 @@ TEST(GradedJudge, CellsCoverTheContourOfTheirTriangles) {
   Graded graded(test::labelled_bodies(), cells);
   ContactSet answer;
   answer.cells = {{0, 1, 0, 0}};  // holds triangles 0 and 1 of both bodies
-  const GradedErrors errors =
+  const results::Geometry errors =
       graded.of(test::truth_of({{0, 1, 0, 1}, {0, 1, 2, 2}}), {1.0, 3.0}, answer);
   EXPECT_THAT(errors.missed_length, Optional(3.0));
   EXPECT_EQ(errors.spurious_distance_max, std::nullopt);
@@ -113,7 +113,7 @@ TEST(GradedJudge, DetectorOfBodiesAloneHasNoContour) {
   Semantics bodies;
   bodies.levels = {Level::kBody};
   Graded graded(test::labelled_bodies(), bodies);
-  const GradedErrors errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {1.0}, ContactSet{});
+  const results::Geometry errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {1.0}, ContactSet{});
   EXPECT_EQ(errors.missed_length, std::nullopt);
   EXPECT_EQ(errors.depth.judged, 0u);
 }
@@ -131,12 +131,12 @@ TEST(GradedJudge, SpuriousPairWeighsItsDistance) {
 
 TEST(GradedJudge, DepthAndNormalOfPiecesAreHeldAgainstTheShortestWayApart) {
   Graded graded(crossing(), of_triangles());
-  const GradedErrors good =
+  const results::Geometry good =
       graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.125, Vec3::UnitZ()));
   EXPECT_EQ(good.depth.judged, 1u);
   EXPECT_THAT(good.depth.max, Optional(DoubleNear(0.0, kClose)));
   EXPECT_THAT(good.normal_deg.max, Optional(DoubleNear(0.0, 1e-6)));
-  const GradedErrors bad =
+  const results::Geometry bad =
       graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 1).normalized()));
   EXPECT_EQ(bad.depth.judged, 2u);
   EXPECT_THAT(bad.depth.max, Optional(DoubleNear(0.375, kClose)));
@@ -147,10 +147,10 @@ TEST(GradedJudge, EveryErrorCountsInItsHistogram) {
   Graded graded(crossing(), of_triangles());
   graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, contact(0.5, Vec3(0, 1, 2).normalized()));
   // The second frame's truth is empty: there the pair, whose triangles cross, is spurious, too.
-  const GradedErrors errors = graded.of(Truth{}, {}, contact(0.25, Vec3::UnitZ()));
+  const results::Geometry errors = graded.of(Truth{}, {}, contact(0.25, Vec3::UnitZ()));
   EXPECT_THAT(errors.depth.histogram, ElementsAre(IsBin(0.1, 0.2), IsBin(0.2, 0.5)));
   EXPECT_THAT(errors.normal_deg.histogram, ElementsAre(IsBin(0.0, 5.0), IsBin(25.0, 30.0)));
-  EXPECT_THAT(errors.spurious_distances, ElementsAre(IsBin(0.0, 1e-12)));
+  EXPECT_THAT(errors.spurious_distance_histogram, ElementsAre(IsBin(0.0, 1e-12)));
 }
 
 TEST(GradedJudge, OfSeveralContactsOfAPairTheDeepestCounts) {
@@ -159,7 +159,7 @@ TEST(GradedJudge, OfSeveralContactsOfAPairTheDeepestCounts) {
   answer.piece_contacts.push_back({{0, 1, 0, 0}, 0.125, Vec3::UnitZ()});
   // The same contact told by the other body: its normal turns with the pair.
   answer.piece_contacts.push_back({{1, 0, 0, 0}, 0.0625, Vec3::UnitX()});
-  const GradedErrors errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, answer);
+  const results::Geometry errors = graded.of(test::truth_of({{0, 1, 0, 0}}), {0.25}, answer);
   EXPECT_EQ(errors.depth.judged, 1u);
   EXPECT_THAT(errors.depth.max, Optional(DoubleNear(0.0, kClose)));
   EXPECT_THAT(errors.normal_deg.max, Optional(DoubleNear(0.0, 1e-6)));
@@ -177,7 +177,7 @@ TEST(GradedJudge, TouchingPiecesHaveADepthButNoDirection) {
   std::vector<Body> touching = crossing();
   touching[1].shape = make_bare_shape(test::triangle_mesh({0, 0, 0}, {1, 0, 1}, {-1, 0, 1}));
   Graded graded(std::move(touching), of_triangles());
-  const GradedErrors errors =
+  const results::Geometry errors =
       graded.of(test::truth_of({{0, 1, 0, 0}}), {0.0}, contact(0.0, Vec3::UnitX()));
   EXPECT_EQ(errors.depth.judged, 1u);
   EXPECT_EQ(errors.normal_deg.judged, 0u);
@@ -197,7 +197,7 @@ TEST(GradedJudge, VertexDepthIsItsDistanceToTheSurfaceAndTheShallowestContactCou
   answer.vertex_contacts = {{{0, 1, 0}, 0.5, Vec3::UnitY()},
                             {{0, 1, 0}, 0.375, -Vec3::UnitX()},
                             {{0, 1, 1}, 3.0, Vec3::UnitX()}};  // vertex 1 is not inside
-  const GradedErrors errors = graded.of(truth, {}, answer);
+  const results::Geometry errors = graded.of(truth, {}, answer);
   EXPECT_EQ(errors.depth.judged, 1u);
   EXPECT_THAT(errors.depth.max, Optional(DoubleNear(0.125, kClose)));
   EXPECT_THAT(errors.normal_deg.max, Optional(DoubleNear(0.0, 1e-6)));

@@ -12,7 +12,7 @@ using test::labelled_body;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-std::vector<std::uint64_t> numbers(const LevelCounts& c) {
+std::vector<std::uint64_t> numbers(const results::LevelCounts& c) {
   return {c.truth, c.reported, c.hit, c.missed, c.spurious};
 }
 
@@ -39,8 +39,8 @@ ContactSet bodies_of(std::vector<BodyPair> bodies) {
   return answer;
 }
 
-LevelCounts judged(Level level, const Truth& truth, const ContactSet& answer,
-                   Semantics semantics = {}) {
+results::LevelCounts judged(Level level, const Truth& truth, const ContactSet& answer,
+                            Semantics semantics = {}) {
   const std::vector<Body> bodies = labelled_bodies();
   Judge judge(bodies, semantics, {level});
   judge.add_frame(0, truth, answer);
@@ -48,8 +48,9 @@ LevelCounts judged(Level level, const Truth& truth, const ContactSet& answer,
 }
 
 TEST(Judge, EqualCountsOfDifferentPairsAreMissedAndSpurious) {
-  const LevelCounts counts = judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
-                                    answer_of({pair(0, 0), pair(2, 3)}));
+  const results::LevelCounts counts =
+      judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
+             answer_of({pair(0, 0), pair(2, 3)}));
   EXPECT_THAT(numbers(counts), ElementsAre(2, 2, 1, 1, 1));
 }
 
@@ -60,7 +61,7 @@ TEST(Judge, AnsweringTheTruthIsPerfectAtEveryLevel) {
 }
 
 TEST(Judge, SilenceMissesAllAndIsNotSpurious) {
-  const LevelCounts counts =
+  const results::LevelCounts counts =
       judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), ContactSet{});
   EXPECT_THAT(numbers(counts), ElementsAre(3, 0, 0, 3, 0));
 }
@@ -145,9 +146,11 @@ TEST(Judge, CountsAreSumsOverFrames) {
 
 TEST(Judge, SeriesPerFrameIsOfTheFinestLevel) {
   const std::vector<Body> bodies = labelled_bodies();
-  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kTriangle}).per_frame().level, "triangle");
-  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kBox, Level::kCell}).per_frame().level, "cell");
-  EXPECT_EQ(Judge(bodies, {}, {Level::kBody}).per_frame().level, "body");
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kTriangle}).per_frame().level,
+            Level::kTriangle);
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody, Level::kBox, Level::kCell}).per_frame().level,
+            Level::kCell);
+  EXPECT_EQ(Judge(bodies, {}, {Level::kBody}).per_frame().level, Level::kBody);
   Judge judge(bodies, {}, {Level::kBody, Level::kTriangle});
   judge.add_frame(0, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), answer_of({pair(0, 0)}));
   EXPECT_THAT(judge.per_frame().truth, ElementsAre(3));
@@ -193,7 +196,7 @@ TEST(Judge, NearLevelComparesWithThePairsBelowTheMargin) {
   answer.canonicalize();
   judge.add_frame(0, Truth{}, answer, {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}});
   EXPECT_THAT(numbers(judge.levels().at(Level::kNear)), ElementsAre(3, 2, 1, 2, 1));
-  EXPECT_EQ(judge.per_frame().level, "near");
+  EXPECT_EQ(judge.per_frame().level, Level::kNear);
   ASSERT_EQ(judge.disagreements().size(), 2u);
   EXPECT_EQ(judge.disagreements()[0].pair, (ElementPair{0, 1, 5, 3}));
 }
@@ -204,7 +207,7 @@ TEST(Judge, InformativeLevelIsCountedButNeverADisagreementNorTheFinest) {
   semantics.levels = {Level::kBody};
   semantics.informative = {Level::kVertex};
   Judge judge(bodies, semantics, {Level::kBody, Level::kVertex});
-  EXPECT_EQ(judge.per_frame().level, "body");
+  EXPECT_EQ(judge.per_frame().level, Level::kBody);
   Truth truth;
   truth.surface.vertices = {{0, 1, 5}};
   ContactSet answer;

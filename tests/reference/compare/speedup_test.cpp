@@ -33,7 +33,7 @@ QuestionSamples two_frames() {
 const std::vector<bool> kContactInFive = {false, false, false, false, false, true, true};
 
 TEST(SummarizeTimes, IsTheMeanOverFramesOfMediansOverRepeats) {
-  const QuestionTimes t = summarize_times({two_frames()}, kContactInFive);
+  const results::QuestionTimes t = summarize_times({two_frames()}, kContactInFive);
   EXPECT_EQ(t.question, Question::kCells);
   EXPECT_EQ(t.timed_frames, 2u);
   EXPECT_EQ(t.timed_contact_frames, 1u);
@@ -51,7 +51,7 @@ TEST(SummarizeTimes, IsTheMeanOverFramesOfMediansOverRepeats) {
 TEST(SummarizeTimes, LazyMapperHasNoMapAndNoContactFrameWithoutContact) {
   QuestionSamples lazy = two_frames();
   lazy.lazy_map = true;
-  const QuestionTimes t = summarize_times({lazy}, std::vector<bool>(7, false));
+  const results::QuestionTimes t = summarize_times({lazy}, std::vector<bool>(7, false));
   EXPECT_EQ(t.cold.map, std::nullopt);
   EXPECT_EQ(t.cold.contact_frame, std::nullopt);
   EXPECT_EQ(t.timed_contact_frames, 0u);
@@ -61,16 +61,17 @@ TEST(SummarizeTimes, PoolsTheRepeatsOfAllProcesses) {
   QuestionSamples first, second;
   first.frames[0] = updates({1.0, 2.0, 3.0});
   second.frames[0] = updates({10.0, 20.0, 30.0});
-  const QuestionTimes t = summarize_times({first, second}, {false});
+  const results::QuestionTimes t = summarize_times({first, second}, {false});
   EXPECT_EQ(t.repeats, 6u);
   EXPECT_DOUBLE_EQ(t.cold.frame, 6.5);  // of 1 2 3 10 20 30
 }
 
 TEST(ColdFrameMs, IsTheMedianPerFrame) {
-  const auto times = cold_frame_ms({two_frames()});
-  ASSERT_EQ(times.size(), 2u);
-  EXPECT_DOUBLE_EQ(times.at(2), 12.0);
-  EXPECT_DOUBLE_EQ(times.at(5), 15.0);
+  const auto times = cold_frame_ms({two_frames()}, 7);
+  ASSERT_EQ(times.size(), 7u);
+  for (const std::size_t untimed : {0, 1, 3, 4, 6}) EXPECT_EQ(times[untimed], std::nullopt);
+  EXPECT_DOUBLE_EQ(times[2].value(), 12.0);
+  EXPECT_DOUBLE_EQ(times[5].value(), 15.0);
 }
 
 ProcessSamples scaled(ProcessSamples processes, double factor) {

@@ -29,7 +29,7 @@ StageRecord stage(const char* name, Kind kind, std::vector<ElementPair> elements
 
 std::vector<std::uint64_t> missed(const StageLosses& losses) {
   std::vector<std::uint64_t> out;
-  for (const StageResult& s : losses.stages()) out.push_back(s.missed);
+  for (const results::Stage& s : losses.stages()) out.push_back(s.missed);
   return out;
 }
 

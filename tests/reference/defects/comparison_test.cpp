@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 namespace contactcheck {
 namespace {
 
@@ -76,23 +74,29 @@ TEST(DefectComparison, OnlyErrorsThatAreNotListedAreUnlistedErrors) {
 }
 
 TEST(DefectComparison, TakesOurOwnDetectorsForOfAnyVersion) {
-  const auto versions = versions_in({{"version", "1.0"}, {"libraries", {{"fcl", "0.7.0"}}}});
+  results::Results results;
+  results.libraries = {{"fcl", "0.7.0"}};
+  const LibraryVersions versions = versions_in(results);
   EXPECT_THAT(versions, testing::UnorderedElementsAre(testing::Pair("contactcheck", "any"),
                                                       testing::Pair("fcl", "0.7.0")));
 }
 
-TEST(DefectComparison, IsWrittenForOtherPrograms) {
+TEST(DefectComparison, StandsInResults) {
   const KnownDefects known = known_at({at("0"), at("1"), at("2")});
-  const auto json = to_json(
+  const results::KnownDefects found = in_results(
       known,
       compare_defects(known, run_with({at("3"), at("4"), at("5", kSpurious)}, {at("0"), at("1")}),
                       kVersions));
-  EXPECT_EQ(json.at("defects").at(0).at("listed"), 2);
-  EXPECT_EQ(json.at("defects").at(0).at("shown"), 0);
-  EXPECT_EQ(json.at("defects").at(0).at("detectors").dump(), R"(["fcl-aabb"])");
-  EXPECT_EQ(json.at("not_shown").dump(),
-            R"([{"detector":"fcl-aabb","scene":"gap","kind":"missed","values":["0","1"]}])");
-  EXPECT_THAT(json.at("unlisted"), SizeIs(2));
+  ASSERT_THAT(found.defects, SizeIs(1));
+  EXPECT_EQ(found.defects[0].listed, 2u);
+  EXPECT_EQ(found.defects[0].shown, 0u);
+  EXPECT_THAT(found.defects[0].detectors, ElementsAre("fcl-aabb"));
+  ASSERT_THAT(found.not_shown, SizeIs(1));
+  EXPECT_EQ(found.not_shown[0].detector, "fcl-aabb");
+  EXPECT_EQ(found.not_shown[0].scene, "gap");
+  EXPECT_EQ(found.not_shown[0].kind, "missed");
+  EXPECT_THAT(found.not_shown[0].values, ElementsAre("0", "1"));
+  EXPECT_THAT(found.unlisted, SizeIs(2));
 }
 
 TEST(UpdatedDefects, TakeInWhatShowsUnderTheCauseOfItsPlace) {

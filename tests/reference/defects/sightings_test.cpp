@@ -4,6 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/types/check.h"
+#include "reference/results/results_json.h"
+
 namespace contactcheck {
 namespace {
 
@@ -22,10 +25,10 @@ Json answers(const char* scene, const char* detector, const Json& missed, const 
   return out;
 }
 
-Json results_with(const Json& runs) {
+results::Results results_with(const Json& runs) {
   const Json gap = {{"id", "gap"}, {"family", {{"values", Json::array({"0", "1e-9", "1e-3"})}}}};
   const Json scene = {{"id", "bunny"}};
-  return {{"scenes", {gap, scene}}, {"runs", runs}};
+  return results::from_json({{"scenes", {gap, scene}}, {"runs", runs}});
 }
 
 TEST(Sightings, AreWrongAnswersToCases) {
@@ -61,13 +64,10 @@ TEST(Sightings, WhoGaveNoAnswerTellsNothing) {
   EXPECT_THAT(found.possible, IsEmpty());
 }
 
-TEST(Sightings, NeedTheFieldsOfTheSchema) {
-  Json unsigned_frame = run("gap", "d", "error");
-  unsigned_frame["failed_frame"] = 1e300;
-  const Json wrong[] = {run("nowhere", "d", "ok"), run("gap", "d", "ok"), unsigned_frame,
-                        answers("gap", "d", {0, 0, 0, 1}, {0, 0, 0, 0})};
-  for (const Json& bad : wrong)
-    EXPECT_THROW(sightings_of(results_with(Json::array({bad}))), Json::exception) << bad;
+TEST(Sightings, RefuseRowsThatDoNotBelongToTheScenes) {
+  for (const Json& bad :
+       {run("nowhere", "d", "ok"), answers("gap", "d", {0, 0, 0, 1}, {0, 0, 0, 0})})
+    EXPECT_THROW(sightings_of(results_with(Json::array({bad}))), InputError) << bad;
 }
 
 }  // namespace

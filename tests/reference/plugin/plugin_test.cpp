@@ -58,11 +58,11 @@ TEST(Plugin, ContentFollowsAScriptWhoseNameIsQuoted) {
 TEST(Plugin, ContentIsPartOfTheSettingsThatResumeCompares) {
   RunSettings settings, other;
   settings.plugins = other.plugins = {to_json(command_plugin("mine")).dump()};
-  EXPECT_EQ(to_json(settings), to_json(other));
+  EXPECT_EQ(named_settings(settings), named_settings(other));
   Plugin changed = command_plugin("mine");
   changed.content = "0x2";
   other.plugins = {to_json(changed).dump()};
-  EXPECT_NE(to_json(settings), to_json(other));
+  EXPECT_NE(named_settings(settings), named_settings(other));
 }
 
 TEST(Plugin, TakesNoNameThatIsAnothers) {

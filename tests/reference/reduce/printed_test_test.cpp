@@ -81,7 +81,7 @@ TEST(AnswersOf, SayWhatIsTrueAtEveryLevel) {
 
 TEST(AnswersOf, AnErrorSayHowItEnded) {
   ProbeVerdict v;
-  v.status = RunStatus::kError;
+  v.status = results::Status::kError;
   v.how = "threw";
   v.message = "stack overflow in tree";
   EXPECT_EQ(answers_of(printed_case({"", "error", "threw"}), v).detector,

@@ -25,7 +25,7 @@ ProbeVerdict missed_and_spurious() {
 
 TEST(ProbeVerdict, ReadsBackFromItsText) {
   const ProbeVerdict v = verdict_from_text(to_text(missed_and_spurious()));
-  EXPECT_EQ(v.status, RunStatus::kOk);
+  EXPECT_EQ(v.status, results::Status::kOk);
   EXPECT_EQ(v.levels.at(Level::kTriangle).missed, 2u);
   EXPECT_EQ(v.levels.at(Level::kTriangle).truth, 9u);
   EXPECT_EQ(v.not_judged.at(Level::kVertex), "not judged: open");
@@ -37,11 +37,11 @@ TEST(ProbeVerdict, ReadsBackFromItsText) {
 
 TEST(ProbeVerdict, OfAnErrorKeepsTextThatIsNoUtf8) {
   ProbeVerdict v;
-  v.status = RunStatus::kError;
+  v.status = results::Status::kError;
   v.how = "threw";
   v.message = "caf\xe9";
   const ProbeVerdict again = verdict_from_text(to_text(v));
-  EXPECT_EQ(again.status, RunStatus::kError);
+  EXPECT_EQ(again.status, results::Status::kError);
   EXPECT_EQ(again.how, "threw");
   EXPECT_EQ(again.message.substr(0, 3), "caf");
 }
@@ -69,7 +69,7 @@ TEST(FindingOf, TakesWhatIsAskedFor) {
 
 TEST(FindingOf, AnErrorIsOneUnlessALevelIsAskedFor) {
   ProbeVerdict v;
-  v.status = RunStatus::kError;
+  v.status = results::Status::kError;
   v.how = "signal 11 (Segmentation fault)";
   EXPECT_EQ(described(*finding_of(v, "", "")), "error: signal 11 (Segmentation fault)");
   EXPECT_FALSE(finding_of(v, "triangle", ""));
@@ -88,7 +88,7 @@ TEST(Shows, TheSameDefectAndNoOther) {
 
 TEST(Shows, AnErrorOnlyOfTheSameWay) {
   ProbeVerdict v;
-  v.status = RunStatus::kError;
+  v.status = results::Status::kError;
   v.how = "time limit";
   EXPECT_TRUE(shows(v, Finding{"", "error", "time limit"}));
   EXPECT_FALSE(shows(v, Finding{"", "error", "threw"}));

@@ -5,11 +5,13 @@
 #include <map>
 #include <sstream>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
 namespace {
 
+using results::from_json;
 using test::sample_results;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -79,43 +81,47 @@ TEST(Csv, RowHasWhatWasMeasuredAndEmptyCellsForTheRest) {
       {"vs_fcl-aabb_cold_ratio", "4.0"},
       {"vs_fcl-aabb_cold_low", "3.5"},
       {"vs_fcl-aabb_cold_high", "4.25"},
+      {"vs_fcl-aabb_hot_ratio", "6.0"},
+      {"vs_fcl-aabb_hot_low", "5.5"},
+      {"vs_fcl-aabb_hot_high", "6.5"},
       {"memory_bytes", "524288"},
       {"contact_hash", "0x2"}};
-  EXPECT_EQ(row(csv_report(sample_results()), 1), expected);
+  EXPECT_EQ(row(csv_report(from_json(sample_results())), 1), expected);
 }
 
 TEST(Csv, HasADetectorsOwnClock) {
   auto results = sample_results();
   results["runs"][1]["time_ms"]["hot"]["self_reported"] = 0.125;
-  const auto cells = row(csv_report(results), 1);
+  const auto cells = row(csv_report(from_json(results)), 1);
   EXPECT_EQ(cells.at("hot_self_reported_ms"), "0.125");
 }
 
 TEST(Csv, RowThatIsNotOkHasStatusAndMessage) {
   const std::map<std::string, std::string> expected = {
       {"scene", "hello"}, {"detector", "embree"}, {"status", "absent"}, {"message", "not built"}};
-  EXPECT_EQ(row(csv_report(sample_results()), 3), expected);
+  EXPECT_EQ(row(csv_report(from_json(sample_results())), 3), expected);
 }
 
 TEST(Csv, OptionsAreOneCell) {
   auto results = sample_results();
   results["runs"][0]["options"] = {{"margin", "0.001"}};
-  EXPECT_EQ(row(csv_report(results), 0).at("options"), "margin=0.001");
+  EXPECT_EQ(row(csv_report(from_json(results)), 0).at("options"), "margin=0.001");
   results["runs"][0]["options"]["scale"] = "100";
-  EXPECT_THAT(csv_report(results),
+  EXPECT_THAT(csv_report(from_json(results)),
               HasSubstr("\r\nhello,fcl-aabb,ok,,\"margin=0.001, scale=100\",60,"));
 }
 
 TEST(Csv, CommasQuotesAndLineEndsAreQuoted) {
   auto results = sample_results();
   results["runs"][3]["message"] = "a, \"b\"\nc";
-  EXPECT_THAT(csv_report(results), HasSubstr("\r\nhello,embree,absent,\"a, \"\"b\"\"\nc\",,"));
+  EXPECT_THAT(csv_report(from_json(results)),
+              HasSubstr("\r\nhello,embree,absent,\"a, \"\"b\"\"\nc\",,"));
 }
 
 TEST(Csv, LinesEndInCrLfAndStartWithTheTitles) {
   auto results = sample_results();
   results["runs"] = nlohmann::ordered_json::array();
-  const std::string titles = csv_report(results);
+  const std::string titles = csv_report(from_json(results));
   EXPECT_THAT(titles, StartsWith("scene,detector,status,message,options,frames,contact_frames,"
                                  "finest_level,body_truth,body_reported,"));
   EXPECT_THAT(titles, EndsWith(",speedup_question,memory_bytes,contact_hash,recording\r\n"));

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 namespace contactcheck {
 namespace {
@@ -30,12 +29,12 @@ TEST(FormatRate, KeepsDecimalsThatAreExact) {
   EXPECT_EQ(format_rate(0.99999), "0.99999");
 }
 
-TEST(FormatRate, OfNullIsADash) { EXPECT_EQ(format_rate(nullptr), "-"); }
+TEST(FormatRate, OfNothingIsADash) { EXPECT_EQ(format_rate(std::nullopt), "-"); }
 
 TEST(FormatErrorRate, IsNoughtOnlyWhenItIsNought) {
   EXPECT_EQ(format_error_rate(0.0), "0");
   EXPECT_EQ(format_error_rate(1e-12), "0.00001");
-  EXPECT_EQ(format_error_rate(nullptr), "-");
+  EXPECT_EQ(format_error_rate(std::nullopt), "-");
 }
 
 TEST(FormatErrorRate, IsRaisedAndNeverBetterThanItIs) {
@@ -54,7 +53,7 @@ TEST(FormatNumber, ShowsThreeDigits) {
   EXPECT_EQ(format_number(-0.5), "-0.500");
   EXPECT_EQ(format_number(1.5e-7), "1.50e-07");
   EXPECT_EQ(format_number(2.5e9), "2.50e+09");
-  EXPECT_EQ(format_number(nullptr), "-");
+  EXPECT_EQ(format_number(std::nullopt), "-");
   EXPECT_EQ(format_number(std::numeric_limits<double>::quiet_NaN()), "-");
 }
 
@@ -62,28 +61,20 @@ TEST(FormatCount, ShowsWholeNumbersAndSigns) {
   EXPECT_EQ(format_count(0), "0");
   EXPECT_EQ(format_count(-3), "-3");
   EXPECT_EQ(format_count(12345678901LL), "12345678901");
-  EXPECT_EQ(format_count(nullptr), "-");
-}
-
-TEST(FormatCount, RefusesWhatIsNoWholeNumber) {
-  using Json = nlohmann::ordered_json;
-  EXPECT_EQ(format_count(13.0), "13");
-  EXPECT_EQ(format_count(-0x1p53), "-9007199254740992");
-  for (const Json& value : {Json(1e300), Json(0.5), Json(~std::uint64_t{0}), Json(true), Json("1")})
-    EXPECT_THROW(format_count(value), Json::type_error) << value;
+  EXPECT_EQ(format_count(std::nullopt), "-");
 }
 
 TEST(FormatMillimetres, TurnsMetresIntoMillimetres) {
   EXPECT_EQ(format_millimetres(0.0021), "2.10");
   EXPECT_EQ(format_millimetres(0.0), "0");
-  EXPECT_EQ(format_millimetres(nullptr), "-");
+  EXPECT_EQ(format_millimetres(std::nullopt), "-");
 }
 
 TEST(FormatRatio, ShowsTheIntervalWhereWanted) {
-  const nlohmann::ordered_json ratio = {{"ratio", 12.34}, {"low", 11.8}, {"high", 12.9}};
+  const Ratio ratio = {12.34, 11.8, 12.9};
   EXPECT_EQ(format_ratio(ratio, true), "12.3x [11.8, 12.9]");
   EXPECT_EQ(format_ratio(ratio, false), "12.3x");
-  EXPECT_EQ(format_ratio(nullptr, true), "-");
+  EXPECT_EQ(format_ratio(std::nullopt, true), "-");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
+#include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
@@ -17,7 +18,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-Json with_goals() {
+results::Results sample() { return results::from_json(test::sample_results()); }
+
+results::Results with_goals() {
   Json results = test::sample_results();
   results["goals"] = Json::parse(R"([
     {"goal": "faster", "scene": "s", "detector": "d", "part": "cold", "over": "embree",
@@ -26,7 +29,7 @@ Json with_goals() {
      "at_most": 0.15, "measured": 0.125, "unit": "us", "met": true},
     {"goal": "wide", "scene": "t", "detector": "e", "part": "cold", "over": "d",
      "at_most": 1.4, "measured": null, "why": "e: not here", "met": null}])");
-  return results;
+  return results::from_json(results);
 }
 
 TEST(GoalsTable, SaysWhatWasWantedMeasuredAndMet) {
@@ -41,9 +44,9 @@ TEST(GoalsTable, SaysWhatWasWantedMeasuredAndMet) {
 TEST(GoalsTable, IsInBothReportsOfSuitesThatHaveGoalsAlone) {
   EXPECT_THAT(markdown_report(with_goals()), HasSubstr("## Goals of the suite"));
   EXPECT_THAT(terminal_tables(with_goals(), false), HasSubstr("not measured: e: not here"));
-  EXPECT_THAT(goal_lines(test::sample_results()), IsEmpty());
-  EXPECT_THAT(markdown_report(test::sample_results()), Not(HasSubstr("Goals")));
-  EXPECT_THAT(terminal_tables(test::sample_results(), false), Not(HasSubstr("goals")));
+  EXPECT_THAT(goal_lines(sample()), IsEmpty());
+  EXPECT_THAT(markdown_report(sample()), Not(HasSubstr("Goals")));
+  EXPECT_THAT(terminal_tables(sample(), false), Not(HasSubstr("goals")));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reference/report/bullet_findings.h"
 #include "reference/report/fcl_findings.h"
 #include "reference/report/run_row.h"
+#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
@@ -38,8 +39,17 @@ Json near_run() {
   })json");
 }
 
-Json results_of(std::vector<Json> runs) {
+Json scene_json_of(std::vector<Json> runs) {
   return {{"scenes", {{{"id", "hello"}, {"contact_frames", 10}}}}, {"runs", std::move(runs)}};
+}
+
+results::Results results_of(std::vector<Json> runs) {
+  return results::from_json(scene_json_of(std::move(runs)));
+}
+
+std::string scene_table_of(std::string (*table)(const RunList&), std::vector<Json> runs) {
+  const results::Results results = results_of(std::move(runs));
+  return table(runs_of_scene(results, "hello"));
 }
 
 Json renamed(Json run, const char* detector) {
@@ -48,7 +58,7 @@ Json renamed(Json run, const char* detector) {
 }
 
 TEST(LevelsTable, TellsDoublesFromValuesFedAndClaimsFromWhatIsInformative) {
-  const std::string table = levels_table({near_run()});
+  const std::string table = scene_table_of(levels_table, {near_run()});
   EXPECT_THAT(
       table,
       HasSubstr("| bullet-vf | near (below 2.00 mm) | doubles | 50 | 49 | 1 | 0 | 0.98000 | 0 |"));
@@ -67,7 +77,7 @@ TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
     (*run)["memory_bytes"] = 1048576;
   }
   with_clock["time_ms"]["cold"]["self_reported"] = 2.25;
-  const std::string table = times_table({with_clock, without});
+  const std::string table = scene_table_of(times_table, {with_clock, without});
   EXPECT_THAT(table, HasSubstr("| contact frame | own clock | frame, hot |"));
   EXPECT_THAT(table,
               HasSubstr("| bullet-vf | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 2.25 |"));
@@ -76,7 +86,7 @@ TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
 
 TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
   EXPECT_THAT(
-      graded_table({near_run()}),
+      scene_table_of(graded_table, {near_run()}),
       HasSubstr("| bullet-vf | - | - | - | vertex-surface | 4 | 4.00 / 1.00 / 3.00 | 3 | 180 "
                 "/ 90.0 / 180 |"));
 }
@@ -84,44 +94,45 @@ TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
 TEST(GradedTable, IsEmptyForDetectorsWithoutContourAndDepth) {
   Json run = near_run();
   run["geometry"] = {{"depth_kind", "none"}};
-  EXPECT_EQ(graded_table({run}), "");
+  EXPECT_EQ(scene_table_of(graded_table, {run}), "");
 }
 
 TEST(StagesTable, ShowsWhatAStageVisited) {
-  EXPECT_THAT(stages_table({near_run()}),
+  EXPECT_THAT(scene_table_of(stages_table, {near_run()}),
               HasSubstr("| bullet-vf | tree | triangle pairs | 900 | 30 | 77 node pairs | 1 |"));
 }
 
 TEST(CountersTable, GivesMeansPerFrameOfDetectorsThatCount) {
   Json run = near_run();
-  EXPECT_EQ(counters_table({run}), "");
+  EXPECT_EQ(scene_table_of(counters_table, {run}), "");
   run["frames"] = 50;
   run["counters"] = {{"leaves_mapped", 600}, {"exact_tests", 0}};
-  EXPECT_THAT(counters_table({run}),
+  EXPECT_THAT(scene_table_of(counters_table, {run}),
               HasSubstr("| bullet-vf | 12.0 leaves mapped, 0 exact tests |"));
 }
 
 TEST(SpeedupsTable, HasTheOptionsOfBothSides) {
   EXPECT_THAT(
-      speedups_table({near_run()}),
+      scene_table_of(speedups_table, {near_run()}),
       HasSubstr("| bullet-vf | margin=0.001, scale=0 | body | fcl-aabb | depth=deep | 2.00x "
                 "[1.50, 2.50] | 3.00x [2.50, 3.50] | - | - |"));
 }
 
 TEST(SpeedupsTable, LeavesOutTheReferenceAgainstItself) {
-  EXPECT_EQ(speedups_table({renamed(near_run(), "fcl-aabb")}), "");
+  EXPECT_EQ(scene_table_of(speedups_table, {renamed(near_run(), "fcl-aabb")}), "");
 }
 
 TEST(SceneTables, LeaveOutRunsThatAreNotOk) {
   const Json broken = {{"scene", "hello"}, {"detector", "x"}, {"status", "error"}};
-  EXPECT_EQ(levels_table({broken}) + graded_table({broken}) + stages_table({broken}) +
-                times_table({broken}) + speedups_table({broken}),
+  EXPECT_EQ(scene_table_of(levels_table, {broken}) + scene_table_of(graded_table, {broken}) +
+                scene_table_of(stages_table, {broken}) + scene_table_of(times_table, {broken}) +
+                scene_table_of(speedups_table, {broken}),
             "");
 }
 
 TEST(SemanticsText, NamesEveryClaim) {
   EXPECT_EQ(
-      semantics_text(near_run().at("semantics")),
+      semantics_text(results_of({near_run()}).runs[0].semantics),
       "levels body, near; informative vertex; questions contacts, body; surface, open, not "
       "exact; margin 2.00 mm; single precision, scale 64.0; depth vertex-surface; near | far");
 }
@@ -144,9 +155,9 @@ TEST(FclFindings, AreSilentWhereAnotherCauseMayBe) {
   Json right = fcl_run(4e-18);
   right["levels"]["triangle"]["spurious"] = 0;
   EXPECT_EQ(fcl_findings(results_of({right, renamed(fcl_run(4e-18), "embree")})), "");
-  Json family = results_of({fcl_run(4e-18)});
+  Json family = scene_json_of({fcl_run(4e-18)});
   family["scenes"][0]["family"] = Json::object();
-  EXPECT_EQ(fcl_findings(family), "");
+  EXPECT_EQ(fcl_findings(results::from_json(family)), "");
   EXPECT_EQ(
       fcl_findings(results_of({{{"scene", "hello"}, {"detector", "x"}, {"status", "error"}}})), "");
 }

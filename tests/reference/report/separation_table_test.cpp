@@ -4,6 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reference/report/run_row.h"
+#include "reference/results/results_json.h"
+
 namespace contactcheck {
 namespace {
 
@@ -23,8 +26,14 @@ Json run_of(const char* detector) {
             {"frame_ms", {3.0, 1.0, 2.0, nullptr, 0.5, nullptr, nullptr, nullptr, nullptr}}}}};
 }
 
+std::string sweep_tables(const Json& scene, std::vector<Json> runs) {
+  const results::Results results =
+      results::from_json({{"scenes", Json::array({scene})}, {"runs", std::move(runs)}});
+  return separation_tables(results.scenes[0], runs_of_scene(results, ""));
+}
+
 TEST(SeparationTables, HaveMediansOfTimesAndSumsOfErrorsBySeparation) {
-  const std::string tables = separation_tables(kScene, {run_of("fcl-aabb")});
+  const std::string tables = sweep_tables(kScene, {run_of("fcl-aabb")});
   EXPECT_THAT(tables, HasSubstr("3 orientations at each separation, given in % of the size (2"));
   EXPECT_THAT(tables, HasSubstr("| detector | -5 % | 0 % | 50 % |"));
   EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 2.00 | 0.500 | - |"));
@@ -35,11 +44,11 @@ TEST(SeparationTables, LeaveOutWhatWasNotTimedOrDidNotRun) {
   Json untimed = run_of("a"), refused = run_of("b");
   untimed["per_frame"].erase("frame_ms");
   refused["status"] = "refused";
-  const std::string tables = separation_tables(kScene, {untimed, refused});
+  const std::string tables = sweep_tables(kScene, {untimed, refused});
   EXPECT_THAT(tables, Not(HasSubstr("Time of a frame")));
   EXPECT_THAT(tables, HasSubstr("| a | 6 / 0 |"));
   EXPECT_THAT(tables, Not(HasSubstr("| b |")));
-  EXPECT_EQ(separation_tables({{"size", 2.0}}, {run_of("a")}), "");
+  EXPECT_EQ(sweep_tables({{"size", 2.0}}, {run_of("a")}), "");
 }
 
 }  // namespace

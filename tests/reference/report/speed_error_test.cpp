@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
@@ -17,6 +18,8 @@ using test::sample_results;
 using testing::ElementsAre;
 using testing::Field;
 using testing::IsEmpty;
+
+SpeedError speed_chart(const Json& results) { return speed_error(results::from_json(results)); }
 
 // The sample's two good runs, in a further scene.
 Json two_scenes() {
@@ -36,13 +39,13 @@ auto detectors_are(const char* a, const char* b) {
 }
 
 TEST(SpeedError, HasTheNumbersOfTheResults) {
-  const SpeedError chart = speed_error(sample_results());
+  const SpeedError chart = speed_chart(sample_results());
   EXPECT_EQ(chart.scenes, "scene hello");
   ASSERT_THAT(chart.points, detectors_are("fcl-aabb", "ffd-aabb-sphere2+tri"));
   const SpeedErrorPoint& p = chart.points[1];
   EXPECT_EQ(p.ms, 0.5);
-  EXPECT_EQ(p.question, "triangles");
-  EXPECT_EQ(p.level, "triangle");
+  EXPECT_EQ(p.question, Question::kTriangles);
+  EXPECT_EQ(p.level, Level::kTriangle);
   EXPECT_EQ(p.truth, 200000);
   EXPECT_EQ(p.missed, 1);
   EXPECT_EQ(p.reported, 200001);
@@ -51,7 +54,7 @@ TEST(SpeedError, HasTheNumbersOfTheResults) {
 }
 
 TEST(SpeedError, SaysWhoIsLeftOutAndWhy) {
-  const SpeedError chart = speed_error(sample_results());
+  const SpeedError chart = speed_chart(sample_results());
   ASSERT_EQ(chart.left_out.size(), 3u);
   EXPECT_EQ(chart.left_out[0].detector, "fcl-obbrss");
   EXPECT_EQ(chart.left_out[0].why, "ended well in 0 of 1 scenes");
@@ -61,7 +64,7 @@ TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
   Json results = two_scenes();
   results["runs"][5]["frames"] = 20;
   results["runs"][5]["time_ms"]["cold"]["frame"] = 10.0;
-  const SpeedError chart = speed_error(results);
+  const SpeedError chart = speed_chart(results);
   EXPECT_EQ(chart.scenes, "all 2 scenes");
   EXPECT_DOUBLE_EQ(chart.points[0].ms, (60 * 2.0 + 20 * 10.0) / 80);
   EXPECT_EQ(chart.points[0].truth, 400000);
@@ -74,13 +77,13 @@ TEST(SpeedError, TakesOneSceneWhereMostDetectorsDidNotRunInAll) {
     run["detector"] = name;
     results["runs"].push_back(run);
   }
-  EXPECT_EQ(speed_error(results).scenes, "scene hello") << "5 detectors there, 2 in both";
+  EXPECT_EQ(speed_chart(results).scenes, "scene hello") << "5 detectors there, 2 in both";
   results["runs"].erase(9);
-  EXPECT_EQ(speed_error(results).scenes, "all 2 scenes") << "4 there, 2 in both";
+  EXPECT_EQ(speed_chart(results).scenes, "all 2 scenes") << "4 there, 2 in both";
 }
 
 TEST(SpeedError, HardCasesAreTheirOwnChart) {
-  const SpeedError chart = speed_error(hard_results());
+  const SpeedError chart = speed_chart(hard_results());
   EXPECT_EQ(chart.scenes, "all 2 families of hard cases");
   EXPECT_THAT(chart.points, detectors_are("exact", "skin"));
 }
@@ -88,7 +91,7 @@ TEST(SpeedError, HardCasesAreTheirOwnChart) {
 TEST(SpeedError, LevelsThatAreNoClaimDoNotCount) {
   Json results = sample_results();
   results["runs"][0]["levels"]["triangle"]["informative"] = true;
-  const SpeedError chart = speed_error(results);
+  const SpeedError chart = speed_chart(results);
   EXPECT_EQ(chart.points.size(), 1u);
   EXPECT_EQ(chart.left_out[0].why, "nothing to judge");
 }
@@ -99,13 +102,13 @@ TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
   ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
   second["per_frame"]["level"] = "body";
   second["levels"].erase("triangle");
-  const SpeedErrorPoint p = speed_error(results).points[1];
-  EXPECT_EQ(p.level, "body");
+  const SpeedErrorPoint p = speed_chart(results).points[1];
+  EXPECT_EQ(p.level, Level::kBody);
   EXPECT_EQ(p.truth, 26) << "13 pairs of bodies in either scene";
   EXPECT_EQ(p.spurious, 4);
   second["per_frame"]["level"] = "near";
   second["levels"] = {{"near", second["levels"]["body"]}};
-  EXPECT_EQ(speed_error(results).left_out.front().why, "nothing to judge") << "in common";
+  EXPECT_EQ(speed_chart(results).left_out.front().why, "nothing to judge") << "in common";
 }
 
 // The judge's order, which is not that of the results: containment is never the finest.
@@ -115,37 +118,37 @@ TEST(SpeedError, BodiesThatTouchComeBeforeBodiesThatHold) {
     results["runs"][i]["levels"]["containment"] = results["runs"][i]["levels"]["body"];
   results["runs"][6]["per_frame"]["level"] = "body";
   results["runs"][6]["levels"].erase("triangle");
-  EXPECT_EQ(speed_error(results).points[1].level, "body");
+  EXPECT_EQ(speed_chart(results).points[1].level, Level::kBody);
 }
 
 TEST(SpeedError, ScenesWithNothingToJudgeDoNotCoarsenTheOthers) {
   Json results = two_scenes();
   results["runs"][6]["per_frame"].erase("level");
   results["runs"][6]["levels"] = Json::object();
-  const SpeedErrorPoint p = speed_error(results).points[1];
-  EXPECT_EQ(p.level, "triangle");
+  const SpeedErrorPoint p = speed_chart(results).points[1];
+  EXPECT_EQ(p.level, Level::kTriangle);
   EXPECT_EQ(p.truth, 200000);
 }
 
 TEST(SpeedError, WithoutTimesThereIsNothingToCompare) {
   Json results = sample_results();
   for (int i : {0, 1}) results["runs"][i]["time_ms"] = Json::object();
-  EXPECT_THAT(speed_error(results).points, IsEmpty());
+  EXPECT_THAT(speed_chart(results).points, IsEmpty());
   results["runs"] = Json::array();
-  EXPECT_THAT(speed_error(results).points, IsEmpty());
+  EXPECT_THAT(speed_chart(results).points, IsEmpty());
   results["scenes"] = Json::array();
-  EXPECT_THAT(speed_error(results).points, IsEmpty());
+  EXPECT_THAT(speed_chart(results).points, IsEmpty());
 }
 
 TEST(SpeedError, TimesThatNoAxisHasAreNone) {
   Json results = sample_results();
   results["runs"][0]["time_ms"]["cold"]["frame"] = 0.0;
-  EXPECT_EQ(speed_error(results).left_out[0].why, "not timed");
+  EXPECT_EQ(speed_chart(results).left_out[0].why, "not timed");
 }
 
 TEST(SpeedError, FrontIsWhatNoOtherBeats) {
   std::mt19937 random(3);
-  const char* const questions[] = {"triangles", "body"};
+  const Question questions[] = {Question::kTriangles, Question::kBody};
   for (int round = 0; round < 200; ++round) {
     std::vector<SpeedErrorPoint> points(1 + random() % 12);
     for (SpeedErrorPoint& p : points) {

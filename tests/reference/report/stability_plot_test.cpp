@@ -6,6 +6,7 @@
 
 #include "reference/report/report_files.h"
 #include "reference/report/svg.h"
+#include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 
 namespace contactcheck {
@@ -25,11 +26,12 @@ std::size_t count_of(const std::string& part, const std::string& text) {
   return count;
 }
 
-std::string plot_of(const char* id, const Json& results) {
-  for (const Json& scene : results.at("scenes"))
-    if (scene.at("id") == id) return stability_plot(scene, family_results(results));
-  return "no such scene";
+std::string plot_of(const char* id, const Json& json) {
+  const results::Results results = results::from_json(json);
+  return stability_plot(*results.scene(id), family_results(results));
 }
+
+auto files_of(const Json& results) { return report_files(results::from_json(results)); }
 
 TEST(StabilityPlot, HasASquareForEveryCaseOfWhoGoesWrong) {
   const std::string plot = plot_of("one", hard_results());
@@ -65,17 +67,17 @@ TEST(StabilityPlot, TakesNoMarkupFromResults) {
 }
 
 TEST(ReportFiles, AreTheReportAndItsPictures) {
-  EXPECT_THAT(report_files(hard_results()),
+  EXPECT_THAT(files_of(hard_results()),
               UnorderedElementsAre(Key("report.md"), Key("plots/one.svg"), Key("plots/two.svg"),
                                    Key("plots/speed_error.svg")));
-  EXPECT_THAT(report_files(hard_results()).at("report.md"), HasSubstr("](plots/one.svg)"));
+  EXPECT_THAT(files_of(hard_results()).at("report.md"), HasSubstr("](plots/one.svg)"));
 }
 
 TEST(ReportFiles, StayInTheirFolder) {
   Json results = hard_results();
   results["scenes"][0]["id"] = "../../one";
   for (int run = 0; run < 3; ++run) results["runs"][run]["scene"] = "../../one";
-  EXPECT_THAT(report_files(results), testing::Contains(Key("plots/------one.svg")));
+  EXPECT_THAT(files_of(results), testing::Contains(Key("plots/------one.svg")));
 }
 
 }  // namespace

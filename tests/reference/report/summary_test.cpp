@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
@@ -9,6 +10,10 @@ namespace {
 
 using test::sample_results;
 using testing::ElementsAre;
+
+auto summary_of(const nlohmann::ordered_json& results) {
+  return summary_lines(results::from_json(results));
+}
 
 nlohmann::ordered_json two_scenes_in_order() {
   auto results = sample_results();
@@ -23,7 +28,7 @@ nlohmann::ordered_json two_scenes_in_order() {
 }
 
 TEST(Summary, HasOneCellPerColumn) {
-  for (const auto& line : summary_lines(sample_results()))
+  for (const auto& line : summary_of(sample_results()))
     EXPECT_EQ(line.size(), summary_columns().size());
 }
 
@@ -33,7 +38,7 @@ TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {
   ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
   second["speedup"]["triangles"]["fcl-aabb"]["cold"]["ratio"] = 2.5;
   second["geometry"]["hover_gap_max"] = 0.004;
-  const auto lines = summary_lines(results);
+  const auto lines = summary_of(results);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_THAT(lines[0], ElementsAre("fcl-aabb", "2", "triangle", "400000", "1", "0", "0", "0/0",
                                     "0", "triangles", "1.00x", "-", "-"));
@@ -43,7 +48,7 @@ TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {
 }
 
 TEST(Summary, RunsThatAreNotOkAreCountedAndNeverAHitOrAMiss) {
-  const auto lines = summary_lines(two_scenes_in_order());
+  const auto lines = summary_of(two_scenes_in_order());
   EXPECT_THAT(lines[2], ElementsAre("fcl-obbrss", "0 (2 not ok)", "", "-", "-", "-", "-", "-", "-",
                                     "", "-", "-", "-"));
 }
@@ -55,7 +60,7 @@ TEST(Summary, RunThatIsNotOkStandsInTheLineOfItsDetector) {
                                {"detector", "fcl-aabb"},
                                {"status", "error"},
                                {"message", "why"}};
-    const auto lines = summary_lines(results);
+    const auto lines = summary_of(results);
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_EQ(lines[0][1], "1 (1 not ok)");
     EXPECT_EQ(lines[0][2], "triangle");
@@ -69,7 +74,7 @@ TEST(Summary, LevelsOfDifferentScenesAreNotAddedUp) {
   ASSERT_EQ(second["detector"], "fcl-aabb");
   second["per_frame"]["level"] = "body";
   second["levels"].erase("triangle");
-  const auto lines = summary_lines(results);
+  const auto lines = summary_of(results);
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_THAT(lines[0], ElementsAre("fcl-aabb", "1", "triangle", "200000", "1", "0", "0", "0/0",
                                     "0", "triangles", "1.00x", "-", "-"));

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
@@ -11,8 +12,12 @@ using test::sample_results;
 using testing::HasSubstr;
 using testing::Not;
 
+std::string terminal_of(const nlohmann::ordered_json& results, bool color) {
+  return terminal_tables(results::from_json(results), color);
+}
+
 TEST(Terminal, IsThisText) {
-  EXPECT_EQ(terminal_tables(sample_results(), false),
+  EXPECT_EQ(terminal_of(sample_results(), false),
             R"(hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact
   detector              level      truth   recall  missed  spurious  body m/s  hover mm  late  ms/frame  question   vs fcl-aabb  vs fcl-obbrss  vs embree
@@ -41,13 +46,13 @@ TEST(Terminal, IsThisText) {
 TEST(Terminal, ShowsADetectorsOwnClockBesideOurs) {
   auto results = sample_results();
   results["runs"][1]["time_ms"]["cold"]["self_reported"] = 0.375;
-  const std::string text = terminal_tables(results, false);
+  const std::string text = terminal_of(results, false);
   EXPECT_THAT(text, HasSubstr("  0.500 (own 0.375)  triangles"));
   EXPECT_THAT(text, HasSubstr("  2.00  triangles")) << "one without a clock has none";
 }
 
 TEST(Terminal, PaintsMissesSpuriousAndFailuresAlone) {
-  const std::string text = terminal_tables(sample_results(), true);
+  const std::string text = terminal_of(sample_results(), true);
   EXPECT_THAT(text, HasSubstr("\x1b[31merror\x1b[0m"));
   EXPECT_THAT(text, HasSubstr("\x1b[31m     1\x1b[0m"));       // one missed
   EXPECT_THAT(text, HasSubstr("\x1b[31m       2\x1b[0m"));     // two spurious
@@ -56,20 +61,20 @@ TEST(Terminal, PaintsMissesSpuriousAndFailuresAlone) {
 }
 
 TEST(Terminal, WithoutColourHasNoEscapes) {
-  EXPECT_THAT(terminal_tables(sample_results(), false), Not(HasSubstr("\x1b")));
+  EXPECT_THAT(terminal_of(sample_results(), false), Not(HasSubstr("\x1b")));
 }
 
 TEST(Terminal, SummarizesOnlySeveralScenes) {
   auto results = sample_results();
-  EXPECT_THAT(terminal_tables(results, false), Not(HasSubstr("all scenes")));
+  EXPECT_THAT(terminal_of(results, false), Not(HasSubstr("all scenes")));
   auto scene = results["scenes"][0];
   scene["id"] = "again";
   results["scenes"].push_back(scene);
-  EXPECT_THAT(terminal_tables(results, false), HasSubstr("all scenes"));
+  EXPECT_THAT(terminal_of(results, false), HasSubstr("all scenes"));
 }
 
 TEST(Terminal, ColumnsOfOneTableAreAligned) {
-  const std::string text = terminal_tables(sample_results(), false);
+  const std::string text = terminal_of(sample_results(), false);
   std::size_t width = 0;
   for (const char* name : {"detector  ", "fcl-aabb  ", "ffd-aabb-sphere2+tri  triangle"}) {
     const std::size_t begin = text.find(std::string("\n  ") + name);

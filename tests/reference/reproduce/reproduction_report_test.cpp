@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "reference/reproduce/reproduction.h"
+#include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
 
 namespace contactcheck {
@@ -19,11 +20,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string markdown_of(const Json& results) {
-  return reproduction_markdown(reproduce(results, paper_of_our_methods()));
+  return reproduction_markdown(reproduce(results::from_json(results), paper_of_our_methods()));
 }
 
 std::string terminal_of(const Json& results) {
-  return reproduction_terminal(reproduce(results, paper_of_our_methods()));
+  return reproduction_terminal(reproduce(results::from_json(results), paper_of_our_methods()));
 }
 
 // Bars that part columns: those that are not written with a backslash.
@@ -101,7 +102,8 @@ TEST(ReproductionMarkdown, HasTheSentencesTheFrameRateAndTheMeans) {
 }
 
 TEST(ReproductionMarkdown, SaysHowMuchCloserTheProposalRests) {
-  Json reproduction = reproduce(sample_reproduction_results(), paper_of_our_methods());
+  Json reproduction =
+      reproduce(results::from_json(sample_reproduction_results()), paper_of_our_methods());
   EXPECT_THAT(reproduction_markdown(reproduction), Not(HasSubstr("At rest")));
   reproduction["scenes"][0]["hover_at_rest"] = {
       {"ffd-grid", 0.125}, {"ffd-aabb-sphere2", 0.0625}, {"factor", 2.0}};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
 
 namespace contactcheck {
@@ -23,7 +24,7 @@ Json& scene_of(Json& reproduction) { return reproduction.at("scenes").at(0); }
 
 // The row of two levels of spheres against one.
 Json two_over_one(const Json& results) {
-  Json reproduction = reproduce(results, tables());
+  Json reproduction = reproduce(results::from_json(results), tables());
   const Json& row = scene_of(reproduction).at("ratios").at(1);
   EXPECT_EQ(row.at("before"), "ffd-aabb-sphere");
   EXPECT_EQ(row.at("after"), "ffd-aabb-sphere2");
@@ -31,12 +32,12 @@ Json two_over_one(const Json& results) {
 }
 
 std::vector<std::string> sentences(const Json& results) {
-  Json reproduction = reproduce(results, tables());
+  Json reproduction = reproduce(results::from_json(results), tables());
   return scene_of(reproduction).at("sentences").get<std::vector<std::string>>();
 }
 
 TEST(Reproduction, CountsAreSumsOverTheBodiesBesideThePapers) {
-  Json reproduction = reproduce(sample_results(), tables());
+  Json reproduction = reproduce(results::from_json(sample_results()), tables());
   EXPECT_EQ(scene_of(reproduction).at("counts").dump(),
             R"({"objects":{"paper":2.0,"ours":2.0,"difference_percent":0.0},)"
             R"("vertices":{"paper":20.0,"ours":22.0,"difference_percent":10.0},)"
@@ -45,7 +46,7 @@ TEST(Reproduction, CountsAreSumsOverTheBodiesBesideThePapers) {
 }
 
 TEST(Reproduction, SaysWhatWasRunAndOnWhat) {
-  Json reproduction = reproduce(sample_results(), tables());
+  Json reproduction = reproduce(results::from_json(sample_results()), tables());
   EXPECT_EQ(reproduction.at("schema"), "contactcheck-reproduction/1");
   EXPECT_EQ(reproduction.at("version"), "1.2.3");
   EXPECT_EQ(reproduction.at("command"), "contactcheck reproduce");
@@ -57,7 +58,7 @@ TEST(Reproduction, SaysWhatWasRunAndOnWhat) {
 }
 
 TEST(Reproduction, StepsStandBesideThePapersNewestTable) {
-  Json reproduction = reproduce(sample_reproduction_results(), tables());
+  Json reproduction = reproduce(results::from_json(sample_reproduction_results()), tables());
   const Json& steps = scene_of(reproduction).at("steps");
   ASSERT_EQ(steps.size(), 4u);
   EXPECT_EQ(steps[0].at("paper_reports").at("table"), "Table 1") << "only there";
@@ -139,7 +140,7 @@ TEST(Reproduction, ThereIsNoSentenceWhereOursReachesThePaper) {
 TEST(Reproduction, SceneThatTheResultsDoNotHoldIsLeftOut) {
   Json results = sample_reproduction_results();
   results["scenes"][0]["id"] = "paper-other";
-  const Json reproduction = reproduce(results, tables());
+  const Json reproduction = reproduce(results::from_json(results), tables());
   EXPECT_TRUE(reproduction.at("scenes").empty());
   EXPECT_TRUE(reproduction.at("means").is_null());
 }
@@ -151,7 +152,7 @@ TEST(Reproduction, RunThatIsNotOkIsNull) {
             {"detector", broken.at("detector")},
             {"status", "error"},
             {"message", "killed"}};
-  Json reproduction = reproduce(results, tables());
+  Json reproduction = reproduce(results::from_json(results), tables());
   EXPECT_TRUE(scene_of(reproduction).at("steps").at(2).at("safe").is_null());
   EXPECT_TRUE(scene_of(reproduction).at("ratios").at(1).at("safe").is_null());
   EXPECT_FALSE(scene_of(reproduction).at("ratios").at(1).at("paper").is_null());
@@ -172,14 +173,14 @@ TEST(Reproduction, RunOfAnotherSceneIsNotTaken) {
 }
 
 TEST(Reproduction, FrameRateIsOfTheProposalAsItIsWritten) {
-  Json reproduction = reproduce(sample_reproduction_results(), tables());
+  Json reproduction = reproduce(results::from_json(sample_reproduction_results()), tables());
   const Json& rate = scene_of(reproduction).at("frame_rate");
   EXPECT_EQ(rate.at("detector"), "ffd-aabb-sphere2");
   EXPECT_DOUBLE_EQ(rate.at("steps_per_second").get<double>(), 1000.0 / 6.0);
   EXPECT_DOUBLE_EQ(rate.at("simulated_over_real_time").get<double>(), 20.0 / 6.0);
   Json recorded = sample_reproduction_results();
   recorded["scenes"][0].erase("simulation");
-  reproduction = reproduce(recorded, tables());
+  reproduction = reproduce(results::from_json(recorded), tables());
   EXPECT_TRUE(scene_of(reproduction).at("frame_rate").is_null());
 }
 
@@ -187,7 +188,7 @@ TEST(Reproduction, ClosedLoopsAreTakenOverWithTheirDetectors) {
   Json results = sample_reproduction_results();
   results["runs"][1]["closed_loop"] = sample_closed_loop();
   results["runs"][2]["closed_loop"] = {{"error", "the simulation diverged"}};
-  Json reproduction = reproduce(results, tables());
+  Json reproduction = reproduce(results::from_json(results), tables());
   const Json& loops = scene_of(reproduction).at("closed_loop");
   ASSERT_EQ(loops.size(), 2u);
   EXPECT_EQ(loops[0].at("detector"), "ffd-aabb-sphere2:bounds=safe");
@@ -207,7 +208,7 @@ Json with_hover(const Json& grid, const Json& proposal) {
       if (old.at("detector") == detector) old["detector"] = "elsewhere";
     results["runs"].push_back(run);
   }
-  Json reproduction = reproduce(results, tables());
+  Json reproduction = reproduce(results::from_json(results), tables());
   return scene_of(reproduction).at("hover_at_rest");
 }
 
@@ -249,7 +250,8 @@ PaperTables tables_of_two_scenes() {
 }
 
 TEST(Reproduction, MeansAreGeometricForTestsAndArithmeticForFrameRates) {
-  const Json means = reproduce(two_scenes(), tables_of_two_scenes()).at("means");
+  const Json means =
+      reproduce(results::from_json(two_scenes()), tables_of_two_scenes()).at("means");
   EXPECT_EQ(means.at("scenes"), 2);
   EXPECT_DOUBLE_EQ(means.at("test_ratio").at("ours").get<double>(), std::sqrt(1.5 * 3.0));
   EXPECT_DOUBLE_EQ(means.at("test_ratio").at("paper").get<double>(), std::sqrt(2.0 * 8.0));
@@ -262,7 +264,7 @@ TEST(Reproduction, MeansAreGeometricForTestsAndArithmeticForFrameRates) {
 TEST(Reproduction, MeansCountOnlyScenesThatWereTimed) {
   Json results = two_scenes();
   results["runs"].back()["status"] = "refused";
-  const Json means = reproduce(results, tables_of_two_scenes()).at("means");
+  const Json means = reproduce(results::from_json(results), tables_of_two_scenes()).at("means");
   EXPECT_EQ(means.at("scenes"), 1);
   EXPECT_DOUBLE_EQ(means.at("test_ratio").at("ours").get<double>(), 1.5);
   EXPECT_DOUBLE_EQ(means.at("test_ratio").at("paper").get<double>(), 2.0);

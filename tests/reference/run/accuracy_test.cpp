@@ -19,7 +19,11 @@ Scene spheres() {
                               2.0 / 12.0, {Level::kBody, Level::kCell, Level::kTriangle});
 }
 
-RunResult accuracy_of(const Scene& scene, const std::string& name) {
+struct Judged : results::Run {
+  std::vector<Disagreement> disagreements;
+};
+
+Judged accuracy_of(const Scene& scene, const std::string& name) {
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   register_reference_detectors(catalog);
@@ -27,31 +31,31 @@ RunResult accuracy_of(const Scene& scene, const std::string& name) {
   SharedProgress page;
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
-  RunResult result;
+  Judged result;
   JudgingTools tools(judged);
-  run_accuracy(tools, 0, *detector, progress, result);
+  result.disagreements = run_accuracy(tools, 0, *detector, progress, result).disagreements;
   return result;
 }
 
 TEST(Accuracy, ExactDetectorsAreExact) {
   const Scene scene = spheres();
-  std::uint64_t hash = 0;
+  std::string hash;
   for (const char* name : {"fcl-aabb", "fcl-obbrss", "ffd-grid+tri", "ffd-aabb+tri",
                            "ffd-aabb-sphere2+tri", "ffd-aabb-sphereN+tri"}) {
-    const RunResult result = accuracy_of(scene, name);
+    const Judged result = accuracy_of(scene, name);
     EXPECT_GT(result.levels.at(Level::kTriangle).truth, 20u);
     EXPECT_TRUE(result.levels.at(Level::kTriangle).perfect()) << name;
     EXPECT_TRUE(result.levels.at(Level::kBody).perfect()) << name;
     EXPECT_TRUE(result.disagreements.empty()) << name;
-    if (hash == 0) hash = result.contact_hash;
+    if (hash.empty()) hash = result.contact_hash;
     EXPECT_EQ(result.contact_hash, hash) << name;
   }
 }
 
 TEST(Accuracy, CountsFramesAndContactFrames) {
-  const RunResult result = accuracy_of(spheres(), "fcl-aabb");
+  const Judged result = accuracy_of(spheres(), "fcl-aabb");
   EXPECT_EQ(result.frames, 12u);
-  EXPECT_EQ(result.per_frame.level, "triangle");
+  EXPECT_EQ(result.per_frame.level, Level::kTriangle);
   const auto touching = std::count_if(result.per_frame.truth.begin(), result.per_frame.truth.end(),
                                       [](std::uint64_t n) { return n > 0; });
   EXPECT_EQ(result.contact_frames, static_cast<std::size_t>(touching));
@@ -62,10 +66,10 @@ TEST(Accuracy, CountsFramesAndContactFrames) {
 TEST(Accuracy, StageLossesOfThePaperAddUpToItsMissed) {
   const Scene scene = spheres();
   for (const char* name : {"ffd-aabb-sphere2", "ffd-grid", "ffd-aabb-sphere2+tri:bounds=paper"}) {
-    const RunResult result = accuracy_of(scene, name);
+    const Judged result = accuracy_of(scene, name);
     const Level level = result.levels.count(Level::kTriangle) ? Level::kTriangle : Level::kCell;
     std::uint64_t lost = 0;
-    for (const StageResult& s : result.stages) lost += s.missed;
+    for (const results::Stage& s : result.stages) lost += s.missed;
     EXPECT_EQ(lost, result.levels.at(level).missed) << name;
     EXPECT_GE(result.stages.size(), 2u) << name;
   }
@@ -73,7 +77,7 @@ TEST(Accuracy, StageLossesOfThePaperAddUpToItsMissed) {
 
 TEST(Accuracy, RunsOfOneDetectorHaveOneHash) {
   const Scene scene = spheres();
-  const RunResult first = accuracy_of(scene, "ffd-grid"), again = accuracy_of(scene, "ffd-grid");
+  const Judged first = accuracy_of(scene, "ffd-grid"), again = accuracy_of(scene, "ffd-grid");
   EXPECT_GT(first.levels.at(Level::kCell).reported, 0u);
   EXPECT_EQ(first.contact_hash, again.contact_hash);
   Scene aside = spheres();

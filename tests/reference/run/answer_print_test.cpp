@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 namespace contactcheck {
 namespace {
 
@@ -108,18 +106,6 @@ TEST(AnswerPrint, RawAnswersMayRepeatThemselvesAndImplyTheirBodies) {
   answer.triangles.resize(1);
   EXPECT_EQ(raw(answer, two_triangles(), kOwnTriangles),
             "it answered 1 pairs of triangles and not the 2 that were judged");
-}
-
-TEST(AnswerPrint, ReadsBackAsItWasWritten) {
-  const AnswerPrint print = print_of(two_triangles(), kOwnTriangles);
-  const JudgedAnswers out = {{Question::kTriangles, {print, {}}}, {Question::kBody, {}}};
-  const JudgedAnswers in = judged_answers_from_json(nlohmann::json::parse(to_json(out).dump()));
-  ASSERT_EQ(in.size(), 2u);
-  EXPECT_EQ(in[1].question, Question::kBody);
-  ASSERT_EQ(in[0].frames.size(), 2u);
-  EXPECT_EQ(answer_difference(in[0].frames[0], print), "");
-  EXPECT_EQ(answer_difference(in[0].frames[1], {}), "");
-  EXPECT_NE(answer_difference(in[0].frames[0], in[0].frames[1]), "");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using test::two_balls;
 constexpr std::size_t kShotFrames = 30;
 
 template <typename Driver, typename... Arguments>
-ClosedLoop drive(const Scene& scene, Arguments... arguments) {
+results::ClosedLoop drive(const Scene& scene, Arguments... arguments) {
   SharedProgress page;
   ProgressWriter progress(&page);
   return run_closed_loop(
@@ -26,7 +26,7 @@ ClosedLoop drive(const Scene& scene, Arguments... arguments) {
 }
 
 TEST(ClosedLoop, ExactDriverLetsNothingThroughAndMissesNothing) {
-  const ClosedLoop loop = drive<TruthfulDetector>(falling_balls(40));
+  const results::ClosedLoop loop = drive<TruthfulDetector>(falling_balls(40));
   EXPECT_EQ(loop.error, "");
   EXPECT_EQ(loop.steps, 40u);
   EXPECT_GT(loop.levels.at(Level::kTriangle).truth, 20u);
@@ -39,7 +39,7 @@ TEST(ClosedLoop, ExactDriverLetsNothingThroughAndMissesNothing) {
 
 TEST(ClosedLoop, PairThatTouchesDoesNotHover) {
   // After 8 steps of 4/60 m the centres are 0.47 m apart: the last frame is the first contact.
-  const ClosedLoop loop = drive<TruthfulDetector>(shot(8));
+  const results::ClosedLoop loop = drive<TruthfulDetector>(shot(8));
   EXPECT_EQ(loop.hover_at_rest_max, 0.0);
   EXPECT_EQ(loop.hover_at_rest_mean, 0.0);
 }
@@ -51,14 +51,14 @@ TEST(ClosedLoop, JudgesTheMotionOfTheDriverAndNotThatOfTheScene) {
 }
 
 TEST(ClosedLoop, ShotBallIsStoppedByAnExactDriver) {
-  const ClosedLoop loop = drive<TruthfulDetector>(shot(kShotFrames));
+  const results::ClosedLoop loop = drive<TruthfulDetector>(shot(kShotFrames));
   EXPECT_GT(loop.levels.at(Level::kTriangle).truth, 0u);
   EXPECT_EQ(loop.tunnelling_events, 0u);
   EXPECT_LT(loop.last_speed, 4.0) << "m/s, when only one ball moved";
 }
 
 TEST(ClosedLoop, BlindDriverLetsABallThroughOnce) {
-  const ClosedLoop loop = drive<Blind>(shot(kShotFrames));
+  const results::ClosedLoop loop = drive<Blind>(shot(kShotFrames));
   EXPECT_EQ(loop.error, "");
   EXPECT_EQ(loop.tunnelling_events, 1u);
   ASSERT_TRUE(loop.deepest_penetration.has_value());
@@ -72,7 +72,7 @@ TEST(ClosedLoop, BlindDriverLetsABallThroughOnce) {
 
 TEST(ClosedLoop, BallsThatAreStillInContactAtTheEndHaveNotTunnelled) {
   // 17 steps of 4/60 m: the centres have passed (1.13 m of 1 m), the surfaces have not parted.
-  const ClosedLoop loop = drive<Blind>(shot(17));
+  const results::ClosedLoop loop = drive<Blind>(shot(17));
   EXPECT_EQ(loop.tunnelling_events, 0u);
   EXPECT_GT(*loop.deepest_penetration, 0.5 * kBallRadius);
 }
@@ -93,7 +93,7 @@ TEST(ClosedLoop, HoverIsTheTrueDistanceOfAPairThatIsReportedTooEarly) {
   // Nothing moves by itself; the triangles 0 and 100 lie far apart, and a report parts the balls.
   const double gap = 0.3;
   const Scene scene = two_balls({}, {{2.0 * kBallRadius + gap, 0.0, 0.0}, {}}, 10);
-  const ClosedLoop loop = drive<test::Invents>(scene, ElementPair{0, 1, 0, 100});
+  const results::ClosedLoop loop = drive<test::Invents>(scene, ElementPair{0, 1, 0, 100});
   ASSERT_TRUE(loop.hover_at_rest_max.has_value());
   EXPECT_GE(*loop.hover_at_rest_max, gap) << "an invented contact pushes apart";
   EXPECT_EQ(loop.hover_at_rest_mean, loop.hover_at_rest_max) << "a tenth of ten frames is one";
@@ -104,14 +104,14 @@ TEST(ClosedLoop, HoverIsTheTrueDistanceOfAPairThatIsReportedTooEarly) {
 TEST(ClosedLoop, BodiesThatCannotBeMovedHaveNoEnergyGainToSpeakOf) {
   Scene scene = shot(5);
   for (auto& material : scene.simulation->materials) material.reset();
-  const ClosedLoop loop = drive<Blind>(scene);
+  const results::ClosedLoop loop = drive<Blind>(scene);
   EXPECT_EQ(loop.energy_gain, std::nullopt);
   EXPECT_EQ(loop.last_speed, 0.0);
 }
 
 TEST(ClosedLoop, FreeFlightKeepsItsEnergyAndItsSpeed) {
   const Scene apart = two_balls({{0.0, 3.0, 0.0}, {1.0, 0.0, 0.0}}, {{}, {1.0, 0.0, 0.0}}, 5);
-  const ClosedLoop loop = drive<Blind>(apart);
+  const results::ClosedLoop loop = drive<Blind>(apart);
   ASSERT_TRUE(loop.energy_gain.has_value());
   EXPECT_NEAR(*loop.energy_gain, 0.0, 1e-12);
   EXPECT_NEAR(loop.last_speed, 1.0, 1e-12);
@@ -134,7 +134,7 @@ TEST(ClosedLoop, FramesAreEveryNthStep) {
 TEST(ClosedLoop, MotionThatDivergesIsAResultAndNoException) {
   Scene scene = shot(5);
   scene.simulation->settings.gravity = Vec3(0.0, -1e12, 0.0);
-  const ClosedLoop loop = drive<TruthfulDetector>(scene);
+  const results::ClosedLoop loop = drive<TruthfulDetector>(scene);
   EXPECT_THAT(loop.error, testing::HasSubstr("diverged"));
   EXPECT_THAT(loop.error, testing::HasSubstr("\"first\""));
   EXPECT_TRUE(loop.levels.empty());

@@ -13,11 +13,12 @@ using Json = nlohmann::ordered_json;
 
 // One pair of every number in frame 7, missed; nothing spurious.
 std::string missed_at(const std::string& level) {
-  RunResult run;
+  results::Run run;
   run.detector = "any";
-  run.per_frame = {level, {0}, {0}, {0}, {}};
-  run.differences = {{7, {1, {{2, 4, 3, 5}}}, {}}};
-  return detector_contacts(run).at("frames").at(0).at("missed").at("pairs").dump();
+  run.per_frame = {level_from_name(level), {0}, {0}, {0}, {}, {}};
+  const Json contacts = Json::parse(detector_contacts(run, {{7, {1, {{2, 4, 3, 5}}}, {}}}));
+  EXPECT_EQ(contacts.at("level"), level);
+  return contacts.at("frames").at(0).at("missed").at("pairs").dump();
 }
 
 JudgedScene scene_with(std::size_t pairs) {
@@ -40,29 +41,27 @@ TEST(Contacts, WhatIsNoElementIsMinusOne) {
 }
 
 TEST(Contacts, DetectorJudgedAtNoLevelHasNone) {
-  RunResult run;
-  run.per_frame.level = "body";
-  EXPECT_TRUE(detector_contacts(run).is_null());
+  results::Run run;
+  run.per_frame.level = Level::kBody;
+  EXPECT_EQ(detector_contacts(run, {}), "");
 }
 
 TEST(Contacts, TruthLeavesOutFramesWithoutContact) {
-  EXPECT_EQ(truth_contacts(scene_with(2)).dump(),
-            R"([{"frame":1,"count":2,"pairs":[0,0,1,1,0,1,1,2]}])");
-  EXPECT_EQ(truth_contacts(scene_with(0)), Json::array());
+  EXPECT_EQ(truth_contacts(scene_with(2)), R"([{"frame":1,"count":2,"pairs":[0,0,1,1,0,1,1,2]}])");
+  EXPECT_EQ(truth_contacts(scene_with(0)), "[]");
 }
 
 TEST(Contacts, CountSaysHowManyThereAreWhereTheListIsCut) {
-  const Json frame = truth_contacts(scene_with(kListedPairs + 3)).at(0);
+  const Json frame = Json::parse(truth_contacts(scene_with(kListedPairs + 3))).at(0);
   EXPECT_EQ(frame.at("count"), 503);
   EXPECT_EQ(frame.at("pairs").size(), 4 * 500u);
   EXPECT_EQ(frame.at("pairs").at(4 * 500 - 1), 500) << "the first of them in their order";
 }
 
 TEST(Contacts, FileIsOneLineWithoutSpaces) {
-  const Json detector = {{"detector", "a"}, {"level", "cell"}, {"frames", Json::array()}};
-  EXPECT_EQ(contacts_text("s", Json::array(), Json::array({detector})),
+  EXPECT_EQ(contacts_text("s", "[]", {R"({"detector":"a"})", R"({"detector":"b"})"}),
             R"({"schema":"contactcheck-contacts/1","scene":"s","limit":500,"truth":[],)"
-            R"("detectors":[{"detector":"a","level":"cell","frames":[]}]})"
+            R"("detectors":[{"detector":"a"},{"detector":"b"}]})"
             "\n");
   EXPECT_EQ(contacts_path("s"), "contacts/s.json");
 }

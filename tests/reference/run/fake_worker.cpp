@@ -9,11 +9,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "reference/compare/run_result_json.h"
 #include "reference/run/contacts_json.h"
 #include "reference/run/job.h"
 #include "reference/run/shared_progress.h"
@@ -81,74 +80,54 @@ void flood() {
   sleep(60);
 }
 
-void write_fake_answer(const Job& job, const nlohmann::ordered_json& runs,
-                       const nlohmann::ordered_json& truth_contacts = nullptr) {
-  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
-  nlohmann::ordered_json answer = {
-      {"scene", {{"id", "fake"}, {"frames", 9}, {"contact_frames", 4}}},
-      {"contact_frames", empty},
-      {"order", empty},
-      {"prefixes", empty},
-      {"runs", runs},
-      {"oracle_disagreements", empty}};
-  if (!truth_contacts.is_null()) answer["truth_contacts"] = truth_contacts;
-  std::ofstream(job.answer_file) << answer;
+void write_fake_answer(const Job& job, std::vector<DetectorAnswer> detectors,
+                       const std::string& truth_contacts = "") {
+  SceneAnswer answer;
+  answer.scene.id = "fake";
+  answer.scene.frames = 9;
+  answer.scene.contact_frames = 4;
+  answer.truth_contacts = truth_contacts;
+  answer.detectors = std::move(detectors);
+  contactcheck::write_answer(job.answer_file, answer);
+}
+
+DetectorAnswer answer_of(const Job& job, std::uint32_t position) {
+  DetectorAnswer answer;
+  answer.position = position;
+  answer.run.scene = "fake";
+  answer.run.detector = job.settings.detectors[position];
+  return answer;
 }
 
 // The answer of a worker whose detector 0 refused the scene and whose others were left out.
 void write_answer(const Job& job) {
-  RunResult run;
-  run.scene = "fake";
-  run.detector = job.settings.detectors.front();
-  run.status = RunStatus::kRefused;
-  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
-  const nlohmann::ordered_json entry = {{"position", 0},
-                                        {"run", to_json(run)},
-                                        {"samples", empty},
-                                        {"answers", empty},
-                                        {"disagreements", empty}};
-  write_fake_answer(job, nlohmann::ordered_json::array({entry}));
+  DetectorAnswer answer = answer_of(job, 0);
+  answer.run.status = results::Status::kRefused;
+  write_fake_answer(job, {answer});
 }
 
 // The answer of a worker whose detectors all worked; each missed triangles 2 and 5 in frame 3.
 void write_listed_answer(const Job& job) {
-  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
-  nlohmann::ordered_json entries = empty;
+  std::vector<DetectorAnswer> answers;
   for (std::uint32_t i = 0; i < 2; ++i) {
     if (std::find(job.skip.begin(), job.skip.end(), i) != job.skip.end()) continue;
-    RunResult run;
-    run.scene = "fake";
-    run.detector = job.settings.detectors[i];
-    run.per_frame = {"triangle", {1}, {1}, {0}, {}};
-    run.differences = {{3, {1, {{0, 1, 2, 5}}}, {}}};
-    entries.push_back({{"position", i},
-                       {"run", to_json(run)},
-                       {"samples", empty},
-                       {"answers", empty},
-                       {"disagreements", empty},
-                       {"contacts", detector_contacts(run)}});
+    DetectorAnswer& answer = answers.emplace_back(answer_of(job, i));
+    answer.run.per_frame = {Level::kTriangle, {1}, {1}, {0}, {}, {}};
+    answer.contacts = detector_contacts(answer.run, {{3, {1, {{0, 1, 2, 5}}}, {}}});
   }
-  write_fake_answer(job, entries, {{{"frame", 3}, {"count", 1}, {"pairs", {0, 2, 1, 5}}}});
+  write_fake_answer(job, answers, R"([{"frame":3,"count":1,"pairs":[0,2,1,5]}])");
 }
 
 // A real worker that need not judge ends every detector in the error that it was given.
 void write_unjudged_answer(const Job& job) {
-  const nlohmann::ordered_json empty = nlohmann::ordered_json::array();
-  nlohmann::ordered_json entries = empty;
+  std::vector<DetectorAnswer> answers;
   for (std::uint32_t i = 0; i < job.settings.detectors.size(); ++i) {
-    RunResult run;
-    run.scene = "fake";
-    run.detector = job.settings.detectors[i];
-    run.status = RunStatus::kError;
-    run.message = job.unjudged->why;
-    run.failed_frame = job.unjudged->frame;
-    entries.push_back({{"position", i},
-                       {"run", to_json(run)},
-                       {"samples", empty},
-                       {"answers", empty},
-                       {"disagreements", empty}});
+    DetectorAnswer& answer = answers.emplace_back(answer_of(job, i));
+    answer.run.status = results::Status::kError;
+    answer.run.message = job.unjudged->why;
+    answer.run.failed_frame = job.unjudged->frame;
   }
-  write_fake_answer(job, entries);
+  write_fake_answer(job, answers);
 }
 
 int act(const std::string& what, ProgressWriter& progress) {

@@ -26,7 +26,7 @@ Scene boxes() {
                               {Level::kBody});
 }
 
-RunResult measured_hover(const Scene& scene, const std::string& name) {
+results::Run measured_hover(const Scene& scene, const std::string& name) {
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   register_reference_detectors(catalog);
@@ -34,7 +34,7 @@ RunResult measured_hover(const Scene& scene, const std::string& name) {
   SharedProgress page;
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
-  RunResult result;
+  results::Run result;
   JudgingTools tools(judged);
   run_accuracy(tools, 0, *detector, progress, result);
   measure_hover_gaps(tools, 0, *detector, progress, result);
@@ -42,28 +42,28 @@ RunResult measured_hover(const Scene& scene, const std::string& name) {
 }
 
 TEST(HoverGap, OfFfdGridIsTwicePadding) {
-  const RunResult result = measured_hover(boxes(), "ffd-grid");
-  ASSERT_EQ(result.episodes.size(), 1u);
-  EXPECT_EQ(result.episodes[0].first_reported, 7u);
-  EXPECT_EQ(result.episodes[0].first_true, 11u);
-  EXPECT_EQ(result.late_frames_worst(), -4);
-  ASSERT_TRUE(result.hover_gap_max());
-  EXPECT_NEAR(*result.hover_gap_max(), 2.0 * kPadding * kSize, kTolerance);
+  const results::Run result = measured_hover(boxes(), "ffd-grid");
+  ASSERT_EQ(result.geometry.episodes.size(), 1u);
+  EXPECT_EQ(result.geometry.episodes[0].first_reported, 7u);
+  EXPECT_EQ(result.geometry.episodes[0].first_true, 11u);
+  EXPECT_EQ(result.geometry.late_frames, -4);
+  ASSERT_TRUE(result.geometry.hover_gap_max);
+  EXPECT_NEAR(*result.geometry.hover_gap_max, 2.0 * kPadding * kSize, kTolerance);
 }
 
 TEST(HoverGap, OfFfdAabbIsZeroForBoxes) {
-  const RunResult result = measured_hover(boxes(), "ffd-aabb");
-  EXPECT_EQ(result.late_frames_worst(), 0);
-  ASSERT_TRUE(result.hover_gap_max());
-  EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance);
+  const results::Run result = measured_hover(boxes(), "ffd-aabb");
+  EXPECT_EQ(result.geometry.late_frames, 0);
+  ASSERT_TRUE(result.geometry.hover_gap_max);
+  EXPECT_NEAR(*result.geometry.hover_gap_max, 0.0, kTolerance);
 }
 
 TEST(HoverGap, OfAnExactDetectorIsZero) {
   for (const char* name : {"fcl-aabb", "ffd-aabb-sphere2+tri"}) {
-    const RunResult result = measured_hover(boxes(), name);
-    EXPECT_EQ(result.late_frames_worst(), 0) << name;
-    ASSERT_TRUE(result.hover_gap_max()) << name;
-    EXPECT_NEAR(*result.hover_gap_max(), 0.0, kTolerance) << name;
+    const results::Run result = measured_hover(boxes(), name);
+    EXPECT_EQ(result.geometry.late_frames, 0) << name;
+    ASSERT_TRUE(result.geometry.hover_gap_max) << name;
+    EXPECT_NEAR(*result.geometry.hover_gap_max, 0.0, kTolerance) << name;
   }
 }
 
@@ -71,30 +71,30 @@ TEST(HoverGap, OfARecordingIsTheDistanceInTheFirstReportedFrame) {
   Scene scene = boxes();
   scene.recorded = test::recorded_frames(scene);
   scene.motions.clear();
-  const RunResult result = measured_hover(scene, "ffd-grid");
-  ASSERT_TRUE(result.hover_gap_max());
-  EXPECT_NEAR(*result.hover_gap_max(), 1.53 - 7 * 0.05 - 1.0, 1e-9);
+  const results::Run result = measured_hover(scene, "ffd-grid");
+  ASSERT_TRUE(result.geometry.hover_gap_max);
+  EXPECT_NEAR(*result.geometry.hover_gap_max, 1.53 - 7 * 0.05 - 1.0, 1e-9);
 }
 
 TEST(HoverGap, OfAContactFromTheFirstFrameIsTheDistanceThere) {
   Scene scene = boxes();
   scene.motions[1].path.position[0].keys = {{0.0, 1.15}};
   scene.frames = 2;
-  const RunResult result = measured_hover(scene, "ffd-grid");
-  ASSERT_EQ(result.episodes.size(), 1u);
-  EXPECT_EQ(result.episodes[0].first_reported, 0u);
-  EXPECT_EQ(result.episodes[0].late_frames, std::nullopt);
-  ASSERT_TRUE(result.hover_gap_max());
-  EXPECT_NEAR(*result.hover_gap_max(), 0.15, 1e-9);
+  const results::Run result = measured_hover(scene, "ffd-grid");
+  ASSERT_EQ(result.geometry.episodes.size(), 1u);
+  EXPECT_EQ(result.geometry.episodes[0].first_reported, 0u);
+  EXPECT_EQ(result.geometry.episodes[0].late_frames, std::nullopt);
+  ASSERT_TRUE(result.geometry.hover_gap_max);
+  EXPECT_NEAR(*result.geometry.hover_gap_max, 0.15, 1e-9);
 }
 
 TEST(HoverGap, IsNullWithoutAReport) {
   Scene scene = boxes();
   scene.motions[1].path.position[0].keys = {{0.0, 1.5}};
-  const RunResult result = measured_hover(scene, "ffd-grid");
-  EXPECT_TRUE(result.episodes.empty());
-  EXPECT_EQ(result.hover_gap_max(), std::nullopt);
-  EXPECT_EQ(result.late_frames_worst(), std::nullopt);
+  const results::Run result = measured_hover(scene, "ffd-grid");
+  EXPECT_TRUE(result.geometry.episodes.empty());
+  EXPECT_EQ(result.geometry.hover_gap_max, std::nullopt);
+  EXPECT_EQ(result.geometry.late_frames, std::nullopt);
 }
 
 }  // namespace

@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
-#include "reference/run/samples_json.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck {
@@ -110,15 +107,58 @@ TEST(Job, TextOfAnEmptyFileIsEmpty) {
   EXPECT_EQ(read_text_file(scratch.write("empty", "")), "");
 }
 
-TEST(Samples, ReadBackBitForBit) {
-  QuestionSamples out;
+SceneAnswer reread(const SceneAnswer& answer) {
+  const Scratch scratch;
+  write_answer(scratch.folder() / "answer", answer);
+  return read_answer(scratch.folder() / "answer");
+}
+
+// With a detector whose library prints what is no UTF-8.
+SceneAnswer full_answer() {
+  SceneAnswer answer;
+  answer.scene.id = "s";
+  answer.scene.truth[Level::kCell] = "not judged: a body has no lattice";
+  answer.contact_frames = {false, true};
+  answer.order = {1, 0};
+  answer.prefixes = {0, 0, 2};
+  answer.truth_contacts = R"([{"frame":1}])";
+  answer.disagreements = {{"s", "fcl-aabb", "triangle", "missed", "/tmp/case", 1}};
+  DetectorAnswer& detector = answer.detectors.emplace_back();
+  detector.position = 2;
+  detector.run.detector = "fcl-aabb";
+  detector.run.message = "odd \xff byte";
+  detector.run.contact_hash = "0x1";
+  detector.contacts = R"({"detector":"fcl-aabb"})";
+  return answer;
+}
+
+TEST(Answer, ReadsBackAsItWasWritten) {
+  const SceneAnswer in = reread(full_answer());
+  EXPECT_EQ(in.scene.id, "s");
+  EXPECT_EQ(std::get<std::string>(in.scene.truth.at(Level::kCell)),
+            "not judged: a body has no lattice");
+  EXPECT_THAT(in.contact_frames, ElementsAre(false, true));
+  EXPECT_THAT(in.order, ElementsAre(1, 0));
+  EXPECT_THAT(in.prefixes, ElementsAre(0, 0, 2));
+  EXPECT_EQ(in.truth_contacts, R"([{"frame":1}])");
+  ASSERT_EQ(in.disagreements.size(), 1u);
+  EXPECT_EQ(in.disagreements[0].case_file, "/tmp/case");
+  ASSERT_EQ(in.detectors.size(), 1u);
+  EXPECT_EQ(in.detectors[0].position, 2u);
+  EXPECT_EQ(in.detectors[0].run.message, "odd \xef\xbf\xbd byte") << "U+FFFD for what is no UTF-8";
+  EXPECT_EQ(in.detectors[0].run.contact_hash, "0x1");
+  EXPECT_EQ(in.detectors[0].contacts, R"({"detector":"fcl-aabb"})");
+}
+
+TEST(Answer, SamplesReadBackBitForBit) {
+  SceneAnswer answer = full_answer();
+  QuestionSamples& out = answer.detectors[0].samples.emplace_back();
   out.question = Question::kBody;
   out.lazy_map = true;
-  out.frames[4].cold = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0}};
+  out.frames[4].cold = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0, 4.0}};
   out.frames[4].hot = {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}};
   out.frames[17].cold = out.frames[17].hot = {{1.5, 2.5, 3.5}, {0.0, 0.0, 0.0}};
-  const QuestionSamples in =
-      samples_from_json(nlohmann::ordered_json::parse(samples_to_json(out).dump()));
+  const QuestionSamples in = reread(answer).detectors.at(0).samples.at(0);
   EXPECT_EQ(in.question, Question::kBody);
   EXPECT_TRUE(in.lazy_map);
   ASSERT_EQ(in.frames.size(), 2u);
@@ -130,8 +170,24 @@ TEST(Samples, ReadBackBitForBit) {
         EXPECT_EQ(read[r].map, (samples.*mode)[r].map);
         EXPECT_EQ(read[r].update, (samples.*mode)[r].update);
         EXPECT_EQ(read[r].query, (samples.*mode)[r].query);
+        EXPECT_EQ(read[r].reported, (samples.*mode)[r].reported);
       }
     }
+}
+
+TEST(Answer, JudgedAnswersReadBackEvenWhereTheyAreEmpty) {
+  AnswerPrint print;
+  print.sizes = {1, 0, 2};
+  print.hashes = {~std::uint64_t{0}, 0, 7};
+  SceneAnswer answer = full_answer();
+  answer.detectors[0].answers = {{Question::kTriangles, {print, {}}}, {Question::kBody, {}}};
+  const JudgedAnswers in = reread(answer).detectors.at(0).answers;
+  ASSERT_EQ(in.size(), 2u);
+  EXPECT_EQ(in[1].question, Question::kBody);
+  ASSERT_EQ(in[0].frames.size(), 2u);
+  EXPECT_EQ(in[0].frames[0].sizes, print.sizes);
+  EXPECT_EQ(in[0].frames[0].hashes, print.hashes);
+  EXPECT_EQ(in[0].frames[1].sizes, AnswerSizes{});
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class Lockstep : public testing::Test {
   template <typename Kind, typename... Arguments>
   void add(Arguments&... arguments) {
     const auto position = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({position, std::make_unique<Kind>(arguments...), StepTimes{}, ""});
+    entries_.push_back({position, std::make_unique<Kind>(arguments...), 0, {}, ""});
   }
   void run(const LockstepSettings& settings) {
     TruthfulDetector driver;
@@ -82,9 +82,9 @@ class Lockstep : public testing::Test {
   }
   static void expect_times(const LockstepEntry& entry, std::size_t steps, std::size_t repeats) {
     EXPECT_EQ(entry.error, "");
-    EXPECT_EQ(entry.times.steps, steps);
-    ASSERT_EQ(entry.times.sums.size(), repeats);
-    for (const StepSum& sum : entry.times.sums) {
+    EXPECT_EQ(entry.steps, steps);
+    ASSERT_EQ(entry.sums.size(), repeats);
+    for (const StepSum& sum : entry.sums) {
       EXPECT_GT(sum.mss, 0.0);
       EXPECT_GT(sum.cell, 0.0);
       EXPECT_GT(sum.test, 0.0);
@@ -166,8 +166,8 @@ TEST_F(Lockstep, EntryThatThrowsHasAnErrorAndNoTimesAndStopsNobodyElse) {
   EXPECT_THAT(entries_[2].error, HasSubstr("no such body"));
   EXPECT_THAT(entries_[3].error, HasSubstr("neither cells nor triangles"));
   for (std::size_t i : {1u, 2u, 3u}) {
-    EXPECT_EQ(entries_[i].times.steps, 0u) << i;
-    EXPECT_TRUE(entries_[i].times.sums.empty()) << i;
+    EXPECT_EQ(entries_[i].steps, 0u) << i;
+    EXPECT_TRUE(entries_[i].sums.empty()) << i;
   }
   expect_times(entries_[0], 4, 2);
   expect_times(entries_[4], 4, 2);

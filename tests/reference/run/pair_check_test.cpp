@@ -103,29 +103,30 @@ TEST_F(RandomPairsJudged, OracleThatMakesPairsUpIsFoundOut) {
 
 TEST_F(RandomPairsJudged, SummaryHasCountSeedKindsAndVerdict) {
   judged_.pairs->oracle_wrong = 2;
-  const nlohmann::ordered_json pairs = scene_summary(judged_).at("pairs");
-  EXPECT_EQ(pairs.at("count"), kFrames * RandomPairs::kSlots);
-  EXPECT_EQ(pairs.at("seed"), 3);
-  EXPECT_EQ(pairs.at("touching"), scene_summary(judged_).at("truth").at("triangle"));
-  EXPECT_EQ(pairs.at("per_kind").size(), kPairKinds);
-  EXPECT_EQ(pairs.at("per_kind").at("mixed-scale").at("touching"),
-            judged_.pairs->kinds.back().touching);
-  EXPECT_EQ(pairs.at("rational").at("checked"), kFrames * RandomPairs::kSlots);
-  EXPECT_EQ(pairs.at("rational").at("oracle_wrong"), 2);
+  const results::Scene scene = scene_summary(judged_);
+  const results::RandomPairs pairs = scene.pairs.value();
+  EXPECT_EQ(pairs.count, kFrames * RandomPairs::kSlots);
+  EXPECT_EQ(pairs.seed, 3u);
+  EXPECT_EQ(pairs.touching, std::get<std::uint64_t>(scene.truth.at(Level::kTriangle)));
+  ASSERT_EQ(pairs.per_kind.size(), kPairKinds);
+  EXPECT_EQ(pairs.per_kind.back().first, "mixed-scale");
+  EXPECT_EQ(pairs.per_kind.back().second.touching, judged_.pairs->kinds.back().touching);
+  EXPECT_EQ(pairs.checked, kFrames * RandomPairs::kSlots);
+  EXPECT_EQ(pairs.oracle_wrong, 2u);
 }
 
 TEST_F(RandomPairsJudged, DetectorThatDropsPairsIsCounted) {
   std::uint64_t dropped = 0;
   for (const Truth& t : judged_.truth) dropped += (t.surface.triangles.size() + 9) / 10;
   test::DropsEveryTenth detector;
-  RunResult result;
+  results::Run result;
   JudgingTools tools(judged_);
-  run_accuracy(tools, 0, detector, progress_, result);
+  const AccuracyOutcome outcome = run_accuracy(tools, 0, detector, progress_, result);
   EXPECT_EQ(result.levels.at(Level::kTriangle).missed, dropped);
   EXPECT_EQ(result.levels.at(Level::kTriangle).spurious, 0u);
-  EXPECT_FALSE(result.graded.missed_length) << "lengths of many scales do not add up";
-  ASSERT_FALSE(result.disagreements.empty());
-  EXPECT_EQ(result.disagreements[0].kind, "missed");
+  EXPECT_FALSE(result.geometry.missed_length) << "lengths of many scales do not add up";
+  ASSERT_FALSE(outcome.disagreements.empty());
+  EXPECT_EQ(outcome.disagreements[0].kind, "missed");
 }
 
 TEST_F(RandomPairsJudged, FramesComeBackBitForBitAfterOthers) {

@@ -110,20 +110,20 @@ class FloatDetector final : public Detector {
   Semantics semantics_;
 };
 
-RunResult accuracy_of(Precision precision, bool fed_vertices = true) {
+results::Run accuracy_of(Precision precision, bool fed_vertices = true) {
   const Scene scene = plates();
   const JudgedScene exact = judged(scene);
   JudgingTools tools(exact);
   FloatDetector detector(precision, fed_vertices);
   SharedProgress page;
   ProgressWriter progress(&page);
-  RunResult result;
+  results::Run result;
   run_accuracy(tools, 0, detector, progress, result);
   return result;
 }
 
 TEST(RoundedLevels, DoNotBookRoundingAsAnErrorOfTheAlgorithm) {
-  const RunResult result = accuracy_of(Precision::kSingle);
+  const results::Run result = accuracy_of(Precision::kSingle);
   EXPECT_EQ(result.levels.at(Level::kTriangle).spurious, 2u);
   EXPECT_EQ(result.levels_rounded.at(Level::kTriangle).spurious, 0u);
   EXPECT_EQ(result.levels_rounded.at(Level::kTriangle).hit, 2u);

@@ -51,8 +51,8 @@ TEST(Separations, StandInTheSummaryWhereThereAreAny) {
   SharedProgress page;
   ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, true, progress);
-  EXPECT_EQ(scene_summary(judged, {0.5, 0.0}).at("separation").size(), 2u);
-  EXPECT_FALSE(scene_summary(judged, {}).contains("separation"));
+  EXPECT_EQ(scene_summary(judged, {0.5, 0.0}).separation.size(), 2u);
+  EXPECT_TRUE(scene_summary(judged, {}).separation.empty());
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/types/check.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
@@ -25,7 +23,7 @@ SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
   return request;
 }
 
-nlohmann::ordered_json run(const SuiteRequest& request, SuiteOutcome* outcome) {
+results::Results run(const SuiteRequest& request, SuiteOutcome* outcome) {
   return run_suite(request, {}, outcome);
 }
 
@@ -36,15 +34,15 @@ TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {
   SuiteOutcome outcome;
   const auto results = run(request, &outcome);
   EXPECT_TRUE(outcome.unlisted_error);
-  ASSERT_EQ(results.at("runs").size(), 2u);
-  EXPECT_EQ(results.at("runs").at(0).at("status"), "refused") << "the fake's answer";
-  const auto& broken = results.at("runs").at(1);
-  EXPECT_EQ(broken.at("detector"), "two");
-  EXPECT_EQ(broken.at("status"), "error");
-  EXPECT_EQ(broken.at("message"),
+  ASSERT_EQ(results.runs.size(), 2u);
+  EXPECT_EQ(results.runs[0].status, results::Status::kRefused) << "the fake's answer";
+  const results::Run& broken = results.runs[1];
+  EXPECT_EQ(broken.detector, "two");
+  EXPECT_EQ(broken.status, results::Status::kError);
+  EXPECT_EQ(broken.message,
             "scene fake, frame 3, phase truth: signal 11 (Segmentation fault) in the suite's own "
             "code, after this detector had run");
-  EXPECT_EQ(broken.at("frames"), 9);
+  EXPECT_EQ(broken.frames, 9u);
 }
 
 TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
@@ -55,9 +53,10 @@ TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
   request.settings.processes = 2;
   SuiteOutcome outcome;
   const auto results = run(request, &outcome);
-  EXPECT_EQ(results.at("runs").at(0).at("status"), "ok");
-  EXPECT_EQ(results.at("runs").at(1).at("status"), "error");
-  EXPECT_EQ(results.at("scenes").at(0).at("contacts"), "contacts/fake.json");
+  ASSERT_EQ(results.runs.size(), 2u);
+  EXPECT_TRUE(results.runs[0].ok());
+  EXPECT_EQ(results.runs[1].status, results::Status::kError);
+  EXPECT_EQ(results.scenes.at(0).contacts, "contacts/fake.json");
   EXPECT_EQ(test::text_of(request.out / "contacts" / "fake.json"),
             R"({"schema":"contactcheck-contacts/1","scene":"fake","limit":500,)"
             R"("truth":[{"frame":3,"count":1,"pairs":[0,2,1,5]}],)"
@@ -85,11 +84,11 @@ TEST(SuiteRun, WhatTheOracleCannotJudgeCostsItsSceneNotTheRun) {
   request.settings.memory_limit = std::uint64_t{300} << 20;
   const auto results = run(request, &outcome);
   EXPECT_TRUE(outcome.unlisted_error);
-  ASSERT_EQ(results.at("runs").size(), 3u);
-  for (const auto& row : results.at("runs")) {
-    EXPECT_EQ(row.at("status"), "error");
-    EXPECT_EQ(row.at("failed_frame"), 3);
-    EXPECT_EQ(row.at("message"),
+  ASSERT_EQ(results.runs.size(), 3u);
+  for (const results::Run& row : results.runs) {
+    EXPECT_EQ(row.status, results::Status::kError);
+    EXPECT_EQ(row.failed_frame, 3u);
+    EXPECT_EQ(row.message,
               "scene fake, frame 3, phase truth: more than 300 MiB resident (memory limit), before "
               "any detector: the oracle cannot judge this scene");
   }

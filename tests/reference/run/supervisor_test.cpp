@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
 #include "reference/run/interrupts.h"
@@ -245,11 +244,12 @@ TEST(Supervisor, RealWorkerWritesItsAnswer) {
   const WorkerOutcome outcome = run_supervised(CONTACTCHECK_PROGRAM, scratch.folder() / "job",
                                                RunSettings{}, [](const WorkerProgress&) {});
   ASSERT_TRUE(outcome.done) << outcome.reason;
-  const auto answer = nlohmann::json::parse(read_text_file(job.answer_file));
-  EXPECT_EQ(answer.at("scene").at("id"), "tiny");
-  EXPECT_EQ(answer.at("runs").at(0).at("run").at("status"), "ok");
-  EXPECT_EQ(answer.at("runs").at(0).at("run").at("levels").at("triangle").at("missed"), 0);
-  EXPECT_GT(answer.at("scene").at("truth").at("triangle"), 0);
+  const SceneAnswer answer = read_answer(job.answer_file);
+  EXPECT_EQ(answer.scene.id, "tiny");
+  ASSERT_EQ(answer.detectors.size(), 1u);
+  EXPECT_TRUE(answer.detectors[0].run.ok());
+  EXPECT_EQ(answer.detectors[0].run.levels.at(Level::kTriangle).missed, 0u);
+  EXPECT_GT(std::get<std::uint64_t>(answer.scene.truth.at(Level::kTriangle)), 0u);
 }
 
 TEST(Supervisor, RealWorkerWithoutItsSceneExitsWithTwoOutsideAnyDetector) {

@@ -6,6 +6,7 @@
 #include "core/deform/mapping.h"
 #include "core/deform/recording.h"
 #include "core/detect/ffd_state.h"
+#include "reference/results/results_json.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/reference/view/view_reader.h"
 #include "tests/support/shapes.h"
@@ -57,7 +58,8 @@ class ViewBytes : public testing::Test {
   }
   ViewReader view(const std::string& recording = "boxes.ccr",
                   const std::string& contacts = "boxes.json") const {
-    return ViewReader(view_bytes(results_naming(recording, contacts), scratch_.folder()));
+    return ViewReader(
+        view_bytes(results::from_json(results_naming(recording, contacts)), scratch_.folder()));
   }
   std::string left_out(const std::string& recording, const std::string& contacts) const {
     const ViewReader reader = view(recording, contacts);
@@ -190,8 +192,12 @@ TEST_F(ViewBytes, KeepTheSmallestScenesBelowTheLimit) {
   Json results = results_naming("boxes.ccr", "boxes.json");
   results["scenes"].insert(results["scenes"].begin(), Json{{"id", "large"}});
   results["runs"].push_back({{"scene", "large"}, {"recording", "large.ccr"}});
-  EXPECT_EQ(ViewReader(view_bytes(results, scratch_.folder())).header().at("scenes").size(), 2u);
-  const std::string bytes = view_bytes(results, scratch_.folder(), 10'000);
+  EXPECT_EQ(ViewReader(view_bytes(results::from_json(results), scratch_.folder()))
+                .header()
+                .at("scenes")
+                .size(),
+            2u);
+  const std::string bytes = view_bytes(results::from_json(results), scratch_.folder(), 10'000);
   const ViewReader reader(bytes);
   ASSERT_EQ(reader.header().at("scenes").size(), 1u);
   EXPECT_EQ(reader.scene(0).at("id"), "boxes");
@@ -203,16 +209,15 @@ TEST_F(ViewBytes, KeepTheSmallestScenesBelowTheLimit) {
 
 TEST_F(ViewBytes, LeaveOutUnreadWhatIsFarTooLarge) {
   scratch_.write("boxes.ccr", std::string(10'010, 'x'));
-  const ViewReader reader(
-      view_bytes(results_naming("boxes.ccr", "boxes.json"), scratch_.folder(), 1000));
+  const ViewReader reader(view_bytes(results::from_json(results_naming("boxes.ccr", "boxes.json")),
+                                     scratch_.folder(), 1000));
   EXPECT_THAT(reader.header().at("left_out").at(0).at("why"),
               HasSubstr("it does not fit into the 1 kB that the report has for 3D scenes"));
 }
 
 TEST_F(ViewBytes, WithoutRecordingsAreNone) {
-  EXPECT_EQ(view_bytes(results_naming("", ""), scratch_.folder()), "");
-  EXPECT_EQ(view_bytes({{"scenes", Json::array()}, {"runs", Json::array()}}, scratch_.folder()),
-            "");
+  EXPECT_EQ(view_bytes(results::from_json(results_naming("", "")), scratch_.folder()), "");
+  EXPECT_EQ(view_bytes({}, scratch_.folder()), "");
 }
 
 }  // namespace

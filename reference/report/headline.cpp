@@ -1,0 +1,317 @@
+#include "reference/report/headline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "reference/report/error_counts.h"
+#include "reference/report/format.h"
+#include "reference/report/known_defects.h"
+#include "reference/report/run_row.h"
+#include "reference/results/references.h"
+
+namespace contactcheck {
+namespace {
+
+using results::Results, results::Run;
+using Names = std::vector<std::string>;
+
+constexpr std::size_t kMostDetectors = 5, kMostPlaces = 3;
+
+/// A detector over all scenes: what it claims, and how often it was wrong.
+struct Verdict {
+  std::string detector;
+  std::map<Level, ErrorCounts> levels;
+  std::optional<Level> finest;  ///< in the first scene that it finished
+  bool failed = false;          ///< ended in an error somewhere
+
+  bool flawless() const {
+    return !failed && std::all_of(levels.begin(), levels.end(), [](const auto& level) {
+      return level.second.missed == 0 && level.second.spurious == 0;
+    });
+  }
+};
+
+// Of a scene that was not judged, no detector was asked.
+bool was_asked(const Results& results, const Run& run) {
+  const results::Scene* scene = results.scene(run.scene);
+  return scene == nullptr || scene->unjudged.empty();
+}
+
+// Of detectors that had something to find, or reported something; in the order of their first runs.
+std::vector<Verdict> verdicts_of(const Results& results) {
+  std::vector<Verdict> all;
+  for (const Run& run : results.runs) {
+    auto own = std::find_if(all.begin(), all.end(),
+                            [&](const Verdict& v) { return v.detector == run.detector; });
+    if (own == all.end()) own = all.insert(all.end(), Verdict{run.detector, {}, {}, false});
+    if (run.status == results::Status::kError && was_asked(results, run)) own->failed = true;
+    if (!run.ok()) continue;
+    if (!own->finest) own->finest = run.per_frame.level;
+    for (const auto& [level, counts] : run.levels)
+      if (!counts.informative) own->levels[level].add(run, level);
+  }
+  std::erase_if(all, [](const Verdict& verdict) {
+    return std::none_of(verdict.levels.begin(), verdict.levels.end(), [](const auto& level) {
+      return level.second.truth > 0 || level.second.reported > 0;
+    });
+  });
+  return all;
+}
+
+std::string places_text(const Results& results) {
+  std::size_t scenes = 0, cases = 0;
+  for (const results::Scene& scene : results.scenes) {
+    if (!scene.unjudged.empty()) continue;
+    if (scene.family) {
+      cases += scene.family->values.size();
+    } else {
+      ++scenes;
+    }
+  }
+  Names parts;
+  if (scenes > 0) parts.push_back(plural(scenes, "scene"));
+  if (cases > 0) parts.push_back(plural(cases, "hard case"));
+  return listed(parts);
+}
+
+std::string title_of(const std::vector<Verdict>& all, const std::string& places) {
+  const auto right = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.flawless(); }));
+  if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
+  if (all.size() == 1)
+    return all[0].detector + " made " + (right == 1 ? "no error" : "errors") + " in " + places;
+  if (right == all.size())
+    return fmt::format("All {} detectors made no error in {}", right, places);
+  if (right == 0)
+    return fmt::format("None of {} detectors is without error in {}", all.size(), places);
+  return fmt::format("{} of {} detectors made no error in {}", right, all.size(), places);
+}
+
+void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& out) {
+  std::vector<std::pair<std::optional<Level>, Names>> by_level;
+  for (const Verdict& verdict : all) {
+    if (!verdict.flawless()) continue;
+    auto own = std::find_if(by_level.begin(), by_level.end(),
+                            [&](const auto& entry) { return entry.first == verdict.finest; });
+    if (own == by_level.end()) own = by_level.insert(by_level.end(), {verdict.finest, {}});
+    own->second.push_back(verdict.detector);
+  }
+  for (const auto& [level, names] : by_level)
+    out.push_back(
+        {"No error", fmt::format("At level {}: {}.", level ? name_of(*level) : "", listed(names))});
+}
+
+using Member = std::uint64_t ErrorCounts::*;
+
+/// One detector's errors of one kind, at the level that shows them.
+struct Wrong {
+  const Verdict* verdict = nullptr;
+  Level level{};
+  ErrorCounts counts;
+};
+
+// The level that shows the error: the finest, unless that is without.
+std::optional<Wrong> wrong_at(const Verdict& verdict, Member errors) {
+  if (verdict.finest)
+    if (const auto finest = verdict.levels.find(*verdict.finest);
+        finest != verdict.levels.end() && finest->second.*errors > 0)
+      return Wrong{&verdict, finest->first, finest->second};
+  for (const auto& [level, counts] : verdict.levels)
+    if (counts.*errors > 0) return Wrong{&verdict, level, counts};
+  return std::nullopt;
+}
+
+void add_wrong(const std::vector<Verdict>& all, bool missed, std::vector<HeadlineFinding>& out) {
+  const Member errors = missed ? &ErrorCounts::missed : &ErrorCounts::spurious;
+  const auto share = [&](const ErrorCounts& c) {
+    return (missed ? c.missed_share() : c.spurious_share()).value_or(0.0);
+  };
+  std::vector<Wrong> wrong;
+  std::set<Level> levels;
+  for (const Verdict& verdict : all)
+    if (const std::optional<Wrong> found = wrong_at(verdict, errors)) {
+      wrong.push_back(*found);
+      levels.insert(found->level);
+    }
+  if (wrong.empty()) return;
+  std::stable_sort(wrong.begin(), wrong.end(), [&](const Wrong& a, const Wrong& b) {
+    return share(a.counts) > share(b.counts);
+  });
+  Names texts;
+  for (const Wrong& w : wrong)
+    texts.push_back(
+        fmt::format("{} {} ({} of {}{})", w.verdict->detector, format_percent(share(w.counts)),
+                    grouped_digits(w.counts.*errors),
+                    grouped_digits(missed ? w.counts.truth : w.counts.reported),
+                    levels.size() > 1 ? ", level " + std::string(name_of(w.level)) : ""));
+  out.push_back(
+      {missed ? "Missed" : "Spurious",
+       fmt::format("{} {}{}: {}.", plural(wrong.size(), "detector"),
+                   missed ? "did not report all true contacts" : "reported contacts that are none",
+                   levels.size() == 1 ? ", at level " + std::string(name_of(*levels.begin())) : "",
+                   short_list(texts, kMostDetectors))});
+}
+
+/// A detector and the scenes in which it is the fastest without error.
+struct Winner {
+  std::string detector;
+  Names scenes;
+};
+
+// Of those that answer with all pairs of triangles, most scenes first.
+std::vector<Winner> winners_of(const Results& results, const std::vector<Verdict>& verdicts) {
+  std::set<std::string> exact;
+  for (const Verdict& verdict : verdicts)
+    if (verdict.flawless()) exact.insert(verdict.detector);
+  std::vector<Winner> out;
+  for (const bool families : {false, true})
+    for (const results::Scene& scene : results.scenes) {
+      if (scene.family.has_value() != families) continue;
+      const Run* best = nullptr;
+      std::size_t candidates = 0;
+      for (const Run* run : runs_of_scene(results, scene.id)) {
+        if (!run->ok() || !exact.contains(run->detector) || run->times.empty() ||
+            run->times.front().question != Question::kTriangles)
+          continue;
+        ++candidates;
+        if (best == nullptr || run->times.front().cold.frame < best->times.front().cold.frame)
+          best = run;
+      }
+      if (candidates < 2) continue;
+      auto own = std::find_if(out.begin(), out.end(),
+                              [&](const Winner& w) { return w.detector == best->detector; });
+      if (own == out.end()) own = out.insert(out.end(), {best->detector, {}});
+      own->scenes.push_back(scene.id);
+    }
+  std::stable_sort(out.begin(), out.end(), [](const Winner& a, const Winner& b) {
+    return a.scenes.size() > b.scenes.size();
+  });
+  return out;
+}
+
+std::string slower_text(const Results& results, const std::string& detector) {
+  Names texts;
+  for (const std::string reference : kReferences) {
+    if (reference == detector) continue;
+    std::optional<double> low, high;
+    for (const Run& run : results.runs) {
+      if (run.detector != detector || !run.ok()) continue;
+      const results::Speedup* speedup = speedup_of(run, Question::kTriangles, reference);
+      if (speedup == nullptr) continue;
+      low = std::min(low.value_or(speedup->cold.value), speedup->cold.value);
+      high = std::max(high.value_or(speedup->cold.value), speedup->cold.value);
+    }
+    if (!low) continue;
+    const std::string from = format_number(low), to = format_number(high);
+    texts.push_back(fmt::format("{} takes {} times as long", reference,
+                                from == to ? from : from + " to " + to));
+  }
+  return texts.empty() ? "" : " " + listed(texts) + ".";
+}
+
+void add_fastest(const Results& results, const std::vector<Winner>& winners,
+                 std::vector<HeadlineFinding>& out) {
+  if (winners.empty()) return;
+  const Winner& best = winners.front();
+  std::size_t total = 0;
+  Names others;
+  for (const Winner& winner : winners) {
+    total += winner.scenes.size();
+    if (&winner != &best)
+      others.push_back(winner.detector + " in " + short_list(winner.scenes, kMostPlaces));
+  }
+  const std::string where = total > best.scenes.size()
+                                ? fmt::format("in {} of {} scenes", best.scenes.size(), total)
+                            : total == 1 ? "in the scene"
+                                         : fmt::format("in all {} scenes", total);
+  std::vector<const Run*> runs;
+  for (const std::string& scene : best.scenes) runs.push_back(results.run(scene, best.detector));
+  out.push_back({"Fastest without error",
+                 fmt::format("{} {}: {} ms per frame there for all pairs of triangles, caches "
+                             "cold{}.{}",
+                             best.detector, where, format_number(mean_frame_ms(runs, false)),
+                             others.empty() ? "" : "; " + listed(others),
+                             slower_text(results, best.detector))});
+}
+
+void add_status(const Results& results, results::Status status, const char* topic,
+                std::vector<HeadlineFinding>& out) {
+  Names texts;
+  for (const Run& run : results.runs)
+    if (run.status == status && was_asked(results, run))
+      texts.push_back(fmt::format("{} in {} ({})", run.detector, run.scene, run.message));
+  if (!texts.empty()) out.push_back({topic, short_list(texts, kMostPlaces) + "."});
+}
+
+void add_absent(const Results& results, std::vector<HeadlineFinding>& out) {
+  Names names;
+  for (const Run& run : results.runs)
+    if (run.status == results::Status::kAbsent &&
+        std::find(names.begin(), names.end(), run.detector) == names.end())
+      names.push_back(run.detector);
+  if (!names.empty()) out.push_back({"Not built", listed(names) + "."});
+}
+
+void add_unjudged(const Results& results, std::vector<HeadlineFinding>& out) {
+  Names whys;
+  for (const results::Scene& scene : results.scenes)
+    if (!scene.unjudged.empty()) whys.push_back(scene.unjudged);
+  if (!whys.empty()) out.push_back({"Not judged", short_list(whys, kMostPlaces) + "."});
+}
+
+void add_oracle(const Results& results, std::vector<HeadlineFinding>& out) {
+  for (const results::Scene& scene : results.scenes) {
+    if (!scene.pairs) continue;
+    const std::uint64_t wrong = scene.pairs->oracle_wrong;
+    out.push_back(
+        {"The judge itself",
+         fmt::format("On {} random pairs of triangles the oracle {} (checked by rational "
+                     "arithmetic).",
+                     grouped_digits(scene.pairs->checked),
+                     wrong == 0 ? "was never wrong"
+                                : fmt::format("was wrong {}: an error of contactcheck itself",
+                                              plural(wrong, "time")))});
+  }
+}
+
+void add_goals(const Results& results, std::vector<HeadlineFinding>& out) {
+  const std::vector<results::MeasuredGoal>& goals = results.goals;
+  if (goals.empty()) return;
+  const auto met = std::count_if(goals.begin(), goals.end(),
+                                 [](const auto& goal) { return goal.met.value_or(false); });
+  const auto unknown = static_cast<std::size_t>(
+      std::count_if(goals.begin(), goals.end(), [](const auto& goal) { return !goal.met; }));
+  out.push_back(
+      {"Goals",
+       fmt::format("{} of {} of the suite {} met{}.", met, plural(goals.size(), "goal"),
+                   met == 1 ? "is" : "are",
+                   unknown == 0 ? "" : "; " + plural(unknown, "goal") + " could not be measured")});
+}
+
+}  // namespace
+
+Headline headline_of(const Results& results) {
+  const std::vector<Verdict> verdicts = verdicts_of(results);
+  const std::vector<Winner> winners = winners_of(results, verdicts);
+  Headline out;
+  out.title = title_of(verdicts, places_text(results));
+  for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
+  add_exact(verdicts, out.findings);
+  add_fastest(results, winners, out.findings);
+  add_wrong(verdicts, true, out.findings);
+  add_wrong(verdicts, false, out.findings);
+  add_status(results, results::Status::kError, "Ended in an error", out.findings);
+  add_status(results, results::Status::kRefused, "Refused the input", out.findings);
+  add_absent(results, out.findings);
+  add_unjudged(results, out.findings);
+  if (results.known_defects)
+    out.findings.push_back({"Known defects", known_defects_sentence(*results.known_defects)});
+  add_oracle(results, out.findings);
+  add_goals(results, out.findings);
+  return out;
+}
+
+}  // namespace contactcheck

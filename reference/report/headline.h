@@ -1,0 +1,27 @@
+// What a run found, in words: the top of the page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/results/results.h"
+
+namespace contactcheck {
+
+/// A topic, and a sentence about it.
+struct HeadlineFinding {
+  std::string topic, sentence;
+};
+
+struct Headline {
+  std::string title;  ///< "3 of 5 detectors made no error in 2 scenes"
+  std::vector<HeadlineFinding> findings;
+  /// The detectors without error that were fastest in some scene, most scenes first.
+  std::vector<std::string> fastest;
+};
+
+/// A detector made no error where it was right at every level that it claims, in every scene that
+/// was judged, and never ended in an error.
+Headline headline_of(const results::Results& results);
+
+}  // namespace contactcheck

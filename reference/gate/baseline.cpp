@@ -56,11 +56,6 @@ std::string row_change(const results::Run& before, const results::Run& now) {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-Texts texts_of(const results::Machine& m) {
-  return {{"cpu", m.cpu}, {"cores", std::to_string(m.cores)}, {"isa", m.isa},
-          {"os", m.os},   {"compiler", m.compiler},           {"build", m.build}};
-}
-
 std::string text_in(const Texts& texts, const std::string& key) {
   for (const auto& [name, text] : texts)
     if (name == key) return text;
@@ -106,7 +101,7 @@ std::string baseline_text(const Json& baseline) {
 std::vector<std::string> baseline_changes(const results::Results& before,
                                           const results::Results& now) {
   std::vector<std::string> out;
-  add_members("machine", texts_of(before.machine), texts_of(now.machine), out);
+  add_members("machine", members_of(before.machine), members_of(now.machine), out);
   add_members("library", before.libraries, now.libraries, out);
   const auto name = [](const results::Run& row) { return row.scene + "  " + row.detector; };
   for (const results::Run& row : now.runs) {

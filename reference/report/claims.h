@@ -1,15 +1,29 @@
-// What the results say about the paper's claims and this project's own goals, scene by scene.
+// What the results say about claims of the paper and of the libraries, scene by scene.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "reference/report/run_row.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
 
-/// Markdown: the hover gaps of ffd-grid and ffd-aabb side by side (the paper's claim: the first is
-/// larger) and the speed of sphere2 against FCL in the questions both answer, with both sides'
-/// errors beside it. Empty where the results lack these detectors.
+/// A claim, what is measured of it, and a table. Names of questions and levels stand in
+/// `backticks`.
+struct Claim {
+  std::string title, text;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Those that the results have rows for: the hover gaps of ffd-grid and ffd-aabb side by side (the
+/// paper's claim: the first is larger); the speed of sphere2 against FCL and Embree in the
+/// questions that both answer, with the errors of both; what FCL takes for contact; what Bullet's
+/// queries mean.
+std::vector<Claim> claims_of(const results::Results& results);
+
+/// The same for the Markdown report.
 std::string claims_markdown(const results::Results& results);
 
 }  // namespace contactcheck

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
+#include "reference/report/page_data.h"
 #include "reference/report/web/report_template.h"
-#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
@@ -52,10 +52,8 @@ bool has_html_report() { return !kReportTemplate.empty(); }
 
 std::string html_report(const results::Results& results, const std::string& reproduction,
                         std::string_view view) {
-  nlohmann::ordered_json data = results::to_json(results);
-  if (!reproduction.empty()) data["reproduction"] = nlohmann::ordered_json::parse(reproduction);
   std::string page(kReportTemplate);
-  fill_in(page, "@results@", packed(data.dump()));
+  fill_in(page, "@results@", packed(page_data(results, reproduction).dump()));
   fill_in(page, "@view@", packed(view));
   return page;
 }

@@ -17,50 +17,19 @@ namespace {
 using results::Run;
 using Runs = std::vector<const Run*>;
 
-/// Scenes that one chart can be drawn for.
-struct Choice {
-  std::string words;
-  std::vector<std::string> scenes;
-};
-
-std::vector<Choice> choices_of(const results::Results& results) {
-  std::vector<Choice> choices;
-  Choice all{"", {}}, hard{"", {}};
+std::vector<SceneChoice> choices_of(const results::Results& results) {
+  std::vector<SceneChoice> choices;
+  SceneChoice all, hard;
   for (const results::Scene& scene : results.scenes) {
-    (scene.family ? hard : all).scenes.push_back(scene.id);
+    (scene.family ? hard : all).ids.push_back(scene.id);
     if (!scene.family) choices.push_back({"scene " + scene.id, {scene.id}});
   }
-  all.words = fmt::format("all {} scenes", all.scenes.size());
-  hard.words = fmt::format("all {} families of hard cases", hard.scenes.size());
-  if (!hard.scenes.empty()) choices.insert(choices.begin(), hard);
-  if (all.scenes.size() > 1) choices.insert(choices.begin(), all);
+  all.words = fmt::format("all {} scenes", all.ids.size());
+  hard.words = fmt::format("all {} families of hard cases", hard.ids.size());
+  if (!hard.ids.empty()) choices.insert(choices.begin(), hard);
+  if (all.ids.size() > 1) choices.insert(choices.begin(), all);
   return choices;
 }
-
-/// All runs by scene and detector.
-class RunIndex {
- public:
-  explicit RunIndex(const results::Results& results) {
-    for (const Run& run : results.runs) {
-      if (seen_.insert(run.detector).second) detectors_.push_back(run.detector);
-      if (run.ok()) ok_[{run.scene, run.detector}] = &run;
-    }
-  }
-
-  const std::vector<std::string>& detectors() const { return detectors_; }
-  /// Those that ended well.
-  Runs of(const std::string& detector, const std::vector<std::string>& scenes) const {
-    Runs runs;
-    for (const std::string& scene : scenes)
-      if (const auto it = ok_.find({scene, detector}); it != ok_.end()) runs.push_back(it->second);
-    return runs;
-  }
-
- private:
-  std::set<std::string> seen_;
-  std::vector<std::string> detectors_;
-  std::map<std::pair<std::string, std::string>, const Run*> ok_;
-};
 
 bool claims(const Run& run, std::optional<Level> level) {
   const results::LevelCounts* counts = counts_of(run, level);
@@ -91,16 +60,31 @@ struct Attempt {
   std::string why;
 };
 
-Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scenes) {
+std::optional<double> share_of(const ErrorCounts& counts, ErrorMeasure measure) {
+  switch (measure) {
+    case ErrorMeasure::kWorse:
+      return counts.worse_share();
+    case ErrorMeasure::kMissed:
+      return counts.missed_share();
+    case ErrorMeasure::kSpurious:
+      return counts.spurious_share();
+  }
+  return {};
+}
+
+Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scenes,
+                 const SpeedErrorChoice& choice) {
   if (runs.size() < scenes)
     return {{}, fmt::format("ended well in {} of {} scenes", runs.size(), scenes)};
-  const auto ms = mean_frame_ms(runs, false);
+  const auto ms = mean_frame_ms(runs, choice.hot);
   if (!ms) return {{}, "not timed"};
   SpeedErrorPoint point;
-  const std::optional<Level> level = common_level(runs);
+  const std::optional<Level> level = choice.level ? choice.level : common_level(runs);
   bool judged = false;
   for (const Run* run : runs) judged = point.add(*run, level) || judged;
-  const auto error = point.worse_share();
+  if (choice.level && !judged)
+    return {{}, fmt::format("does not claim level {}", name_of(*choice.level))};
+  const auto error = share_of(point, choice.measure);
   if (!judged || !error) return {{}, "nothing to judge"};
   point.detector = detector;
   point.question = runs.front()->times.front().question;
@@ -108,20 +92,6 @@ Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scen
   point.ms = *ms;
   point.error = *error;
   return {std::move(point), ""};
-}
-
-SpeedError chart_of(const Choice& choice, const RunIndex& index) {
-  SpeedError out{choice.words, {}, {}};
-  for (const std::string& detector : index.detectors()) {
-    Attempt attempt = point_of(detector, index.of(detector, choice.scenes), choice.scenes.size());
-    if (attempt.point) {
-      out.points.push_back(std::move(*attempt.point));
-    } else {
-      out.left_out.push_back({detector, attempt.why});
-    }
-  }
-  mark_front(out.points);
-  return out;
 }
 
 }  // namespace
@@ -140,17 +110,61 @@ void mark_front(std::vector<SpeedErrorPoint>& points) {
   }
 }
 
-// A point needs every scene: the first choice that at most half of the detectors fall out of,
-// compared with the best.
+SpeedErrorCharts::SpeedErrorCharts(const results::Results& results) : scenes_(choices_of(results)) {
+  std::set<std::string> seen;
+  for (const Run& run : results.runs) {
+    if (seen.insert(run.detector).second) detectors_.push_back(run.detector);
+    if (run.ok()) ok_[{run.scene, run.detector}] = &run;
+  }
+}
+
+Runs SpeedErrorCharts::runs_of(const std::string& detector, const SceneChoice& scenes) const {
+  Runs runs;
+  for (const std::string& scene : scenes.ids)
+    if (const auto it = ok_.find({scene, detector}); it != ok_.end()) runs.push_back(it->second);
+  return runs;
+}
+
+std::size_t SpeedErrorCharts::first() const {
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < scenes_.size(); ++i)
+    points.push_back(chart({.scenes = i}).points.size());
+  const std::size_t best = points.empty() ? 0 : *std::max_element(points.begin(), points.end());
+  const auto first = std::find_if(points.begin(), points.end(),
+                                  [&](std::size_t count) { return 2 * count >= best; });
+  return static_cast<std::size_t>(first - points.begin());
+}
+
+SpeedError SpeedErrorCharts::chart(const SpeedErrorChoice& choice) const {
+  const SceneChoice& scenes = scenes_.at(choice.scenes);
+  SpeedError out{scenes.words, {}, {}};
+  for (const std::string& detector : detectors_) {
+    Attempt attempt = point_of(detector, runs_of(detector, scenes), scenes.ids.size(), choice);
+    if (attempt.point) {
+      out.points.push_back(std::move(*attempt.point));
+    } else {
+      out.left_out.push_back({detector, attempt.why});
+    }
+  }
+  mark_front(out.points);
+  return out;
+}
+
 SpeedError speed_error(const results::Results& results) {
-  const RunIndex index(results);
-  std::vector<SpeedError> charts;
-  for (const Choice& choice : choices_of(results)) charts.push_back(chart_of(choice, index));
-  std::size_t best = 0;
-  for (const SpeedError& chart : charts) best = std::max(best, chart.points.size());
-  for (SpeedError& chart : charts)
-    if (2 * chart.points.size() >= best) return std::move(chart);
-  return {};
+  const SpeedErrorCharts charts(results);
+  return charts.scenes().empty() ? SpeedError{} : charts.chart({.scenes = charts.first()});
+}
+
+std::string left_out_sentence(const SpeedError& chart) {
+  std::map<std::string, std::string> by_reason;
+  for (const LeftOut& out : chart.left_out) {
+    std::string& names = by_reason[out.why];
+    names += (names.empty() ? "" : ", ") + out.detector;
+  }
+  std::string text;
+  for (const auto& [why, names] : by_reason)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", names, why);
+  return text.empty() ? "" : "Not in the chart: " + text + ".";
 }
 
 }  // namespace contactcheck

@@ -1,7 +1,10 @@
 // What every detector costs and how often it errs: the points of the chart of speed against error.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reference/report/error_counts.h"
@@ -16,8 +19,8 @@ struct SpeedErrorPoint : ErrorCounts {
   Question question = Question::kTriangles;
   /// Of the counts: the finest that the detector claims in every scene that was judged.
   Level level = Level::kTriangle;
-  double ms = 0.0;  ///< per frame: map + update + query, cold, the mean over all frames; positive
-  /// worse_share(); in [0, 1].
+  double ms = 0.0;  ///< per frame: map + update + query, the mean over all frames; positive
+  /// By the measure of the chart; in [0, 1].
   double error = 0.0;
   /// No other point of the same question is faster without being worse.
   bool on_front = false;
@@ -34,10 +37,51 @@ struct SpeedError {
   std::vector<LeftOut> left_out;
 };
 
-/// As the HTML report shows it at first (reference/report/web/src/pareto.ts), so that both are the
-/// same picture: all scenes where most detectors ran well in all of them, else all families of hard
-/// cases, else one scene. Detectors are in the order of their first runs.
+/// What counts as a detector's error.
+enum class ErrorMeasure { kWorse, kMissed, kSpurious };
+
+/// What a chart is drawn for.
+struct SpeedErrorChoice {
+  std::size_t scenes = 0;           ///< place in SpeedErrorCharts::scenes
+  std::optional<Level> level = {};  ///< none: the finest that each detector claims in all of them
+  ErrorMeasure measure = ErrorMeasure::kWorse;
+  bool hot = false;  ///< times with caches hot
+};
+
+/// Scenes that one chart can be drawn for.
+struct SceneChoice {
+  std::string words;  ///< "all 8 scenes"
+  std::vector<std::string> ids;
+};
+
+/// Every chart of a run: what the Markdown report draws is one of those that the HTML page offers.
+/// Detectors are in the order of their first runs.
+class SpeedErrorCharts {
+ public:
+  explicit SpeedErrorCharts(const results::Results& results);
+
+  /// All scenes, all families of hard cases, each scene; as far as there are such.
+  const std::vector<SceneChoice>& scenes() const { return scenes_; }
+  const std::vector<std::string>& detectors() const { return detectors_; }
+  /// The first choice of scenes that at most half of the detectors fall out of, compared with the
+  /// best: a point needs every scene.
+  std::size_t first() const;
+  SpeedError chart(const SpeedErrorChoice& choice) const;
+
+ private:
+  std::vector<const results::Run*> runs_of(const std::string& detector,
+                                           const SceneChoice& scenes) const;
+
+  std::vector<SceneChoice> scenes_;
+  std::vector<std::string> detectors_;
+  std::map<std::pair<std::string, std::string>, const results::Run*> ok_;  // by scene, detector
+};
+
+/// The chart that is shown first.
 SpeedError speed_error(const results::Results& results);
+
+/// "Not in the chart: a, b (not timed); c (nothing to judge)."; "" where all are in it.
+std::string left_out_sentence(const SpeedError& chart);
 
 /// Sets `on_front` of every point.
 void mark_front(std::vector<SpeedErrorPoint>& points);

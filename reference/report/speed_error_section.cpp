@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <vector>
 
 #include "reference/report/format.h"
@@ -35,26 +34,14 @@ std::vector<std::string> cells_of(const SpeedErrorPoint& p) {
           p.on_front ? "yes" : ""};
 }
 
-// "a, b (not timed); c (nothing to judge)"
-std::string left_out_line(const SpeedError& chart) {
-  std::map<std::string, std::string> by_reason;
-  for (const LeftOut& out : chart.left_out) {
-    std::string& names = by_reason[out.why];
-    names += (names.empty() ? "" : ", ") + out.detector;
-  }
-  std::string text;
-  for (const auto& [why, names] : by_reason)
-    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", names, why);
-  return text.empty() ? "" : "Not in the chart: " + text + ".\n\n";
-}
-
 }  // namespace
 
 std::string speed_error_markdown(const results::Results& results) {
   const SpeedError chart = speed_error(results);
   if (chart.points.empty()) return "";
-  std::string rows;
+  std::string rows, left_out = left_out_sentence(chart);
   for (const SpeedErrorPoint& point : chart.points) rows += table_line(cells_of(point));
+  if (!left_out.empty()) left_out += "\n\n";
   return fmt::format(
              "## Speed against error\n\n![Every detector as a point: time per frame against share "
              "of errors]({})\n\nOver {}. A time is that of mapping, update and query with cold "
@@ -63,7 +50,7 @@ std::string speed_error_markdown(const results::Results& results) {
              "On the front: no other that answers the same question is faster without being "
              "worse.\n\n",
              kSpeedErrorFile, chart.scenes) +
-         table_head(columns()) + rows + "\n" + left_out_line(chart);
+         table_head(columns()) + rows + "\n" + left_out;
 }
 
 std::string speed_error_picture(const results::Results& results) {

@@ -4,8 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/report/bullet_findings.h"
-#include "reference/report/fcl_findings.h"
+#include "reference/report/claims.h"
 #include "reference/report/run_row.h"
 #include "reference/results/results_json.h"
 
@@ -145,55 +144,56 @@ Json fcl_run(double farthest) {
 }
 
 TEST(FclFindings, NameScenesWhereOnlyRoundingParts) {
-  const std::string text = fcl_findings(results_of({fcl_run(4e-18)}));
+  const std::string text = claims_markdown(results_of({fcl_run(4e-18)}));
   EXPECT_THAT(text, HasSubstr("gaps below rounding"));
   EXPECT_THAT(text, HasSubstr("| hello | fcl-aabb | 1843 | 51 | 4.00e-15 |"));
 }
 
 TEST(FclFindings, AreSilentWhereAnotherCauseMayBe) {
-  EXPECT_EQ(fcl_findings(results_of({fcl_run(1e-6)})), "");
+  EXPECT_EQ(claims_markdown(results_of({fcl_run(1e-6)})), "");
   Json right = fcl_run(4e-18);
   right["levels"]["triangle"]["spurious"] = 0;
-  EXPECT_EQ(fcl_findings(results_of({right, renamed(fcl_run(4e-18), "embree")})), "");
+  EXPECT_EQ(claims_markdown(results_of({right, renamed(fcl_run(4e-18), "embree")})), "");
   Json family = scene_json_of({fcl_run(4e-18)});
   family["scenes"][0]["family"] = Json::object();
-  EXPECT_EQ(fcl_findings(results::from_json(family)), "");
+  EXPECT_EQ(claims_markdown(results::from_json(family)), "");
   EXPECT_EQ(
-      fcl_findings(results_of({{{"scene", "hello"}, {"detector", "x"}, {"status", "error"}}})), "");
+      claims_markdown(results_of({{{"scene", "hello"}, {"detector", "x"}, {"status", "error"}}})),
+      "");
 }
 
 TEST(BulletFindings, SetTheScalesSideBySide) {
   Json plain = renamed(near_run(), "bullet-vf:scale=1");
   plain["levels"]["body"]["recall"] = 0.0;
   plain["levels"]["near"]["recall"] = 0.01;
-  const std::string text = bullet_findings(results_of({near_run(), plain}));
+  const std::string text = claims_markdown(results_of({near_run(), plain}));
   EXPECT_THAT(text, HasSubstr("small triangles do not exist"));
   EXPECT_THAT(text, HasSubstr("| hello | 64.0 | 1 | 0.98000 | 0 | 0.01000 |"));
 }
 
 TEST(BulletFindings, CountTheVerticesInsideThatAreReported) {
-  EXPECT_THAT(bullet_findings(results_of({near_run()})),
+  EXPECT_THAT(claims_markdown(results_of({near_run()})),
               HasSubstr("| hello | 2.00 | 40 | 4 | 5 |"));
 }
 
 TEST(BulletFindings, SayWhyNormalsAreTurned) {
   Json run = near_run();
-  EXPECT_THAT(bullet_findings(results_of({run})), HasSubstr("| hello | 3 | - | 90.0 | 180 |"));
+  EXPECT_THAT(claims_markdown(results_of({run})), HasSubstr("| hello | 3 | - | 90.0 | 180 |"));
   run["geometry"]["normal_error_deg_histogram"] = {
       {{"from", 0.0}, {"below", 5.0}, {"count", 1}},
       {{"from", 175.0}, {"below", 180.0}, {"count", 2}}};
-  EXPECT_THAT(bullet_findings(results_of({run})), HasSubstr("| hello | 3 | 2 | 90.0 | 180 |"));
+  EXPECT_THAT(claims_markdown(results_of({run})), HasSubstr("| hello | 3 | 2 | 90.0 | 180 |"));
   run["geometry"]["normal_error_deg_max"] = 12.0;
-  EXPECT_THAT(bullet_findings(results_of({run})), Not(HasSubstr("normals turn")));
+  EXPECT_THAT(claims_markdown(results_of({run})), Not(HasSubstr("normals turn")));
 }
 
 TEST(BulletFindings, NameTheFalseContactsOfClusters) {
-  EXPECT_THAT(bullet_findings(results_of({renamed(near_run(), "bullet-cl:k=256")})),
+  EXPECT_THAT(claims_markdown(results_of({renamed(near_run(), "bullet-cl:k=256")})),
               HasSubstr("| hello | bullet-cl:k=256 | 10 | 0 | 0 |"));
 }
 
 TEST(BulletFindings, AreSilentWithoutBullet) {
-  EXPECT_EQ(bullet_findings(results_of({renamed(near_run(), "fcl-aabb")})), "");
+  EXPECT_EQ(claims_markdown(results_of({renamed(near_run(), "fcl-aabb")})), "");
 }
 
 }  // namespace

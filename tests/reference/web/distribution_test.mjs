@@ -44,7 +44,13 @@ function addHistograms(results) {
       {from: 0.001, below: 0.002, count: 1},
     ],
   });
-  run("ffd-grid").geometry.episodes = [{hover_gap: 0.2}, {hover_gap: 0.1}, {hover_gap: null}];
+  run("ffd-grid").geometry.episodes = [0.2, 0.1, null].map((gap) => ({
+    bodies: [0, 1],
+    first_true: null,
+    first_reported: 0,
+    hover_gap: gap,
+    late_frames: null,
+  }));
 }
 
 function addBullet(results) {

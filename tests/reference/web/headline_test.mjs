@@ -43,7 +43,9 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
 const unjudged = useReport("two_scenes.json", {
   change(results) {
     results.scenes[1].unjudged = "scene second: no progress";
-    for (const run of results.runs) if (run.scene === results.scenes[1].id) run.status = "error";
+    for (const run of results.runs)
+      if (run.scene === results.scenes[1].id)
+        Object.assign(run, {status: "error", message: "not judged"});
   },
 });
 
@@ -72,11 +74,16 @@ const shard = useReport("two_scenes.json", {
       index: 2,
       of: 3,
       command: "contactcheck run <b>all</b>",
-      scenes: ["a", "b", "c", "d", "e"],
+      scenes: ["a", "b", "c", "d", "e"].map((id) => ({
+        id,
+        detectors: [],
+        references: [],
+        content: "",
+      })),
       program: "0x1",
       settings: {timing: true},
       goals: [],
-      files: [],
+      files: {},
     };
   },
 });

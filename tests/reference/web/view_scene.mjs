@@ -180,6 +180,16 @@ export function reportOf(template) {
     ],
     runs: [kFamilyRun],
     disagreements: [],
+    report: {
+      title: "By hand",
+      findings: [],
+      fastest: [],
+      summary: {columns: [], rows: []},
+      claims: [],
+      levels: ["triangle"],
+      sums: {finest: [null], triangle: [null]},
+      speed_error: {detectors: ["half-blind"], scenes: [], first: 0, charts: []},
+    },
   };
   return template
     .replace("@results@", packed(Buffer.from(JSON.stringify(results))))

@@ -1,5 +1,5 @@
 // Results with what every section asks of them: who ran where.
-import {kFineToCoarse, kLevels, type Level, type Results, type Run, type Scene} from "./results";
+import type {Level, Results, Run, Scene} from "./results";
 
 export class Report {
   /** Scenes that are motions (or random pairs), and families, whose frames are hard cases. */
@@ -58,11 +58,6 @@ export const isOk = (run: Run): boolean => run.status === "ok";
 /** The finest level that a detector claims and that was judged, or "". */
 export const finestLevel = (run: Run): string => run.per_frame.level ?? "";
 
-/** The levels that count against a detector: those that it claims. */
-export function claimedLevels(run: Run): [string, Level][] {
-  return Object.entries(run.levels).filter(([, level]) => !level.informative);
-}
-
 /** The question a run is compared in: triangles where it answers them, else body. */
 export function comparedQuestion(run: Run): string {
   return (run.semantics.questions ?? []).includes("triangles") ? "triangles" : "body";
@@ -78,23 +73,4 @@ export const kFinest = "finest";
 export function levelOf(run: Run, level: string): Level | null {
   const found = run.levels[level === kFinest ? finestLevel(run) : level];
   return found && !found.informative ? found : null;
-}
-
-/**
- * Counts of different levels do not add up: where the finest one is not the same in all runs that
- * were judged, it is the finest that the detector claims in each of them; "" where there is none.
- */
-export function commonLevel(runs: Run[]): string {
-  const judged = runs.filter((run) => levelOf(run, kFinest));
-  const finest = new Set(judged.map(finestLevel));
-  if (finest.size === 1) return [...finest][0];
-  return kFineToCoarse.find((level) => judged.every((run) => levelOf(run, level))) ?? "";
-}
-
-/** Levels that some detector claims, coarse before fine. */
-export function judgedLevels(runs: Run[]): string[] {
-  const seen = new Set(
-    runs.filter(isOk).flatMap((run) => claimedLevels(run).map(([name]) => name)),
-  );
-  return kLevels.filter((level) => seen.has(level));
 }

@@ -21,6 +21,65 @@ export interface Results {
   known_defects?: KnownDefects;
   /** Not in results.json: the program adds reproduction.json of the same run. */
   reproduction?: Reproduction;
+  /** Nor this: what it computes of them (reference/report/page_data.h). */
+  report: Computed;
+}
+
+/** Sums, sentences and points for every choice that the page offers. */
+export interface Computed {
+  title: string;
+  findings: {topic: string; sentence: string}[];
+  /** Without error and fastest in some scene, most scenes first. */
+  fastest: string[];
+  known_defects?: string;
+  summary: TextTable;
+  /** Of the paper and of the libraries; code stands in backticks. */
+  claims: ({title: string; text: string} & TextTable)[];
+  /** That some detector claims and was judged at, coarse before fine. */
+  levels: string[];
+  /** By level ("finest": each at its own), per detector: a sum over all scenes, or why there is none. */
+  sums: Record<string, (Counts | string | null)[]>;
+  speed_error: SpeedError;
+}
+
+export interface TextTable {
+  columns: {title: string; left: boolean}[];
+  rows: string[][];
+}
+
+export interface Counts {
+  truth: number;
+  reported: number;
+  hit: number;
+  missed: number;
+  spurious: number;
+}
+
+/** The points of the chart of speed against error. */
+export interface SpeedError {
+  detectors: string[];
+  /** Choices of scenes, in words; `first` is shown first. */
+  scenes: string[];
+  first: number;
+  /** By choice of scenes, then by level. */
+  charts: Record<string, LevelCharts>[];
+}
+
+export type Caches = "cold" | "hot";
+export type Measure = "worse" | "missed" | "spurious";
+
+export type LevelCharts = {
+  /** Per detector; null where it has no point. */
+  counts: (PointCounts | null)[];
+} & Record<`${Measure} ${Caches}`, {points: [number, number, number, boolean][]; left_out: string}>;
+
+export interface PointCounts {
+  question: string;
+  level: string;
+  truth: number;
+  reported: number;
+  missed: number;
+  spurious: number;
 }
 
 export interface Machine {
@@ -259,7 +318,3 @@ export interface Disagreement {
 
 /** The libraries that everything is measured against, as reference/results/references.h has them. */
 export const kReferences = ["fcl-aabb", "fcl-obbrss", "embree"];
-
-/** As core/types/semantics.h has them: in the order of tables, and the finest first. */
-export const kLevels = ["body", "containment", "cell", "box", "triangle", "vertex", "near"];
-export const kFineToCoarse = ["triangle", "near", "vertex", "cell", "box", "body", "containment"];

@@ -2,7 +2,6 @@
 import {legend} from "../chart";
 import {grouped} from "../format";
 import {kLineStyles} from "../groups";
-import {flawlessDetectors, winners} from "../headline";
 import type {Report} from "../report";
 import {kReferences, type Run, type Scene} from "../results";
 import {stroke} from "../swatch";
@@ -34,10 +33,8 @@ export function timedDetectors(report: Report): string[] {
 
 /** The fastest without error, the usual references, then others in file order. */
 export function firstChoice(report: Report, all: string[]): string[] {
-  const wins = [...winners(report, new Set(flawlessDetectors(report)))].sort(
-    (a, b) => b[1].length - a[1].length,
-  );
-  const wanted = [...wins.map(([name]) => name), ...kReferences, "ffd-aabb-sphere2", ...all];
+  const {fastest} = report.results.report;
+  const wanted = [...fastest, ...kReferences, "ffd-aabb-sphere2", ...all];
   return [...new Set(wanted)]
     .filter((name) => all.includes(name))
     .slice(0, 5)

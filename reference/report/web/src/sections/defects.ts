@@ -1,6 +1,5 @@
 // The list of known defects beside what the run shows.
 import {p, type Child} from "../dom";
-import {defectsSentence} from "../headline";
 import type {KnownDefect, Sightings} from "../results";
 import type {Section} from "../section";
 import {left, right, table, titledTable} from "../table";
@@ -35,7 +34,7 @@ export const defects: Section = {
       shown(d),
     ]);
     return [
-      p(defectsSentence(known)),
+      p(report.results.report.known_defects!),
       rows.length > 0 &&
         table(
           [

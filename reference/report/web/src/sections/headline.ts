@@ -1,31 +1,7 @@
 // The top of the page: what was found, by which command, on which machine.
 import {code, h, type Child} from "../dom";
-import {findings, title} from "../headline";
 import type {Report} from "../report";
 import {themeSwitch} from "../theme";
-
-// Results that a sentence cannot be made of still have tables.
-function findingsList(report: Report): Child[] {
-  try {
-    return findings(report).flatMap(({topic, sentence}) => [
-      h("dt", {}, topic),
-      h("dd", {}, sentence),
-    ]);
-  } catch (error) {
-    return [
-      h("dt", {}, "Not complete"),
-      h("dd", {}, `The findings cannot be shown: ${String(error)}`),
-    ];
-  }
-}
-
-function titleText(report: Report): string {
-  try {
-    return title(report);
-  } catch {
-    return "contactcheck report";
-  }
-}
 
 /** Whoever reads a part must not take it for the whole. */
 function partNote({results: {shard, merged, scenes}}: Report): Child {
@@ -52,7 +28,7 @@ function partNote({results: {shard, merged, scenes}}: Report): Child {
 }
 
 export function header(report: Report): HTMLElement {
-  const {command, version, machine, resumed = []} = report.results;
+  const {command, version, machine, resumed = [], report: said} = report.results;
   return h(
     "header",
     {},
@@ -62,8 +38,12 @@ export function header(report: Report): HTMLElement {
       h("span", {class: "brand"}, `contactcheck ${version}`),
       themeSwitch(),
     ),
-    h("h1", {}, titleText(report)),
-    h("dl", {class: "findings"}, ...findingsList(report)),
+    h("h1", {}, said.title),
+    h(
+      "dl",
+      {class: "findings"},
+      ...said.findings.flatMap(({topic, sentence}) => [h("dt", {}, topic), h("dd", {}, sentence)]),
+    ),
     h(
       "p",
       {class: "note"},

@@ -1,12 +1,11 @@
 // Recall and spurious contacts per scene, as a table with heat colours.
 import {controlBar, radios, select} from "../controls";
 import {h, p} from "../dom";
-import {errorRate, grouped, rate} from "../format";
+import {errorRate, grouped, rate, share} from "../format";
 import {term} from "../glossary";
-import {finestLevel, judgedLevels, kFinest, levelOf, type Report} from "../report";
-import type {Run} from "../results";
+import {finestLevel, kFinest, levelOf, type Report} from "../report";
+import type {Counts, Run} from "../results";
 import type {Section} from "../section";
-import {countsAt, levelsDiffer, missedShare, share, spuriousShare, type Counts} from "../sums";
 import {left, right, table, type Cell, type Row} from "../table";
 
 type Measure = "recall" | "spurious";
@@ -27,11 +26,16 @@ function countsCell(counts: Counts | null, measure: Measure, where: string): Cel
     `${where}: ${grouped(counts.truth)} true, ${grouped(counts.missed)} missed, ` +
     `${grouped(counts.reported)} reported, ${grouped(counts.spurious)} spurious`;
   if (measure === "spurious") {
-    const value = spuriousShare(counts);
+    const value = share(counts.spurious, counts.reported);
     return {text: errorRate(value), sort: value, heat: heat(value, "--spurious"), label};
   }
   const recall = share(counts.hit, counts.truth);
-  return {text: rate(recall), sort: recall, heat: heat(missedShare(counts), "--missed"), label};
+  return {
+    text: rate(recall),
+    sort: recall,
+    heat: heat(share(counts.missed, counts.truth), "--missed"),
+    label,
+  };
 }
 
 function sceneCell(run: Run | null, level: string, measure: Measure): Cell {
@@ -46,21 +50,19 @@ function sceneCell(run: Run | null, level: string, measure: Measure): Cell {
   return countsCell(levelOf(run, level), measure, where);
 }
 
-// Pairs of bodies and pairs of triangles do not add up: such a detector has a sum at each level alone.
-function sumCell(detector: string, ok: Run[], level: string, measure: Measure): Cell {
-  if (level === kFinest && levelsDiffer(ok))
-    return {text: "levels differ", sort: null, class: "informative"};
-  return countsCell(countsAt(ok, level), measure, `${detector}, all scenes`);
+function sumCell(detector: string, sum: Counts | string | null, measure: Measure): Cell {
+  if (typeof sum === "string") return {text: sum, sort: null, class: "informative"};
+  return countsCell(sum, measure, `${detector}, all scenes`);
 }
 
 function heatTable(report: Report, level: string, measure: Measure): HTMLElement {
   const rows: Row[] = [];
-  for (const detector of report.detectors) {
+  for (const [i, detector] of report.detectors.entries()) {
     const runs = report.scenes.map((scene) => report.run(scene.id, detector));
     const ok = runs.filter((run) => run?.status === "ok") as Run[];
     if (!ok.some((run) => levelOf(run, level)) && !runs.some((run) => run && run.status !== "ok"))
       continue;
-    const sum = sumCell(detector, ok, level, measure);
+    const sum = sumCell(detector, report.results.report.sums[level][i], measure);
     rows.push([
       detector,
       ...(report.scenes.length > 1 ? [sum] : []),
@@ -92,7 +94,7 @@ export const levels: Section = {
       place.replaceChildren(heatTable(report, choice.level, choice.measure));
     };
     update({});
-    const names = judgedLevels(report.results.runs).map((name): [string, string] => [name, name]);
+    const names = report.results.report.levels.map((name): [string, string] => [name, name]);
     return [
       p(
         term("recall", "Recall"),

@@ -2,16 +2,35 @@
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
 import {controlBar, radios, select, type Option} from "../controls";
-import {h, p, unfolding, type Child} from "../dom";
+import {h, p, unfolding} from "../dom";
 import {errorRate, grouped, number, optionsText} from "../format";
 import {term} from "../glossary";
 import {groupOf, groupsOf} from "../groups";
-import {points, type Choice, type LeftOut, type Measure, type Point} from "../pareto";
-import {judgedLevels, kFinest, type Report} from "../report";
-import {chosenScenes, sceneOptions} from "../scene_choice";
+import {kFinest, type Report} from "../report";
+import type {Caches, Measure, PointCounts, SpeedError} from "../results";
 import type {Section} from "../section";
 import {square, symbol} from "../swatch";
 import {left, right, table} from "../table";
+
+interface Point extends PointCounts {
+  detector: string;
+  options: string;
+  ms: number;
+  error: number;
+  onFront: boolean;
+}
+
+interface Choice {
+  scenes: number;
+  level: string;
+  measure: Measure;
+  caches: Caches;
+}
+
+interface Chart {
+  points: Point[];
+  leftOut: string;
+}
 
 const kMeasures: Record<Measure, string> = {
   worse: "missed or spurious, whichever is worse",
@@ -41,12 +60,12 @@ const shapeOf = (question: string) =>
   (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
 
 function sentenceOf(point: Point): string {
-  const {detector, counts: c, level, ms, question} = point;
+  const {detector, options, level, ms, question} = point;
   return [
     `${detector}: ${number(ms)} ms per frame (question ${question})`,
-    `missed ${grouped(c.missed)} of ${grouped(c.truth)}, spurious ${grouped(c.spurious)} of ` +
-      `${grouped(c.reported)} (level ${level})`,
-    `options: ${optionsText(point.options)}`,
+    `missed ${grouped(point.missed)} of ${grouped(point.truth)}, ` +
+      `spurious ${grouped(point.spurious)} of ${grouped(point.reported)} (level ${level})`,
+    `options: ${options}`,
   ].join("\n");
 }
 
@@ -123,7 +142,7 @@ function draw(width: number, all: Point[], choice: Choice): Node {
     x: {
       type: "log",
       domain: span,
-      label: `time per frame, ms, ${choice.part} caches →`,
+      label: `time per frame, ms, ${choice.caches} caches →`,
       grid: true,
       ticks: width < 600 ? 4 : 8,
       tickFormat: (ms: number) => String(ms),
@@ -199,14 +218,14 @@ function legends(all: Point[]): HTMLElement {
 function pointsTable(all: Point[]): HTMLElement {
   const rows = all.map((point) => [
     point.detector,
-    optionsText(point.options),
+    point.options,
     point.question,
     number(point.ms),
     point.level,
-    String(point.counts.truth),
-    String(point.counts.missed),
-    String(point.counts.reported),
-    String(point.counts.spurious),
+    String(point.truth),
+    String(point.missed),
+    String(point.reported),
+    String(point.spurious),
     errorRate(point.error),
     point.onFront ? "yes" : "",
   ]);
@@ -229,30 +248,21 @@ function pointsTable(all: Point[]): HTMLElement {
   );
 }
 
-function leftOutText(leftOut: LeftOut[]): Child {
-  if (leftOut.length === 0) return null;
-  const byReason = new Map<string, string[]>();
-  for (const {detector, why} of leftOut)
-    byReason.set(why, [...(byReason.get(why) ?? []), detector]);
-  const texts = [...byReason].map(([why, names]) => `${names.join(", ")} (${why})`);
-  return h("p", {class: "note"}, `Not in the chart: ${texts.join("; ")}.`);
-}
+const kNothing = {counts: [], points: [], left_out: ""};
 
-function levelOptions(report: Report): Option[] {
-  const levels = judgedLevels(report.results.runs).map((level): Option => [level, level]);
-  return [[kFinest, "finest in every scene"], ...levels];
+function chartOf(report: Report, {detectors, charts}: SpeedError, choice: Choice): Chart {
+  const level = charts[choice.scenes]?.[choice.level];
+  const {points, left_out} = level?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
+  return {
+    points: points.map(([at, ms, error, onFront]) => {
+      const detector = detectors[at];
+      const run = report.results.runs.find((r) => r.detector === detector && r.status === "ok");
+      const options = optionsText(run?.options);
+      return {...level!.counts[at]!, detector, options, ms, error, onFront};
+    }),
+    leftOut: left_out,
+  };
 }
-
-// All scenes where most detectors ran in all, else the first scene: a point needs every scene.
-function firstChoice(report: Report, options: Option[]): string {
-  const count = (value: string): number =>
-    points(report, {...kDefaults, scenes: chosenScenes(report, value)}).points.length;
-  const counts = options.map(([value]) => count(value));
-  const best = Math.max(...counts);
-  return options[counts.findIndex((n) => 2 * n >= best)][0];
-}
-
-const kDefaults: Choice = {scenes: [], level: kFinest, measure: "worse", part: "cold"};
 
 export const speedError: Section = {
   id: "speed-error",
@@ -266,24 +276,30 @@ export const speedError: Section = {
           "), so that there is nothing to compare.",
         ),
       ];
-    const options = sceneOptions(report),
-      first = firstChoice(report, options);
-    const choice: Choice = {...kDefaults, scenes: chosenScenes(report, first)};
-    let shown = points(report, choice);
+    const computed = report.results.report.speed_error;
+    const choice: Choice = {
+      scenes: computed.first,
+      level: kFinest,
+      measure: "worse",
+      caches: "cold",
+    };
+    let shown = chartOf(report, computed, choice);
     const below = h("div");
     const picture = chart("Time per frame and share of errors of every detector", (width) =>
       draw(width, shown.points, choice),
     );
     const update = (change: Partial<Choice>): void => {
-      shown = points(report, Object.assign(choice, change));
+      shown = chartOf(report, computed, Object.assign(choice, change));
       picture.redraw();
       below.replaceChildren(
         legends(shown.points),
-        ...([leftOutText(shown.leftOut)].filter((n) => n !== null) as Node[]),
+        ...(shown.leftOut ? [h("p", {class: "note"}, shown.leftOut)] : []),
         unfolding("The same as a table", () => [pointsTable(shown.points)]),
       );
     };
     update({});
+    const scenes = computed.scenes.map((words, i): Option => [String(i), words]);
+    const levels = report.results.report.levels.map((level): Option => [level, level]);
     return [
       p(
         "Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it " +
@@ -292,8 +308,10 @@ export const speedError: Section = {
         " is both faster and better than a detector there. Times of different questions (shapes) do not compare.",
       ),
       controlBar(
-        select("Scenes", options, first, (value) => update({scenes: chosenScenes(report, value)})),
-        select("Level", levelOptions(report), choice.level, (level) => update({level})),
+        select("Scenes", scenes, String(choice.scenes), (value) => update({scenes: Number(value)})),
+        select("Level", [[kFinest, "finest in every scene"], ...levels], choice.level, (level) =>
+          update({level}),
+        ),
         select("Error", Object.entries(kMeasures), choice.measure, (value) =>
           update({measure: value as Measure}),
         ),
@@ -303,8 +321,8 @@ export const speedError: Section = {
             ["cold", "cold"],
             ["hot", "hot"],
           ],
-          choice.part,
-          (value) => update({part: value as "cold" | "hot"}),
+          choice.caches,
+          (value) => update({caches: value as Caches}),
         ),
       ),
       picture.element,

@@ -1,0 +1,134 @@
+#include "reference/report/headline.h"
+
+#include <gmock/gmock.h>
+
+namespace contactcheck {
+namespace {
+
+using results::Results, results::Run;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// A row that answers with all pairs of triangles.
+Run row(const std::string& scene, const std::string& detector, std::uint64_t missed,
+        std::uint64_t spurious, std::optional<double> ms = {}) {
+  Run run;
+  run.scene = scene;
+  run.detector = detector;
+  run.frames = 10;
+  run.semantics.questions = {Question::kTriangles};
+  run.per_frame.level = Level::kTriangle;
+  run.levels[Level::kTriangle] = {16, 16 - missed + spurious, 16 - missed, missed, spurious};
+  if (!ms) return run;
+  run.times.resize(1);
+  run.times[0].cold.frame = *ms;
+  return run;
+}
+
+Results run_of(const std::vector<std::string>& scenes, std::vector<Run> runs) {
+  Results results;
+  for (const std::string& id : scenes) results.scenes.emplace_back().id = id;
+  results.runs = std::move(runs);
+  return results;
+}
+
+std::string sentence_about(const Results& results, const std::string& topic) {
+  for (const HeadlineFinding& finding : headline_of(results).findings)
+    if (finding.topic == topic) return finding.sentence;
+  return "";
+}
+
+TEST(Headline, TitleSaysHowManyMadeNoError) {
+  EXPECT_EQ(headline_of(run_of({"a", "b"}, {row("a", "x", 0, 0), row("a", "y", 1, 0)})).title,
+            "1 of 2 detectors made no error in 2 scenes");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0)})).title, "x made no error in 1 scene");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 2)})).title, "x made errors in 1 scene");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0), row("a", "y", 0, 0)})).title,
+            "All 2 detectors made no error in 1 scene");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 1, 0), row("a", "y", 1, 0)})).title,
+            "None of 2 detectors is without error in 1 scene");
+  EXPECT_EQ(headline_of(run_of({}, {})).title, "Nothing was judged in this run");
+}
+
+TEST(Headline, FamiliesCountByTheirCases) {
+  Results results = run_of({"a", "gap"}, {row("gap", "x", 0, 0)});
+  results.scenes[1].family.emplace().values = {"0", "1e-9", "1e-3"};
+  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene and 3 hard cases");
+}
+
+TEST(Headline, AnErrorIsNoFlawlessRun) {
+  Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0)});
+  results.runs[1].status = results::Status::kError;
+  results.runs[1].message = "signal 11";
+  EXPECT_EQ(headline_of(results).title, "x made errors in 2 scenes");
+  EXPECT_EQ(sentence_about(results, "Ended in an error"), "x in b (signal 11).");
+}
+
+TEST(Headline, WhatTheOracleCouldNotJudgeIsNobodysError) {
+  Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0)});
+  results.runs[1].status = results::Status::kError;
+  results.scenes[1].unjudged = "scene b: no progress";
+  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene");
+  EXPECT_EQ(sentence_about(results, "Ended in an error"), "");
+  EXPECT_EQ(sentence_about(results, "Not judged"), "scene b: no progress.");
+}
+
+TEST(Headline, InformativeLevelsAreHeldAgainstNobody) {
+  Results results = run_of({"a"}, {row("a", "x", 0, 0)});
+  results.runs[0].levels[Level::kVertex] = {5, 0, 0, 5, 0};
+  results.runs[0].levels[Level::kVertex].informative = true;
+  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene");
+}
+
+TEST(Headline, TheWrongAreNamedWorstFirst) {
+  const Results results = run_of(
+      {"a"}, {row("a", "x", 1, 0), row("a", "y", 4, 0), row("a", "z", 0, 0), row("a", "w", 0, 8)});
+  EXPECT_EQ(sentence_about(results, "Missed"),
+            "2 detectors did not report all true contacts, at level triangle: y 25.0 % (4 of 16) "
+            "and x 6.3 % (1 of 16).");
+  EXPECT_EQ(sentence_about(results, "Spurious"),
+            "1 detector reported contacts that are none, at level triangle: w 33.3 % (8 of 24).");
+  EXPECT_EQ(sentence_about(results, "No error"), "At level triangle: z.");
+}
+
+TEST(Headline, TheFastestWithoutErrorIsFoundSceneByScene) {
+  std::vector<results::Run> runs = {row("a", "x", 0, 0, 2.0),
+                                    row("a", "y", 0, 0, 1.0),
+                                    row("b", "x", 0, 0, 1.0),
+                                    row("b", "y", 0, 0, 4.0),
+                                    row("c", "x", 0, 0, 1.0),
+                                    row("c", "y", 0, 0, 4.0),
+                                    row("c", "fast-and-wrong", 1, 0, 0.1)};
+  runs[2].speedup[Question::kTriangles]["embree"].cold = {3.0, 2.0, 4.0};
+  runs[4].speedup[Question::kTriangles]["embree"].cold = {5.0, 4.0, 6.0};
+  const Results results = run_of({"a", "b", "c"}, runs);
+  EXPECT_EQ(sentence_about(results, "Fastest without error"),
+            "x in 2 of 3 scenes: 1.00 ms per frame there for all pairs of triangles, caches cold; "
+            "y in a. embree takes 3.00 to 5.00 times as long.");
+  EXPECT_THAT(headline_of(results).fastest, ElementsAre("x", "y"));
+  EXPECT_THAT(headline_of(run_of({"a"}, {row("a", "x", 0, 0, 2.0)})).fastest, IsEmpty())
+      << "alone it beats nobody";
+}
+
+TEST(Headline, GoalsAreCounted) {
+  Results results = run_of({"a"}, {row("a", "x", 0, 0)});
+  results.goals.resize(3);
+  results.goals[0].met = true;
+  results.goals[1].met = false;
+  EXPECT_EQ(sentence_about(results, "Goals"),
+            "1 of 3 goals of the suite is met; 1 goal could not be measured.");
+}
+
+TEST(Headline, TheJudgeItselfIsJudged) {
+  Results results = run_of({"random-pairs"}, {row("random-pairs", "x", 0, 0)});
+  results.scenes[0].pairs.emplace().checked = 1'000'000;
+  EXPECT_EQ(sentence_about(results, "The judge itself"),
+            "On 1,000,000 random pairs of triangles the oracle was never wrong (checked by "
+            "rational arithmetic).");
+  results.scenes[0].pairs->oracle_wrong = 2;
+  EXPECT_THAT(sentence_about(results, "The judge itself"),
+              testing::HasSubstr("was wrong 2 times: an error of contactcheck itself"));
+}
+
+}  // namespace
+}  // namespace contactcheck

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
 #include "reference/defects/comparison.h"
@@ -20,7 +21,12 @@ std::filesystem::path known_defects_file() {
 
 int defects_command(const std::filesystem::path& file, bool write) {
   const results::Results results = results_in(file);
-  const SightingsOfRun run = sightings_of(results);
+  SightingsOfRun run;
+  try {
+    run = sightings_of(results);
+  } catch (const InputError& e) {
+    throw InputError(file.string() + ": " + e.what());
+  }
   const LibraryVersions versions = versions_in(results);
   KnownDefects known = read_known_defects(known_defects_file());
   if (write) {

@@ -18,7 +18,6 @@ struct OwnDetectors {
 
   /// The plug-ins as workers are handed them.
   std::vector<std::string> records() const;
-  /// Their part of results.json; "" without any.
 };
 
 /// True when `text` ("./libmine.so:leaf=8") names a library's file and no detector's id: before the

@@ -53,6 +53,8 @@ std::vector<results::Episode> find_episodes(const BodyPairsPerFrame& truth,
 void sum_up_episodes(results::Geometry& geometry) {
   std::optional<double>& gap = geometry.hover_gap_max;
   std::optional<long>& late = geometry.late_frames;
+  gap.reset();
+  late.reset();
   for (const results::Episode& e : geometry.episodes) {
     if (e.hover_gap) gap = std::max(gap.value_or(0.0), *e.hover_gap);
     if (e.late_frames && (!late || std::labs(*e.late_frames) > std::labs(*late)))

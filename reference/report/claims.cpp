@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 #include "reference/results/references.h"
 
 namespace contactcheck {
@@ -31,15 +30,16 @@ std::string hover_verdict(std::optional<double> grid, std::optional<double> aabb
   return *grid > *aabb ? "holds" : *grid < *aabb ? "does not hold" : "equal";
 }
 
-Claim hover_claim(const Results& results) {
-  Claim out{"Hover: is traditional FFD less tight than FFD-AABB?",
-            "Largest true distance at the moment a detector first reports contact, touching scenes "
-            "only.",
-            {{"scene", true, ""},
-             {"ffd-grid, mm", false, ""},
-             {"ffd-aabb, mm", false, ""},
-             {"the paper's claim", true, ""}},
-            {}};
+TitledTable hover_claim(const Results& results) {
+  TitledTable out{
+      "Hover: is traditional FFD less tight than FFD-AABB?",
+      "Largest true distance at the moment a detector first reports contact, touching scenes "
+      "only.",
+      {{"scene", true, ""},
+       {"ffd-grid, mm", false, ""},
+       {"ffd-aabb, mm", false, ""},
+       {"the paper's claim", true, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes) {
     const Run* grid = find_run(results, scene.id, "ffd-grid");
     const Run* aabb = find_run(results, scene.id, "ffd-aabb");
@@ -51,8 +51,9 @@ Claim hover_claim(const Results& results) {
   return out;
 }
 
-Claim speed_claim(const Results& results, const char* detector, Question question, Level level) {
-  Claim out{
+TitledTable speed_claim(const Results& results, const char* detector, Question question,
+                        Level level) {
+  TitledTable out{
       fmt::format("{} against FCL and Embree, question `{}`", detector, name_of(question)),
       fmt::format("Errors are recall / spurious rate at level `{}`; a speed-up is the "
                   "reference's time divided by this detector's, cold, with its 95 % interval.",
@@ -61,7 +62,7 @@ Claim speed_claim(const Results& results, const char* detector, Question questio
       {}};
   for (const std::string reference : kReferences) {
     out.columns.push_back({"errors of " + reference, false, ""});
-    out.columns.push_back({"speed-up", false, ""});
+    out.columns.push_back({"speed-up over " + reference, false, ""});
   }
   for (const results::Scene& scene : results.scenes) {
     const Run* run = find_run(results, scene.id, detector);
@@ -77,22 +78,23 @@ Claim speed_claim(const Results& results, const char* detector, Question questio
   return out;
 }
 
-Claim fcl_claim(const Results& results) {
+TitledTable fcl_claim(const Results& results) {
   // Metres. Rounding of doubles parts bodies of a metre by 1e-16 or so; no margin is as small.
   constexpr double kRounding = 1e-12;
-  Claim out{"FCL takes gaps below rounding for contact",
-            "It tries the separating axes of two triangles in plain double, without a bound on the "
-            "error (a known defect of FCL 0.7, its issue 502). Pairs that are apart by less than "
-            "the rounding of that test may be reported: neighbours of a corner, an edge or a plane "
-            "where bodies just touch. Every spurious pair of the rows below is closer than 1e-12 "
-            "metres (rounding, unless bodies themselves are as small); the oracle, which is exact, "
-            "says that it does not touch.",
-            {{"scene", true, ""},
-             {"detector", true, ""},
-             {"reported", false, ""},
-             {"spurious", false, ""},
-             {"farthest apart, mm", false, ""}},
-            {}};
+  TitledTable out{
+      "FCL takes gaps below rounding for contact",
+      "It tries the separating axes of two triangles in plain double, without a bound on the "
+      "error (a known defect of FCL 0.7, its issue 502). Pairs that are apart by less than "
+      "the rounding of that test may be reported: neighbours of a corner, an edge or a plane "
+      "where bodies just touch. Every spurious pair of the rows below is closer than 1e-12 "
+      "metres (rounding, unless bodies themselves are as small); the oracle, which is exact, "
+      "says that it does not touch.",
+      {{"scene", true, ""},
+       {"detector", true, ""},
+       {"reported", false, ""},
+       {"spurious", false, ""},
+       {"farthest apart, mm", false, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes) {
     if (scene.family) continue;
     for (const Run* run : runs_of_scene(results, scene.id)) {
@@ -107,19 +109,20 @@ Claim fcl_claim(const Results& results) {
   return out;
 }
 
-Claim bullet_scale_claim(const Results& results) {
-  Claim out{"Bullet's vertex-face query at scale 1: small triangles do not exist",
-            "It skips every triangle whose cross product of two sides, squared, is at most "
-            "FLT_EPSILON (1.19e-7) in Bullet's own units: at scale 1 that is every triangle below "
-            "1.73e-4 square metres, without a warning. At the default the scene is scaled by a "
-            "power of two until its smallest triangles count.",
-            {{"scene", true, ""},
-             {"scale", false, ""},
-             {"body recall", false, ""},
-             {"near recall", false, ""},
-             {"body recall at scale 1", false, ""},
-             {"near recall at scale 1", false, ""}},
-            {}};
+TitledTable bullet_scale_claim(const Results& results) {
+  TitledTable out{
+      "Bullet's vertex-face query at scale 1: small triangles do not exist",
+      "It skips every triangle whose cross product of two sides, squared, is at most "
+      "FLT_EPSILON (1.19e-7) in Bullet's own units: at scale 1 that is every triangle below "
+      "1.73e-4 square metres, without a warning. At the default the scene is scaled by a "
+      "power of two until its smallest triangles count.",
+      {{"scene", true, ""},
+       {"scale", false, ""},
+       {"body recall", false, ""},
+       {"near recall", false, ""},
+       {"body recall at scale 1", false, ""},
+       {"near recall at scale 1", false, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes) {
     const Run *scaled = find_run(results, scene.id, "bullet-vf"),
               *plain = find_run(results, scene.id, "bullet-vf:scale=1");
@@ -131,17 +134,18 @@ Claim bullet_scale_claim(const Results& results) {
   return out;
 }
 
-Claim bullet_inside_claim(const Results& results) {
-  Claim out{"Bullet's vertex-face query is an unsigned proximity query",
-            "It reports vertices near a surface, on either side. Of the vertices that are truly "
-            "inside the other body it names those near its surface alone; that is its "
-            "specification and no error, but it is no penetration query.",
-            {{"scene", true, ""},
-             {"margin mm", false, ""},
-             {"vertices inside", false, ""},
-             {"of them reported", false, ""},
-             {"reported, not inside", false, ""}},
-            {}};
+TitledTable bullet_inside_claim(const Results& results) {
+  TitledTable out{
+      "Bullet's vertex-face query is an unsigned proximity query",
+      "It reports vertices near a surface, on either side. Of the vertices that are truly "
+      "inside the other body it names those near its surface alone; that is its "
+      "specification and no error, but it is no penetration query.",
+      {{"scene", true, ""},
+       {"margin mm", false, ""},
+       {"vertices inside", false, ""},
+       {"of them reported", false, ""},
+       {"reported, not inside", false, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes) {
     const Run* run = find_run(results, scene.id, "bullet-vf");
     const LevelCounts* counts = run == nullptr ? nullptr : counts_of(*run, Level::kVertex);
@@ -163,19 +167,20 @@ std::string turned_normals(const results::ErrorSpread& normals) {
   return std::to_string(turned);
 }
 
-Claim bullet_normal_claim(const Results& results) {
-  Claim out{"Bullet's vertex-face normals turn with the side of the vertex",
-            "Its normal points from the face to the vertex, on whichever side of the face the "
-            "vertex is. Normals are judged for vertices that are truly inside the other body: "
-            "there it points further in, about 180 degrees off the way out. That is Bullet's own "
-            "convention and no rounding, and a solver that follows it pushes such a vertex further "
-            "in.",
-            {{"scene", true, ""},
-             {"normals judged", false, ""},
-             {"of them 90 degrees off or more", false, ""},
-             {"mean, degrees", false, ""},
-             {"largest, degrees", false, ""}},
-            {}};
+TitledTable bullet_normal_claim(const Results& results) {
+  TitledTable out{
+      "Bullet's vertex-face normals turn with the side of the vertex",
+      "Its normal points from the face to the vertex, on whichever side of the face the "
+      "vertex is. Normals are judged for vertices that are truly inside the other body: "
+      "there it points further in, about 180 degrees off the way out. That is Bullet's own "
+      "convention and no rounding, and a solver that follows it pushes such a vertex further "
+      "in.",
+      {{"scene", true, ""},
+       {"normals judged", false, ""},
+       {"of them 90 degrees off or more", false, ""},
+       {"mean, degrees", false, ""},
+       {"largest, degrees", false, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes) {
     const Run* run = find_run(results, scene.id, "bullet-vf");
     if (run == nullptr) continue;
@@ -188,16 +193,17 @@ Claim bullet_normal_claim(const Results& results) {
   return out;
 }
 
-Claim bullet_cluster_claim(const Results& results) {
-  Claim out{"Bullet's clusters touch where the surfaces do not",
-            "A cluster is the convex hull of a group of vertices, so it fills what is concave "
-            "between them: false contact between shells and near concave parts.",
-            {{"scene", true, ""},
-             {"detector", true, ""},
-             {"true body contacts", false, ""},
-             {"missed", false, ""},
-             {"spurious", false, ""}},
-            {}};
+TitledTable bullet_cluster_claim(const Results& results) {
+  TitledTable out{
+      "Bullet's clusters touch where the surfaces do not",
+      "A cluster is the convex hull of a group of vertices, so it fills what is concave "
+      "between them: false contact between shells and near concave parts.",
+      {{"scene", true, ""},
+       {"detector", true, ""},
+       {"true body contacts", false, ""},
+       {"missed", false, ""},
+       {"spurious", false, ""}},
+      {}};
   for (const results::Scene& scene : results.scenes)
     for (const char* detector : {"bullet-cl", "bullet-cl:k=256"})
       if (const Run* run = find_run(results, scene.id, detector))
@@ -209,8 +215,8 @@ Claim bullet_cluster_claim(const Results& results) {
 
 }  // namespace
 
-std::vector<Claim> claims_of(const Results& results) {
-  std::vector<Claim> claims = {
+std::vector<TitledTable> claims_of(const Results& results) {
+  std::vector<TitledTable> claims = {
       hover_claim(results),
       speed_claim(results, "ffd-aabb-sphere2+tri", Question::kTriangles, Level::kTriangle),
       speed_claim(results, "ffd-aabb-sphere2", Question::kBody, Level::kBody),
@@ -219,17 +225,13 @@ std::vector<Claim> claims_of(const Results& results) {
       bullet_inside_claim(results),
       bullet_normal_claim(results),
       bullet_cluster_claim(results)};
-  std::erase_if(claims, [](const Claim& claim) { return claim.rows.empty(); });
+  std::erase_if(claims, [](const TitledTable& claim) { return claim.rows.empty(); });
   return claims;
 }
 
 std::string claims_markdown(const Results& results) {
   std::string out;
-  for (const Claim& claim : claims_of(results)) {
-    std::string rows;
-    for (const std::vector<std::string>& row : claim.rows) rows += table_line(row);
-    out += titled_table("### " + claim.title + "\n\n" + claim.text, claim.columns, rows);
-  }
+  for (const TitledTable& claim : claims_of(results)) out += markdown_of(claim);
   return out;
 }
 

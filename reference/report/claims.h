@@ -4,24 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "reference/report/run_row.h"
+#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
 
-/// A claim, what is measured of it, and a table. Names of questions and levels stand in
-/// `backticks`.
-struct Claim {
-  std::string title, text;
-  std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;
-};
+/// Of the claim about Bullet's normals, which other parts of a report lead to.
+inline constexpr const char* kTurnedNormals = "turned-normals";
 
 /// Those that the results have rows for: the hover gaps of ffd-grid and ffd-aabb side by side (the
 /// paper's claim: the first is larger); the speed of sphere2 against FCL and Embree in the
 /// questions that both answer, with the errors of both; what FCL takes for contact; what Bullet's
 /// queries mean.
-std::vector<Claim> claims_of(const results::Results& results);
+std::vector<TitledTable> claims_of(const results::Results& results);
 
 /// The same for the Markdown report.
 std::string claims_markdown(const results::Results& results);

@@ -55,7 +55,7 @@ std::string format_percent(double share) {
   if (share < 1e-4) return "< 0.01 %";
   if (share > 0.999) return "> 99.9 %";
   const int digits = share < 0.01 ? 2 : 1;
-  // Halves go up: an error is not shown smaller than it is.
+  // Halves go up, as in format.ts.
   const double steps = digits == 2 ? 100.0 : 10.0;
   return fmt::format("{:.{}f} %", std::round(100.0 * share * steps) / steps, digits);
 }

@@ -24,7 +24,8 @@ constexpr std::size_t kMostDetectors = 5, kMostPlaces = 3;
 struct Verdict {
   std::string detector;
   std::map<Level, ErrorCounts> levels;
-  std::optional<Level> finest;  ///< in the first scene that it finished
+  std::optional<Level> finest;  ///< in the first scene that it finished, else in the first family
+  bool in_family = false;       ///< `finest` is of one
   bool failed = false;          ///< ended in an error somewhere
 
   bool flawless() const {
@@ -43,13 +44,22 @@ bool was_asked(const Results& results, const Run& run) {
 // Of detectors that had something to find, or reported something; in the order of their first runs.
 std::vector<Verdict> verdicts_of(const Results& results) {
   std::vector<Verdict> all;
+  std::set<std::string> families;
+  for (const results::Scene& scene : results.scenes)
+    if (scene.family) families.insert(scene.id);
   for (const Run& run : results.runs) {
     auto own = std::find_if(all.begin(), all.end(),
                             [&](const Verdict& v) { return v.detector == run.detector; });
-    if (own == all.end()) own = all.insert(all.end(), Verdict{run.detector, {}, {}, false});
+    if (own == all.end()) {
+      own = all.insert(all.end(), Verdict());
+      own->detector = run.detector;
+    }
     if (run.status == results::Status::kError && was_asked(results, run)) own->failed = true;
     if (!run.ok()) continue;
-    if (!own->finest) own->finest = run.per_frame.level;
+    if (!own->finest || (own->in_family && !families.contains(run.scene))) {
+      own->finest = run.per_frame.level;
+      own->in_family = families.contains(run.scene);
+    }
     for (const auto& [level, counts] : run.levels)
       if (!counts.informative) own->levels[level].add(run, level);
   }

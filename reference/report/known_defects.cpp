@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 
 namespace contactcheck {
 namespace {
@@ -26,30 +25,32 @@ std::string shown_text(const results::KnownDefect& d) {
   return d.other_version ? "other version" : fmt::format("{} of {}", d.shown, d.listed);
 }
 
-std::string defects_table(const results::KnownDefects& known) {
-  std::string rows;
+TitledTable defects_table(const results::KnownDefects& known) {
+  TitledTable out{"",
+                  "",
+                  {{"library", true, ""},
+                   {"described in", true, ""},
+                   {"seen as", true, ""},
+                   {"why", true, ""},
+                   {"detectors", true, ""},
+                   {"families", false, ""},
+                   {"cases that show it", false, ""}},
+                  {}};
   for (const results::KnownDefect& d : known.defects)
-    rows +=
-        table_line({d.library + " " + d.version, d.issue, d.kind, d.sentence,
-                    comma_list(d.detectors), fmt::format("{}", d.scenes.size()), shown_text(d)});
-  if (rows.empty()) return "";
-  return table_head({{"library", true, ""},
-                     {"described in", true, ""},
-                     {"seen as", true, ""},
-                     {"why", true, ""},
-                     {"detectors", true, ""},
-                     {"families", false, ""},
-                     {"cases that show it", false, ""}}) +
-         rows + "\n";
+    out.rows.push_back({d.library + " " + d.version, d.issue, d.kind, d.sentence,
+                        comma_list(d.detectors), format_count(d.scenes.size()), shown_text(d)});
+  return out;
 }
 
-std::string groups_table(const std::string& paragraph, const Groups& groups) {
-  std::string rows;
+TitledTable groups_table(const std::string& text, const Groups& groups) {
+  TitledTable out{
+      "",
+      text,
+      {{"detector", true, ""}, {"family", true, ""}, {"kind", true, ""}, {"at", true, ""}},
+      {}};
   for (const results::Sightings& g : groups)
-    rows += table_line({g.detector, g.scene, g.kind, comma_list(g.values)});
-  return titled_table(
-      paragraph,
-      {{"detector", true, ""}, {"family", true, ""}, {"kind", true, ""}, {"at", true, ""}}, rows);
+    out.rows.push_back({g.detector, g.scene, g.kind, comma_list(g.values)});
+  return out;
 }
 
 std::string group_lines(const char* title, const Groups& groups) {
@@ -74,16 +75,24 @@ std::string known_defects_sentence(const results::KnownDefects& known) {
       grouped_digits(cases_in(known.unlisted)));
 }
 
+std::vector<TitledTable> known_defects_tables(const results::KnownDefects& known) {
+  std::vector<TitledTable> tables = {
+      defects_table(known),
+      groups_table("Listed, and not shown: mended in this build of the library, or the case has "
+                   "changed.",
+                   known.not_shown),
+      groups_table("Shown, and not listed.", known.unlisted)};
+  std::erase_if(tables, [](const TitledTable& table) { return table.rows.empty(); });
+  return tables;
+}
+
 std::string known_defects_markdown(const results::Results& results) {
   if (!results.known_defects) return "";
-  const results::KnownDefects& known = *results.known_defects;
-  return "## Known defects of libraries\n\n" + known_defects_sentence(known) + "\n\n" +
-         defects_table(known) +
-         groups_table(
-             "Listed, and not shown: mended in this build of the library, or the case has "
-             "changed.",
-             known.not_shown) +
-         groups_table("Shown, and not listed.", known.unlisted);
+  std::string out =
+      "## Known defects of libraries\n\n" + known_defects_sentence(*results.known_defects) + "\n\n";
+  for (const TitledTable& table : known_defects_tables(*results.known_defects))
+    out += markdown_of(table);
+  return out;
 }
 
 std::string defects_text(const results::KnownDefects& known) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -10,6 +12,10 @@ namespace contactcheck {
 /// "Of 12 listed wrong answers that this run could show, 10 show and 2 do not; 0 show that are not
 /// listed."
 std::string known_defects_sentence(const results::KnownDefects& known);
+
+/// What is listed, what is listed and does not show, what shows and is not listed; without those
+/// that have no rows.
+std::vector<TitledTable> known_defects_tables(const results::KnownDefects& known);
 
 /// Of the field `known_defects` of results.json: what is listed and shows, what is listed and does
 /// not, what shows and is not listed. Empty where results have no such field.

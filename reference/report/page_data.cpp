@@ -1,11 +1,15 @@
 #include "reference/report/page_data.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "reference/report/claims.h"
+#include "reference/report/goals_table.h"
 #include "reference/report/headline.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/speed_error.h"
 #include "reference/report/summary.h"
@@ -19,20 +23,31 @@ using results::LevelCounts, results::Results, results::Run;
 
 constexpr const char* kFinest = "finest";
 
-Json table_json(const std::vector<Column>& columns,
-                const std::vector<std::vector<std::string>>& rows) {
-  Json heads = Json::array();
-  for (const Column& column : columns)
-    heads.push_back({{"title", column.title}, {"left", column.left}});
-  return {{"columns", std::move(heads)}, {"rows", rows}};
+Json to_json(const TitledTable& table) {
+  Json columns = Json::array();
+  for (const Column& column : table.columns)
+    columns.push_back({{"title", column.title}, {"left", column.left}});
+  Json out = {{"title", table.title},
+              {"text", table.text},
+              {"columns", std::move(columns)},
+              {"rows", table.rows}};
+  if (!table.id.empty()) out["id"] = table.id;
+  return out;
 }
 
-Json claims_json(const Results& results) {
+Json to_json(const std::vector<TitledTable>& tables) {
   Json out = Json::array();
-  for (const Claim& claim : claims_of(results)) {
-    out.push_back({{"title", claim.title}, {"text", claim.text}});
-    out.back().update(table_json(claim.columns, claim.rows));
-  }
+  for (const TitledTable& table : tables) out.push_back(to_json(table));
+  return out;
+}
+
+Json pairs_json(const Results& results) {
+  Json out = Json::array();
+  for (const results::Scene& scene : results.scenes)
+    if (scene.pairs)
+      out.push_back({{"scene", scene.id},
+                     {"sentence", pairs_line(scene) + "."},
+                     {"table", to_json(pairs_table(scene))}});
   return out;
 }
 
@@ -48,16 +63,14 @@ std::vector<Level> judged_levels_of(const Results& results) {
   return out;
 }
 
-// Of one detector. Pairs of bodies and pairs of triangles do not add up: at the finest level there
-// is a sum only where that is the same everywhere.
-Json sum_of(const Results& results, const std::string& detector, std::optional<Level> level) {
+// Of one detector's runs. Pairs of bodies and pairs of triangles do not add up: at the finest level
+// there is a sum only where that is the same everywhere.
+Json sum_of(const std::vector<const Run*>& runs, std::optional<Level> level) {
   std::optional<LevelCounts> sum;
   std::optional<Level> finest;
-  for (const Run& run : results.runs) {
-    const results::Scene* scene = results.scene(run.scene);
-    if (run.detector != detector || scene == nullptr || scene->family) continue;
-    const std::optional<Level> own = level ? level : run.per_frame.level;
-    const LevelCounts* counts = counts_of(run, own);
+  for (const Run* run : runs) {
+    const std::optional<Level> own = level ? level : run->per_frame.level;
+    const LevelCounts* counts = counts_of(*run, own);
     if (counts == nullptr || counts->informative) continue;
     if (finest && finest != own) return "levels differ";
     finest = own;
@@ -70,6 +83,23 @@ Json sum_of(const Results& results, const std::string& detector, std::optional<L
           {"hit", sum->hit},
           {"missed", sum->missed},
           {"spurious", sum->spurious}};
+}
+
+// Per level, per detector.
+Json sums_json(const Results& results, const std::vector<std::string>& detectors,
+               const std::vector<Level>& levels) {
+  std::set<std::string> families;
+  for (const results::Scene& scene : results.scenes)
+    if (scene.family) families.insert(scene.id);
+  std::map<std::string, std::vector<const Run*>> runs;
+  for (const Run& run : results.runs)
+    if (!families.contains(run.scene)) runs[run.detector].push_back(&run);
+  Json out = Json::object();
+  for (const std::string& detector : detectors) {
+    out[kFinest].push_back(sum_of(runs[detector], std::nullopt));
+    for (const Level level : levels) out[name_of(level)].push_back(sum_of(runs[detector], level));
+  }
+  return out;
 }
 
 struct Measure {
@@ -109,8 +139,7 @@ Json level_charts(const SpeedErrorCharts& charts, SpeedErrorChoice choice) {
   return any || !choice.level ? out : Json(nullptr);
 }
 
-Json speed_error_json(const Results& results, const std::vector<Level>& levels) {
-  const SpeedErrorCharts charts(results);
+Json speed_error_json(const SpeedErrorCharts& charts, const std::vector<Level>& levels) {
   Json words = Json::array(), all = Json::array();
   for (std::size_t i = 0; i < charts.scenes().size(); ++i) {
     words.push_back(charts.scenes()[i].words);
@@ -128,30 +157,25 @@ Json speed_error_json(const Results& results, const std::vector<Level>& levels) 
 
 Json report_json(const Results& results) {
   const Headline headline = headline_of(results);
+  const SpeedErrorCharts charts(results);
   const std::vector<Level> levels = judged_levels_of(results);
-  std::vector<std::string> detectors;
-  for (const Run& run : results.runs)
-    if (std::find(detectors.begin(), detectors.end(), run.detector) == detectors.end())
-      detectors.push_back(run.detector);
-  Json findings = Json::array(), names = Json::array(), sums = Json::object();
+  Json findings = Json::array(), names = Json::array();
   for (const HeadlineFinding& f : headline.findings)
     findings.push_back({{"topic", f.topic}, {"sentence", f.sentence}});
-  for (const std::string& detector : detectors)
-    sums[kFinest].push_back(sum_of(results, detector, std::nullopt));
-  for (const Level level : levels) {
-    names.push_back(name_of(level));
-    for (const std::string& detector : detectors)
-      sums[name_of(level)].push_back(sum_of(results, detector, level));
-  }
+  for (const Level level : levels) names.push_back(name_of(level));
   Json out = {{"title", headline.title},
               {"findings", std::move(findings)},
               {"fastest", headline.fastest},
-              {"summary", table_json(summary_columns(), summary_lines(results))},
-              {"claims", claims_json(results)},
+              {"summary", to_json({"", "", summary_columns(), summary_lines(results)})},
+              {"claims", to_json(claims_of(results))},
+              {"goals", to_json({"", "", goal_columns(), goal_lines(results)})},
+              {"pairs", pairs_json(results)},
               {"levels", std::move(names)},
-              {"sums", std::move(sums)},
-              {"speed_error", speed_error_json(results, levels)}};
-  if (results.known_defects) out["known_defects"] = known_defects_sentence(*results.known_defects);
+              {"sums", sums_json(results, charts.detectors(), levels)},
+              {"speed_error", speed_error_json(charts, levels)}};
+  if (results.known_defects)
+    out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
+                            {"tables", to_json(known_defects_tables(*results.known_defects))}};
   return out;
 }
 

@@ -13,20 +13,22 @@ namespace contactcheck {
 /// "report":
 ///
 ///   {"title", "findings": [{"topic", "sentence"}],
-///    "fastest": [detector]                  without error and fastest in some scene
-///    "known_defects": sentence              where results have such
-///    "claims": [{"title", "text", "columns", "rows"}]   `code` stands in backticks
-///    "summary": {"columns": [{"title", "left"}], "rows": [[cell]]}
-///    "levels": [level]                      that some detector claims and was judged at
-///    "sums": {level: [sum]}                 per detector, over all scenes but families: {"truth",
-///                                           "reported", "hit", "missed", "spurious"}, null, or why
-///                                           there is none; level "finest": each at its finest
+///    "fastest": [detector]          without error and fastest in some scene
+///    "summary": TABLE, "claims": [TABLE], "goals": TABLE,
+///    "known_defects": {"sentence", "tables": [TABLE]}      where results have such
+///    "pairs": [{"scene", "sentence", "table": TABLE}]
+///    "levels": [level]              that some detector claims and was judged at
+///    "sums": {level: [SUM]}         per detector, over all scenes but families; level "finest":
+///                                   each at its finest
 ///    "speed_error": {"detectors": [name], "scenes": [words], "first": place in scenes,
-///      "charts": [{level: {                 per choice of scenes; only what was judged there
-///        "counts": [{"level", "truth", "reported", "missed", "spurious"} or null]   per detector
-///        "worse cold", "worse hot", "missed cold", ...:
-///          {"points": [[place in detectors, ms, error, is on the front]], "left_out":
-///          sentence}}}]}}
+///      "charts": [{level: CHARTS}]}}                         per choice of scenes
+///
+///   TABLE   {"title", "text", "columns": [{"title", "left"}], "rows": [[cell]]}, with "id" where
+///           something leads to it; `code` stands in backticks
+///   SUM     {"truth", "reported", "hit", "missed", "spurious"}; null; or why there is none
+///   CHARTS  {"counts": [{"question", "level", "truth", "reported", "missed", "spurious"} or null],
+///           per detector; "worse cold", "worse hot", "missed cold", ...:
+///           {"points": [[place in detectors, ms, error, is on the front]], "left_out": sentence}}
 nlohmann::ordered_json page_data(const results::Results& results, const std::string& reproduction);
 
 }  // namespace contactcheck

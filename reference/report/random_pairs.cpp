@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 
 namespace contactcheck {
 namespace {
 
-// "12,345,678"
-std::string with_commas(std::uint64_t value) {
-  std::string digits = std::to_string(value);
-  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, ",");
-  return digits;
-}
-
 std::string oracle_text(std::uint64_t wrong) {
   const std::string text =
-      fmt::format("oracle against rational arithmetic: {} wrong", with_commas(wrong));
+      fmt::format("oracle against rational arithmetic: {} wrong", grouped_digits(wrong));
   return wrong == 0 ? text : text + ", AN ERROR OF CONTACTCHECK ITSELF";
 }
 
@@ -25,28 +17,30 @@ std::string oracle_text(std::uint64_t wrong) {
 
 std::string pairs_line(const results::Scene& scene) {
   if (!scene.pairs) return "";
-  return fmt::format("{} pairs, seed {}, {} touch; {}", with_commas(scene.pairs->count),
-                     scene.pairs->seed, with_commas(scene.pairs->touching),
+  return fmt::format("{} pairs, seed {}, {} touch; {}", grouped_digits(scene.pairs->count),
+                     scene.pairs->seed, grouped_digits(scene.pairs->touching),
                      oracle_text(scene.pairs->oracle_wrong));
 }
 
-std::string pairs_markdown(const results::Scene& scene) {
-  if (!scene.pairs) return "";
-  std::string rows;
+TitledTable pairs_table(const results::Scene& scene) {
+  TitledTable out{
+      "",
+      "Kinds of pairs:",
+      {{"kind", true, ""}, {"pairs", false, ""}, {"touching", false, ""}, {"share", false, ""}},
+      {}};
+  if (!scene.pairs) return out;
   for (const auto& [kind, tally] : scene.pairs->per_kind) {
     std::optional<double> share;
     if (tally.pairs > 0)
       share = static_cast<double>(tally.touching) / static_cast<double>(tally.pairs);
-    rows += table_line(
+    out.rows.push_back(
         {kind, format_count(tally.pairs), format_count(tally.touching), format_number(share)});
   }
-  return pairs_line(scene) + ".\n\n" +
-         titled_table("Kinds of pairs:",
-                      {{"kind", true, ""},
-                       {"pairs", false, ""},
-                       {"touching", false, ""},
-                       {"share", false, ""}},
-                      rows);
+  return out;
+}
+
+std::string pairs_markdown(const results::Scene& scene) {
+  return scene.pairs ? pairs_line(scene) + ".\n\n" + markdown_of(pairs_table(scene)) : "";
 }
 
 }  // namespace contactcheck

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -11,6 +12,9 @@ namespace contactcheck {
 /// "10,000,000 pairs, seed 1, 5,012,345 touch; oracle against rational arithmetic: 0 wrong".
 /// Empty for scenes without pairs.
 std::string pairs_line(const results::Scene& scene);
+
+/// How many of each kind touch; no rows for scenes without pairs.
+TitledTable pairs_table(const results::Scene& scene);
 
 /// Markdown: that line, and how many of each kind touch. Empty for scenes without pairs.
 std::string pairs_markdown(const results::Scene& scene);

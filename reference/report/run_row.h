@@ -1,7 +1,6 @@
-// One run of results.json as the cells of a table line: shared by the terminal and Markdown.
+// Runs of results.json as every report looks at them, and as the cells of a table line.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>

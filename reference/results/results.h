@@ -50,6 +50,8 @@ using Levels = std::map<Level, LevelCounts>;
 struct PerFrame {
   std::optional<Level> level;
   std::vector<std::uint64_t> truth, missed, spurious;
+  /// Of the true contact contour; none in frames without contour and for detectors that report no
+  /// elements.
   std::vector<std::optional<double>> covered_length_fraction;
   std::optional<std::vector<std::optional<double>>> frame_ms;  ///< of a timed run; none: not timed
 };
@@ -98,11 +100,12 @@ struct Stage {
   std::string visited_unit;  ///< with visited
 };
 
-/// Milliseconds per frame.
+/// Milliseconds per frame: medians over repeats, averaged over the timed frames.
 struct PhaseTimes {
   std::optional<double> map;  ///< none for detectors that map what they need themselves
   double update = 0.0, query = 0.0, frame = 0.0;
-  std::optional<double> contact_frame, self_reported;
+  std::optional<double> contact_frame;  ///< mean over timed contact frames
+  std::optional<double> self_reported;  ///< update and query, by the detector's own clock
 };
 
 struct QuestionTimes {
@@ -152,7 +155,7 @@ const char* name_of(Status status);
 /// As a hash stands in the file: "0x0123456789abcdef".
 std::string hex(std::uint64_t hash);
 
-/// One detector on one scene. Of one that is not `ok` everything from per_frame on is empty.
+/// One detector on one scene. Of one that is not `ok` the file has nothing from per_frame on.
 struct Run {
   std::string scene, detector, message;
   Status status = Status::kOk;
@@ -162,17 +165,20 @@ struct Run {
   std::string recording;
   std::optional<std::size_t> failed_frame;
   PerFrame per_frame;
-  Levels levels, levels_rounded;
-  std::map<Level, std::string> not_judged;
+  Levels levels;
+  Levels levels_rounded;                    ///< against the truth of the values it was fed
+  std::map<Level, std::string> not_judged;  ///< claimed, but why not judged
   Geometry geometry;
   std::vector<Stage> stages;
+  /// What the detector says it did for its own question, summed over frames; in its own units.
   std::vector<std::pair<std::string, std::uint64_t>> counters;
   double prepare_ms = 0.0;
   std::vector<QuestionTimes> times;  ///< its own question first; empty without timing
   std::map<Question, std::map<std::string, Speedup>> speedup;  ///< by reference detector
   std::uint64_t memory_bytes = 0;
   std::string contact_hash;
-  std::vector<std::string> float_environment, notes;
+  std::vector<std::string> float_environment;  ///< what the detector left changed
+  std::vector<std::string> notes;              ///< what else a reader must know
   std::optional<ClosedLoop> closed_loop;
   std::optional<StepTimes> step_ms;
 
@@ -237,7 +243,8 @@ struct Scene {
 };
 
 struct Disagreement {
-  std::string scene, detector, level, kind, case_file;
+  std::string scene, detector, level, kind;
+  std::string case_file;  ///< its name; while a run goes on, where it stands
   std::size_t frame = 0;
 };
 

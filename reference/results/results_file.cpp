@@ -62,8 +62,7 @@ std::string defect_of(const Json& results) {
   return schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), results);
 }
 
-// The place that the report could not use. It is looked for only then: results of another program
-// may break the schema where no report looks.
+// The place that could not be read.
 std::string defect_of(const Json& results, const Json::exception& e) {
   const std::string found = defect_of(results);
   return found.empty() ? sentence_of(e) : found;

@@ -24,8 +24,7 @@ class ResultsFile {
   /// @throws InputError when it cannot be read, is no JSON or of another schema
   explicit ResultsFile(const std::filesystem::path& file);
 
-  /// @throws InputError that names the first place where it breaks fixtures/results.schema.json; a
-  /// reader that goes by what is not there, such as a gate, needs all of it to be right
+  /// @throws InputError that names the first place where it breaks fixtures/results.schema.json
   void require_schema() const;
 
   /// What `use(results)` returns. @throws InputError that names the place when a field that it

@@ -88,6 +88,7 @@ std::vector<MeasuredGoal> measure_goals(const std::vector<results::Goal>& goals,
   for (const results::Goal& goal : goals) {
     MeasuredGoal& entry = out.emplace_back(MeasuredGoal{goal, {}, {}, {}, {}, {}, {}});
     try {
+      if (!goal.at_least && !goal.at_most) throw NotMeasured("it has no bound");
       measure(results, entry);
       entry.met =
           goal.at_least ? *entry.measured >= *goal.at_least : *entry.measured <= *goal.at_most;

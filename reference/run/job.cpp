@@ -177,26 +177,27 @@ Job read_job(const std::filesystem::path& file) {
   return job;
 }
 
-// Scene, rows and disagreements are written as results.json has them.
-void write_answer(const std::filesystem::path& file, const SceneAnswer& answer) {
+// Scene, rows and disagreements are written as results.json has them. Moved and not copied: the
+// contacts of all detectors may be the largest thing that a worker holds.
+void write_answer(const std::filesystem::path& file, SceneAnswer answer) {
   results::Results found;
-  found.scenes = {answer.scene};
-  found.disagreements = answer.disagreements;
+  found.scenes.push_back(std::move(answer.scene));
+  found.disagreements = std::move(answer.disagreements);
   json detectors = json::array();
-  for (const DetectorAnswer& d : answer.detectors) {
-    found.runs.push_back(d.run);
+  for (DetectorAnswer& d : answer.detectors) {
+    found.runs.push_back(std::move(d.run));
     json samples = json::array();
     for (const QuestionSamples& s : d.samples) samples.push_back(to_json(s));
     detectors.push_back({{"position", d.position},
                          {"samples", std::move(samples)},
                          {"answers", to_json(d.answers)},
-                         {"contacts", d.contacts}});
+                         {"contacts", std::move(d.contacts)}});
   }
   const json out = {{"results", results::to_json(found)},
                     {"contact_frames", answer.contact_frames},
                     {"order", answer.order},
                     {"prefixes", answer.prefixes},
-                    {"truth_contacts", answer.truth_contacts},
+                    {"truth_contacts", std::move(answer.truth_contacts)},
                     {"detectors", std::move(detectors)}};
   write_file_atomically(file, text_of(out));
 }

@@ -88,7 +88,7 @@ struct SceneAnswer {
   std::vector<DetectorAnswer> detectors;
 };
 
-void write_answer(const std::filesystem::path& file, const SceneAnswer& answer);
+void write_answer(const std::filesystem::path& file, SceneAnswer answer);
 /// @throws nlohmann::json::exception for a file that write_answer did not write
 SceneAnswer read_answer(const std::filesystem::path& file);
 

@@ -35,8 +35,13 @@ class Rows {
       for (const ProcessSamples& question : questions)
         tell(task().id, task().detectors[position], question);
     std::vector<results::Run> out;
-    for (std::uint32_t i = 0; i < task().detectors.size(); ++i)
-      out.push_back(scene_.broken.contains(i) ? broken_row(i) : runs_.at(i));
+    for (std::uint32_t i = 0; i < task().detectors.size(); ++i) {
+      if (scene_.broken.contains(i)) {
+        out.push_back(broken_row(i));
+      } else {
+        out.push_back(std::move(runs_.at(i)));
+      }
+    }
     return out;
   }
 

@@ -25,8 +25,8 @@ using Members = std::map<std::string, std::string>;
 Members plugins_of(const results::Results& results) {
   Members out;
   for (const results::Plugin& p : results.plugins)
-    out[p.detector] =
-        p.kind + " " + p.content + " " + p.version + (p.kind == "library" ? "" : " " + p.source);
+    out[p.detector] = in_quotes(p.kind + " " + p.content + " " + p.version +
+                                (p.kind == "library" ? "" : " " + p.source));
   return out;
 }
 

@@ -72,8 +72,9 @@ Results SuiteOutput::write(Results results, const std::vector<results::Goal>& go
     if (scene.pairs) outcome->oracle_wrong += scene.pairs->oracle_wrong;
   add_known_defects(known_defects, results, outcome);
   // A shard's goals would miss the scenes of the others.
-  if (!results.shard) results.goals = measure_goals(goals, results);
-  if (results.shard) {
+  if (!results.shard) {
+    results.goals = measure_goals(goals, results);
+  } else {
     NamedFiles files;
     for (const results::Scene& scene : results.scenes)
       if (!scene.contacts.empty()) files[scene.contacts] = scratch_ / scene.contacts;

@@ -1,6 +1,7 @@
 #include "reference/run/worker_answer.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "core/deform/recording.h"
 #include "reference/run/case_file.h"
@@ -25,7 +26,7 @@ class AnswerWriter {
     if (lists_contacts()) answer_.truth_contacts = truth_contacts(worker_.judged);
     if (worker_.judged.pairs) add_cases("oracle", worker_.judged.pairs->disagreements);
     for (const WorkerEntry& entry : worker_.entries) add(entry);
-    write_answer(job.answer_file, answer_);
+    write_answer(job.answer_file, std::move(answer_));
   }
 
  private:
@@ -47,7 +48,7 @@ class AnswerWriter {
       d.case_file =
           worker_.job.answer_file.string() + ".case" + std::to_string(answer_.disagreements.size());
       write_case(d.case_file, worker_.judged, d, recording_of_cases());
-      answer_.disagreements.push_back(d);
+      answer_.disagreements.push_back(d);  // its pair stands in the case file
     }
   }
 

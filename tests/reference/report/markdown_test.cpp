@@ -63,7 +63,7 @@ Not in the chart: fcl-obbrss, embree, ffd-grid (ended well in 0 of 1 scenes).
 
 Errors are recall / spurious rate at level `triangle`; a speed-up is the reference's time divided by this detector's, cold, with its 95 % interval.
 
-| scene | errors | errors of fcl-aabb | speed-up | errors of fcl-obbrss | speed-up | errors of embree | speed-up |
+| scene | errors | errors of fcl-aabb | speed-up over fcl-aabb | errors of fcl-obbrss | speed-up over fcl-obbrss | errors of embree | speed-up over embree |
 |---|--:|--:|--:|--:|--:|--:|--:|
 | hello | 0.99999 / 0.00001 | 1 / 0 | 4.00x [3.50, 4.25] | - | - | - | - |
 

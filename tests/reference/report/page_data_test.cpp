@@ -32,6 +32,31 @@ TEST(PageData, SummaryIsThatOfTheOtherReports) {
   EXPECT_EQ(summary.at("columns").size(), summary.at("rows").at(0).size());
 }
 
+TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
+  results::Results results = results::from_json(test::sample_results());
+  Json report = page_data(results, "").at("report");
+  EXPECT_TRUE(report.at("goals").at("rows").empty());
+  EXPECT_TRUE(report.at("pairs").empty());
+  EXPECT_FALSE(report.contains("known_defects"));
+  results.goals.resize(2);
+  results.goals[0].at_most = 5.0;
+  results.goals[0].met = false;
+  results.scenes[0].pairs.emplace().per_kind = {{"sliver", {4, 1}}};
+  results.known_defects.emplace().unlisted = {{"fcl-aabb", "gap", "missed", {"0", "1e-9"}}};
+  report = page_data(results, "").at("report");
+  EXPECT_EQ(report.at("goals").at("rows").size(), 2u);
+  EXPECT_EQ(report.at("goals").at("rows").at(0).back(), "no");
+  EXPECT_EQ(report.at("pairs").at(0).at("scene"), "hello");
+  EXPECT_EQ(report.at("pairs").at(0).at("table").at("rows").dump(),
+            R"([["sliver","4","1","0.250"]])");
+  const Json& known = report.at("known_defects");
+  EXPECT_THAT(known.at("sentence").get<std::string>(),
+              testing::HasSubstr("2 show that are not listed"));
+  ASSERT_EQ(known.at("tables").size(), 1u);
+  EXPECT_EQ(known.at("tables").at(0).at("rows").dump(),
+            R"([["fcl-aabb","gap","missed","0, 1e-9"]])");
+}
+
 TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {
   const Json claims = data_of(test::sample_results()).at("report").at("claims");
   ASSERT_EQ(claims.size(), 1u);

@@ -152,6 +152,8 @@ function container() {
 
 const packed = (bytes) => deflateSync(bytes).toString("base64");
 
+const kNoTable = {title: "", text: "", columns: [], rows: []};
+
 /** @param template the bundler's page.html */
 export function reportOf(template) {
   const results = {
@@ -184,8 +186,10 @@ export function reportOf(template) {
       title: "By hand",
       findings: [],
       fastest: [],
-      summary: {columns: [], rows: []},
+      summary: kNoTable,
       claims: [],
+      goals: kNoTable,
+      pairs: [],
       levels: ["triangle"],
       sums: {finest: [null], triangle: [null]},
       speed_error: {detectors: ["half-blind"], scenes: [], first: 0, charts: []},

@@ -1,5 +1,5 @@
-// Numbers as the other reports write them (reference/report/format.cpp): a rate is cut, so that 1 is
-// said of a perfect score alone, and an error rate is raised.
+// Numbers and lists as the other reports write them (reference/report/format.cpp): a rate is cut, so
+// that 1 is said of a perfect score alone, and an error rate is raised.
 import type {Ratio} from "./results";
 
 type Maybe = number | null | undefined;

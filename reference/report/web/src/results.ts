@@ -12,13 +12,11 @@ export interface Results {
   scenes: Scene[];
   runs: Run[];
   disagreements: Disagreement[];
-  goals?: Goal[];
   resumed?: string[];
   /** A part of a run: these scenes are only some of `shard.scenes`. */
   shard?: {index: number; of: number; scenes: string[]; command: string};
   /** One entry per shard that these results were put together from. */
   merged?: unknown[];
-  known_defects?: KnownDefects;
   /** Not in results.json: the program adds reproduction.json of the same run. */
   reproduction?: Reproduction;
   /** Nor this: what it computes of them (reference/report/page_data.h). */
@@ -31,10 +29,12 @@ export interface Computed {
   findings: {topic: string; sentence: string}[];
   /** Without error and fastest in some scene, most scenes first. */
   fastest: string[];
-  known_defects?: string;
   summary: TextTable;
-  /** Of the paper and of the libraries; code stands in backticks. */
-  claims: ({title: string; text: string} & TextTable)[];
+  /** Of the paper and of the libraries. */
+  claims: TextTable[];
+  goals: TextTable;
+  known_defects?: {sentence: string; tables: TextTable[]};
+  pairs: {scene: string; sentence: string; table: TextTable}[];
   /** That some detector claims and was judged at, coarse before fine. */
   levels: string[];
   /** By level ("finest": each at its own), per detector: a sum over all scenes, or why there is none. */
@@ -42,7 +42,11 @@ export interface Computed {
   speed_error: SpeedError;
 }
 
+/** Code stands in backticks. */
 export interface TextTable {
+  id?: string;
+  title: string;
+  text: string;
   columns: {title: string; left: boolean}[];
   rows: string[][];
 }
@@ -104,7 +108,7 @@ export interface Scene {
   /** Per frame, metres; 0 where surfaces touch. */
   separation?: number[];
   family?: Family;
-  pairs?: RandomPairs;
+  pairs?: unknown;
   simulation?: {driver: string; step: number; every: number};
 }
 
@@ -123,14 +127,6 @@ export interface Family {
   values: string[];
   origin: string;
   stresses: string;
-}
-
-export interface RandomPairs {
-  count: number;
-  seed: number;
-  touching: number;
-  per_kind: Record<string, {pairs: number; touching: number}>;
-  rational: {checked: number; oracle_wrong: number};
 }
 
 /** One detector in one scene. Everything below `message` is there when `status` is "ok". */
@@ -265,46 +261,6 @@ export interface Speedup {
   contact_frames: Ratio | null;
   without_map: Ratio | null;
   reference_options?: Record<string, string>;
-}
-
-export interface Goal {
-  goal: string;
-  scene: string;
-  detector: string;
-  per?: string;
-  at_least?: number;
-  at_most?: number;
-  measured: number | null;
-  low?: number;
-  high?: number;
-  why?: string;
-  met: boolean | null;
-}
-
-export interface KnownDefects {
-  defects: KnownDefect[];
-  not_shown: Sightings[];
-  unlisted: Sightings[];
-}
-
-export interface KnownDefect {
-  library: string;
-  version: string;
-  issue: string;
-  kind: string;
-  sentence: string;
-  detectors: string[];
-  scenes: string[];
-  listed: number;
-  shown: number;
-  other_version: boolean;
-}
-
-export interface Sightings {
-  detector: string;
-  scene: string;
-  kind: string;
-  values: string[];
 }
 
 export interface Disagreement {

@@ -1,6 +1,7 @@
 // Tables in a box of their own, which scrolls where the window is narrow. Headings sort.
-import {h, type Child} from "./dom";
+import {code, h, type Child} from "./dom";
 import {meaningOf} from "./glossary";
+import type {TextTable} from "./results";
 
 export interface Column {
   title: string;
@@ -103,6 +104,23 @@ export function table(columns: Column[], rows: Row[], what: string): HTMLElement
 export function titledTable(title: string, columns: Column[], rows: Row[]): Child[] {
   return rows.length > 0 ? [h("h4", {}, title), table(columns, rows, title)] : [];
 }
+
+const kLong = 40; // letters
+
+/** What the program wrote: code out of its backticks, long cells in several lines. */
+export function textTable({title, text, columns, rows}: TextTable, what = title): Child[] {
+  if (rows.length === 0) return [];
+  const cells = rows.map(
+    (row): Row => row.map((cell) => (cell.length > kLong ? {text: cell, class: "wrap"} : cell)),
+  );
+  return [
+    text && h("p", {}, ...withCode(text)),
+    table(columns, cells, what.replaceAll("`", "") || text),
+  ];
+}
+
+export const withCode = (text: string): Child[] =>
+  text.split("`").map((part, i) => (i % 2 === 1 ? code(part) : part));
 
 export const left = (title: string, meaning?: string): Column => ({title, left: true, meaning});
 export const right = (title: string, meaning?: string): Column => ({title, meaning});

@@ -1,31 +1,13 @@
 // Random pairs: what they were, and how the oracle itself did on them.
 import {h, p, type Child} from "../dom";
-import {grouped, number, share} from "../format";
+import type {Report} from "../report";
 import type {Scene} from "../results";
 import type {Section} from "../section";
-import {left, right, titledTable} from "../table";
+import {textTable} from "../table";
 
-export function pairsContent(scene: Scene): Child[] {
-  if (!scene.pairs) return [];
-  const {count, seed, touching, per_kind, rational} = scene.pairs;
-  const wrong = rational.oracle_wrong;
-  const rows = Object.entries(per_kind).map(([kind, tally]) => [
-    kind,
-    String(tally.pairs),
-    String(tally.touching),
-    number(share(tally.touching, tally.pairs)),
-  ]);
-  return [
-    p(
-      `${grouped(count)} pairs, seed ${seed}, ${grouped(touching)} touch; oracle against rational arithmetic: ${grouped(wrong)} wrong` +
-        `${wrong === 0 ? "" : ", AN ERROR OF CONTACTCHECK ITSELF"}.`,
-    ),
-    ...titledTable(
-      "Kinds of pairs",
-      [left("kind"), right("pairs"), right("touching"), right("share")],
-      rows,
-    ),
-  ];
+export function pairsContent(report: Report, scene: Scene): Child[] {
+  const own = report.results.report.pairs.find((pairs) => pairs.scene === scene.id);
+  return own ? [p(own.sentence), ...textTable(own.table, "Kinds of pairs")] : [];
 }
 
 export const pairs: Section = {
@@ -39,7 +21,7 @@ export const pairs: Section = {
         "Pairs of triangles that touch or are apart by rounding, made from a seed. The oracle, which judges everything else, is held " +
           "against rational arithmetic on every one of them.",
       ),
-      ...scenes.flatMap((scene) => [h("h3", {}, scene.id), ...pairsContent(scene)]),
+      ...scenes.flatMap((scene) => [h("h3", {}, scene.id), ...pairsContent(report, scene)]),
     ];
   },
 };

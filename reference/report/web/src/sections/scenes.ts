@@ -339,7 +339,7 @@ function sceneContent(report: Report, scene: Scene): Child[] {
     p(
       `${scene.frames} frames, ${scene.contact_frames} with contact, size ${number(scene.size)} m. True contacts, summed over frames: ${truthText(scene)}.`,
     ),
-    ...pairsContent(scene),
+    ...pairsContent(report, scene),
     ...titledTable("Result", kResultColumns, all.map(resultRow)),
     ...bodies(scene),
     ...levels(ok),

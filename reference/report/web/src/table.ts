@@ -105,7 +105,7 @@ export function titledTable(title: string, columns: Column[], rows: Row[]): Chil
   return rows.length > 0 ? [h("h4", {}, title), table(columns, rows, title)] : [];
 }
 
-const kLong = 40; // letters
+const kLong = 24; // letters
 
 /** What the program wrote: code out of its backticks, long cells in several lines. */
 export function textTable({title, text, columns, rows}: TextTable, what = title): Child[] {

@@ -180,7 +180,8 @@ TitledTable bullet_normal_claim(const Results& results) {
        {"of them 90 degrees off or more", false, ""},
        {"mean, degrees", false, ""},
        {"largest, degrees", false, ""}},
-      {}};
+      {},
+      "turned-normals"};
   for (const results::Scene& scene : results.scenes) {
     const Run* run = find_run(results, scene.id, "bullet-vf");
     if (run == nullptr) continue;

@@ -166,6 +166,11 @@ test("the page says why Bullet's normals are turned", async () => {
     (await tableTexts(page, "Bullet's vertex-face normals turn with the side of the vertex"))[1],
     ["meet", "7", "6", "150", "180"],
   );
+  const link = page.getByRole("link", {name: "Why normals of bullet-vf are 180 degrees off"});
+  assert.match(
+    await page.locator(await link.getAttribute("href")).textContent(),
+    /^Bullet's vertex-face normals turn/,
+  );
   assert.match(
     report.markdown(),
     /normals turn with the side of the vertex[^]*\| meet \| 7 \| 6 \| 150 \| 180 \|/,

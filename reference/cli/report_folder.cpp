@@ -39,18 +39,19 @@ void check_places(const fs::path& folder, const std::map<std::string, std::strin
   }
 }
 
-// What `reproduce` made of the same run, as JSON; "" where there is none.
-std::string reproduction_of(const results::Results& results, const fs::path& folder) {
+// What `reproduce` made of the same run; null where there is none.
+nlohmann::ordered_json reproduction_of(const results::Results& results, const fs::path& folder) {
   const fs::path file = folder / "reproduction.json";
-  if (!fs::exists(file)) return "";
-  std::string bytes = read_file_bytes(file, "reproduction file");
-  const auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
+  if (!fs::exists(file)) return nullptr;
+  const std::string bytes = read_file_bytes(file, "reproduction file");
+  auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
   if (!reproduction.is_object())
     throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
   check_json_depth(bytes, file);
   // Another run into the same folder leaves the file of an earlier one there.
   const auto command = reproduction.find("command");
-  return command != reproduction.end() && *command == results.command ? bytes : "";
+  if (command == reproduction.end() || *command != results.command) return nullptr;
+  return reproduction;
 }
 
 }  // namespace

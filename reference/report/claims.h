@@ -9,9 +9,6 @@
 
 namespace contactcheck {
 
-/// Of the claim about Bullet's normals, which other parts of a report lead to.
-inline constexpr const char* kTurnedNormals = "turned-normals";
-
 /// Those that the results have rows for: the hover gaps of ffd-grid and ffd-aabb side by side (the
 /// paper's claim: the first is larger); the speed of sphere2 against FCL and Embree in the
 /// questions that both answer, with the errors of both; what FCL takes for contact; what Bullet's

@@ -50,6 +50,16 @@ std::string format_millimetres(std::optional<double> value) {
   return value ? significant(1e3 * *value) : "-";
 }
 
+void Range::add(double value) {
+  low = std::min(low.value_or(value), value);
+  high = std::max(high.value_or(value), value);
+}
+
+std::string format_range(const Range& range) {
+  const std::string from = format_number(range.low), to = format_number(range.high);
+  return from == to ? from : from + " to " + to;
+}
+
 std::string format_percent(double share) {
   if (share == 0.0 || share == 1.0) return fmt::format("{:.0f} %", 100.0 * share);
   if (share < 1e-4) return "< 0.01 %";

@@ -21,6 +21,13 @@ std::string format_number(std::optional<double> value);
 std::string format_count(std::optional<std::int64_t> value);
 /// Metres as millimetres with three significant digits; "0" for exactly 0.
 std::string format_millimetres(std::optional<double> value);
+/// The smallest and the largest of some numbers; none of nothing.
+struct Range {
+  std::optional<double> low, high;
+  void add(double value);
+};
+/// "1.50 to 12.3", or one number where both read the same.
+std::string format_range(const Range& range);
 /// A share of errors in percent: never "0 %" for more than none, nor "100 %" for less than all.
 std::string format_percent(double share);
 /// 12,345,678

@@ -206,18 +206,14 @@ std::string slower_text(const Results& results, const std::string& detector) {
   Names texts;
   for (const std::string reference : kReferences) {
     if (reference == detector) continue;
-    std::optional<double> low, high;
+    Range times;
     for (const Run& run : results.runs) {
       if (run.detector != detector || !run.ok()) continue;
       const results::Speedup* speedup = speedup_of(run, Question::kTriangles, reference);
-      if (speedup == nullptr) continue;
-      low = std::min(low.value_or(speedup->cold.value), speedup->cold.value);
-      high = std::max(high.value_or(speedup->cold.value), speedup->cold.value);
+      if (speedup != nullptr) times.add(speedup->cold.value);
     }
-    if (!low) continue;
-    const std::string from = format_number(low), to = format_number(high);
-    texts.push_back(fmt::format("{} takes {} times as long", reference,
-                                from == to ? from : from + " to " + to));
+    if (!times.low) continue;
+    texts.push_back(fmt::format("{} takes {} times as long", reference, format_range(times)));
   }
   return texts.empty() ? "" : " " + listed(texts) + ".";
 }

@@ -30,19 +30,17 @@ std::string table_head(const std::vector<Column>& columns) {
   return table_line(titles) + rule + "\n";
 }
 
-std::string markdown_of(const TitledTable& table) {
-  if (table.rows.empty()) return "";
-  std::string out = table.title.empty() ? "" : "### " + table.title + "\n\n";
-  if (!table.text.empty()) out += table.text + "\n\n";
-  out += table_head(table.columns);
-  for (const std::vector<std::string>& row : table.rows) out += table_line(row);
-  return out + "\n";
-}
-
 std::string titled_table(const std::string& paragraph, const std::vector<Column>& columns,
                          const std::string& rows) {
   if (rows.empty()) return "";
-  return paragraph + "\n\n" + table_head(columns) + rows + "\n";
+  return (paragraph.empty() ? "" : paragraph + "\n\n") + table_head(columns) + rows + "\n";
+}
+
+std::string markdown_of(const TitledTable& table) {
+  std::string above = table.title.empty() ? "" : "### " + table.title, rows;
+  if (!table.text.empty()) above += (above.empty() ? "" : "\n\n") + table.text;
+  for (const std::vector<std::string>& row : table.rows) rows += table_line(row);
+  return titled_table(above, table.columns, rows);
 }
 
 }  // namespace contactcheck

@@ -181,10 +181,11 @@ Json report_json(const Results& results) {
 
 }  // namespace
 
-nlohmann::ordered_json page_data(const Results& results, const std::string& reproduction) {
+nlohmann::ordered_json page_data(const Results& results,
+                                 const nlohmann::ordered_json& reproduction) {
   Json data = results::to_json(results);
   data["report"] = report_json(results);
-  if (!reproduction.empty()) data["reproduction"] = Json::parse(reproduction);
+  if (!reproduction.is_null()) data["reproduction"] = reproduction;
   return data;
 }
 

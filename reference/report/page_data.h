@@ -9,7 +9,7 @@
 
 namespace contactcheck {
 
-/// results.json with "reproduction" (`reproduction`: the text of reproduction.json, or empty) and
+/// results.json with "reproduction" (reproduction.json, or null) and
 /// "report":
 ///
 ///   {"title", "findings": [{"topic", "sentence"}],
@@ -29,6 +29,7 @@ namespace contactcheck {
 ///   CHARTS  {"counts": [{"question", "level", "truth", "reported", "missed", "spurious"} or null],
 ///           per detector; "worse cold", "worse hot", "missed cold", ...:
 ///           {"points": [[place in detectors, ms, error, is on the front]], "left_out": sentence}}
-nlohmann::ordered_json page_data(const results::Results& results, const std::string& reproduction);
+nlohmann::ordered_json page_data(const results::Results& results,
+                                 const nlohmann::ordered_json& reproduction);
 
 }  // namespace contactcheck

@@ -12,19 +12,6 @@ namespace {
 using results::LevelCounts;
 using results::Run;
 
-struct Range {
-  std::optional<double> low, high;
-  void add(double value) {
-    low = std::min(low.value_or(value), value);
-    high = std::max(high.value_or(value), value);
-  }
-  std::string text() const {
-    if (!low) return "-";
-    const std::string from = format_number(*low), to = format_number(*high);
-    return (from == to ? from : from + " to " + to) + "x";
-  }
-};
-
 struct Sums {
   std::string detector;
   std::optional<Level> level;
@@ -75,7 +62,8 @@ std::vector<std::string> cells_of(Sums s) {
       s.body ? format_count(s.body->missed) + "/" + format_count(s.body->spurious) : "-",
       format_millimetres(s.hover),
       s.question};
-  for (const Range& range : s.speedups) cells.push_back(range.text());
+  for (const Range& range : s.speedups)
+    cells.push_back(range.low ? format_range(range) + "x" : "-");
   return cells;
 }
 

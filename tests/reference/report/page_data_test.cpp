@@ -14,11 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json data_of(const Json& results) { return page_data(results::from_json(results), ""); }
+Json data_of(const Json& results) { return page_data(results::from_json(results), nullptr); }
 
 TEST(PageData, HoldsResultsAndReproductionAsTheyAre) {
   const results::Results results = results::from_json(test::sample_results());
-  Json data = page_data(results, R"({"schema": "contactcheck-reproduction/1"})");
+  Json data = page_data(results, {{"schema", "contactcheck-reproduction/1"}});
   EXPECT_EQ(data.at("reproduction").at("schema"), "contactcheck-reproduction/1");
   data.erase("reproduction");
   data.erase("report");
@@ -34,7 +34,7 @@ TEST(PageData, SummaryIsThatOfTheOtherReports) {
 
 TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results::Results results = results::from_json(test::sample_results());
-  Json report = page_data(results, "").at("report");
+  Json report = page_data(results, nullptr).at("report");
   EXPECT_TRUE(report.at("goals").at("rows").empty());
   EXPECT_TRUE(report.at("pairs").empty());
   EXPECT_FALSE(report.contains("known_defects"));
@@ -43,7 +43,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results.goals[0].met = false;
   results.scenes[0].pairs.emplace().per_kind = {{"sliver", {4, 1}}};
   results.known_defects.emplace().unlisted = {{"fcl-aabb", "gap", "missed", {"0", "1e-9"}}};
-  report = page_data(results, "").at("report");
+  report = page_data(results, nullptr).at("report");
   EXPECT_EQ(report.at("goals").at("rows").size(), 2u);
   EXPECT_EQ(report.at("goals").at("rows").at(0).back(), "no");
   EXPECT_EQ(report.at("pairs").at(0).at("scene"), "hello");

@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kMicrosecondsPerMillisecond = 1e3;
 
+/// A round with its rows by name.
+struct Round {
+  results::Index base, head;
+};
+
 AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
   const Ratio& r = time.ratio;
   const double excess_us = (time.head_ms - time.base_ms) * kMicrosecondsPerMillisecond;
@@ -22,10 +27,10 @@ AbVerdict verdict_of(const AbTime& time, const AbLimits& limits) {
 }
 
 // The times of one row in every round of one side; empty where some round has none.
-std::vector<double> times_of(const std::vector<AbRound>& rounds, results::Results AbRound::*side,
+std::vector<double> times_of(const std::vector<Round>& rounds, results::Index Round::*side,
                              const results::Run& row) {
   std::vector<double> times;
-  for (const AbRound& round : rounds) {
+  for (const Round& round : rounds) {
     const results::Run* const found = (round.*side).run(row.scene, row.detector);
     if (found == nullptr || found->times.empty()) return {};
     times.push_back(found->times.front().cold.frame);
@@ -39,12 +44,12 @@ bool same_question(const results::Run& a, const results::Run& b) {
          a.times.front().question == b.times.front().question;
 }
 
-void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJudgement& judgement) {
-  for (const results::Run& row : rounds.front().head.runs) {
+void add_times(const std::vector<Round>& rounds, const AbLimits& limits, AbJudgement& judgement) {
+  for (const results::Run& row : rounds.front().head.results().runs) {
     const results::Run* const was = rounds.front().base.run(row.scene, row.detector);
     if (was == nullptr) continue;
-    const std::vector<double> base = times_of(rounds, &AbRound::base, row),
-                              head = times_of(rounds, &AbRound::head, row);
+    const std::vector<double> base = times_of(rounds, &Round::base, row),
+                              head = times_of(rounds, &Round::head, row);
     if (base.empty() || head.empty() || !same_question(*was, row)) {
       ++judgement.untimed;
       continue;
@@ -59,7 +64,7 @@ void add_times(const std::vector<AbRound>& rounds, const AbLimits& limits, AbJud
 }
 
 // One line per row, however many rounds differ.
-void add_unsteady(const results::Results& first, const results::Results& later, const char* side,
+void add_unsteady(const results::Index& first, const results::Index& later, const char* side,
                   std::vector<RowChange>& unsteady) {
   for (RowChange& change : accuracy_changes(first, later)) {
     change.detector += std::string(" in ") + side;
@@ -79,16 +84,19 @@ bool AbJudgement::slower() const {
 
 AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits) {
   CONTACTCHECK_INVARIANT(!rounds.empty(), "something was run");
-  const AbRound& first = rounds.front();
+  std::vector<Round> indexed;
+  for (const AbRound& round : rounds)
+    indexed.push_back({results::Index(round.base), results::Index(round.head)});
+  const Round& first = indexed.front();
   AbJudgement judgement;
-  add_times(rounds, limits, judgement);
+  add_times(indexed, limits, judgement);
   judgement.answers = accuracy_changes(first.base, first.head);
-  for (const AbRound& round : rounds) {
+  for (const Round& round : indexed) {
     add_unsteady(first.base, round.base, "base", judgement.unsteady);
     add_unsteady(first.head, round.head, "head", judgement.unsteady);
   }
-  judgement.only_base = missing_rows(first.head, first.base);
-  judgement.only_head = missing_rows(first.base, first.head);
+  judgement.only_base = missing_rows(first.head, first.base.results());
+  judgement.only_head = missing_rows(first.base, first.head.results());
   return judgement;
 }
 

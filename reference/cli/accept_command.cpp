@@ -6,20 +6,17 @@
 #include "reference/cli/commands.h"
 #include "reference/gate/baseline.h"
 #include "reference/results/results_file.h"
-#include "reference/results/results_json.h"
 
 namespace contactcheck {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 // Anything else in its place is no baseline, and not ours to replace.
-std::optional<ResultsFile> baseline_in_place(const fs::path& file) {
+std::optional<results::Results> baseline_in_place(const fs::path& file) {
   if (file.extension() != ".json")
     throw InputError("--as " + file.string() + ": a baseline's name ends in .json");
   if (!fs::exists(file)) return std::nullopt;
-  return ResultsFile(file);
+  return results_in(file);
 }
 
 std::string changes_text(const results::Results& before, const results::Results& now) {
@@ -28,28 +25,22 @@ std::string changes_text(const results::Results& before, const results::Results&
   return out.empty() ? "no row, count or contact changed\n" : "changed:\n" + out;
 }
 
-std::string written_text(const fs::path& file, const Json& baseline) {
-  return file.string() + ": " + std::to_string(baseline.at("runs").size()) + " rows of " +
-         baseline.at("command").get<std::string>() + "\n";
-}
-
 }  // namespace
 
 int accept_command(const fs::path& results_file, const fs::path& file) {
-  const ResultsFile results(results_file);
-  results.require_schema();
-  const std::optional<ResultsFile> before = baseline_in_place(file);
-  if (results.read([](const Json& json) { return json.contains("shard"); }))
+  const results::Results results = results_in(results_file);
+  const std::optional<results::Results> before = baseline_in_place(file);
+  if (results.shard)
     throw InputError(results_file.string() +
                      ": is a shard of a run; a baseline is made of the merged results");
-  const Json baseline = results.read([](const Json& json) { return baseline_of(json); });
-  if (baseline.at("runs").empty())
+  if (results.runs.empty())
     throw InputError(results_file.string() +
                      ": runs is empty; a baseline of nothing holds nothing");
-  const std::string changes =
-      before ? changes_text(before->read(results::from_json), results::from_json(baseline)) : "";
+  const results::Results baseline = baseline_of(results);
+  const std::string changes = before ? changes_text(*before, baseline) : "";
   write_file_atomically(file, baseline_text(baseline));
-  std::fputs((written_text(file, baseline) + changes).c_str(), stdout);
+  std::printf("%s: %zu rows of %s\n%s", file.c_str(), baseline.runs.size(),
+              baseline.command.c_str(), changes.c_str());
   return 0;
 }
 

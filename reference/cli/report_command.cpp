@@ -9,7 +9,9 @@ namespace contactcheck {
 int report_command(const std::filesystem::path& file, const std::vector<std::string>& formats,
                    const std::filesystem::path& out) {
   check_report_formats(formats);
-  const auto files = report_texts(results_in(file), file.parent_path(), formats);
+  const results::Results results = results_in(file);
+  const auto folder = file.parent_path();
+  const auto files = report_texts(results, folder, formats, paper_part_in(folder, results));
   write_report(out, files);
   std::printf("%s\n", report_paths(out, files).c_str());
   return 0;

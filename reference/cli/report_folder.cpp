@@ -9,6 +9,7 @@
 #include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/reproduce/reproduction_report.h"
 #include "reference/results/results_file.h"
 #include "reference/scene/file_text.h"
 #include "reference/view/view_bytes.h"
@@ -39,21 +40,6 @@ void check_places(const fs::path& folder, const std::map<std::string, std::strin
   }
 }
 
-// What `reproduce` made of the same run; null where there is none.
-nlohmann::ordered_json reproduction_of(const results::Results& results, const fs::path& folder) {
-  const fs::path file = folder / "reproduction.json";
-  if (!fs::exists(file)) return nullptr;
-  const std::string bytes = read_file_bytes(file, "reproduction file");
-  auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
-  if (!reproduction.is_object())
-    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
-  check_json_depth(bytes, file);
-  // Another run into the same folder leaves the file of an earlier one there.
-  const auto command = reproduction.find("command");
-  if (command == reproduction.end() || *command != results.command) return nullptr;
-  return reproduction;
-}
-
 }  // namespace
 
 std::vector<std::string> all_report_formats() { return {"csv", "html", "md"}; }
@@ -66,14 +52,34 @@ void check_report_formats(const std::vector<std::string>& formats) {
 
 std::map<std::string, std::string> report_texts(const results::Results& results,
                                                 const fs::path& folder,
-                                                const std::vector<std::string>& formats) {
+                                                const std::vector<std::string>& formats,
+                                                const std::optional<PaperPart>& paper) {
   std::map<std::string, std::string> files;
   if (wanted("md", formats)) files = report_files(results);
   if (wanted("csv", formats)) files["report.csv"] = csv_report(results);
   if (wanted("html", formats) && has_html_report())
-    files["report.html"] =
-        html_report(results, reproduction_of(results, folder), view_bytes(results, folder));
+    files["report.html"] = html_report(results, paper, view_bytes(results, folder));
   return files;
+}
+
+std::optional<PaperPart> paper_part_in(const fs::path& folder, const results::Results& results) {
+  const fs::path file = folder / "reproduction.json";
+  if (!fs::exists(file)) return std::nullopt;
+  const std::string bytes = read_file_bytes(file, "reproduction file");
+  const auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
+  if (!reproduction.is_object())
+    throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
+  check_json_depth(bytes, file);
+  // Another run into the same folder leaves the file of an earlier one there.
+  const auto command = reproduction.find("command");
+  if (command == reproduction.end() || *command != results.command) return std::nullopt;
+  try {
+    return paper_part(reproduction);
+  } catch (const nlohmann::json::exception&) {
+    throw InputError("\"" + file.string() +
+                     "\" is no reproduction as this version writes it: write it again, or remove "
+                     "it.");
+  }
 }
 
 std::string report_paths(const fs::path& folder, const std::map<std::string, std::string>& files) {

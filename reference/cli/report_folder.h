@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reference/report/paper_part.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -18,11 +20,15 @@ void check_report_formats(const std::vector<std::string>& formats);
 
 /// Texts by path below the report's folder; pictures (plots/*.svg) come with "md". "html" gives
 /// nothing in a build without npm; its 3D view shows the recordings in `folder`, where results.json
-/// stands, and the tables of the paper where the reproduction.json there is of the same run.
-/// @pre check_report_formats passed @throws InputError when that is no JSON
-std::map<std::string, std::string> report_texts(const results::Results& results,
-                                                const std::filesystem::path& folder,
-                                                const std::vector<std::string>& formats);
+/// stands, and `paper`. @pre check_report_formats passed
+std::map<std::string, std::string> report_texts(
+    const results::Results& results, const std::filesystem::path& folder,
+    const std::vector<std::string>& formats, const std::optional<PaperPart>& paper = std::nullopt);
+
+/// Of the reproduction.json beside results.json, where that is of the same run.
+/// @throws InputError when it cannot be read, or was written by another version
+std::optional<PaperPart> paper_part_in(const std::filesystem::path& folder,
+                                       const results::Results& results);
 
 /// Where the reports among `files` are, one behind the other; also what was left out, and why.
 std::string report_paths(const std::filesystem::path& folder,

@@ -68,7 +68,8 @@ int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
   write_file_atomically(arguments.out / "reproduction.md",
                         reproduction_markdown(reproduction) + paper_markdown(tables, findings));
   // Once more, now that the page can have the paper's tables.
-  write_report(arguments.out, report_texts(results, arguments.out, all_report_formats()));
+  write_report(arguments.out, report_texts(results, arguments.out, all_report_formats(),
+                                           paper_part(reproduction)));
   print(arguments.out, reproduction, arguments.quiet);
   return outcome.unlisted_error ? kExitUnlistedError : 0;
 }

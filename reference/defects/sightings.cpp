@@ -57,9 +57,10 @@ const char* name_of(SightingKind kind) {
 }
 
 SightingsOfRun sightings_of(const results::Results& results) {
+  const results::Index index(results);
   SightingsOfRun out;
   for (const Run& run : results.runs) {
-    const results::Scene* scene = results.scene(run.scene);
+    const results::Scene* scene = index.scene(run.scene);
     if (scene == nullptr) throw InputError("results have no scene \"" + run.scene + "\"");
     if (!scene->unjudged.empty()) continue;  // no detector was asked
     if (run.ok() || run.status == results::Status::kError)

@@ -14,7 +14,7 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "none";
 }
 
-bool truth_differs(const results::Results& before, const results::Results& after,
+bool truth_differs(const results::Index& before, const results::Index& after,
                    const std::string& scene) {
   const results::Scene *was = before.scene(scene), *is = after.scene(scene);
   return was != nullptr && is != nullptr && was->truth_hash != is->truth_hash;
@@ -127,10 +127,9 @@ class RowComparison {
 
 }  // namespace
 
-std::vector<RowChange> accuracy_changes(const results::Results& before,
-                                        const results::Results& after) {
+std::vector<RowChange> accuracy_changes(const results::Index& before, const results::Index& after) {
   std::vector<RowChange> changes;
-  for (const results::Run& row : after.runs) {
+  for (const results::Run& row : after.results().runs) {
     const results::Run* was = before.run(row.scene, row.detector);
     if (was == nullptr) continue;
     RowChange change = RowComparison(*was, row).compare();

@@ -23,7 +23,6 @@ struct RowChange {
 
 /// Of rows that both have; the most important first. Where the exact truth of a scene is another,
 /// counts say nothing about who is better.
-std::vector<RowChange> accuracy_changes(const results::Results& before,
-                                        const results::Results& after);
+std::vector<RowChange> accuracy_changes(const results::Index& before, const results::Index& after);
 
 }  // namespace contactcheck

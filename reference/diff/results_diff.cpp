@@ -21,7 +21,7 @@ std::vector<std::string> machine_changes(const results::Machine& before,
   return out;
 }
 
-std::vector<std::string> changed_scenes(const results::Results& before,
+std::vector<std::string> changed_scenes(const results::Index& before,
                                         const results::Results& after) {
   std::vector<std::string> out;
   for (const results::Scene& scene : after.scenes) {
@@ -50,11 +50,11 @@ std::string plural(std::size_t n, const char* one) {
 
 }  // namespace
 
-std::vector<std::string> missing_rows(const results::Results& results,
+std::vector<std::string> missing_rows(const results::Index& results,
                                       const results::Results& other) {
   Counts scenes, detectors;
   for (const results::Run& row : other.runs) {
-    if (!results.has_runs_of(row.scene)) {
+    if (results.runs_of(row.scene).empty()) {
       count(row.scene, scenes);
     } else if (results.run(row.scene, row.detector) == nullptr) {
       count(row.detector, detectors);
@@ -69,15 +69,16 @@ std::vector<std::string> missing_rows(const results::Results& results,
 }
 
 ResultsDiff diff_results(const results::Results& before, const results::Results& after) {
+  const results::Index was(before), is(after);
   ResultsDiff diff;
   diff.machine = machine_changes(before.machine, after.machine);
-  diff.other_scenes = changed_scenes(before, after);
-  diff.changes = accuracy_changes(before, after);
-  diff.times = time_changes(before, after);
-  diff.added = missing_rows(before, after);
-  diff.gone = missing_rows(after, before);
+  diff.other_scenes = changed_scenes(was, after);
+  diff.changes = accuracy_changes(was, is);
+  diff.times = time_changes(was, after);
+  diff.added = missing_rows(was, after);
+  diff.gone = missing_rows(is, before);
   for (const results::Run& row : after.runs)
-    if (before.run(row.scene, row.detector) != nullptr) ++diff.common;
+    if (was.run(row.scene, row.detector) != nullptr) ++diff.common;
   return diff;
 }
 

@@ -21,7 +21,6 @@ struct ResultsDiff {
 ResultsDiff diff_results(const results::Results& before, const results::Results& after);
 
 /// What `other` has and `results` lacks: whole scenes, then detectors with their scenes.
-std::vector<std::string> missing_rows(const results::Results& results,
-                                      const results::Results& other);
+std::vector<std::string> missing_rows(const results::Index& results, const results::Results& other);
 
 }  // namespace contactcheck

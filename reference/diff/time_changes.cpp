@@ -40,8 +40,7 @@ bool is_clear(const Ratio& factor) {
 
 }  // namespace
 
-std::vector<TimeChange> time_changes(const results::Results& before,
-                                     const results::Results& after) {
+std::vector<TimeChange> time_changes(const results::Index& before, const results::Results& after) {
   std::vector<TimeChange> changes;
   for (const results::Run& row : after.runs) {
     const results::Run* was = before.run(row.scene, row.detector);

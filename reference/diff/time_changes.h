@@ -20,6 +20,6 @@ struct TimeChange {
 /// Of rows with a speed-up over the same reference in both (the first of the row that is not the
 /// detector itself): those whose whole interval is on one side of 1, and whose factor is further
 /// than kSmallestTimeChange from it. The largest first.
-std::vector<TimeChange> time_changes(const results::Results& before, const results::Results& after);
+std::vector<TimeChange> time_changes(const results::Index& before, const results::Results& after);
 
 }  // namespace contactcheck

@@ -32,8 +32,8 @@ std::string why_hash_changed(const results::Run& row, const results::Run& old,
   return "the truth is as it was: the detector's answer changed";
 }
 
-Check hash_against_baseline(const Rule& rule, const results::Results& now,
-                            const results::Results* before, const results::Run& row) {
+Check hash_against_baseline(const Rule& rule, const results::Index& now,
+                            const results::Index* before, const results::Run& row) {
   std::string reason;
   const results::Run* const old = row_before(before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
@@ -45,7 +45,7 @@ Check hash_against_baseline(const Rule& rule, const results::Results& now,
   return out;
 }
 
-Check hash_against_truth(const Rule& rule, const results::Results& now, const results::Run& row) {
+Check hash_against_truth(const Rule& rule, const results::Index& now, const results::Run& row) {
   const results::Scene* const scene = now.scene(row.scene);
   if (scene == nullptr) return cannot_judge(rule, "the results do not describe the scene");
   Check out =
@@ -58,14 +58,14 @@ bool within(const Rule& rule, double value) {
   return rule.bound == Bound::kAtMost ? value <= rule.limit : value >= rule.limit;
 }
 
-Check number_against_baseline(const Rule& rule, const results::Results* before,
+Check number_against_baseline(const Rule& rule, const results::Index* before,
                               const results::Run& row, const Reading& reading) {
   std::string reason;
   const results::Run* const old = row_before(before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
   Rule same_level = rule;
   same_level.level = reading.level ? name_of(*reading.level) : "";
-  const Reading known = read_measure(same_level, *before, *old);
+  const Reading known = read_measure(same_level, before->results(), *old);
   if (!known.value) return cannot_judge(rule, "in the baseline: " + known.why_not);
   Check out = checked(rule, *reading.value == *known.value, measured_text(rule, reading));
   out.allowed = shown(*known.value) + ", that of the baseline";
@@ -82,7 +82,7 @@ Check cannot_judge(const Rule& rule, const std::string& reason) {
   return out;
 }
 
-const results::Run* row_before(const results::Results* before, const results::Run& row,
+const results::Run* row_before(const results::Index* before, const results::Run& row,
                                std::string& reason) {
   if (before == nullptr) {
     reason = "no baseline is given";
@@ -97,13 +97,13 @@ const results::Run* row_before(const results::Results* before, const results::Ru
   return reason.empty() ? old : nullptr;
 }
 
-Check judge_accuracy(const Rule& rule, const results::Results& now, const results::Results* before,
+Check judge_accuracy(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
   if (rule.measure->kind == MeasureKind::kStatus) return judge_status(rule, row);
   if (rule.measure->kind == MeasureKind::kHash)
     return rule.bound == Bound::kEquals ? hash_against_truth(rule, now, row)
                                         : hash_against_baseline(rule, now, before, row);
-  const Reading reading = read_measure(rule, now, row);
+  const Reading reading = read_measure(rule, now.results(), row);
   if (!reading.value) return cannot_judge(rule, reading.why_not);
   if (rule.bound == Bound::kUnchanged) return number_against_baseline(rule, before, row, reading);
   return checked(rule, within(rule, *reading.value), measured_text(rule, reading));

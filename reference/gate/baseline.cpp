@@ -4,21 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "reference/results/results_json.h"
+
 namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
-
-Json lean(Json row) {
-  if (row.contains("recording")) row["recording"] = "";
-  if (row.contains("geometry"))
-    for (const char* key : {"episodes", "depth_error_histogram", "normal_error_deg_histogram",
-                            "spurious_distance_histogram"})
-      row["geometry"].erase(key);
-  if (!row.contains("per_frame")) return row;
-  for (const char* key : {"covered_length_fraction", "frame_ms"})
-    if (row["per_frame"].contains(key)) row["per_frame"][key] = Json::array();
-  return row;
-}
 
 std::string lines_of(const Json& list) {
   std::string out;
@@ -77,20 +67,36 @@ void add_members(const char* kind, const Texts& before, const Texts& now,
 
 }  // namespace
 
-Json baseline_of(const Json& results) {
-  Json out = results;
-  out["disagreements"] = Json::array();
-  for (const char* how_it_ran : {"resumed", "shard", "merged"}) out.erase(how_it_ran);
-  if (out.contains("scenes"))
-    for (Json& scene : out["scenes"]) scene.erase("separation");
-  out["runs"] = Json::array();
-  for (const Json& row : results.at("runs")) out["runs"].push_back(lean(row));
-  return out;
+results::Results baseline_of(results::Results results) {
+  results.disagreements.clear();
+  results.resumed.reset();
+  results.merged.clear();
+  for (results::Scene& scene : results.scenes) scene.separation.clear();
+  for (results::Run& row : results.runs) {
+    row.recording.clear();
+    row.per_frame.covered_length_fraction.clear();
+    if (row.per_frame.frame_ms) row.per_frame.frame_ms->clear();
+    results::Geometry& geometry = row.geometry;
+    geometry.episodes.clear();
+    for (auto* histogram : {&geometry.spurious_distance_histogram, &geometry.depth.histogram,
+                            &geometry.normal_deg.histogram})
+      histogram->clear();
+  }
+  return results;
 }
 
-std::string baseline_text(const Json& baseline) {
+std::string baseline_text(const results::Results& baseline) {
   std::string out;
-  for (const auto& [key, value] : baseline.items()) {
+  Json fields = results::to_json(baseline);
+  // A histogram that is there has as many errors as were judged: an empty one is left out.
+  for (Json& row : fields.at("runs")) {
+    if (!row.contains("geometry")) continue;
+    Json kept = Json::object();
+    for (const auto& [key, value] : row["geometry"].items())
+      if (!value.is_array() || !value.empty()) kept[key] = value;
+    row["geometry"] = std::move(kept);
+  }
+  for (const auto& [key, value] : fields.items()) {
     const bool listed = key == "runs" || key == "scenes";
     out += (out.empty() ? " " : ",\n ") + Json(key).dump() + ": " +
            (listed ? lines_of(value) : value.dump());
@@ -104,13 +110,14 @@ std::vector<std::string> baseline_changes(const results::Results& before,
   add_members("machine", members_of(before.machine), members_of(now.machine), out);
   add_members("library", before.libraries, now.libraries, out);
   const auto name = [](const results::Run& row) { return row.scene + "  " + row.detector; };
+  const results::Index rows_before(before), rows_now(now);
   for (const results::Run& row : now.runs) {
-    const results::Run* const old = before.run(row.scene, row.detector);
+    const results::Run* const old = rows_before.run(row.scene, row.detector);
     const std::string change = old == nullptr ? "new" : row_change(*old, row);
     if (!change.empty()) out.push_back(name(row) + ": " + change);
   }
   for (const results::Run& old : before.runs)
-    if (now.run(old.scene, old.detector) == nullptr) out.push_back(name(old) + ": gone");
+    if (rows_now.run(old.scene, old.detector) == nullptr) out.push_back(name(old) + ": gone");
   return out;
 }
 

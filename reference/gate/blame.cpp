@@ -96,27 +96,25 @@ std::string frames_flag(const results::Run& row, const results::Scene* scene,
 
 }  // namespace
 
-std::string worst_frame(const Rule& rule, const results::Results& results,
-                        const results::Run& row) {
-  const auto frame = frame_to_blame(rule, results, row);
+std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row) {
+  const auto frame = frame_to_blame(rule, index.results(), row);
   if (!frame) return "";
   const std::string out = "frame " + std::to_string(*frame);
-  const results::Scene* const scene = results.scene(row.scene);
+  const results::Scene* const scene = index.scene(row.scene);
   if (scene == nullptr || !scene->family || *frame >= scene->family->values.size()) return out;
   return out + " (" + scene->family->values[*frame] + ")";
 }
 
-std::string rerun_command(const Rule& rule, const results::Results& results,
-                          const results::Run& row) {
-  const results::Scene* const scene = results.scene(row.scene);
+std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row) {
+  const results::Scene* const scene = index.scene(row.scene);
   const std::string detector = " --detector " + in_shell(row.detector);
   if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
-  const std::string target = target_of(results, row.scene);
+  const std::string target = target_of(index.results(), row.scene);
   const std::string command =
       "contactcheck run " + in_shell(target) + frames_flag(row, scene, target) + detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
-  return command + " --detector " + in_shell(rule.reference) + same_flag(results, "--repeat") +
-         same_flag(results, "--processes");
+  return command + " --detector " + in_shell(rule.reference) +
+         same_flag(index.results(), "--repeat") + same_flag(index.results(), "--processes");
 }
 
 std::string pairs_command(const results::Scene& scene) {

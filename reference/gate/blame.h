@@ -12,13 +12,12 @@ namespace contactcheck {
 /// of the rule's level, else the first disagreement of that level; of a row that ended in an error
 /// the frame at which it did. "frame 7 (0.5)" with the parameter's value in a family of cases.
 /// Empty when the results do not say.
-std::string worst_frame(const Rule& rule, const results::Results& results, const results::Run& row);
+std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row);
 
 /// A shell command that runs this row again: the scene, as the results' own command names it where
 /// it was a file, the detector with its options, the number of frames; of a timing rule with its
 /// reference, repeats and processes too.
-std::string rerun_command(const Rule& rule, const results::Results& results,
-                          const results::Run& row);
+std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row);
 
 /// The same for the random pairs of a scene.
 std::string pairs_command(const results::Scene& scene);

@@ -53,7 +53,7 @@ Check lost(const results::Run& old, const std::string& reason) {
 }
 
 // Status and message of a row that ended well before.
-Check ended(const results::Results& now, const results::Run& row) {
+Check ended(const results::Index& now, const results::Run& row) {
   static const Rule accuracy = [] {
     Rule rule;
     rule.measure = find_measure("status");
@@ -77,14 +77,14 @@ std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& r
   return out;
 }
 
-std::vector<Check> lost_rows(const results::Results& now, const results::Results& before) {
+std::vector<Check> lost_rows(const results::Index& now, const results::Results& before) {
   std::vector<Check> out;
   std::set<std::string> lost_scenes;
   for (const results::Run& old : before.runs) {
     const results::Run* const row = now.run(old.scene, old.detector);
     if (row != nullptr) {
       if (old.ok() && !row->ok()) out.push_back(ended(now, *row));
-    } else if (now.scene(old.scene) != nullptr || now.has_runs_of(old.scene)) {
+    } else if (now.scene(old.scene) != nullptr || !now.runs_of(old.scene).empty()) {
       out.push_back(lost(old, "the baseline has this detector in this scene, the results do not"));
     } else if (lost_scenes.insert(old.scene).second) {
       out.push_back(failure(kBaselineRule, "the baseline has this scene, the results do not"));

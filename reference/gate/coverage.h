@@ -24,6 +24,6 @@ std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& r
 
 /// A failure for every scene and every row of the baseline that the results lack, and for every row
 /// that ended well in the baseline and does not now.
-std::vector<Check> lost_rows(const results::Results& now, const results::Results& before);
+std::vector<Check> lost_rows(const results::Index& now, const results::Results& before);
 
 }  // namespace contactcheck

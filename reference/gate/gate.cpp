@@ -13,18 +13,18 @@ namespace {
 
 class Gate {
  public:
-  Gate(const results::Results& now, const results::Results* before) : now_(now), before_(before) {}
+  Gate(const results::Index& now, const results::Index* before) : now_(now), before_(before) {}
 
   void apply(const Rule& rule, std::vector<Check>& out) const {
     std::vector<RowName> rows;
     if (rule.measure->kind == MeasureKind::kOracle) {
-      for (const results::Scene& scene : now_.scenes) {
+      for (const results::Scene& scene : now_.results().scenes) {
         if (!scene.pairs || !rule.scenes.hold(scene.id)) continue;
         rows.push_back({scene.id, ""});
         out.push_back(check_of_oracle(rule, scene));
       }
     } else {
-      for (const results::Run& row : now_.runs) {
+      for (const results::Run& row : now_.results().runs) {
         if (!rule.scenes.hold(row.scene) || !rule.detectors.hold(row.detector)) continue;
         rows.push_back({row.scene, row.detector});
         out.push_back(check_of(rule, row));
@@ -79,15 +79,18 @@ class Gate {
     return out;
   }
 
-  const results::Results& now_;
-  const results::Results* before_;
+  const results::Index& now_;
+  const results::Index* before_;
 };
 
 }  // namespace
 
 GateResult run_gate(const Policy& policy, const results::Results& results,
                     const results::Results* baseline) {
-  const Gate gate(results, baseline);
+  const results::Index now(results);
+  std::optional<results::Index> before;
+  if (baseline != nullptr) before.emplace(*baseline);
+  const Gate gate(now, before ? &*before : nullptr);
   GateResult out;
   out.policy = policy.id;
   out.title = policy.title;
@@ -95,7 +98,7 @@ GateResult run_gate(const Policy& policy, const results::Results& results,
   out.rules = policy.rules.size();
   for (const Rule& rule : policy.rules) gate.apply(rule, out.checks);
   if (baseline != nullptr)
-    for (Check& lost : lost_rows(results, *baseline)) out.checks.push_back(std::move(lost));
+    for (Check& lost : lost_rows(now, *baseline)) out.checks.push_back(std::move(lost));
   return out;
 }
 

@@ -93,7 +93,7 @@ Check judge_speedup(const Rule& rule, const results::Run& row) {
 
 // Of the reference, in the question; nothing where the results have no times of it.
 std::optional<std::size_t> timed_frames_of_reference(const Rule& rule,
-                                                     const results::Results& results,
+                                                     const results::Index& results,
                                                      const results::Run& row) {
   const results::Run* const reference = results.run(row.scene, rule.reference);
   const results::QuestionTimes* const times =
@@ -103,8 +103,8 @@ std::optional<std::size_t> timed_frames_of_reference(const Rule& rule,
 
 // A ratio is over the frames that both sides were timed on: where the reference had time for fewer,
 // it is another ratio.
-std::string other_timed_frames(const Rule& rule, const results::Results& now,
-                               const results::Results& before, const results::Run& row,
+std::string other_timed_frames(const Rule& rule, const results::Index& now,
+                               const results::Index& before, const results::Run& row,
                                const results::Run& old) {
   const results::QuestionTimes *times = times_of(rule, row), *old_times = times_of(rule, old);
   if (times == nullptr || old_times == nullptr) return "";
@@ -119,8 +119,8 @@ std::string other_timed_frames(const Rule& rule, const results::Results& now,
 }
 
 // Not the same frames or not the same reference: another ratio.
-std::string other_measurement(const Rule& rule, const results::Results& now,
-                              const results::Results& before, const results::Run& row,
+std::string other_measurement(const Rule& rule, const results::Index& now,
+                              const results::Index& before, const results::Run& row,
                               const results::Run& old) {
   if (row.frames != old.frames)
     return fmt::format("frames is {} here and {} in the baseline", row.frames, old.frames);
@@ -138,12 +138,12 @@ std::string other_measurement(const Rule& rule, const results::Results& now,
 
 bool is_above_zero(const Ratio& r) { return r.low > 0.0; }
 
-Check judge_slowdown(const Rule& rule, const results::Results& now, const results::Results* before,
+Check judge_slowdown(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
   std::string reason;
   const results::Run* const old = row_before(before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
-  reason = other_machine(now, *before);
+  reason = other_machine(now.results(), before->results());
   if (!reason.empty()) return cannot_judge(rule, reason);
   const auto ratio = ratio_in(rule, row, reason);
   if (!ratio) return cannot_judge(rule, reason);
@@ -192,7 +192,7 @@ std::string other_machine(const results::Results& now, const results::Results& b
   return first == found.end() ? "" : *first;
 }
 
-Check judge_timing(const Rule& rule, const results::Results& now, const results::Results* before,
+Check judge_timing(const Rule& rule, const results::Index& now, const results::Index* before,
                    const results::Run& row) {
   return rule.measure->kind == MeasureKind::kSpeedup ? judge_speedup(rule, row)
                                                      : judge_slowdown(rule, now, before, row);

@@ -15,7 +15,7 @@ std::string other_machine(const results::Results& now, const results::Results& b
 
 /// Verdict, what was measured and why. `before`: the baseline, or null.
 /// @pre the rule is a timing rule; the row's status is `ok`
-Check judge_timing(const Rule& rule, const results::Results& now, const results::Results* before,
+Check judge_timing(const Rule& rule, const results::Index& now, const results::Index* before,
                    const results::Run& row);
 
 }  // namespace contactcheck

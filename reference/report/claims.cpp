@@ -8,7 +8,7 @@
 namespace contactcheck {
 namespace {
 
-using results::LevelCounts, results::Results, results::Run;
+using results::Index, results::LevelCounts, results::Run;
 
 std::string count_at(const Run& run, Level level, std::uint64_t LevelCounts::*count) {
   const LevelCounts* counts = counts_of(run, level);
@@ -30,7 +30,7 @@ std::string hover_verdict(std::optional<double> grid, std::optional<double> aabb
   return *grid > *aabb ? "holds" : *grid < *aabb ? "does not hold" : "equal";
 }
 
-TitledTable hover_claim(const Results& results) {
+TitledTable hover_claim(const Index& index) {
   TitledTable out{
       "Hover: is traditional FFD less tight than FFD-AABB?",
       "Largest true distance at the moment a detector first reports contact, touching scenes "
@@ -40,9 +40,9 @@ TitledTable hover_claim(const Results& results) {
        {"ffd-aabb, mm", false, ""},
        {"the paper's claim", true, ""}},
       {}};
-  for (const results::Scene& scene : results.scenes) {
-    const Run* grid = find_run(results, scene.id, "ffd-grid");
-    const Run* aabb = find_run(results, scene.id, "ffd-aabb");
+  for (const results::Scene& scene : index.results().scenes) {
+    const Run* grid = index.ok_run(scene.id, "ffd-grid");
+    const Run* aabb = index.ok_run(scene.id, "ffd-aabb");
     if (grid == nullptr || aabb == nullptr || scene.contact_frames == 0) continue;
     const std::optional<double> g = grid->geometry.hover_gap_max, a = aabb->geometry.hover_gap_max;
     out.rows.push_back(
@@ -51,8 +51,7 @@ TitledTable hover_claim(const Results& results) {
   return out;
 }
 
-TitledTable speed_claim(const Results& results, const char* detector, Question question,
-                        Level level) {
+TitledTable speed_claim(const Index& index, const char* detector, Question question, Level level) {
   TitledTable out{
       fmt::format("{} against FCL and Embree, question `{}`", detector, name_of(question)),
       fmt::format("Errors are recall / spurious rate at level `{}`; a speed-up is the "
@@ -64,21 +63,21 @@ TitledTable speed_claim(const Results& results, const char* detector, Question q
     out.columns.push_back({"errors of " + reference, false, ""});
     out.columns.push_back({"speed-up over " + reference, false, ""});
   }
-  for (const results::Scene& scene : results.scenes) {
-    const Run* run = find_run(results, scene.id, detector);
+  for (const results::Scene& scene : index.results().scenes) {
+    const Run* run = index.ok_run(scene.id, detector);
     if (run == nullptr) continue;
     std::vector<std::string>& row = out.rows.emplace_back();
     row = {scene.id, errors_at(run, level)};
     for (const char* reference : kReferences) {
       const results::Speedup* s = speedup_of(*run, question, reference);
-      row.push_back(errors_at(find_run(results, scene.id, reference), level));
+      row.push_back(errors_at(index.ok_run(scene.id, reference), level));
       row.push_back(s == nullptr ? "-" : format_ratio(s->cold, true));
     }
   }
   return out;
 }
 
-TitledTable fcl_claim(const Results& results) {
+TitledTable fcl_claim(const Index& index) {
   // Metres. Rounding of doubles parts bodies of a metre by 1e-16 or so; no margin is as small.
   constexpr double kRounding = 1e-12;
   TitledTable out{
@@ -95,9 +94,9 @@ TitledTable fcl_claim(const Results& results) {
        {"spurious", false, ""},
        {"farthest apart, mm", false, ""}},
       {}};
-  for (const results::Scene& scene : results.scenes) {
+  for (const results::Scene& scene : index.results().scenes) {
     if (scene.family) continue;
-    for (const Run* run : runs_of_scene(results, scene.id)) {
+    for (const Run* run : index.runs_of(scene.id)) {
       const LevelCounts* counts = counts_of(*run, Level::kTriangle);
       const std::optional<double> farthest = run->geometry.spurious_distance_max;
       if (run->detector.starts_with("fcl-") && counts != nullptr && counts->spurious > 0 &&
@@ -109,7 +108,7 @@ TitledTable fcl_claim(const Results& results) {
   return out;
 }
 
-TitledTable bullet_scale_claim(const Results& results) {
+TitledTable bullet_scale_claim(const Index& index) {
   TitledTable out{
       "Bullet's vertex-face query at scale 1: small triangles do not exist",
       "It skips every triangle whose cross product of two sides, squared, is at most "
@@ -123,9 +122,9 @@ TitledTable bullet_scale_claim(const Results& results) {
        {"body recall at scale 1", false, ""},
        {"near recall at scale 1", false, ""}},
       {}};
-  for (const results::Scene& scene : results.scenes) {
-    const Run *scaled = find_run(results, scene.id, "bullet-vf"),
-              *plain = find_run(results, scene.id, "bullet-vf:scale=1");
+  for (const results::Scene& scene : index.results().scenes) {
+    const Run *scaled = index.ok_run(scene.id, "bullet-vf"),
+              *plain = index.ok_run(scene.id, "bullet-vf:scale=1");
     if (scaled == nullptr || plain == nullptr || scene.contact_frames == 0) continue;
     out.rows.push_back({scene.id, format_number(scaled->semantics.scale),
                         recall_at(*scaled, Level::kBody), recall_at(*scaled, Level::kNear),
@@ -134,7 +133,7 @@ TitledTable bullet_scale_claim(const Results& results) {
   return out;
 }
 
-TitledTable bullet_inside_claim(const Results& results) {
+TitledTable bullet_inside_claim(const Index& index) {
   TitledTable out{
       "Bullet's vertex-face query is an unsigned proximity query",
       "It reports vertices near a surface, on either side. Of the vertices that are truly "
@@ -146,8 +145,8 @@ TitledTable bullet_inside_claim(const Results& results) {
        {"of them reported", false, ""},
        {"reported, not inside", false, ""}},
       {}};
-  for (const results::Scene& scene : results.scenes) {
-    const Run* run = find_run(results, scene.id, "bullet-vf");
+  for (const results::Scene& scene : index.results().scenes) {
+    const Run* run = index.ok_run(scene.id, "bullet-vf");
     const LevelCounts* counts = run == nullptr ? nullptr : counts_of(*run, Level::kVertex);
     if (counts == nullptr || scene.contact_frames == 0) continue;
     out.rows.push_back({scene.id, format_millimetres(run->semantics.margin),
@@ -167,7 +166,7 @@ std::string turned_normals(const results::ErrorSpread& normals) {
   return std::to_string(turned);
 }
 
-TitledTable bullet_normal_claim(const Results& results) {
+TitledTable bullet_normal_claim(const Index& index) {
   TitledTable out{
       "Bullet's vertex-face normals turn with the side of the vertex",
       "Its normal points from the face to the vertex, on whichever side of the face the "
@@ -182,8 +181,8 @@ TitledTable bullet_normal_claim(const Results& results) {
        {"largest, degrees", false, ""}},
       {},
       "turned-normals"};
-  for (const results::Scene& scene : results.scenes) {
-    const Run* run = find_run(results, scene.id, "bullet-vf");
+  for (const results::Scene& scene : index.results().scenes) {
+    const Run* run = index.ok_run(scene.id, "bullet-vf");
     if (run == nullptr) continue;
     const results::ErrorSpread& normals = run->geometry.normal_deg;
     if (!normals.max || *normals.max < 90.0) continue;
@@ -194,7 +193,7 @@ TitledTable bullet_normal_claim(const Results& results) {
   return out;
 }
 
-TitledTable bullet_cluster_claim(const Results& results) {
+TitledTable bullet_cluster_claim(const Index& index) {
   TitledTable out{
       "Bullet's clusters touch where the surfaces do not",
       "A cluster is the convex hull of a group of vertices, so it fills what is concave "
@@ -205,9 +204,9 @@ TitledTable bullet_cluster_claim(const Results& results) {
        {"missed", false, ""},
        {"spurious", false, ""}},
       {}};
-  for (const results::Scene& scene : results.scenes)
+  for (const results::Scene& scene : index.results().scenes)
     for (const char* detector : {"bullet-cl", "bullet-cl:k=256"})
-      if (const Run* run = find_run(results, scene.id, detector))
+      if (const Run* run = index.ok_run(scene.id, detector))
         out.rows.push_back({scene.id, detector, count_at(*run, Level::kBody, &LevelCounts::truth),
                             count_at(*run, Level::kBody, &LevelCounts::missed),
                             count_at(*run, Level::kBody, &LevelCounts::spurious)});
@@ -216,21 +215,22 @@ TitledTable bullet_cluster_claim(const Results& results) {
 
 }  // namespace
 
-std::vector<TitledTable> claims_of(const Results& results) {
+std::vector<TitledTable> claims_of(const results::Results& results) {
+  const Index index(results);
   std::vector<TitledTable> claims = {
-      hover_claim(results),
-      speed_claim(results, "ffd-aabb-sphere2+tri", Question::kTriangles, Level::kTriangle),
-      speed_claim(results, "ffd-aabb-sphere2", Question::kBody, Level::kBody),
-      fcl_claim(results),
-      bullet_scale_claim(results),
-      bullet_inside_claim(results),
-      bullet_normal_claim(results),
-      bullet_cluster_claim(results)};
+      hover_claim(index),
+      speed_claim(index, "ffd-aabb-sphere2+tri", Question::kTriangles, Level::kTriangle),
+      speed_claim(index, "ffd-aabb-sphere2", Question::kBody, Level::kBody),
+      fcl_claim(index),
+      bullet_scale_claim(index),
+      bullet_inside_claim(index),
+      bullet_normal_claim(index),
+      bullet_cluster_claim(index)};
   std::erase_if(claims, [](const TitledTable& claim) { return claim.rows.empty(); });
   return claims;
 }
 
-std::string claims_markdown(const Results& results) {
+std::string claims_markdown(const results::Results& results) {
   std::string out;
   for (const TitledTable& claim : claims_of(results)) out += markdown_of(claim);
   return out;

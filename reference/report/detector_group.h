@@ -13,8 +13,8 @@ struct DetectorGroup {
 };
 
 inline constexpr std::size_t kDetectorGroups = 9;
-/// The last one is of detectors that no other is for. Names and colours are those of the HTML
-/// report (web/src/groups.ts, web/src/style/colours.css).
+/// The last one is of detectors that no other is for. Colours are those of the HTML report
+/// (web/src/groups.ts, web/src/style/colours.css).
 const DetectorGroup& detector_group(std::size_t index);
 std::size_t group_of(const std::string& detector);
 

@@ -1,7 +1,6 @@
 #include "reference/report/family_result.h"
 
 #include "core/types/check.h"
-#include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
@@ -51,10 +50,11 @@ std::optional<double> FamilyResult::milliseconds() const {
 }
 
 std::vector<FamilyResult> family_results(const results::Results& results) {
+  const results::Index index(results);
   std::vector<FamilyResult> out;
   for (const results::Scene& scene : results.scenes) {
     if (!scene.family) continue;
-    for (const results::Run* run : runs_of_scene(results, scene.id)) out.push_back({scene, *run});
+    for (const results::Run* run : index.runs_of(scene.id)) out.push_back({scene, *run});
   }
   return out;
 }

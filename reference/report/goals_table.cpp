@@ -28,19 +28,22 @@ std::string met_text(const MeasuredGoal& goal) {
 
 }  // namespace
 
-const std::vector<Column>& goal_columns() {
-  static const std::vector<Column> columns = {{"goal", true, ""},      {"scene", true, ""},
-                                              {"detector", true, ""},  {"wanted", false, ""},
-                                              {"measured", false, ""}, {"met", true, ""}};
-  return columns;
-}
-
-std::vector<std::vector<std::string>> goal_lines(const results::Results& results) {
-  std::vector<std::vector<std::string>> lines;
+TitledTable goals_table(const results::Results& results) {
+  TitledTable out{
+      "Goals of the suite",
+      "Times are medians; a ratio over a detector is its time over that of the detector "
+      "named, with a 95 % interval.",
+      {{"goal", true, ""},
+       {"scene", true, ""},
+       {"detector", true, ""},
+       {"wanted", false, ""},
+       {"measured", false, ""},
+       {"met", true, ""}},
+      {}};
   for (const MeasuredGoal& goal : results.goals)
-    lines.push_back(
+    out.rows.push_back(
         {goal.goal, goal.scene, goal.detector, wanted(goal), measured(goal), met_text(goal)});
-  return lines;
+  return out;
 }
 
 }  // namespace contactcheck

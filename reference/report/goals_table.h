@@ -1,15 +1,12 @@
-// What a suite hoped to measure, as lines of a table.
+// What a suite hoped to measure.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "reference/report/run_row.h"
+#include "reference/report/markdown_table.h"
+#include "reference/results/results.h"
 
 namespace contactcheck {
 
-const std::vector<Column>& goal_columns();
-/// One line per goal; none where the suite has none.
-std::vector<std::vector<std::string>> goal_lines(const results::Results& results);
+/// A row per goal; none where the suite has none.
+TitledTable goals_table(const results::Results& results);
 
 }  // namespace contactcheck

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "reference/report/family_result.h"
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 #include "reference/report/stability_plot.h"
 
 namespace contactcheck {
@@ -61,6 +61,12 @@ struct DetectorSum {
   }
 };
 
+std::size_t first_wrong(const FamilyResult& result) {
+  std::size_t first = 0;
+  while (!result.wrong_at(first)) ++first;
+  return first;
+}
+
 // What is wrong at the first value, and how often in all.
 std::vector<std::string> wrong_line(const FamilyResult& result) {
   if (result.failed()) {
@@ -68,8 +74,7 @@ std::vector<std::string> wrong_line(const FamilyResult& result) {
     return {
         result.detector(), frame ? result.value(*frame) : "-", result.run.message, "-", "-", "-"};
   }
-  std::size_t first = 0;
-  while (!result.wrong_at(first)) ++first;
+  const std::size_t first = first_wrong(result);
   return {result.detector(),
           result.value(first),
           fmt::format("{} missed, {} spurious of {} true", result.at(&PerFrame::missed, first),
@@ -79,6 +84,16 @@ std::vector<std::string> wrong_line(const FamilyResult& result) {
           fmt::format("{}", result.sum(&PerFrame::spurious))};
 }
 
+std::optional<ShownCase> shown_case(const FamilyResult& result) {
+  if (result.failed()) {
+    const std::optional<std::size_t> frame = result.failed_frame();
+    return frame ? std::optional(ShownCase{result.detector(), *frame, ""}) : std::nullopt;
+  }
+  const std::size_t first = first_wrong(result);
+  return ShownCase{result.detector(), first,
+                   result.at(&PerFrame::missed, first) > 0 ? "missed" : "spurious"};
+}
+
 const std::vector<Column>& wrong_columns() {
   static const std::vector<Column> columns = {{"detector", true, ""}, {"first wrong at", true, ""},
                                               {"there", true, ""},    {"cases wrong", false, ""},
@@ -86,40 +101,50 @@ const std::vector<Column>& wrong_columns() {
   return columns;
 }
 
+HeatCell matrix_cell(const FamilyResult& result) {
+  if (!result.run.ok()) return {name_of(result.run.status), {}, result.run.message, "error"};
+  const std::string where = result.detector() + " in " + result.scene.id;
+  if (!result.judged()) return {"-", {}, where + ": not judged", "aside"};
+  const std::size_t wrong = result.wrong();
+  return {wrong == 0 ? "·" : std::to_string(wrong),
+          static_cast<double>(wrong) / static_cast<double>(result.cases()),
+          fmt::format("{}: {} of {} cases wrong", where, wrong, result.cases())};
+}
+
 // Of a family.
-std::string family_table(const results::Scene& scene, const std::vector<FamilyResult>& all) {
-  std::string rows, first;
-  for (const FamilyResult& result : all) {
-    if (&result.scene != &scene || !result.goes_wrong()) continue;
-    rows += table_line(wrong_line(result));
-    first = result.value(0);
+std::vector<HeatCell> matrix_row(const results::Scene& scene,
+                                 const std::vector<std::string>& detectors,
+                                 const std::vector<FamilyResult>& all) {
+  std::vector<HeatCell> row = {{scene.id, {}, ""},
+                               {std::to_string(scene.family->values.size()), {}, ""}};
+  for (const std::string& detector : detectors) {
+    const auto own = std::find_if(all.begin(), all.end(), [&](const FamilyResult& result) {
+      return &result.scene == &scene && result.detector() == detector;
+    });
+    row.push_back(own == all.end() ? HeatCell{} : matrix_cell(*own));
   }
-  if (rows.empty()) return "";
-  const results::Family& family = *scene.family;
-  return fmt::format("`{}`: {}. Parameter: {}, {} values from {} on. Hard for: {}. From: {}.\n\n",
-                     scene.id, scene.title, family.parameter, family.values.size(), first,
-                     family.stresses, family.origin) +
-         fmt::format("![Missed and spurious, case by case]({})\n\n", stability_plot_file(scene)) +
-         table_head(wrong_columns()) + rows + "\n";
+  return row;
 }
 
 }  // namespace
 
-const std::vector<Column>& hard_columns() {
-  static const std::vector<Column> columns = {{"detector", true, ""},
-                                              {"level", true, ""},
-                                              {"families right", false, ""},
-                                              {"cases right", false, ""},
-                                              {"missed", false, ""},
-                                              {"spurious", false, ""},
-                                              {"families with error", false, ""},
-                                              {"refused", false, ""},
-                                              {"ms a case", false, ""},
-                                              {"slowest family", true, ""}};
-  return columns;
-}
-
-std::vector<std::vector<std::string>> hard_lines(const results::Results& results) {
+TitledTable hard_sums(const results::Results& results) {
+  TitledTable out{
+      "",
+      "Every case is judged exactly, at the finest level that a detector claims. Milliseconds are "
+      "means over families, mapping and update included, cold; beside them the family that costs "
+      "most.",
+      {{"detector", true, ""},
+       {"level", true, ""},
+       {"families right", false, ""},
+       {"cases right", false, ""},
+       {"missed", false, ""},
+       {"spurious", false, ""},
+       {"families with error", false, ""},
+       {"refused", false, ""},
+       {"ms a case", false, ""},
+       {"slowest family", true, ""}},
+      {}};
   std::vector<std::string> order;
   std::map<std::string, DetectorSum> sums;
   for (const FamilyResult& result : family_results(results)) {
@@ -127,25 +152,62 @@ std::vector<std::vector<std::string>> hard_lines(const results::Results& results
     if (sums.count(detector) == 0) order.push_back(detector);
     sums[detector].add(result);
   }
-  std::vector<std::vector<std::string>> lines;
-  for (const std::string& detector : order) lines.push_back(sums[detector].line(detector));
-  return lines;
+  for (const std::string& detector : order) out.rows.push_back(sums[detector].line(detector));
+  return out;
+}
+
+HeatTable hard_matrix(const results::Results& results) {
+  const std::vector<FamilyResult> all = family_results(results);
+  std::vector<std::string> order;
+  std::set<std::string> wrong_detectors;
+  std::set<const results::Scene*> wrong_scenes;
+  for (const FamilyResult& result : all) {
+    if (std::find(order.begin(), order.end(), result.detector()) == order.end())
+      order.push_back(result.detector());
+    if (!result.goes_wrong()) continue;
+    wrong_detectors.insert(result.detector());
+    wrong_scenes.insert(&result.scene);
+  }
+  std::erase_if(order, [&](const std::string& name) { return !wrong_detectors.contains(name); });
+  HeatTable out{{"family", "cases"}, {}};
+  out.columns.insert(out.columns.end(), order.begin(), order.end());
+  for (const results::Scene& scene : results.scenes)
+    if (wrong_scenes.contains(&scene)) out.rows.push_back(matrix_row(scene, order, all));
+  return out;
+}
+
+std::vector<WrongFamily> wrong_families(const results::Results& results) {
+  std::vector<WrongFamily> out;
+  for (const FamilyResult& result : family_results(results)) {
+    if (!result.goes_wrong()) continue;
+    const results::Family& family = *result.scene.family;
+    if (out.empty() || &out.back().scene != &result.scene)
+      out.push_back({result.scene,
+                     "",
+                     fmt::format("Parameter: {}, {} values from {} on. Hard for: {}. From: {}.",
+                                 family.parameter, family.values.size(), result.value(0),
+                                 family.stresses, family.origin),
+                     {"", "", wrong_columns(), {}},
+                     {}});
+    WrongFamily& own = out.back();
+    own.table.rows.push_back(wrong_line(result));
+    own.shown.push_back(shown_case(result));
+    const std::size_t n = own.table.rows.size();
+    own.aside = plural(n, "detector") + (n == 1 ? " goes wrong" : " go wrong");
+  }
+  return out;
 }
 
 std::string hard_cases_markdown(const results::Results& results) {
-  std::string rows;
-  for (const auto& cells : hard_lines(results)) rows += table_line(cells);
-  if (rows.empty()) return "";
-  std::string out =
-      "## Hard cases\n\nEvery case is judged exactly, at the finest level that a detector claims. "
-      "Milliseconds are means over families, mapping and update included, cold; beside them the "
-      "family that costs most.\n\n" +
-      table_head(hard_columns()) + rows + "\n### Where they go wrong\n\n";
+  const std::string sums = markdown_of(hard_sums(results));
+  if (sums.empty()) return "";
   std::string tables;
-  const std::vector<FamilyResult> all = family_results(results);
-  for (const results::Scene& scene : results.scenes)
-    if (scene.family) tables += family_table(scene, all);
-  return out + (tables.empty() ? "Nowhere.\n\n" : tables);
+  for (const WrongFamily& family : wrong_families(results))
+    tables += fmt::format("`{}`: {}. {}\n\n![Missed and spurious, case by case]({})\n\n{}",
+                          family.scene.id, family.scene.title, family.sentence,
+                          stability_plot_file(family.scene), markdown_of(family.table));
+  return "## Hard cases\n\n" + sums + "### Where they go wrong\n\n" +
+         (tables.empty() ? "Nowhere.\n\n" : tables);
 }
 
 }  // namespace contactcheck

@@ -2,19 +2,43 @@
 // of the parameter on it goes wrong.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reference/report/heat_table.h"
+#include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
 
 namespace contactcheck {
 
-/// One line per detector: families and cases, how many of them it answered as it claims, missed and
-/// spurious, errors, and what a case costs. Empty without families.
-const std::vector<Column>& hard_columns();
-std::vector<std::vector<std::string>> hard_lines(const results::Results& results);
+/// A row per detector: families and cases, how many of them it answered as it claims, missed and
+/// spurious, errors, and what a case costs. None without families.
+TitledTable hard_sums(const results::Results& results);
 
-/// Markdown: those lines and, per family, who goes wrong from which value on. Empty without
+/// How many cases each detector gets wrong, by family; only those that go wrong somewhere. No rows
+/// when nobody does.
+HeatTable hard_matrix(const results::Results& results);
+
+/// What a line of a table tells can be looked at in this case.
+struct ShownCase {
+  std::string detector;
+  std::size_t frame;
+  std::string kind;  ///< "missed" or "spurious"; empty without an answer
+};
+
+/// A family that somebody goes wrong in. Refers to results that must outlive it.
+struct WrongFamily {
+  const results::Scene& scene;
+  std::string aside;                            ///< how many go wrong
+  std::string sentence;                         ///< what the family is
+  TitledTable table;                            ///< who goes wrong, from which value on
+  std::vector<std::optional<ShownCase>> shown;  ///< per row of it, where it goes wrong first
+};
+std::vector<WrongFamily> wrong_families(const results::Results& results);
+
+/// Markdown: those rows and, per family, who goes wrong from which value on. Empty without
 /// families.
 std::string hard_cases_markdown(const results::Results& results);
 

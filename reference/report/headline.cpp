@@ -15,7 +15,7 @@
 namespace contactcheck {
 namespace {
 
-using results::Results, results::Run;
+using results::Index, results::Results, results::Run;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kMostDetectors = 5, kMostPlaces = 3;
@@ -36,25 +36,25 @@ struct Verdict {
 };
 
 // Of a scene that was not judged, no detector was asked.
-bool was_asked(const Results& results, const Run& run) {
-  const results::Scene* scene = results.scene(run.scene);
+bool was_asked(const Index& index, const Run& run) {
+  const results::Scene* scene = index.scene(run.scene);
   return scene == nullptr || scene->unjudged.empty();
 }
 
 // Of detectors that had something to find, or reported something; in the order of their first runs.
-std::vector<Verdict> verdicts_of(const Results& results) {
+std::vector<Verdict> verdicts_of(const Index& index) {
   std::vector<Verdict> all;
   std::set<std::string> families;
-  for (const results::Scene& scene : results.scenes)
+  for (const results::Scene& scene : index.results().scenes)
     if (scene.family) families.insert(scene.id);
-  for (const Run& run : results.runs) {
+  for (const Run& run : index.results().runs) {
     auto own = std::find_if(all.begin(), all.end(),
                             [&](const Verdict& v) { return v.detector == run.detector; });
     if (own == all.end()) {
       own = all.insert(all.end(), Verdict());
       own->detector = run.detector;
     }
-    if (run.status == results::Status::kError && was_asked(results, run)) own->failed = true;
+    if (run.status == results::Status::kError && was_asked(index, run)) own->failed = true;
     if (!run.ok()) continue;
     if (!own->finest || (own->in_family && !families.contains(run.scene))) {
       own->finest = run.per_frame.level;
@@ -172,17 +172,17 @@ struct Winner {
 };
 
 // Of those that answer with all pairs of triangles, most scenes first.
-std::vector<Winner> winners_of(const Results& results, const std::vector<Verdict>& verdicts) {
+std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& verdicts) {
   std::set<std::string> exact;
   for (const Verdict& verdict : verdicts)
     if (verdict.flawless()) exact.insert(verdict.detector);
   std::vector<Winner> out;
   for (const bool families : {false, true})
-    for (const results::Scene& scene : results.scenes) {
+    for (const results::Scene& scene : index.results().scenes) {
       if (scene.family.has_value() != families) continue;
       const Run* best = nullptr;
       std::size_t candidates = 0;
-      for (const Run* run : runs_of_scene(results, scene.id)) {
+      for (const Run* run : index.runs_of(scene.id)) {
         if (!run->ok() || !exact.contains(run->detector) || run->times.empty() ||
             run->times.front().question != Question::kTriangles)
           continue;
@@ -218,7 +218,7 @@ std::string slower_text(const Results& results, const std::string& detector) {
   return texts.empty() ? "" : " " + listed(texts) + ".";
 }
 
-void add_fastest(const Results& results, const std::vector<Winner>& winners,
+void add_fastest(const Index& index, const std::vector<Winner>& winners,
                  std::vector<HeadlineFinding>& out) {
   if (winners.empty()) return;
   const Winner& best = winners.front();
@@ -234,20 +234,20 @@ void add_fastest(const Results& results, const std::vector<Winner>& winners,
                             : total == 1 ? "in the scene"
                                          : fmt::format("in all {} scenes", total);
   std::vector<const Run*> runs;
-  for (const std::string& scene : best.scenes) runs.push_back(results.run(scene, best.detector));
+  for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
   out.push_back({"Fastest without error",
                  fmt::format("{} {}: {} ms per frame there for all pairs of triangles, caches "
                              "cold{}.{}",
                              best.detector, where, format_number(mean_frame_ms(runs, false)),
                              others.empty() ? "" : "; " + listed(others),
-                             slower_text(results, best.detector))});
+                             slower_text(index.results(), best.detector))});
 }
 
-void add_status(const Results& results, results::Status status, const char* topic,
+void add_status(const Index& index, results::Status status, const char* topic,
                 std::vector<HeadlineFinding>& out) {
   Names texts;
-  for (const Run& run : results.runs)
-    if (run.status == status && was_asked(results, run))
+  for (const Run& run : index.results().runs)
+    if (run.status == status && was_asked(index, run))
       texts.push_back(fmt::format("{} in {} ({})", run.detector, run.scene, run.message));
   if (!texts.empty()) out.push_back({topic, short_list(texts, kMostPlaces) + "."});
 }
@@ -300,17 +300,18 @@ void add_goals(const Results& results, std::vector<HeadlineFinding>& out) {
 }  // namespace
 
 Headline headline_of(const Results& results) {
-  const std::vector<Verdict> verdicts = verdicts_of(results);
-  const std::vector<Winner> winners = winners_of(results, verdicts);
+  const Index index(results);
+  const std::vector<Verdict> verdicts = verdicts_of(index);
+  const std::vector<Winner> winners = winners_of(index, verdicts);
   Headline out;
   out.title = title_of(verdicts, places_text(results));
   for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
   add_exact(verdicts, out.findings);
-  add_fastest(results, winners, out.findings);
+  add_fastest(index, winners, out.findings);
   add_wrong(verdicts, true, out.findings);
   add_wrong(verdicts, false, out.findings);
-  add_status(results, results::Status::kError, "Ended in an error", out.findings);
-  add_status(results, results::Status::kRefused, "Refused the input", out.findings);
+  add_status(index, results::Status::kError, "Ended in an error", out.findings);
+  add_status(index, results::Status::kRefused, "Refused the input", out.findings);
   add_absent(results, out.findings);
   add_unjudged(results, out.findings);
   if (results.known_defects)

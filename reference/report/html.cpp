@@ -50,10 +50,10 @@ void fill_in(std::string& page, std::string_view placeholder, const std::string&
 
 bool has_html_report() { return !kReportTemplate.empty(); }
 
-std::string html_report(const results::Results& results, const nlohmann::ordered_json& reproduction,
+std::string html_report(const results::Results& results, const std::optional<PaperPart>& paper,
                         std::string_view view) {
   std::string page(kReportTemplate);
-  fill_in(page, "@results@", packed(page_data(results, reproduction).dump()));
+  fill_in(page, "@page@", packed(page_data(results, paper).dump()));
   fill_in(page, "@view@", packed(view));
   return page;
 }

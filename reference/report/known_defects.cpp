@@ -1,6 +1,7 @@
 #include "reference/report/known_defects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reference/report/format.h"
 
@@ -8,12 +9,6 @@ namespace contactcheck {
 namespace {
 
 using Groups = std::vector<results::Sightings>;
-
-std::string comma_list(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + text;
-  return out;
-}
 
 std::size_t cases_in(const Groups& groups) {
   std::size_t out = 0;
@@ -38,7 +33,8 @@ TitledTable defects_table(const results::KnownDefects& known) {
                   {}};
   for (const results::KnownDefect& d : known.defects)
     out.rows.push_back({d.library + " " + d.version, d.issue, d.kind, d.sentence,
-                        comma_list(d.detectors), format_count(d.scenes.size()), shown_text(d)});
+                        fmt::format("{}", fmt::join(d.detectors, ", ")),
+                        format_count(d.scenes.size()), shown_text(d)});
   return out;
 }
 
@@ -49,14 +45,15 @@ TitledTable groups_table(const std::string& text, const Groups& groups) {
       {{"detector", true, ""}, {"family", true, ""}, {"kind", true, ""}, {"at", true, ""}},
       {}};
   for (const results::Sightings& g : groups)
-    out.rows.push_back({g.detector, g.scene, g.kind, comma_list(g.values)});
+    out.rows.push_back({g.detector, g.scene, g.kind, fmt::format("{}", fmt::join(g.values, ", "))});
   return out;
 }
 
 std::string group_lines(const char* title, const Groups& groups) {
   std::string out;
   for (const results::Sightings& g : groups)
-    out += fmt::format("  {}  {}  {}  {}\n", g.detector, g.scene, g.kind, comma_list(g.values));
+    out +=
+        fmt::format("  {}  {}  {}  {}\n", g.detector, g.scene, g.kind, fmt::join(g.values, ", "));
   return out.empty() ? "" : std::string(title) + "\n" + out;
 }
 
@@ -98,8 +95,8 @@ std::string known_defects_markdown(const results::Results& results) {
 std::string defects_text(const results::KnownDefects& known) {
   std::string out;
   for (const results::KnownDefect& d : known.defects)
-    out += fmt::format("{} {}  {}  {}  {}: {}\n", d.library, d.version, comma_list(d.detectors),
-                       d.kind, shown_text(d), d.sentence);
+    out += fmt::format("{} {}  {}  {}  {}: {}\n", d.library, d.version,
+                       fmt::join(d.detectors, ", "), d.kind, shown_text(d), d.sentence);
   return out + defects_summary(known);
 }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 
 namespace contactcheck {
 namespace {
@@ -51,15 +50,17 @@ std::string fits_line(const results::Scene& scene) {
       format_millimetres(worst.max), worst.body, worst.frame);
 }
 
-std::string fits_markdown(const results::Scene& scene) {
-  std::string rows;
-  for (const BodyFit& fit : fits_of(scene))
-    rows += table_line({fit.body, format_millimetres(fit.rms), format_millimetres(fit.max),
-                        format_count(fit.frame)});
-  return titled_table(
+TitledTable fits_table(const results::Scene& scene) {
+  TitledTable out{
       "Lattices fitted to recordings: all detectors were given the fitted surface, whose vertices "
-      "lie so far from the recorded ones (mm):",
-      {{"body", true, ""}, {"RMS", false, ""}, {"max", false, ""}, {"in frame", false, ""}}, rows);
+      "lie so far from the recorded ones (mm)",
+      "",
+      {{"body", true, ""}, {"RMS", false, ""}, {"max", false, ""}, {"in frame", false, ""}},
+      {}};
+  for (const BodyFit& fit : fits_of(scene))
+    out.rows.push_back({fit.body, format_millimetres(fit.rms), format_millimetres(fit.max),
+                        format_count(fit.frame)});
+  return out;
 }
 
 }  // namespace contactcheck

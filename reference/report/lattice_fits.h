@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -11,8 +12,8 @@ namespace contactcheck {
 /// of the vertex farthest from where it was recorded. Empty for scenes without a fitted lattice.
 std::string fits_line(const results::Scene& scene);
 
-/// Markdown: per body the error over all frames and the worst frame. Empty for scenes without a
-/// fitted lattice.
-std::string fits_markdown(const results::Scene& scene);
+/// Per body the error over all frames and the worst frame. No rows for scenes without a fitted
+/// lattice.
+TitledTable fits_table(const results::Scene& scene);
 
 }  // namespace contactcheck

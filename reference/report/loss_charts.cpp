@@ -8,7 +8,7 @@
 
 #include "reference/report/bar_plot.h"
 #include "reference/report/error_counts.h"
-#include "reference/report/run_row.h"
+#include "reference/report/stage_losses.h"
 
 namespace contactcheck {
 namespace {
@@ -70,59 +70,22 @@ BarRow errors_row(const LevelSum& sum) {
           missed + "; " + spurious};
 }
 
-struct StageLoss {
-  std::string stage;
-  std::uint64_t missed = 0;
-};
-
-struct DetectorLosses {
-  std::string detector;
-  std::uint64_t truth = 0;  // pairs of triangles
-  std::vector<StageLoss> stages;
-  bool any() const {
-    return std::any_of(stages.begin(), stages.end(), [](const auto& s) { return s.missed > 0; });
-  }
-};
-
-template <typename List, typename Member>
-auto& named(List& list, Member member, const std::string& name) {
-  for (auto& item : list)
-    if (item.*member == name) return item;
-  auto& added = list.emplace_back();
-  added.*member = name;
-  return added;
-}
-
-// Stages cover pairs of triangles, and so do the counts of these levels.
-std::uint64_t true_triangle_pairs(const Run& run) {
-  const std::optional<Level> level = run.per_frame.level;
-  if (level != Level::kCell && level != Level::kTriangle) return 0;
-  const results::LevelCounts* counts = counts_of(run, level);
-  return counts == nullptr ? 0 : counts->truth;
-}
-
-std::vector<DetectorLosses> losses_of(const std::vector<const Run*>& runs) {
-  std::vector<DetectorLosses> all;
-  for (const Run* run : runs) {
-    const std::uint64_t truth = true_triangle_pairs(*run);
-    if (truth == 0 || run->stages.empty()) continue;
-    DetectorLosses& losses = named(all, &DetectorLosses::detector, run->detector);
-    losses.truth += truth;
-    for (const results::Stage& stage : run->stages)
-      named(losses.stages, &StageLoss::stage, stage.name).missed += stage.missed;
-  }
-  std::erase_if(all, [](const DetectorLosses& losses) { return !losses.any(); });
+// Those that lost something.
+std::vector<DetectorLosses> losing_detectors(std::vector<const Run*> runs) {
+  std::erase_if(runs, [](const Run* run) { return true_triangle_pairs(*run).value_or(0) == 0; });
+  std::vector<DetectorLosses> all = stage_losses(runs);
+  std::erase_if(all, [](const DetectorLosses& own) { return own.losses().empty(); });
   return all;
 }
 
-// Those that lost something, in the order in which they are met; the last one is of all that there
-// is no further colour for.
+// The stages that lost something, in the order in which they are met; the last one is of all that
+// there is no further colour for.
 std::vector<std::string> series_of(const std::vector<DetectorLosses>& all) {
   std::vector<std::string> names;
-  for (const DetectorLosses& losses : all)
-    for (const StageLoss& stage : losses.stages)
-      if (stage.missed > 0 && std::find(names.begin(), names.end(), stage.stage) == names.end())
-        names.push_back(stage.stage);
+  for (const DetectorLosses& own : all)
+    for (const StageLoss& loss : own.losses())
+      if (std::find(names.begin(), names.end(), loss.stage) == names.end())
+        names.push_back(loss.stage);
   if (names.size() > kBarSeries) {
     names.resize(kBarSeries);
     names.back() = "other stages";
@@ -130,19 +93,17 @@ std::vector<std::string> series_of(const std::vector<DetectorLosses>& all) {
   return names;
 }
 
-BarRow losses_row(const DetectorLosses& losses, const std::vector<std::string>& series) {
-  BarRow row{losses.detector, {BarLane{}}, ""};
-  for (const StageLoss& stage : losses.stages) {
-    if (stage.missed == 0) continue;
-    const auto at = std::find(series.begin(), series.end(), stage.stage);
+BarRow losses_row(const DetectorLosses& own, const std::vector<std::string>& series) {
+  BarRow row{own.detector, {BarLane{}}, ""};
+  for (const StageLoss& loss : own.losses()) {
+    const auto at = std::find(series.begin(), series.end(), loss.stage);
     const std::size_t index = at == series.end() ? series.size() - 1 : at - series.begin();
-    row.lanes[0].push_back({index,
-                            static_cast<double>(stage.missed) / static_cast<double>(losses.truth),
-                            fmt::format("{}: {} true pairs lost in {}", losses.detector,
-                                        part_of(stage.missed, losses.truth), stage.stage)});
-    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", stage.stage, stage.missed);
+    row.lanes[0].push_back({index, loss.share,
+                            fmt::format("{}: {} true pairs lost in {}", own.detector,
+                                        part_of(loss.missed, own.truth), loss.stage)});
+    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", loss.stage, loss.missed);
   }
-  row.words += fmt::format(" of {}", losses.truth);
+  row.words += fmt::format(" of {}", own.truth);
   return row;
 }
 
@@ -165,12 +126,12 @@ std::string errors_picture(const results::Results& results) {
 
 std::string stages_picture(const results::Results& results) {
   const ChosenScenes scenes = chosen_scenes(results);
-  const std::vector<DetectorLosses> all = losses_of(ok_runs(results, scenes));
+  const std::vector<DetectorLosses> all = losing_detectors(ok_runs(results, scenes));
   BarChart chart;
   chart.title = "Where true pairs are lost, stage by stage: " + scenes.words;
   chart.series = series_of(all);
   chart.axis = "share of the true pairs of triangles that was lost";
-  for (const DetectorLosses& losses : all) chart.rows.push_back(losses_row(losses, chart.series));
+  for (const DetectorLosses& own : all) chart.rows.push_back(losses_row(own, chart.series));
   chart.foot = {
       "Who is not here lost none, has no stages to look into, or was not judged at cells or "
       "triangles."};

@@ -12,35 +12,27 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-}  // namespace
-
-std::string table_line(const std::vector<std::string>& cells) {
+std::string line_of(const std::vector<std::string>& cells) {
   std::string line = "|";
   for (const std::string& cell : cells) line += " " + escaped(cell) + " |";
   return line + "\n";
 }
 
-std::string table_head(const std::vector<Column>& columns) {
+}  // namespace
+
+std::string markdown_of(const TitledTable& table) {
+  if (table.rows.empty()) return "";
   std::vector<std::string> titles;
   std::string rule = "|";
-  for (const Column& c : columns) {
+  for (const Column& c : table.columns) {
     titles.emplace_back(c.title);
     rule += c.left ? "---|" : "--:|";
   }
-  return table_line(titles) + rule + "\n";
-}
-
-std::string titled_table(const std::string& paragraph, const std::vector<Column>& columns,
-                         const std::string& rows) {
-  if (rows.empty()) return "";
-  return (paragraph.empty() ? "" : paragraph + "\n\n") + table_head(columns) + rows + "\n";
-}
-
-std::string markdown_of(const TitledTable& table) {
-  std::string above = table.title.empty() ? "" : "### " + table.title, rows;
-  if (!table.text.empty()) above += (above.empty() ? "" : "\n\n") + table.text;
-  for (const std::vector<std::string>& row : table.rows) rows += table_line(row);
-  return titled_table(above, table.columns, rows);
+  std::string out = table.title.empty() ? "" : "### " + table.title + "\n\n";
+  if (!table.text.empty()) out += table.text + "\n\n";
+  out += line_of(titles) + rule + "\n";
+  for (const std::vector<std::string>& row : table.rows) out += line_of(row);
+  return out + "\n";
 }
 
 }  // namespace contactcheck

@@ -1,35 +1,57 @@
 #include "reference/report/page_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "reference/report/claims.h"
+#include "reference/report/detector_group.h"
+#include "reference/report/error_spreads.h"
+#include "reference/report/family_result.h"
+#include "reference/report/format.h"
+#include "reference/report/frame_costs.h"
 #include "reference/report/goals_table.h"
+#include "reference/report/hard_cases.h"
 #include "reference/report/headline.h"
+#include "reference/report/heat_table.h"
 #include "reference/report/known_defects.h"
+#include "reference/report/level_tables.h"
+#include "reference/report/origin.h"
+#include "reference/report/phase_times.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scene_choice.h"
+#include "reference/report/scene_tables.h"
 #include "reference/report/speed_error.h"
+#include "reference/report/speed_error_section.h"
+#include "reference/report/stability_plot.h"
+#include "reference/report/stage_losses.h"
 #include "reference/report/summary.h"
-#include "reference/results/results_json.h"
+#include "reference/results/references.h"
 
 namespace contactcheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using results::LevelCounts, results::Results, results::Run;
+using results::Results, results::Run;
 
 constexpr const char* kFinest = "finest";
 
+Json columns_json(const std::vector<Column>& columns) {
+  Json out = Json::array();
+  for (const Column& column : columns) {
+    out.push_back({{"title", column.title}, {"left", column.left}});
+    if (!column.meaning.empty()) out.back()["meaning"] = column.meaning;
+  }
+  return out;
+}
+
 Json to_json(const TitledTable& table) {
-  Json columns = Json::array();
-  for (const Column& column : table.columns)
-    columns.push_back({{"title", column.title}, {"left", column.left}});
   Json out = {{"title", table.title},
               {"text", table.text},
-              {"columns", std::move(columns)},
+              {"columns", columns_json(table.columns)},
               {"rows", table.rows}};
   if (!table.id.empty()) out["id"] = table.id;
   return out;
@@ -44,61 +66,76 @@ Json to_json(const std::vector<TitledTable>& tables) {
 Json pairs_json(const Results& results) {
   Json out = Json::array();
   for (const results::Scene& scene : results.scenes)
-    if (scene.pairs)
-      out.push_back({{"scene", scene.id},
-                     {"sentence", pairs_line(scene) + "."},
-                     {"table", to_json(pairs_table(scene))}});
+    if (scene.pairs) out.push_back({{"scene", scene.id}, {"table", to_json(pairs_table(scene))}});
   return out;
 }
 
-// Coarse before fine.
-std::vector<Level> judged_levels_of(const Results& results) {
-  std::vector<Level> out;
-  for (const Level level : kLevels)
-    if (std::any_of(results.runs.begin(), results.runs.end(), [&](const Run& run) {
-          const LevelCounts* counts = counts_of(run, level);
-          return counts != nullptr && !counts->informative;
-        }))
-      out.push_back(level);
+Json paper_part_json(const PaperPart& paper) {
+  Json scenes = Json::array();
+  for (const PaperPart::Scene& scene : paper.scenes)
+    scenes.push_back({{"title", scene.title},
+                      {"aside", scene.aside},
+                      {"sentences", scene.sentences},
+                      {"tables", to_json(scene.tables)}});
+  return {{"overview", to_json(paper.overview)}, {"readings", paper.readings},
+          {"means_title", paper.means_title},    {"means", paper.means},
+          {"scenes", std::move(scenes)},         {"own_numbers", paper.own_numbers},
+          {"checks", to_json(paper.checks)}};
+}
+
+Json to_json(const HeatCell& cell) {
+  Json out = {{"text", cell.text}};
+  if (cell.share) out["share"] = *cell.share;
+  if (!cell.label.empty()) out["label"] = cell.label;
+  if (!cell.kind.empty()) out["kind"] = cell.kind;
   return out;
 }
 
-// Of one detector's runs. Pairs of bodies and pairs of triangles do not add up: at the finest level
-// there is a sum only where that is the same everywhere.
-Json sum_of(const std::vector<const Run*>& runs, std::optional<Level> level) {
-  std::optional<LevelCounts> sum;
-  std::optional<Level> finest;
-  for (const Run* run : runs) {
-    const std::optional<Level> own = level ? level : run->per_frame.level;
-    const LevelCounts* counts = counts_of(*run, own);
-    if (counts == nullptr || counts->informative) continue;
-    if (finest && finest != own) return "levels differ";
-    finest = own;
-    if (!sum) sum.emplace();
-    *sum += *counts;
+Json to_json(const HeatTable& table) {
+  Json rows = Json::array();
+  for (const std::vector<HeatCell>& row : table.rows) {
+    Json& cells = rows.emplace_back(Json::array());
+    for (const HeatCell& cell : row) cells.push_back(to_json(cell));
   }
-  if (!sum) return nullptr;
-  return {{"truth", sum->truth},
-          {"reported", sum->reported},
-          {"hit", sum->hit},
-          {"missed", sum->missed},
-          {"spurious", sum->spurious}};
+  return {{"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
-// Per level, per detector.
-Json sums_json(const Results& results, const std::vector<std::string>& detectors,
-               const std::vector<Level>& levels) {
-  std::set<std::string> families;
-  for (const results::Scene& scene : results.scenes)
-    if (scene.family) families.insert(scene.id);
-  std::map<std::string, std::vector<const Run*>> runs;
-  for (const Run& run : results.runs)
-    if (!families.contains(run.scene)) runs[run.detector].push_back(&run);
-  Json out = Json::object();
-  for (const std::string& detector : detectors) {
-    out[kFinest].push_back(sum_of(runs[detector], std::nullopt));
-    for (const Level level : levels) out[name_of(level)].push_back(sum_of(runs[detector], level));
+Json to_json(const std::optional<ShownCase>& shown) {
+  if (!shown) return nullptr;
+  Json out = {{"detector", shown->detector}, {"frame", shown->frame}};
+  if (!shown->kind.empty()) out["kind"] = shown->kind;
+  return out;
+}
+
+Json hard_json(const Results& results, const TitledTable& sums) {
+  const std::vector<FamilyResult> all = family_results(results);
+  Json families = Json::array();
+  for (const WrongFamily& family : wrong_families(results)) {
+    Json shown = Json::array();
+    for (const std::optional<ShownCase>& one : family.shown) shown.push_back(to_json(one));
+    families.push_back({{"id", family.scene.id},
+                        {"title", family.scene.title},
+                        {"aside", family.aside},
+                        {"sentence", family.sentence},
+                        {"table", to_json(family.table)},
+                        {"shown", std::move(shown)},
+                        {"picture", stability_plot(family.scene, all)}});
   }
+  return {{"sums", to_json(sums)},
+          {"matrix", to_json(hard_matrix(results))},
+          {"families", std::move(families)}};
+}
+
+Json levels_json(const results::Index& index, const std::vector<Level>& levels) {
+  Json out = Json::array();
+  const auto add = [&](const char* name, std::optional<Level> level) {
+    const LevelTables tables = level_tables(index, level);
+    out.push_back({{"level", name},
+                   {"recall", to_json(tables.recall)},
+                   {"spurious", to_json(tables.spurious)}});
+  };
+  add(kFinest, {});
+  for (const Level level : levels) add(name_of(level), level);
   return out;
 }
 
@@ -111,82 +148,234 @@ constexpr Measure kMeasures[] = {{"worse", ErrorMeasure::kWorse},
                                  {"spurious", ErrorMeasure::kSpurious}};
 
 // Of one choice of scenes and one level; null where nothing can be drawn.
-Json level_charts(const SpeedErrorCharts& charts, SpeedErrorChoice choice) {
-  const std::vector<std::string>& detectors = charts.detectors();
-  Json out = {{"counts", std::vector<Json>(detectors.size())}};
+Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>& detectors,
+                  SpeedErrorChoice choice) {
+  Json out = Json::object();
   bool any = false;
   for (const Measure& measure : kMeasures)
     for (const bool hot : {false, true}) {
       choice.measure = measure.measure;
       choice.hot = hot;
       const SpeedError chart = charts.chart(choice);
-      Json points = Json::array();
+      Json points = Json::array(), rows = Json::array();
       for (const SpeedErrorPoint& p : chart.points) {
-        const auto at = static_cast<std::size_t>(
-            std::find(detectors.begin(), detectors.end(), p.detector) - detectors.begin());
-        points.push_back({at, p.ms, p.error, p.on_front});
-        out["counts"][at] = {{"question", name_of(p.question)},
-                             {"level", name_of(p.level)},
-                             {"truth", p.truth},
-                             {"reported", p.reported},
-                             {"missed", p.missed},
-                             {"spurious", p.spurious}};
+        const auto at = std::find(detectors.begin(), detectors.end(), p.detector);
+        points.push_back({at - detectors.begin(), p.ms, p.error, p.on_front});
+        rows.push_back(speed_error_cells(p));
       }
       any = any || !points.empty();
       out[std::string(measure.name) + (hot ? " hot" : " cold")] = {
-          {"points", std::move(points)}, {"left_out", left_out_sentence(chart)}};
+          {"points", std::move(points)},
+          {"rows", std::move(rows)},
+          {"left_out", left_out_sentence(chart)}};
     }
   return any || !choice.level ? out : Json(nullptr);
 }
 
-Json speed_error_json(const SpeedErrorCharts& charts, const std::vector<Level>& levels) {
-  Json words = Json::array(), all = Json::array();
+// None is null.
+Json number_json(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
+
+constexpr std::size_t kLossSentences = 12;
+
+Json stages_json(const results::Index& index, const std::vector<SceneChoice>& choices) {
+  Json out = Json::array();
+  for (const SceneChoice& choice : choices) {
+    const std::vector<DetectorLosses> all = stage_losses(index, choice);
+    Json bars = Json::array();
+    for (const DetectorLosses& own : all)
+      for (const StageLoss& loss : own.losses())
+        bars.push_back(
+            {own.detector, loss.stage, loss.missed, loss.share, format_percent(loss.share)});
+    out.push_back({{"bars", std::move(bars)},
+                   {"stages", losing_stages(all)},
+                   {"sentences", loss_sentences(all, kLossSentences)},
+                   {"without_loss", no_loss_sentence(all)},
+                   {"table", to_json(stage_losses_table(all))}});
+  }
+  return out;
+}
+
+Json times_json(const results::Index& index, const std::vector<SceneChoice>& choices) {
+  Json out = Json::array();
+  for (const SceneChoice& choice : choices) {
+    Json& times = out.emplace_back(Json::object());
+    for (const bool hot : {false, true}) {
+      const std::vector<PhaseMeans> all = phase_times(index, choice, hot);
+      Json bars = Json::array();
+      for (const PhaseMeans& own : all)
+        bars.push_back({own.detector, number_json(own.map), own.update, own.query, own.total(),
+                        own.without_map()});
+      times[hot ? "hot" : "cold"] = {{"bars", std::move(bars)},
+                                     {"table", to_json(phase_times_table(all))}};
+    }
+  }
+  return out;
+}
+
+Json to_json(const ErrorRow& row) {
+  Json bins = Json::array();
+  for (const ErrorBin& bin : row.bins)
+    bins.push_back({bin.from, bin.below, bin.count, bin.share, format_percent(bin.share)});
+  return {row.detector,         name_of(row.kind), row.judged,      number_json(row.mean),
+          number_json(row.p95), row.max,           std::move(bins), row.points};
+}
+
+Json graded_json(const results::Index& index, const std::vector<SceneChoice>& choices) {
+  Json out = Json::array();
+  for (const SceneChoice& choice : choices) {
+    Json charts = Json::array();
+    for (const ErrorChart& chart : error_charts(index, choice)) {
+      Json rows = Json::array();
+      for (const ErrorRow& row : chart.rows) rows.push_back(to_json(row));
+      charts.push_back({{"title", chart.title},
+                        {"axis", chart.axis},
+                        {"unit", chart.unit},
+                        {"what", chart.what},
+                        {"rows", std::move(rows)},
+                        {"always_zero", chart.always_zero}});
+    }
+    out.push_back(std::move(charts));
+  }
+  return out;
+}
+
+Json speed_error_json(const results::Index& index, const std::vector<Level>& levels) {
+  const SpeedErrorCharts charts(index);
+  Json all = Json::array();
   for (std::size_t i = 0; i < charts.scenes().size(); ++i) {
-    words.push_back(charts.scenes()[i].words);
-    Json of_scenes = {{kFinest, level_charts(charts, {.scenes = i})}};
+    Json of_scenes = {{kFinest, level_charts(charts, index.detectors(), {.scenes = i})}};
     for (const Level level : levels)
-      if (Json of_level = level_charts(charts, {.scenes = i, .level = level}); !of_level.is_null())
+      if (Json of_level = level_charts(charts, index.detectors(), {.scenes = i, .level = level});
+          !of_level.is_null())
         of_scenes[name_of(level)] = std::move(of_level);
     all.push_back(std::move(of_scenes));
   }
-  return {{"detectors", charts.detectors()},
-          {"scenes", std::move(words)},
+  return {{"columns", columns_json(speed_error_columns())},
           {"first", charts.first()},
           {"charts", std::move(all)}};
 }
 
-Json report_json(const Results& results) {
-  const Headline headline = headline_of(results);
-  const SpeedErrorCharts charts(results);
-  const std::vector<Level> levels = judged_levels_of(results);
-  Json findings = Json::array(), names = Json::array();
-  for (const HeadlineFinding& f : headline.findings)
-    findings.push_back({{"topic", f.topic}, {"sentence", f.sentence}});
-  for (const Level level : levels) names.push_back(name_of(level));
-  Json out = {{"title", headline.title},
-              {"findings", std::move(findings)},
-              {"fastest", headline.fastest},
-              {"summary", to_json({"", "", summary_columns(), summary_lines(results)})},
-              {"claims", to_json(claims_of(results))},
-              {"goals", to_json({"", "", goal_columns(), goal_lines(results)})},
-              {"pairs", pairs_json(results)},
-              {"levels", std::move(names)},
-              {"sums", sums_json(results, charts.detectors(), levels)},
-              {"speed_error", speed_error_json(charts, levels)}};
-  if (results.known_defects)
-    out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
-                            {"tables", to_json(known_defects_tables(*results.known_defects))}};
+Json costs_json(const SceneCosts& costs, const std::vector<std::string>& detectors) {
+  Json of_detectors(std::vector<Json>(detectors.size()));
+  for (const DetectorCosts& c : costs.detectors) {
+    const auto at = std::find(detectors.begin(), detectors.end(), c.detector) - detectors.begin();
+    Json& out = of_detectors[static_cast<std::size_t>(at)];
+    out = {{"missed", c.missed}, {"spurious", c.spurious}};
+    if (!c.cold) continue;
+    out.update({{"cold", *c.cold}, {"hot", *c.hot}, {"by_distance", c.by_distance}});
+    Json& frames = out["frame_ms"] = Json::array();
+    for (const std::optional<double> ms : c.frame_ms) frames.push_back(ms ? Json(*ms) : Json());
+    if (c.touching)
+      out["touching"] = {c.touching->low, c.touching->median, c.touching->high, c.touching->frames};
+  }
+  return {{"series", costs.series},
+          {"triangles", costs.triangles},
+          {"truth", costs.truth},
+          {"distance", costs.distance},
+          {"detectors", std::move(of_detectors)}};
+}
+
+Json scene_json(const results::Index& index, const results::Scene& scene) {
+  const SceneReport report = scene_report(index, scene);
+  Json tables = Json::array(), disagreements = Json::array();
+  for (const TitledTable* table : {&report.bodies, &report.fits, &report.pairs, &report.result})
+    if (!table->rows.empty()) tables.push_back(to_json(*table));
+  for (const TitledTable& table : report.details) tables.push_back(to_json(table));
+  for (const results::Disagreement* d : report.disagreements)
+    disagreements.push_back({{"detector", d->detector},
+                             {"kind", d->kind},
+                             {"level", d->level},
+                             {"frame", d->frame},
+                             {"case", d->case_file}});
+  return {{"id", scene.id},
+          {"title", scene.title},
+          {"frames", scene.frames},
+          {"sentence", report.sentence + " " + report.truth},
+          {"tables", std::move(tables)},
+          {"notes", report.notes},
+          {"disagreements", std::move(disagreements)},
+          {"cost", costs_json(scene_costs(index, scene), index.detectors())}};
+}
+
+// What is known of all runs of a detector from its first that is `ok`.
+std::vector<std::string> options_of(const results::Index& index) {
+  std::map<std::string, std::string> by_detector;
+  for (const Run& run : index.results().runs)
+    if (run.ok()) by_detector.emplace(run.detector, options_text(run.options));
+  std::vector<std::string> out;
+  for (const std::string& detector : index.detectors()) {
+    const auto it = by_detector.find(detector);
+    out.push_back(it == by_detector.end() ? "-" : it->second);
+  }
   return out;
+}
+
+// Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
+void add_scenes(const results::Index& index, Json& out) {
+  out["scenes"] = Json::array();
+  out["families"] = Json::array();
+  for (const results::Scene& scene : index.results().scenes) {
+    if (scene.family) {
+      out["families"].push_back(
+          {{"id", scene.id}, {"title", scene.title}, {"values", scene.family->values}});
+    } else {
+      out["scenes"].push_back(scene_json(index, scene));
+    }
+  }
 }
 
 }  // namespace
 
-nlohmann::ordered_json page_data(const Results& results,
-                                 const nlohmann::ordered_json& reproduction) {
-  Json data = results::to_json(results);
-  data["report"] = report_json(results);
-  if (!reproduction.is_null()) data["reproduction"] = reproduction;
-  return data;
+nlohmann::ordered_json page_data(const Results& results, const std::optional<PaperPart>& paper) {
+  const results::Index index(results);
+  const Headline headline = headline_of(results);
+  Json findings = Json::array();
+  for (const HeadlineFinding& f : headline.findings)
+    findings.push_back({{"topic", f.topic}, {"sentence", f.sentence}});
+  const std::vector<Level> levels = judged_levels(results);
+  const std::vector<SceneChoice> choices = scene_choices(results);
+  Json words = Json::array();
+  for (const SceneChoice& choice : choices) words.push_back(choice.words);
+  const bool timed = std::any_of(results.runs.begin(), results.runs.end(),
+                                 [](const Run& run) { return run.ok() && !run.times.empty(); });
+  Json groups = Json::array(), group_names = Json::array();
+  for (const std::string& detector : index.detectors()) groups.push_back(group_of(detector));
+  for (std::size_t i = 0; i < kDetectorGroups; ++i) group_names.push_back(detector_group(i).name);
+  const results::Machine& machine = results.machine;
+  Json out = {{"version", results.version},
+              {"title", headline.title},
+              {"findings", std::move(findings)},
+              {"run", fmt::format("`{}` on {}, {} cores, {}.", results.command, machine.cpu,
+                                  machine.cores, machine.isa)},
+              {"parts", part_sentences(results)},
+              {"machine", machine_lines(results)},
+              {"detectors", index.detectors()},
+              {"options", options_of(index)},
+              {"groups", std::move(groups)},
+              {"group_names", std::move(group_names)},
+              {"timed", timed},
+              {"fastest", headline.fastest},
+              {"references", kReferences},
+              {"summary", to_json(summary_table(results))},
+              {"claimed", to_json(semantics_table(results))},
+              {"claims", to_json(claims_of(results))},
+              {"goals", to_json(goals_table(results))},
+              {"pairs", pairs_json(results)},
+              {"levels", levels_json(index, levels)},
+              {"result_columns", columns_json(result_columns())},
+              {"choices", std::move(words)},
+              {"stages", stages_json(index, choices)},
+              {"times", times_json(index, choices)},
+              {"graded", graded_json(index, choices)},
+              {"speed_error", speed_error_json(index, levels)}};
+  const TitledTable hard = hard_sums(results);
+  if (!hard.rows.empty()) out["hard"] = hard_json(results, hard);
+  if (results.known_defects)
+    out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
+                            {"tables", to_json(known_defects_tables(*results.known_defects))}};
+  if (paper) out["paper"] = paper_part_json(*paper);
+  add_scenes(index, out);
+  return out;
 }
 
 }  // namespace contactcheck

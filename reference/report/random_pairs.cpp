@@ -24,11 +24,12 @@ std::string pairs_line(const results::Scene& scene) {
 
 TitledTable pairs_table(const results::Scene& scene) {
   TitledTable out{
+      "Kinds of pairs",
       "",
-      "Kinds of pairs:",
       {{"kind", true, ""}, {"pairs", false, ""}, {"touching", false, ""}, {"share", false, ""}},
       {}};
   if (!scene.pairs) return out;
+  out.text = pairs_line(scene) + ".";
   for (const auto& [kind, tally] : scene.pairs->per_kind) {
     std::optional<double> share;
     if (tally.pairs > 0)
@@ -37,10 +38,6 @@ TitledTable pairs_table(const results::Scene& scene) {
         {kind, format_count(tally.pairs), format_count(tally.touching), format_number(share)});
   }
   return out;
-}
-
-std::string pairs_markdown(const results::Scene& scene) {
-  return scene.pairs ? pairs_line(scene) + ".\n\n" + markdown_of(pairs_table(scene)) : "";
 }
 
 }  // namespace contactcheck

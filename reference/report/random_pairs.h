@@ -13,10 +13,7 @@ namespace contactcheck {
 /// Empty for scenes without pairs.
 std::string pairs_line(const results::Scene& scene);
 
-/// How many of each kind touch; no rows for scenes without pairs.
+/// How many of each kind touch, below that line; no rows for scenes without pairs.
 TitledTable pairs_table(const results::Scene& scene);
-
-/// Markdown: that line, and how many of each kind touch. Empty for scenes without pairs.
-std::string pairs_markdown(const results::Scene& scene);
 
 }  // namespace contactcheck

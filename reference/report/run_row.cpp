@@ -95,12 +95,6 @@ const results::LevelCounts* counts_of(const Run& run, std::optional<Level> level
   return counts == run.levels.end() ? nullptr : &counts->second;
 }
 
-const Run* find_run(const results::Results& results, const std::string& scene,
-                    const std::string& detector) {
-  const Run* run = results.run(scene, detector);
-  return run != nullptr && run->ok() ? run : nullptr;
-}
-
 const results::Speedup* speedup_of(const Run& run, Question question,
                                    const std::string& reference) {
   const auto by_reference = run.speedup.find(question);
@@ -151,13 +145,6 @@ std::string semantics_text(const Semantics& s) {
 
 std::string finest_level(const Run& run) {
   return run.per_frame.level ? name_of(*run.per_frame.level) : "";
-}
-
-std::vector<const Run*> runs_of_scene(const results::Results& results, const std::string& scene) {
-  std::vector<const Run*> out;
-  for (const Run& run : results.runs)
-    if (run.scene == scene) out.push_back(&run);
-  return out;
 }
 
 }  // namespace contactcheck

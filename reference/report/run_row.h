@@ -23,9 +23,6 @@ std::vector<std::string> result_cells(const results::Run& run);
 
 /// Those of a level; null where it was not judged, or where there is no level.
 const results::LevelCounts* counts_of(const results::Run& run, std::optional<Level> level);
-/// The run of a detector on a scene when it is `ok`, else null.
-const results::Run* find_run(const results::Results& results, const std::string& scene,
-                             const std::string& detector);
 /// The speed-up over a reference in a question, or null.
 const results::Speedup* speedup_of(const results::Run& run, Question question,
                                    const std::string& reference);
@@ -44,8 +41,4 @@ std::string semantics_text(const Semantics& semantics);
 
 /// The finest level that a run which is `ok` was judged at; "" without one.
 std::string finest_level(const results::Run& run);
-/// The runs of one scene, in file order.
-std::vector<const results::Run*> runs_of_scene(const results::Results& results,
-                                               const std::string& scene);
-
 }  // namespace contactcheck

@@ -1,25 +1,29 @@
 #include "reference/report/scene_tables.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
+#include "reference/report/lattice_fits.h"
+#include "reference/report/random_pairs.h"
+#include "reference/report/run_row.h"
+#include "reference/report/separation_table.h"
 
 namespace contactcheck {
 namespace {
 using results::Run;
 
-std::string level_rows(const Run& run, const results::Levels& levels, const char* against) {
-  std::string rows;
+void add_levels(const Run& run, const results::Levels& levels, const char* against,
+                TitledTable& out) {
   for (const auto& [level, c] : levels) {
     std::string name = name_of(level);
     if (c.margin) name += " (below " + format_millimetres(c.margin) + " mm)";
     if (c.informative) name += ", informative";
-    rows += table_line({run.detector, name, against, format_count(c.truth),
+    out.rows.push_back({run.detector, name, against, format_count(c.truth),
                         format_count(c.reported), format_count(c.missed), format_count(c.spurious),
                         format_rate(c.recall), format_error_rate(c.spurious_rate)});
   }
-  return rows;
 }
 
 std::string spread_text(const results::ErrorSpread& spread,
@@ -31,75 +35,119 @@ bool has_graded(const results::Geometry& g) {
   return g.covered_length_fraction || g.depth.max || g.depth_kind != DepthKind::kNone;
 }
 
-}  // namespace
-
-std::string levels_table(const RunList& runs) {
-  std::string rows;
-  for (const Run* run : runs)
-    rows += level_rows(*run, run->levels, "doubles") +
-            level_rows(*run, run->levels_rounded, "values fed");
-  return titled_table("Every level judged (sums over frames):",
-                      {{"detector", true, ""},
-                       {"level", true, ""},
-                       {"truth for", true, ""},
-                       {"truth", false, ""},
-                       {"reported", false, ""},
-                       {"missed", false, ""},
-                       {"spurious", false, ""},
-                       {"recall", false, ""},
-                       {"spurious rate", false, ""}},
-                      rows);
+TitledTable bodies_table(const results::Scene& scene) {
+  TitledTable out{"Bodies",
+                  "",
+                  {{"body", true, ""},
+                   {"mesh", true, ""},
+                   {"vertices", false, ""},
+                   {"triangles", false, ""},
+                   {"cells", false, ""},
+                   {"solid", true, ""},
+                   {"notes", true, ""}},
+                  {}};
+  for (const results::SceneBody& b : scene.bodies)
+    out.rows.push_back({b.name, b.source, format_count(b.vertices), format_count(b.triangles),
+                        format_count(b.cells), b.solid ? "yes" : "no", b.notes});
+  return out;
 }
 
-std::string graded_table(const RunList& runs) {
-  std::string rows;
+TitledTable result_table(const RunList& runs) {
+  TitledTable out{"Result", "", result_columns(), {}};
+  for (const Run* run : runs) out.rows.push_back(result_cells(*run));
+  return out;
+}
+
+// Every level of every detector: against the truth of the doubles and, for single precision,
+// against the truth of the values fed.
+TitledTable levels_table(const RunList& runs) {
+  TitledTable out{"Every level judged (sums over frames)",
+                  "",
+                  {{"detector", true, ""},
+                   {"level", true, ""},
+                   {"truth for", true, ""},
+                   {"truth", false, ""},
+                   {"reported", false, ""},
+                   {"missed", false, ""},
+                   {"spurious", false, ""},
+                   {"recall", false, ""},
+                   {"spurious rate", false, ""}},
+                  {}};
+  for (const Run* run : runs) {
+    add_levels(*run, run->levels, "doubles", out);
+    add_levels(*run, run->levels_rounded, "values fed", out);
+  }
+  return out;
+}
+
+// Contour, distances, depths and normals.
+TitledTable graded_table(const RunList& runs) {
+  TitledTable out{"Graded errors (lengths in mm, angles in degrees; max / mean / 95th percentile)",
+                  "",
+                  {{"detector", true, ""},
+                   {"contour missed", false, ""},
+                   {"contour covered", false, ""},
+                   {"spurious up to", false, ""},
+                   {"depth kind", true, ""},
+                   {"depths judged", false, ""},
+                   {"depth error", false, ""},
+                   {"normals judged", false, ""},
+                   {"normal error", false, ""}},
+                  {}};
   for (const Run* run : runs) {
     const results::Geometry& g = run->geometry;
     if (!has_graded(g)) continue;
-    rows += table_line(
+    out.rows.push_back(
         {run->detector, format_millimetres(g.missed_length), format_rate(g.covered_length_fraction),
          format_millimetres(g.spurious_distance_max), name_of(g.depth_kind),
          format_count(g.depth.judged), spread_text(g.depth, format_millimetres),
          format_count(g.normal_deg.judged), spread_text(g.normal_deg, format_number)});
   }
-  return titled_table(
-      "Graded errors (lengths in mm, angles in degrees; max / mean / 95th percentile):",
-      {{"detector", true, ""},
-       {"contour missed", false, ""},
-       {"contour covered", false, ""},
-       {"spurious up to", false, ""},
-       {"depth kind", true, ""},
-       {"depths judged", false, ""},
-       {"depth error", false, ""},
-       {"normals judged", false, ""},
-       {"normal error", false, ""}},
-      rows);
+  return out;
 }
 
-std::string stages_table(const RunList& runs) {
-  std::string rows;
+TitledTable stages_table(const RunList& runs) {
+  TitledTable out{"Which stage lost which true triangle pairs (sums over frames)",
+                  "",
+                  {{"detector", true, ""},
+                   {"stage", true, ""},
+                   {"unit", true, ""},
+                   {"in", false, ""},
+                   {"out", false, ""},
+                   {"visited", false, ""},
+                   {"missed", false, ""}},
+                  {}};
   for (const Run* run : runs)
     for (const results::Stage& s : run->stages)
-      rows += table_line({run->detector, s.name, s.unit, format_count(s.in), format_count(s.out),
+      out.rows.push_back({run->detector, s.name, s.unit, format_count(s.in), format_count(s.out),
                           s.visited ? format_count(*s.visited) + " " + s.visited_unit : "-",
                           format_count(s.missed)});
-  return titled_table("Which stage lost which true triangle pairs (sums over frames):",
-                      {{"detector", true, ""},
-                       {"stage", true, ""},
-                       {"unit", true, ""},
-                       {"in", false, ""},
-                       {"out", false, ""},
-                       {"visited", false, ""},
-                       {"missed", false, ""}},
-                      rows);
+  return out;
 }
 
-std::string times_table(const RunList& runs) {
-  std::string rows;
+TitledTable times_table(const RunList& runs) {
+  TitledTable out{"Times in milliseconds per frame (medians over repeats; cold unless said)",
+                  "",
+                  {{"detector", true, ""},
+                   {"question", true, ""},
+                   {"prepare", false, ""},
+                   {"map", false, ""},
+                   {"update", false, ""},
+                   {"query", false, ""},
+                   {"frame", false, ""},
+                   {"contact frame", false, ""},
+                   {"own clock", false,
+                    "update + query as the detector itself measured them, without the way through "
+                    "a pipe"},
+                   {"frame, hot", false, ""},
+                   {"timed frames", false, ""},
+                   {"repeats", false, ""},
+                   {"memory, MiB", false, ""}},
+                  {}};
   for (const Run* run : runs) {
     if (run->times.empty()) continue;
     const results::QuestionTimes& t = run->times.front();
-    rows += table_line({run->detector, name_of(t.question), format_number(run->prepare_ms),
+    out.rows.push_back({run->detector, name_of(t.question), format_number(run->prepare_ms),
                         format_number(t.cold.map), format_number(t.cold.update),
                         format_number(t.cold.query), format_number(t.cold.frame),
                         format_number(t.cold.contact_frame), format_number(t.cold.self_reported),
@@ -107,25 +155,13 @@ std::string times_table(const RunList& runs) {
                         format_count(t.repeats),
                         format_number(static_cast<double>(run->memory_bytes) / 1048576.0)});
   }
-  return titled_table("Times in milliseconds per frame (medians over repeats; cold unless said):",
-                      {{"detector", true, ""},
-                       {"question", true, ""},
-                       {"prepare", false, ""},
-                       {"map", false, ""},
-                       {"update", false, ""},
-                       {"query", false, ""},
-                       {"frame", false, ""},
-                       {"contact frame", false, ""},
-                       {"own clock", false, ""},
-                       {"frame, hot", false, ""},
-                       {"timed frames", false, ""},
-                       {"repeats", false, ""},
-                       {"memory, MiB", false, ""}},
-                      rows);
+  return out;
 }
 
-std::string counters_table(const RunList& runs) {
-  std::string rows;
+// What detectors count.
+TitledTable counters_table(const RunList& runs) {
+  TitledTable out{
+      "Work per frame (means)", "", {{"detector", true, ""}, {"counted", true, ""}}, {}};
   for (const Run* run : runs) {
     std::string counts;
     for (const auto& [name, sum] : run->counters) {
@@ -134,26 +170,17 @@ std::string counters_table(const RunList& runs) {
       const double mean = static_cast<double>(sum) / static_cast<double>(run->frames);
       counts += (counts.empty() ? "" : ", ") + format_number(mean) + " " + words;
     }
-    if (!counts.empty()) rows += table_line({run->detector, counts});
+    if (!counts.empty()) out.rows.push_back({run->detector, counts});
   }
-  return titled_table("Work per frame (means):", {{"detector", true, ""}, {"counted", true, ""}},
-                      rows);
+  return out;
 }
 
-std::string speedups_table(const RunList& runs) {
-  std::string rows;
-  for (const Run* run : runs)
-    for (const auto& [question, references] : run->speedup)
-      for (const auto& [reference, s] : references)
-        if (reference != run->detector)
-          rows +=
-              table_line({run->detector, options_text(run->options), name_of(question), reference,
-                          options_text(s.reference_options), format_ratio(s.cold, true),
-                          format_ratio(s.hot, true), format_ratio(s.contact_frames, true),
-                          format_ratio(s.without_map, true)});
-  return titled_table(
+// By question and reference.
+TitledTable speedups_table(const RunList& runs) {
+  TitledTable out{
       "Speed-ups: time of the reference / time of the detector on the same question, frames and "
-      "repeats, with 95 % intervals:",
+      "repeats, with 95 % intervals",
+      "",
       {{"detector", true, ""},
        {"its options", true, ""},
        {"question", true, ""},
@@ -163,7 +190,62 @@ std::string speedups_table(const RunList& runs) {
        {"hot", false, ""},
        {"contact frames, cold", false, ""},
        {"without map, cold", false, ""}},
-      rows);
+      {}};
+  for (const Run* run : runs)
+    for (const auto& [question, references] : run->speedup)
+      for (const auto& [reference, s] : references)
+        if (reference != run->detector)
+          out.rows.push_back({run->detector, options_text(run->options), name_of(question),
+                              reference, options_text(s.reference_options),
+                              format_ratio(s.cold, true), format_ratio(s.hot, true),
+                              format_ratio(s.contact_frames, true),
+                              format_ratio(s.without_map, true)});
+  return out;
+}
+
+// "body 12, triangle 334, vertex not judged: open"
+std::string truth_text(const results::Scene& scene) {
+  std::string out;
+  for (const auto& [level, truth] : scene.truth) {
+    const auto* count = std::get_if<std::uint64_t>(&truth);
+    out += (out.empty() ? "" : ", ") + std::string(name_of(level)) + " " +
+           (count != nullptr ? format_count(*count) : std::get<std::string>(truth));
+  }
+  return out;
+}
+
+// What a reader must know about single runs and no table shows.
+std::vector<std::string> notes_of(const RunList& runs) {
+  std::vector<std::string> out;
+  for (const Run* run : runs) {
+    for (const auto* notes : {&run->float_environment, &run->notes})
+      for (const std::string& note : *notes) out.push_back(run->detector + ": " + note);
+    for (const auto& [level, why] : run->not_judged)
+      out.push_back(fmt::format("{}: level {} {}", run->detector, name_of(level), why));
+  }
+  return out;
+}
+
+}  // namespace
+
+SceneReport scene_report(const results::Index& index, const results::Scene& scene) {
+  const RunList& runs = index.runs_of(scene.id);
+  SceneReport out;
+  out.sentence = fmt::format("{} frames, {} with contact, size {} m.", scene.frames,
+                             scene.contact_frames, format_number(scene.size));
+  out.truth = "True contacts, summed over frames: " + truth_text(scene) + ".";
+  out.bodies = bodies_table(scene);
+  out.fits = fits_table(scene);
+  out.pairs = pairs_table(scene);
+  out.result = result_table(runs);
+  out.details = separation_tables(scene, runs);
+  for (TitledTable table : {levels_table(runs), graded_table(runs), stages_table(runs),
+                            times_table(runs), counters_table(runs), speedups_table(runs)})
+    if (!table.rows.empty()) out.details.push_back(std::move(table));
+  out.notes = notes_of(runs);
+  for (const results::Disagreement& d : index.results().disagreements)
+    if (d.scene == scene.id) out.disagreements.push_back(&d);
+  return out;
 }
 
 }  // namespace contactcheck

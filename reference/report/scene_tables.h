@@ -1,26 +1,30 @@
-// The Markdown tables of one scene beside the result table. Each is empty where its results are.
+// Every number of one scene, for every kind of report.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
 
 using RunList = std::vector<const results::Run*>;
 
-/// Every level of every detector: against the truth of the doubles and, for single precision,
-/// against the truth of the values fed.
-std::string levels_table(const RunList& runs);
-/// Contour, distances, depths and normals.
-std::string graded_table(const RunList& runs);
-/// Which stage lost which true pairs, and what it visited.
-std::string stages_table(const RunList& runs);
-std::string times_table(const RunList& runs);
-/// What detectors count, mean per frame.
-std::string counters_table(const RunList& runs);
-/// Every speed-up with its interval, by question and reference.
-std::string speedups_table(const RunList& runs);
+struct SceneReport {
+  std::string sentence;  ///< "60 frames, 41 with contact, size 1.20 m."
+  std::string truth;     ///< "True contacts, summed over frames: body 41, ..."
+  /// Without rows where the scene has no such.
+  TitledTable bodies, fits, pairs, result;
+  /// Time and errors against separation, levels, graded errors, stages, times, work, speed-ups:
+  /// those that have rows.
+  std::vector<TitledTable> details;
+  std::vector<std::string> notes;  ///< "detector: what a reader must know about its run"
+  /// The first of each kind.
+  std::vector<const results::Disagreement*> disagreements;
+};
+
+/// Refers to the results of `index`. @pre `scene` is one of theirs
+SceneReport scene_report(const results::Index& index, const results::Scene& scene);
 
 }  // namespace contactcheck

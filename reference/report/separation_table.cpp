@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
 #include "reference/statistics/statistics.h"
 
 namespace contactcheck {
@@ -36,19 +35,18 @@ std::string sum_text(std::span<const std::uint64_t> values) {
 }
 
 template <typename Cell>
-std::string table(const std::string& paragraph, const results::Sweep& sweep, const RunList& runs,
+TitledTable table(const std::string& title, const results::Sweep& sweep, const RunList& runs,
                   const Cell& cell) {
-  std::vector<Column> columns = {{"detector", true, ""}};
+  TitledTable out{title, "", {{"detector", true, ""}}, {}};
   for (const double separation : sweep.separations)
-    columns.push_back({fmt::format("{:g} %", 100.0 * separation), false, ""});
-  std::string rows;
+    out.columns.push_back({fmt::format("{:g} %", 100.0 * separation), false, ""});
   for (const Run* run : runs) {
     if (!run->ok()) continue;
-    std::vector<std::string> cells = {run->detector};
+    std::vector<std::string>& cells = out.rows.emplace_back();
+    cells.push_back(run->detector);
     for (std::size_t s = 0; s < sweep.separations.size(); ++s) cells.push_back(cell(*run, s));
-    rows += table_line(cells);
   }
-  return titled_table(paragraph, columns, rows);
+  return out;
 }
 
 bool timed(const RunList& runs) {
@@ -58,8 +56,8 @@ bool timed(const RunList& runs) {
 
 }  // namespace
 
-std::string separation_tables(const results::Scene& scene, const RunList& runs) {
-  if (!scene.sweep) return "";
+std::vector<TitledTable> separation_tables(const results::Scene& scene, const RunList& runs) {
+  if (!scene.sweep) return {};
   const results::Sweep& sweep = *scene.sweep;
   const std::size_t orientations = sweep.orientations;
   const auto time = [&](const Run& run, std::size_t s) {
@@ -70,19 +68,20 @@ std::string separation_tables(const results::Scene& scene, const RunList& runs) 
     return sum_text(values_at(run.per_frame.missed, s, orientations)) + " / " +
            sum_text(values_at(run.per_frame.spurious, s, orientations));
   };
-  std::string out = fmt::format(
-      "Distance sweep: {} orientations at each separation, given in % of the size ({} m); below 0 "
-      "the second body is pushed so far beyond the first touch.\n\n",
-      orientations, format_number(scene.size));
+  std::vector<TitledTable> out;
   if (timed(runs))
-    out += table(
-        "Time of a frame against separation (ms, cold, medians over the orientations that "
-        "were timed):",
-        sweep, runs, time);
-  return out + table(
-                   "Missed / spurious against separation (at the finest level judged, sums over "
-                   "orientations):",
-                   sweep, runs, errors);
+    out.push_back(table(
+        "Time of a frame against separation (ms, cold, medians over the orientations that were "
+        "timed)",
+        sweep, runs, time));
+  out.push_back(table(
+      "Missed / spurious against separation (at the finest level judged, sums over orientations)",
+      sweep, runs, errors));
+  out.front().text = fmt::format(
+      "Distance sweep: {} orientations at each separation, given in % of the size ({} m); below 0 "
+      "the second body is pushed so far beyond the first touch.",
+      orientations, format_number(scene.size));
+  return out;
 }
 
 }  // namespace contactcheck

@@ -17,20 +17,6 @@ namespace {
 using results::Run;
 using Runs = std::vector<const Run*>;
 
-std::vector<SceneChoice> choices_of(const results::Results& results) {
-  std::vector<SceneChoice> choices;
-  SceneChoice all, hard;
-  for (const results::Scene& scene : results.scenes) {
-    (scene.family ? hard : all).ids.push_back(scene.id);
-    if (!scene.family) choices.push_back({"scene " + scene.id, {scene.id}});
-  }
-  all.words = fmt::format("all {} scenes", all.ids.size());
-  hard.words = fmt::format("all {} families of hard cases", hard.ids.size());
-  if (!hard.ids.empty()) choices.insert(choices.begin(), hard);
-  if (all.ids.size() > 1) choices.insert(choices.begin(), all);
-  return choices;
-}
-
 bool claims(const Run& run, std::optional<Level> level) {
   const results::LevelCounts* counts = counts_of(run, level);
   return counts != nullptr && !counts->informative;
@@ -110,20 +96,8 @@ void mark_front(std::vector<SpeedErrorPoint>& points) {
   }
 }
 
-SpeedErrorCharts::SpeedErrorCharts(const results::Results& results) : scenes_(choices_of(results)) {
-  std::set<std::string> seen;
-  for (const Run& run : results.runs) {
-    if (seen.insert(run.detector).second) detectors_.push_back(run.detector);
-    if (run.ok()) ok_[{run.scene, run.detector}] = &run;
-  }
-}
-
-Runs SpeedErrorCharts::runs_of(const std::string& detector, const SceneChoice& scenes) const {
-  Runs runs;
-  for (const std::string& scene : scenes.ids)
-    if (const auto it = ok_.find({scene, detector}); it != ok_.end()) runs.push_back(it->second);
-  return runs;
-}
+SpeedErrorCharts::SpeedErrorCharts(const results::Index& index)
+    : index_(index), scenes_(scene_choices(index.results())) {}
 
 std::size_t SpeedErrorCharts::first() const {
   std::vector<std::size_t> points;
@@ -138,8 +112,9 @@ std::size_t SpeedErrorCharts::first() const {
 SpeedError SpeedErrorCharts::chart(const SpeedErrorChoice& choice) const {
   const SceneChoice& scenes = scenes_.at(choice.scenes);
   SpeedError out{scenes.words, {}, {}};
-  for (const std::string& detector : detectors_) {
-    Attempt attempt = point_of(detector, runs_of(detector, scenes), scenes.ids.size(), choice);
+  for (const std::string& detector : index_.detectors()) {
+    Attempt attempt =
+        point_of(detector, ok_runs(index_, detector, scenes), scenes.ids.size(), choice);
     if (attempt.point) {
       out.points.push_back(std::move(*attempt.point));
     } else {
@@ -151,7 +126,8 @@ SpeedError SpeedErrorCharts::chart(const SpeedErrorChoice& choice) const {
 }
 
 SpeedError speed_error(const results::Results& results) {
-  const SpeedErrorCharts charts(results);
+  const results::Index index(results);
+  const SpeedErrorCharts charts(index);
   return charts.scenes().empty() ? SpeedError{} : charts.chart({.scenes = charts.first()});
 }
 

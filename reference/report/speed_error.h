@@ -1,13 +1,12 @@
 // What every detector costs and how often it errs: the points of the chart of speed against error.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "reference/report/error_counts.h"
+#include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -48,33 +47,21 @@ struct SpeedErrorChoice {
   bool hot = false;  ///< times with caches hot
 };
 
-/// Scenes that one chart can be drawn for.
-struct SceneChoice {
-  std::string words;  ///< "all 8 scenes"
-  std::vector<std::string> ids;
-};
-
 /// Every chart of a run: what the Markdown report draws is one of those that the HTML page offers.
-/// Detectors are in the order of their first runs.
 class SpeedErrorCharts {
  public:
-  explicit SpeedErrorCharts(const results::Results& results);
+  /// `index` must outlive it.
+  explicit SpeedErrorCharts(const results::Index& index);
 
-  /// All scenes, all families of hard cases, each scene; as far as there are such.
   const std::vector<SceneChoice>& scenes() const { return scenes_; }
-  const std::vector<std::string>& detectors() const { return detectors_; }
   /// The first choice of scenes that at most half of the detectors fall out of, compared with the
   /// best: a point needs every scene.
   std::size_t first() const;
   SpeedError chart(const SpeedErrorChoice& choice) const;
 
  private:
-  std::vector<const results::Run*> runs_of(const std::string& detector,
-                                           const SceneChoice& scenes) const;
-
+  const results::Index& index_;
   std::vector<SceneChoice> scenes_;
-  std::vector<std::string> detectors_;
-  std::map<std::pair<std::string, std::string>, const results::Run*> ok_;  // by scene, detector
 };
 
 /// The chart that is shown first.

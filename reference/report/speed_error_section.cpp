@@ -10,9 +10,8 @@
 #include "reference/report/speed_error_plot.h"
 
 namespace contactcheck {
-namespace {
 
-const std::vector<Column>& columns() {
+const std::vector<Column>& speed_error_columns() {
   static const std::vector<Column> columns = {{"detector", true, ""},  {"question timed", true, ""},
                                               {"ms/frame", false, ""}, {"level", true, ""},
                                               {"truth", false, ""},    {"missed", false, ""},
@@ -21,7 +20,7 @@ const std::vector<Column>& columns() {
   return columns;
 }
 
-std::vector<std::string> cells_of(const SpeedErrorPoint& p) {
+std::vector<std::string> speed_error_cells(const SpeedErrorPoint& p) {
   return {p.detector,
           name_of(p.question),
           format_number(p.ms),
@@ -34,14 +33,13 @@ std::vector<std::string> cells_of(const SpeedErrorPoint& p) {
           p.on_front ? "yes" : ""};
 }
 
-}  // namespace
-
 std::string speed_error_markdown(const results::Results& results) {
   const SpeedError chart = speed_error(results);
   if (chart.points.empty()) return "";
-  std::string rows, left_out = left_out_sentence(chart);
-  for (const SpeedErrorPoint& point : chart.points) rows += table_line(cells_of(point));
+  std::string left_out = left_out_sentence(chart);
   if (!left_out.empty()) left_out += "\n\n";
+  TitledTable table{"", "", speed_error_columns(), {}};
+  for (const SpeedErrorPoint& point : chart.points) table.rows.push_back(speed_error_cells(point));
   return fmt::format(
              "## Speed against error\n\n![Every detector as a point: time per frame against share "
              "of errors]({})\n\nOver {}. A time is that of mapping, update and query with cold "
@@ -50,7 +48,7 @@ std::string speed_error_markdown(const results::Results& results) {
              "On the front: no other that answers the same question is faster without being "
              "worse.\n\n",
              kSpeedErrorFile, chart.scenes) +
-         table_head(columns()) + rows + "\n" + left_out;
+         markdown_of(table) + left_out;
 }
 
 std::string speed_error_picture(const results::Results& results) {

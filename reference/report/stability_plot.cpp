@@ -16,12 +16,21 @@ constexpr double kSquare = 22, kGap = 2, kCaptionLetter = 7.2, kEdge = 16;
 constexpr double kHead = 50;       // title and legend
 constexpr double kFaintest = 0.3;  // one wrong contact of many must still be seen
 
-// Blue and orange are told apart by every kind of eye.
-constexpr const char* kColours =
-    ".missed{fill:#0b62c4}.spurious{fill:#d9730d}.right{fill:#e6eaee}.error{fill:#1f2328}\n"
-    ".unknown{fill:none;stroke:#8c959f;stroke-dasharray:2 2}.cross{stroke:#fff;stroke-width:2}\n"
-    "@media(prefers-color-scheme:dark){.right{fill:#2d333b}\n"
-    ".missed{fill:#58a6ff}.spurious{fill:#f0883e}.error{fill:#e6edf3}.cross{stroke:#0d1117}}\n";
+// Blue and orange are told apart by every kind of eye. What is unknown can be clicked like the
+// rest.
+std::string css() {
+  return ".unknown{fill:none;stroke-dasharray:2 2;pointer-events:all}.cross{stroke-width:2}\n" +
+         themed_css({{"missed", "fill", "missed", "#0b62c4", "#58a6ff"},
+                     {"spurious", "fill", "spurious", "#d9730d", "#f0883e"},
+                     {"right", "fill", "right", "#e6eaee", "#2d333b"},
+                     {"error", "fill", "ink", "#1f2328", "#e6edf3"},
+                     {"unknown", "stroke", "grey", "#8c959f", "#8c959f"},
+                     {"cross", "stroke", "surface", "#fff", "#0d1117"},
+                     {"mark", "fill", "surface", "#fff", "#0d1117"}});
+}
+
+// Not by colour alone: missed points down, as what sinks in, spurious up.
+constexpr const char *kDown = "M-3.5 -2.5h7l-3.5 5Z", *kUp = "M-3.5 2.5h7l-3.5 -5Z";
 
 double share_of(std::int64_t part, std::int64_t whole) {
   return whole <= 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -44,7 +53,7 @@ class StabilityPlot {
       svg_.text(x_of(c) + kSquare / 2 + 4, y_of(rows_.size()) + 10, rows_[0].value(c), Anchor::kEnd,
                 "ink", -60);
     svg_.text(left_, svg_bottom() - 8, parameter(), Anchor::kStart);
-    return svg_.document(title(), kColours);
+    return svg_.document(title(), css());
   }
 
  private:
@@ -76,13 +85,15 @@ class StabilityPlot {
   void draw_head() {
     svg_.text(kEdge, 18, title(), Anchor::kStart, "title");
     double x = kEdge;
-    const auto entry = [&](const char* css_class, const std::string& words) {
+    const auto entry = [&](const char* css_class, const std::string& words,
+                           const char* mark = nullptr) {
       svg_.rectangle(x, 27, 11, 11, css_class);
+      if (mark != nullptr) svg_.path(x + 5.5, 32.5, mark, "mark");
       svg_.text(x + 16, 37, words);
       x += 16 + kCaptionLetter * static_cast<double>(words.size()) + 10;
     };
-    entry("missed", "share missed");
-    entry("spurious", "share spurious");
+    entry("missed", "share missed", kDown);
+    entry("spurious", "share spurious", kUp);
     entry("right", "right");
     entry("error", "error");
   }
@@ -99,29 +110,37 @@ class StabilityPlot {
     const std::int64_t truth = result.at(&results::PerFrame::truth, c),
                        missed = result.at(&results::PerFrame::missed, c),
                        spurious = result.at(&results::PerFrame::spurious, c);
-    svg_.begin_group(fmt::format("{} at {}: {} missed of {}, {} spurious", result.detector(),
-                                 result.value(c), missed, truth, spurious));
-    half(x_of(c), y_of(row), "missed", share_of(missed, truth));
+    begin_square(row, c, fmt::format("{} missed of {}, {} spurious", missed, truth, spurious));
+    half(x_of(c), y_of(row), "missed", share_of(missed, truth), kDown);
     half(x_of(c), y_of(row) + kSquare / 2, "spurious",
-         share_of(spurious, truth - missed + spurious));
+         share_of(spurious, truth - missed + spurious), kUp);
     svg_.end_group();
   }
 
-  void half(double x, double y, const char* css_class, double share) {
+  void begin_square(std::size_t row, std::size_t c, const std::string& words) {
+    const FamilyResult& result = rows_[row];
+    svg_.begin_group(fmt::format("{} at {}: {}", result.detector(), result.value(c), words),
+                     {{"detector", result.detector()}, {"frame", std::to_string(c)}});
+  }
+
+  void half(double x, double y, const char* css_class, double share, const char* mark) {
     svg_.rectangle(x, y, kSquare, kSquare / 2, "right");
-    if (share > 0.0) svg_.rectangle(x, y, kSquare, kSquare / 2, css_class, opacity_of(share));
+    if (share <= 0.0) return;
+    svg_.rectangle(x, y, kSquare, kSquare / 2, css_class, opacity_of(share));
+    svg_.path(x + kSquare / 2, y + kSquare / 4, mark, "mark");
   }
 
   // Without answers nobody knows about the other cases.
   void draw_failed(std::size_t row, std::size_t c) {
     const FamilyResult& result = rows_[row];
     const double x = x_of(c), y = y_of(row);
-    if (result.failed_frame() != c) return svg_.rectangle(x, y, kSquare, kSquare, "unknown");
-    svg_.begin_group(
-        fmt::format("{} at {}: {}", result.detector(), result.value(c), result.run.message));
-    svg_.rectangle(x, y, kSquare, kSquare, "error");
-    svg_.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
-    svg_.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
+    const bool here = result.failed_frame() == c;
+    begin_square(row, c, here ? result.run.message : "no answer");
+    svg_.rectangle(x, y, kSquare, kSquare, here ? "error" : "unknown");
+    if (here) {
+      svg_.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
+      svg_.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
+    }
     svg_.end_group();
   }
 

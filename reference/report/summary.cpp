@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "reference/report/format.h"
+#include "reference/report/run_row.h"
 #include "reference/results/references.h"
 
 namespace contactcheck {
@@ -84,26 +85,26 @@ Sums& line_of(const Run& run, std::vector<Sums>& all) {
 
 }  // namespace
 
-const std::vector<Column>& summary_columns() {
-  static const std::vector<Column> columns = [] {
-    std::vector<Column> all = {{"detector", true, ""},  {"scenes", false, ""},
-                               {"level", true, ""},     {"truth", false, ""},
-                               {"recall", false, ""},   {"missed", false, ""},
-                               {"spurious", false, ""}, {"body m/s", false, ""},
-                               {"hover mm", false, ""}, {"question", true, ""}};
-    for (const char* reference : kReferences)
-      all.push_back({std::string("vs ") + reference, false, ""});
-    return all;
-  }();
-  return columns;
-}
-
-std::vector<std::vector<std::string>> summary_lines(const results::Results& results) {
+TitledTable summary_table(const results::Results& results) {
+  TitledTable out{"Summary",
+                  "Sums over scenes; speed-ups are the smallest and the largest of any scene.",
+                  {{"detector", true, ""},
+                   {"scenes", false, ""},
+                   {"level", true, ""},
+                   {"truth", false, ""},
+                   {"recall", false, ""},
+                   {"missed", false, ""},
+                   {"spurious", false, ""},
+                   {"body m/s", false, ""},
+                   {"hover mm", false, ""},
+                   {"question", true, ""}},
+                  {}};
+  for (const char* reference : kReferences)
+    out.columns.push_back({std::string("vs ") + reference, false, ""});
   std::vector<Sums> all;
   for (const Run& run : results.runs) add_run(run, line_of(run, all));
-  std::vector<std::vector<std::string>> lines;
-  for (const Sums& s : all) lines.push_back(cells_of(s));
-  return lines;
+  for (const Sums& s : all) out.rows.push_back(cells_of(s));
+  return out;
 }
 
 }  // namespace contactcheck

@@ -17,10 +17,17 @@ const char* anchor_name(Svg::Anchor anchor) {
   return "";
 }
 
-constexpr const char* kPaper =
-    "text{font:12px system-ui,sans-serif}.ink{fill:#1f2328}.title{fill:#1f2328;font-weight:600}\n"
-    ".paper{fill:#fff}\n"
-    "@media(prefers-color-scheme:dark){.ink,.title{fill:#e6edf3}.paper{fill:#0d1117}}\n";
+std::string paper_css() {
+  return "text{font:12px system-ui,sans-serif}.title{font-weight:600}\n" +
+         themed_css({{"ink", "fill", "ink", "#1f2328", "#e6edf3"},
+                     {"title", "fill", "ink", "#1f2328", "#e6edf3"},
+                     {"paper", "fill", "surface", "#fff", "#0d1117"}});
+}
+
+// Twice: viewers that know no custom properties leave the second out.
+std::string rule_of(const ThemedColour& c, const char* colour) {
+  return fmt::format(".{0}{{{1}:{3};{1}:var(--{2},{3})}}", c.css_class, c.property, c.name, colour);
+}
 
 }  // namespace
 
@@ -75,8 +82,12 @@ void Svg::path(double x, double y, const std::string& outline, const std::string
                        y, outline, css_class);
 }
 
-void Svg::begin_group(const std::string& words) {
-  body_ += "<g><title>" + xml_text(words) + "</title>\n";
+void Svg::begin_group(const std::string& words,
+                      const std::vector<std::pair<const char*, std::string>>& data) {
+  body_ += "<g";
+  for (const auto& [name, value] : data)
+    body_ += fmt::format(" data-{}=\"{}\"", name, xml_text(value));
+  body_ += "><title>" + xml_text(words) + "</title>\n";
 }
 
 void Svg::end_group() { body_ += "</g>\n"; }
@@ -86,7 +97,16 @@ std::string Svg::document(const std::string& title, const std::string& css) cons
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
       "<rect width=\"100%\" height=\"100%\" class=\"paper\"/>\n{5}</svg>\n",
-      width_, height_, xml_text(title), kPaper, css, body_);
+      width_, height_, xml_text(title), paper_css(), css, body_);
+}
+
+std::string themed_css(const std::vector<ThemedColour>& colours) {
+  std::string light, dark;
+  for (const ThemedColour& colour : colours) {
+    light += rule_of(colour, colour.light) + "\n";
+    dark += "\n" + rule_of(colour, colour.dark);
+  }
+  return light + "@media(prefers-color-scheme:dark){" + dark + "}\n";
 }
 
 }  // namespace contactcheck

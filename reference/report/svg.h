@@ -2,13 +2,15 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace contactcheck {
 
 /// Coordinates in pixels, y downwards. Colours come from classes, so that one picture reads well on
 /// a light page and on a dark one: it lies on paper of its own, which is dark where the reader
-/// wants that, whatever page is around it. The classes `ink` (words), `title` and `paper` are
-/// there.
+/// wants that, whatever page is around it, and follows the page that it is part of, if any. The
+/// classes `ink` (words), `title` and `paper` are there.
 class Svg {
  public:
   Svg(double width, double height) : width_(width), height_(height) {}
@@ -24,8 +26,9 @@ class Svg {
   /// `outline`: commands of SVG's attribute d, about (x, y).
   void path(double x, double y, const std::string& outline, const std::string& css_class);
   /// What is drawn between these two is one thing with words of its own, which a browser shows
-  /// under the pointer and reads aloud.
-  void begin_group(const std::string& words);
+  /// under the pointer and reads aloud. `data`: names without "data-" and values, for scripts.
+  void begin_group(const std::string& words,
+                   const std::vector<std::pair<const char*, std::string>>& data = {});
   void end_group();
 
   /// The whole document. `css`: rules for the further classes used. `title`: what the picture
@@ -36,6 +39,14 @@ class Svg {
   double width_, height_;
   std::string body_;
 };
+
+/// The colour that a class gives to `property` on light and on dark paper. `name`: the custom
+/// property of the HTML report (style/colours.css) that goes before them where a picture is drawn
+/// inside the page, whose reader may have chosen light or dark against the system.
+struct ThemedColour {
+  const char *css_class, *property, *name, *light, *dark;
+};
+std::string themed_css(const std::vector<ThemedColour>& colours);
 
 /// With &, <, >, " and control characters made harmless.
 std::string xml_text(const std::string& text);

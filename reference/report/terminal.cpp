@@ -63,12 +63,12 @@ std::string line_text(const std::vector<Column>& columns, const Line& line,
   return out + "\n";
 }
 
-std::string table(const std::vector<Column>& columns, const std::vector<Line>& lines, bool color) {
-  const std::vector<std::size_t> widths = widths_of(columns, lines);
+std::string table(const TitledTable& of, bool color) {
+  const std::vector<std::size_t> widths = widths_of(of.columns, of.rows);
   Line titles;
-  for (const Column& c : columns) titles.emplace_back(c.title);
-  std::string out = line_text(columns, titles, widths, false);
-  for (const Line& line : lines) out += line_text(columns, line, widths, color);
+  for (const Column& c : of.columns) titles.emplace_back(c.title);
+  std::string out = line_text(of.columns, titles, widths, false);
+  for (const Line& line : of.rows) out += line_text(of.columns, line, widths, color);
   return out + "\n";
 }
 
@@ -94,27 +94,26 @@ std::string legend() {
 
 std::string terminal_tables(const results::Results& results, bool color) {
   std::string out;
+  const results::Index index(results);
   for (const results::Scene& scene : results.scenes) {
     if (scene.family) continue;
-    std::vector<Line> lines;
-    for (const results::Run* run : runs_of_scene(results, scene.id))
-      lines.push_back(result_cells(*run));
-    out += scene_head(scene, color) + table(result_columns(), lines, color);
+    TitledTable rows{"", "", result_columns(), {}};
+    for (const results::Run* run : index.runs_of(scene.id)) rows.rows.push_back(result_cells(*run));
+    out += scene_head(scene, color) + table(rows, color);
     if (scene.sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.scenes.size() > 1)
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
-           table(summary_columns(), summary_lines(results), color);
-  if (!hard_lines(results).empty())
+           table(summary_table(results), color);
+  if (const TitledTable sums = hard_sums(results); !sums.rows.empty())
     out += paint("hard cases", kBold, color) +
-           "  who goes wrong where: report.md, \"Where they go wrong\"\n" +
-           table(hard_columns(), hard_lines(results), color);
+           "  who goes wrong where: report.md, \"Where they go wrong\"\n" + table(sums, color);
   if (results.known_defects)
     out += paint("known defects", kBold, color) + "\n" + defects_summary(*results.known_defects) +
            "\n";
-  if (!goal_lines(results).empty())
-    out += paint("goals", kBold, color) + "\n" + table(goal_columns(), goal_lines(results), color);
+  if (const TitledTable goals = goals_table(results); !goals.rows.empty())
+    out += paint("goals", kBold, color) + "\n" + table(goals, color);
   return out + legend();
 }
 

@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reference/report/markdown_table.h"
+#include "reference/report/format.h"
 #include "reference/scene/json_field.h"
 
 namespace contactcheck {
 namespace {
 using Json = nlohmann::ordered_json;
 
-std::string source_line(const PaperSource& source) {
-  return fmt::format("{}: *{}*, {}, {}, doi {}.\n\n", joined(source.authors), source.title,
-                     source.journal, source.year, source.doi);
+// With the title as `title` has it: every kind of report marks it in its own way.
+std::string source_words(const PaperSource& source, const std::string& title) {
+  return fmt::format("{}: {}, {}, {}, doi {}.", joined(source.authors), title, source.journal,
+                     source.year, source.doi);
 }
 
 std::string sentences(const std::string& heading, const std::vector<PaperFinding>& findings,
@@ -50,26 +51,23 @@ std::string with_unit(double value, const std::string& unit) {
   return unit == "ratio" || unit == "count" ? figure : figure + " " + unit;
 }
 
-std::string figure_rows(const std::vector<PaperFinding>& findings) {
-  std::string rows;
-  for (const PaperFinding& f : findings) {
-    rows += table_line({f.topic, f.table, or_dash(f.scene), or_dash(f.method),
-                        with_unit(f.computed, f.unit),
-                        // As the paper has it: a claim may carry more digits than our figures.
-                        f.claimed ? fmt::format("{:.5g}", *f.claimed) : "-", verdict(f)});
-  }
-  return rows;
-}
-
-const std::vector<Column>& figure_columns() {
-  static const std::vector<Column> columns = {{"check", true, "what is computed"},
-                                              {"table", true, "from which table"},
-                                              {"scene", true, "- over all scenes"},
-                                              {"method", true, "- over both methods"},
-                                              {"computed", false, "by arithmetic"},
-                                              {"claimed", false, "in the same unit"},
-                                              {"verdict", true, "- where nothing is claimed"}};
-  return columns;
+TitledTable figures_table(const std::vector<PaperFinding>& findings) {
+  TitledTable table = {"Every figure",
+                       "",
+                       {{"check", true, "what is computed"},
+                        {"table", true, "from which table"},
+                        {"scene", true, "- over all scenes"},
+                        {"method", true, "- over both methods"},
+                        {"computed", false, "by arithmetic"},
+                        {"claimed", false, "in the same unit"},
+                        {"verdict", true, "- where nothing is claimed"}},
+                       {}};
+  for (const PaperFinding& f : findings)
+    table.rows.push_back({f.topic, f.table, or_dash(f.scene), or_dash(f.method),
+                          with_unit(f.computed, f.unit),
+                          // As the paper has it: a claim may carry more digits than our figures.
+                          f.claimed ? fmt::format("{:.5g}", *f.claimed) : "-", verdict(f)});
+  return table;
 }
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
@@ -86,14 +84,38 @@ Json finding_json(const PaperFinding& finding) {
           {"agrees", finding.agrees ? Json(*finding.agrees) : Json()}};
 }
 
+std::string text_of(const Json& value) { return value.is_null() ? "" : value.get<std::string>(); }
+
+template <typename T>
+std::optional<T> optional_of(const Json& value) {
+  return value.is_null() ? std::nullopt : std::optional(value.get<T>());
+}
+
+// Back from finding_json.
+std::vector<PaperFinding> findings_of(const Json& paper) {
+  std::vector<PaperFinding> out;
+  for (const Json& f : paper.at("findings"))
+    out.push_back({.topic = f.at("topic"),
+                   .table = text_of(f.at("table")),
+                   .scene = text_of(f.at("scene")),
+                   .method = text_of(f.at("method")),
+                   .sentence = f.at("sentence"),
+                   .claimed = optional_of<double>(f.at("claimed")),
+                   .computed = f.at("computed").get<double>(),
+                   .unit = f.at("unit"),
+                   .agrees = optional_of<bool>(f.at("agrees"))});
+  return out;
+}
+
 }  // namespace
 
 std::string paper_markdown(const PaperTables& tables, const std::vector<PaperFinding>& findings) {
-  return "## What the paper's own numbers say\n\n" + source_line(tables.source) +
-         "Computed from the printed tables alone; nothing here was measured.\n\n" +
+  return "## What the paper's own numbers say\n\n" +
+         source_words(tables.source, "*" + tables.source.title + "*") +
+         "\n\nComputed from the printed tables alone; nothing here was measured.\n\n" +
          sentences("What does not add up", findings, false) +
          sentences("What agrees", findings, true) + not_checkable(tables) +
-         titled_table("### Every figure", figure_columns(), figure_rows(findings));
+         markdown_of(figures_table(findings));
 }
 
 Json paper_json(const PaperTables& tables, const std::vector<PaperFinding>& findings) {
@@ -107,6 +129,30 @@ Json paper_json(const PaperTables& tables, const std::vector<PaperFinding>& find
               {"findings", Json::array()}};
   for (const PaperFinding& finding : findings) out["findings"].push_back(finding_json(finding));
   return out;
+}
+
+std::string own_numbers(const Json& paper) {
+  const Json& source = paper.at("source");
+  const std::vector<PaperFinding> findings = findings_of(paper);
+  const auto contradictions = std::count_if(findings.begin(), findings.end(),
+                                            [](const auto& f) { return f.agrees == false; });
+  return fmt::format("{} {} by arithmetic alone; {} contradict a claim or cannot be.",
+                     source_words({.authors = source.at("authors"),
+                                   .title = source.at("title"),
+                                   .journal = source.at("journal"),
+                                   .doi = source.at("doi"),
+                                   .year = source.at("year")},
+                                  source.at("title")),
+                     plural(findings.size(), "check"), contradictions);
+}
+
+TitledTable checks_table(const Json& paper) {
+  const std::vector<PaperFinding> findings = findings_of(paper);
+  TitledTable table = figures_table(findings);
+  table.title = "Checks of the paper's own numbers";
+  table.columns.push_back({"in words", true, ""});
+  for (std::size_t i = 0; i < findings.size(); ++i) table.rows[i].push_back(findings[i].sentence);
+  return table;
 }
 
 }  // namespace contactcheck

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/report/markdown_table.h"
 #include "reference/reproduce/paper_arithmetic.h"
 
 namespace contactcheck {
@@ -18,5 +19,11 @@ std::string paper_markdown(const PaperTables& tables, const std::vector<PaperFin
 /// is none; numbers are not rounded.
 nlohmann::ordered_json paper_json(const PaperTables& tables,
                                   const std::vector<PaperFinding>& findings);
+
+/// Of paper_json: the source, how many checks there are and how many contradict a claim; and every
+/// figure, with its finding's sentence as last cell.
+/// @throws nlohmann::json::exception when it is something else
+std::string own_numbers(const nlohmann::ordered_json& paper);
+TitledTable checks_table(const nlohmann::ordered_json& paper);
 
 }  // namespace contactcheck

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "reference/report/run_row.h"
 #include "reference/results/results_json.h"
 
 namespace contactcheck {
@@ -84,13 +83,13 @@ Json our_times(const Run& run) {
 }
 
 // Null where it did not end well, or whole steps were not timed.
-const Run* timed_run(const results::Results& results, const std::string& paper_scene,
+const Run* timed_run(const results::Index& results, const std::string& paper_scene,
                      const std::string& detector) {
-  const Run* run = find_run(results, scene_of_paper(paper_scene), detector);
+  const Run* run = results.ok_run(scene_of_paper(paper_scene), detector);
   return run != nullptr && run->step_ms ? run : nullptr;
 }
 
-Json steps_of(const results::Results& results, const PaperTables& tables,
+Json steps_of(const results::Index& results, const PaperTables& tables,
               const std::string& paper_scene) {
   Json out = Json::array();
   for (const char* method : kMethods) {
@@ -148,8 +147,7 @@ Json paper_ratio(const PaperTables& tables, const std::string& scene, const Comp
   return nullptr;
 }
 
-Json ratios_of(const results::Results& results, const PaperTables& tables,
-               const std::string& scene) {
+Json ratios_of(const results::Index& results, const PaperTables& tables, const std::string& scene) {
   Json out = Json::array();
   for (const Comparison& c : kComparisons) {
     Json row = {
@@ -166,7 +164,7 @@ Json ratios_of(const results::Results& results, const PaperTables& tables,
 }
 
 // The paper's proposal, as it is written: how many whole steps fit into the time they simulate.
-Json frame_rate_of(const results::Results& results, const results::Scene& scene,
+Json frame_rate_of(const results::Index& results, const results::Scene& scene,
                    const std::string& paper_scene) {
   const Run* run = timed_run(results, paper_scene, kMethods[2]);
   if (run == nullptr || !scene.simulation) return nullptr;
@@ -177,12 +175,12 @@ Json frame_rate_of(const results::Results& results, const results::Scene& scene,
           {"simulated_over_real_time", simulated_ms / step_ms}};
 }
 
-Json closed_loops_of(const results::Results& results, const std::string& scene) {
+Json closed_loops_of(const results::Index& results, const std::string& scene) {
   Json out = Json::array();
-  for (const Run& run : results.runs) {
-    if (run.scene != scene_of_paper(scene) || !run.closed_loop) continue;
-    Json row = {{"detector", run.detector}};
-    row.update(results::to_json(*run.closed_loop));
+  for (const Run* run : results.runs_of(scene_of_paper(scene))) {
+    if (!run->closed_loop) continue;
+    Json row = {{"detector", run->detector}};
+    row.update(results::to_json(*run->closed_loop));
     out.push_back(std::move(row));
   }
   return out;
@@ -243,8 +241,7 @@ Json sentences_of(const Json& ratios) {
   return out;
 }
 
-Json one_scene(const results::Results& results, const PaperTables& tables,
-               const PaperScene& paper) {
+Json one_scene(const results::Index& results, const PaperTables& tables, const PaperScene& paper) {
   const results::Scene& scene = *results.scene(scene_of_paper(paper.id));
   Json ratios = ratios_of(results, tables, paper.id);
   Json loops = closed_loops_of(results, paper.id);
@@ -297,10 +294,11 @@ Json means_of(const Json& scenes, const PaperTables& tables) {
 std::string scene_of_paper(const std::string& id) { return "paper-" + id; }
 
 Json reproduce(const results::Results& results, const PaperTables& tables) {
+  const results::Index index(results);
   Json scenes = Json::array();
   for (const PaperScene& paper : tables.scenes)
-    if (results.scene(scene_of_paper(paper.id)) != nullptr)
-      scenes.push_back(one_scene(results, tables, paper));
+    if (index.scene(scene_of_paper(paper.id)) != nullptr)
+      scenes.push_back(one_scene(index, tables, paper));
   Json means = means_of(scenes, tables);
   return {{"schema", "contactcheck-reproduction/1"},
           {"version", results.version},

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
+#include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 
 namespace contactcheck {
@@ -29,19 +29,18 @@ std::optional<Ratio> ratio(const Json& value) {
   return Ratio{value.at("ratio"), value.at("low"), value.at("high")};
 }
 
-// Names at the left, figures at the right.
-std::string head(const std::vector<const char*>& titles) {
-  std::vector<Column> columns;
-  for (const char* title : titles) columns.push_back({title, columns.empty(), ""});
-  return table_head(columns);
-}
+// Titles of words and of figures; the first column names what a row is of.
+Column words(const char* title) { return {title, true, ""}; }
+Column figures(const char* title) { return {title, false, ""}; }
 
-std::string counts_table(const Json& counts) {
-  std::string out = head({"count", "paper", "ours", "difference"});
+TitledTable counts_table(const Json& counts) {
+  TitledTable table = {
+      "Counts", "", {words("count"), figures("paper"), figures("ours"), figures("difference")}, {}};
   for (const auto& [name, c] : counts.items())
-    out += table_line({name, format_count(whole(c.at("paper"))), format_count(whole(c.at("ours"))),
-                       fmt::format("{:+.2f} %", c.at("difference_percent").get<double>())});
-  return out + "\n";
+    table.rows.push_back({name, format_count(whole(c.at("paper"))),
+                          format_count(whole(c.at("ours"))),
+                          fmt::format("{:+.2f} %", c.at("difference_percent").get<double>())});
+  return table;
 }
 
 std::vector<std::string> time_cells(const Json& t) {
@@ -52,8 +51,8 @@ std::vector<std::string> time_cells(const Json& t) {
   return cells;
 }
 
-std::string time_line(const std::string& method, const std::string& whose, const Json& times,
-                      bool judged) {
+std::vector<std::string> time_row(const std::string& method, const std::string& whose,
+                                  const Json& times, bool judged) {
   std::vector<std::string> cells = {method, whose};
   for (std::string& cell : time_cells(times)) cells.push_back(std::move(cell));
   if (!judged || times.is_null()) {
@@ -64,147 +63,254 @@ std::string time_line(const std::string& method, const std::string& whose, const
                                 format_count(whole(times.at("truth")))));
     cells.push_back(format_count(whole(times.at("spurious"))));
   }
-  return table_line(cells);
+  return cells;
 }
 
-std::string times_table(const Json& steps) {
-  std::string out = head({"method", "whose", "MSS", "CELL", "collision test", "response", "total",
-                          "level", "missed", "spurious"});
+TitledTable times_table(const Json& steps) {
+  TitledTable table = {"Milliseconds per whole step, timed in lockstep from the same states, cold",
+                       "",
+                       {words("method"), words("whose"), figures("MSS"), figures("CELL"),
+                        figures("collision test"), figures("response"), figures("total"),
+                        words("level"), figures("missed"), figures("spurious")},
+                       {}};
   for (const Json& row : steps) {
     const Json& paper = row.at("paper_reports");
+    const std::string method = text(row.at("method"));
     if (!paper.is_null())
-      out +=
-          time_line(text(row.at("method")),
-                    fmt::format("paper, {}, {}", text(paper.at("table")), text(paper.at("device"))),
-                    paper, false);
+      table.rows.push_back(time_row(
+          method, fmt::format("paper, {}, {}", text(paper.at("table")), text(paper.at("device"))),
+          paper, false));
     for (const MethodReading& reading : kReadings)
-      out += time_line(text(row.at("method")), fmt::format("ours, {}", reading.id),
-                       row.at(reading.id), true);
+      table.rows.push_back(
+          time_row(method, fmt::format("ours, {}", reading.id), row.at(reading.id), true));
   }
-  return out + "\n";
+  return table;
 }
 
-std::string ratios_table(const Json& ratios) {
-  std::string out = head({"from", "to", "whose", "collision test", "frames per second",
-                          "same contacts", "missed before, after"});
+std::string paper_test(const Json& paper) {
+  return fmt::format("{:.2f}x", paper.at("test").get<double>());
+}
+std::string paper_total(const Json& paper) {
+  return fmt::format("{:.3f}x", paper.at("total").get<double>());
+}
+
+TitledTable ratios_table(const Json& ratios) {
+  TitledTable table = {
+      "From one method to the next: the time before over the time after",
+      "",
+      {words("from"), words("to"), words("whose"), figures("collision test"),
+       figures("frames per second"), words("same contacts"), figures("missed before, after")},
+      {}};
   for (const Json& row : ratios) {
     const Json& paper = row.at("paper_reports");
     const std::string from = text(row.at("before")), to = text(row.at("after"));
     if (!paper.is_null())
-      out += table_line({from, to, "paper, " + text(paper.at("table")),
-                         fmt::format("{:.2f}x", paper.at("test").get<double>()),
-                         fmt::format("{:.3f}x", paper.at("total").get<double>()), "-", "-"});
+      table.rows.push_back({from, to, "paper, " + text(paper.at("table")), paper_test(paper),
+                            paper_total(paper), "-", "-"});
     for (const MethodReading& reading : kReadings) {
       const Json& ours = row.at(reading.id);
       if (ours.is_null()) continue;
-      out += table_line({from, to, fmt::format("ours, {}", reading.id),
-                         format_ratio(ratio(ours.at("test")), true),
-                         format_ratio(ratio(ours.at("total")), true),
-                         ours.at("same_contacts").get<bool>() ? "yes" : "no",
-                         fmt::format("{}, {}", format_count(whole(ours.at("missed_before"))),
-                                     format_count(whole(ours.at("missed_after"))))});
+      table.rows.push_back({from, to, fmt::format("ours, {}", reading.id),
+                            format_ratio(ratio(ours.at("test")), true),
+                            format_ratio(ratio(ours.at("total")), true),
+                            ours.at("same_contacts").get<bool>() ? "yes" : "no",
+                            fmt::format("{}, {}", format_count(whole(ours.at("missed_before"))),
+                                        format_count(whole(ours.at("missed_after"))))});
     }
   }
-  return out + "\n";
+  return table;
 }
 
-std::string closed_loop_line(const Json& loop) {
+std::vector<std::string> closed_loop_row(const Json& loop) {
   if (!text(loop.at("error")).empty())
-    return table_line({text(loop.at("detector")), text(loop.at("error")), "", "", "", "", "", ""});
+    return {text(loop.at("detector")), text(loop.at("error")), "", "", "", "", "", ""};
   std::string recalls;
   for (const auto& [level, counts] : loop.at("levels").items())
     recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
                            format_rate(real(counts.at("recall"))));
-  return table_line(
-      {text(loop.at("detector")), format_millimetres(real(loop.at("hover_at_rest_max"))),
-       format_millimetres(real(loop.at("hover_at_rest_mean"))),
-       format_millimetres(real(loop.at("deepest_penetration"))),
-       format_number(real(loop.at("energy_gain"))), format_number(real(loop.at("last_speed"))),
-       format_count(whole(loop.at("tunnelling_events"))), recalls});
+  return {text(loop.at("detector")),
+          format_millimetres(real(loop.at("hover_at_rest_max"))),
+          format_millimetres(real(loop.at("hover_at_rest_mean"))),
+          format_millimetres(real(loop.at("deepest_penetration"))),
+          format_number(real(loop.at("energy_gain"))),
+          format_number(real(loop.at("last_speed"))),
+          format_count(whole(loop.at("tunnelling_events"))),
+          recalls};
 }
 
-std::string closed_loop_table(const Json& loops) {
-  if (loops.empty()) return "";
-  std::string out =
+TitledTable closed_loop_table(const Json& loops) {
+  TitledTable table = {
       "Closed loop: each detector drives the simulation itself, and is judged on the frames of its "
-      "own motion. Hover at rest is the true distance of the pairs that it reports in the last "
-      "tenth of the frames.\n\n" +
-      head({"detector", "hover at rest mm, largest", "mean", "deepest penetration mm",
-            "energy gain", "last speed m/s", "tunnelling", "recall"});
-  for (const Json& loop : loops) out += closed_loop_line(loop);
-  return out + "\n";
+      "own motion",
+      "Hover at rest is the true distance of the pairs that it reports in the last tenth of the "
+      "frames.",
+      {words("detector"), figures("hover at rest mm, largest"), figures("mean"),
+       figures("deepest penetration mm"), figures("energy gain"), figures("last speed m/s"),
+       figures("tunnelling"), words("recall")},
+      {}};
+  for (const Json& loop : loops) table.rows.push_back(closed_loop_row(loop));
+  return table;
 }
 
-std::string frame_rate_line(const Json& rate) {
-  if (rate.is_null()) return "";
-  return fmt::format(
-      "`{}`: {:.0f} whole steps per second, {:.1f} times real time, on one core.\n\n",
-      text(rate.at("detector")), rate.at("steps_per_second").get<double>(),
-      rate.at("simulated_over_real_time").get<double>());
+std::string frame_rate_sentence(const Json& rate) {
+  return fmt::format("`{}`: {:.0f} whole steps per second, {:.1f} times real time, on one core.",
+                     text(rate.at("detector")), rate.at("steps_per_second").get<double>(),
+                     rate.at("simulated_over_real_time").get<double>());
 }
 
-std::string hover_line(const Json& hover) {
-  if (hover.is_null()) return "";
+std::string hover_sentence(const Json& hover) {
   std::string out =
       fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm", kMethods[2],
                   format_millimetres(real(hover.at(kMethods[2]))), kTraditional,
                   format_millimetres(real(hover.at(kTraditional))));
   if (!hover.at("factor").is_null())
     out += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
-  return out + ".\n\n";
+  return out + ".";
+}
+
+// How fast and how close to one another bodies rest; what was not measured is left out.
+std::vector<std::string> motion_sentences(const Json& scene) {
+  std::vector<std::string> out;
+  if (const Json& rate = scene.at("frame_rate"); !rate.is_null())
+    out.push_back(frame_rate_sentence(rate));
+  if (const Json& hover = scene.at("hover_at_rest"); !hover.is_null())
+    out.push_back(hover_sentence(hover));
+  return out;
+}
+
+std::string scene_words(const Json& scene) {
+  return fmt::format("`{}`, {} frames, {} with contact", text(scene.at("ours")),
+                     format_count(whole(scene.at("frames"))),
+                     format_count(whole(scene.at("contact_frames"))));
+}
+
+std::string markdown_list(const std::vector<std::string>& sentences) {
+  std::string out;
+  for (const std::string& sentence : sentences) out += "- " + sentence + "\n";
+  return out.empty() ? "" : out + "\n";
+}
+
+// Below a scene's heading a table has no heading of its own, and only its first column is at the
+// left.
+std::string markdown_below(TitledTable table, const std::string& paragraph) {
+  table.title.clear();
+  table.text = paragraph;
+  for (std::size_t i = 1; i < table.columns.size(); ++i) table.columns[i].left = false;
+  return markdown_of(table);
 }
 
 std::string scene_section(const Json& scene) {
+  const TitledTable times = times_table(scene.at("steps"));
+  const TitledTable loops = closed_loop_table(scene.at("closed_loop"));
   std::string out =
-      fmt::format("## {}\n\nScene `{}`, {} frames, {} with contact.\n\n", text(scene.at("scene")),
-                  text(scene.at("ours")), format_count(whole(scene.at("frames"))),
-                  format_count(whole(scene.at("contact_frames"))));
-  out += counts_table(scene.at("counts"));
-  out += "Milliseconds per whole step, timed in lockstep from the same states, cold.\n\n" +
-         times_table(scene.at("steps"));
-  out += ratios_table(scene.at("ratios"));
-  for (const Json& sentence : scene.at("sentences")) out += "- " + text(sentence) + "\n";
-  out += scene.at("sentences").empty() ? "" : "\n";
-  return out + frame_rate_line(scene.at("frame_rate")) + hover_line(scene.at("hover_at_rest")) +
-         closed_loop_table(scene.at("closed_loop"));
+      fmt::format("## {}\n\nScene {}.\n\n", text(scene.at("scene")), scene_words(scene)) +
+      markdown_below(counts_table(scene.at("counts")), "") +
+      markdown_below(times, times.title + ".") +
+      markdown_below(ratios_table(scene.at("ratios")), "") +
+      markdown_list(scene.at("sentences").get<std::vector<std::string>>());
+  for (const std::string& sentence : motion_sentences(scene)) out += sentence + "\n\n";
+  return out + markdown_below(loops, loops.title + ". " + loops.text);
 }
 
-std::string means_section(const Json& means) {
-  if (means.is_null()) return "";
+// @pre there are means
+std::string means_title(const Json& means) {
+  return fmt::format("Means, two levels of spheres against one, bounds=safe ({} of the scenes)",
+                     means.at("scenes").get<std::size_t>());
+}
+
+std::vector<std::string> means_lines(const Json& means) {
   const Json &test = means.at("test_ratio"), &rate = means.at("frame_rate_ratio");
-  std::string out = fmt::format(
-      "## Means, two levels of spheres against one, bounds=safe ({} of the scenes)\n\n"
-      "- collision test (geometric mean): ours {:.2f}x, the paper's {:.2f}x\n"
-      "- frames per second (mean): ours {:.3f}x; the paper's totals give {:.3f}x",
-      means.at("scenes").get<std::size_t>(), test.at("ours").get<double>(),
-      test.at("paper").get<double>(), rate.at("ours").get<double>(),
-      rate.at("paper").get<double>());
+  std::string rates =
+      fmt::format("frames per second (mean): ours {:.3f}x; the paper's totals give {:.3f}x",
+                  rate.at("ours").get<double>(), rate.at("paper").get<double>());
   if (!rate.at("paper_claims").is_null())
-    out += fmt::format(", its text says {:.3f}x", rate.at("paper_claims").get<double>());
-  return out + "\n\n";
+    rates += fmt::format(", its text says {:.3f}x", rate.at("paper_claims").get<double>());
+  return {fmt::format("collision test (geometric mean): ours {:.2f}x, the paper's {:.2f}x",
+                      test.at("ours").get<double>(), test.at("paper").get<double>()),
+          std::move(rates)};
+}
+
+std::vector<std::string> reading_lines() {
+  std::vector<std::string> out;
+  for (const MethodReading& reading : kReadings)
+    out.push_back(fmt::format("`{}`: {}", reading.id, reading.says));
+  return out;
 }
 
 std::string introduction(const Json& reproduction) {
   const Json& machine = reproduction.at("machine");
-  std::string out = fmt::format(
-      "# The paper's tables beside ours\n\n- command: `{}`\n- machine: {}, {} cores, {}, {}\n"
-      "- contactcheck {}\n\nReadings of the method:\n\n",
-      text(reproduction.at("command")), text(machine.at("cpu")),
-      format_count(whole(machine.at("cores"))), text(machine.at("isa")), text(machine.at("os")),
-      text(reproduction.at("version")));
-  for (const MethodReading& reading : kReadings)
-    out += fmt::format("- `{}`: {}\n", reading.id, reading.says);
-  return out +
-         "\nMSS is the deformation with gravity and ground; CELL maps every vertex and updates the "
+  return fmt::format(
+             "# The paper's tables beside ours\n\n- command: `{}`\n- machine: {}, {} cores, {}, "
+             "{}\n- contactcheck {}\n\nReadings of the method:\n\n",
+             text(reproduction.at("command")), text(machine.at("cpu")),
+             format_count(whole(machine.at("cores"))), text(machine.at("isa")),
+             text(machine.at("os")), text(reproduction.at("version"))) +
+         markdown_list(reading_lines()) +
+         "MSS is the deformation with gravity and ground; CELL maps every vertex and updates the "
          "detector's boxes and spheres. The paper's milliseconds are of phones of 2012: only "
          "ratios compare.\n\n";
+}
+
+// Two levels over one is the paper's own step: a row per scene, ours beside the paper's.
+TitledTable overview(const Json& scenes) {
+  TitledTable table = {
+      "Two levels of spheres over one: the paper's ratios beside ours", "", {words("scene")}, {}};
+  for (const char* title : {"collision test: paper", "frames per second: paper"}) {
+    table.columns.push_back(figures(title));
+    for (const MethodReading& reading : kReadings)
+      table.columns.push_back({fmt::format("ours, {}", reading.id), false, ""});
+  }
+  for (const Json& scene : scenes)
+    for (const Json& row : scene.at("ratios")) {
+      const Json& paper = row.at("paper_reports");
+      if (row.at("after") != kMethods[2] || paper.is_null()) continue;
+      std::vector<std::string> cells = {text(scene.at("scene"))};
+      for (const char* part : {"test", "total"}) {
+        cells.push_back(part == std::string("test") ? paper_test(paper) : paper_total(paper));
+        for (const MethodReading& reading : kReadings) {
+          const Json& ours = row.at(reading.id);
+          cells.push_back(ours.is_null() ? "-" : format_ratio(ratio(ours.at(part)), true));
+        }
+      }
+      table.rows.push_back(std::move(cells));
+    }
+  return table;
+}
+
+PaperPart::Scene scene_part(const Json& scene) {
+  PaperPart::Scene out = {
+      text(scene.at("scene")),
+      scene_words(scene),
+      scene.at("sentences").get<std::vector<std::string>>(),
+      // What the paper is about comes first.
+      {ratios_table(scene.at("ratios")), times_table(scene.at("steps")),
+       counts_table(scene.at("counts")), closed_loop_table(scene.at("closed_loop"))}};
+  for (std::string& sentence : motion_sentences(scene))
+    out.sentences.push_back(std::move(sentence));
+  return out;
 }
 
 }  // namespace
 
 std::string reproduction_markdown(const Json& reproduction) {
-  std::string out = introduction(reproduction) + means_section(reproduction.at("means"));
+  std::string out = introduction(reproduction);
+  if (const Json& means = reproduction.at("means"); !means.is_null())
+    out += "## " + means_title(means) + "\n\n" + markdown_list(means_lines(means));
   for (const Json& scene : reproduction.at("scenes")) out += scene_section(scene);
+  return out;
+}
+
+PaperPart paper_part(const Json& reproduction) {
+  PaperPart out;
+  out.overview = overview(reproduction.at("scenes"));
+  out.readings = reading_lines();
+  if (const Json& means = reproduction.at("means"); !means.is_null()) {
+    out.means_title = means_title(means);
+    out.means = means_lines(means);
+  }
+  for (const Json& scene : reproduction.at("scenes")) out.scenes.push_back(scene_part(scene));
+  out.own_numbers = own_numbers(reproduction.at("paper"));
+  out.checks = checks_table(reproduction.at("paper"));
   return out;
 }
 

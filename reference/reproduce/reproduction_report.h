@@ -1,8 +1,10 @@
-// The reproduction for people: Markdown, and a short table for a terminal.
+// The reproduction for people: Markdown, a short table for a terminal, a part of the HTML page.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "reference/report/paper_part.h"
 
 namespace contactcheck {
 
@@ -10,5 +12,9 @@ namespace contactcheck {
 std::string reproduction_markdown(const nlohmann::ordered_json& reproduction);
 /// One line per scene and reading; plain text.
 std::string reproduction_terminal(const nlohmann::ordered_json& reproduction);
+
+/// Of reproduction.json: what reproduce() makes, with paper_json() as "paper".
+/// @throws nlohmann::json::exception when it is something else, or of another version
+PaperPart paper_part(const nlohmann::ordered_json& reproduction);
 
 }  // namespace contactcheck

@@ -1,7 +1,7 @@
 #include "reference/results/results.h"
 
-#include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace contactcheck::results {
 
@@ -53,20 +53,35 @@ const char* name_of(Status status) {
   return "unknown";
 }
 
-const Scene* Results::scene(const std::string& id) const {
-  for (const Scene& scene : scenes)
-    if (scene.id == id) return &scene;
-  return nullptr;
+Index::Index(const Results& results) : results_(&results) {
+  for (const Scene& scene : results.scenes) scenes_.emplace(scene.id, &scene);
+  std::set<std::string> seen;
+  for (const Run& run : results.runs) {
+    runs_[run.scene].push_back(&run);
+    run_.emplace(std::pair(run.scene, run.detector), &run);
+    if (seen.insert(run.detector).second) detectors_.push_back(run.detector);
+  }
 }
 
-bool Results::has_runs_of(const std::string& scene) const {
-  return std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.scene == scene; });
+const Scene* Index::scene(const std::string& id) const {
+  const auto it = scenes_.find(id);
+  return it == scenes_.end() ? nullptr : it->second;
 }
 
-const Run* Results::run(const std::string& scene, const std::string& detector) const {
-  for (const Run& run : runs)
-    if (run.scene == scene && run.detector == detector) return &run;
-  return nullptr;
+const Run* Index::run(const std::string& scene, const std::string& detector) const {
+  const auto it = run_.find({scene, detector});
+  return it == run_.end() ? nullptr : it->second;
+}
+
+const Run* Index::ok_run(const std::string& scene, const std::string& detector) const {
+  const Run* found = run(scene, detector);
+  return found != nullptr && found->ok() ? found : nullptr;
+}
+
+const std::vector<const Run*>& Index::runs_of(const std::string& scene) const {
+  static const std::vector<const Run*> kNone;
+  const auto it = runs_.find(scene);
+  return it == runs_.end() ? kNone : it->second;
 }
 
 NamedErrors errors_of(const Geometry& g) {

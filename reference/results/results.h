@@ -313,11 +313,31 @@ struct Results {
   std::optional<std::vector<std::string>> resumed;
   std::optional<Shard> shard;
   std::vector<std::string> merged;
+};
 
-  /// Null when there is none.
+/// Scenes and rows by name, of results that outlive it and do not change. What is asked for and is
+/// not there is null, or a list of nothing.
+class Index {
+ public:
+  explicit Index(const Results& results);
+  explicit Index(const Results&&) = delete;  ///< they would be gone
+
+  const Results& results() const { return *results_; }
   const Scene* scene(const std::string& id) const;
-  bool has_runs_of(const std::string& scene) const;
   const Run* run(const std::string& scene, const std::string& detector) const;
+  /// Where it is `ok`.
+  const Run* ok_run(const std::string& scene, const std::string& detector) const;
+  /// In the order of the file, as are the next.
+  const std::vector<const Run*>& runs_of(const std::string& scene) const;
+  /// Each once, by their first rows.
+  const std::vector<std::string>& detectors() const { return detectors_; }
+
+ private:
+  const Results* results_;
+  std::map<std::string, const Scene*> scenes_;
+  std::map<std::string, std::vector<const Run*>> runs_;
+  std::map<std::pair<std::string, std::string>, const Run*> run_;
+  std::vector<std::string> detectors_;
 };
 
 }  // namespace contactcheck::results

@@ -1,6 +1,7 @@
 #include "reference/results/results_file.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
 #include "reference/results/results_json.h"
@@ -56,18 +57,6 @@ std::size_t depth_of(std::string_view json) {
 
 std::filesystem::path schema_file() { return fixtures_directory() / "results.schema.json"; }
 
-// "" when there is none, or no schema to go by.
-std::string defect_of(const Json& results) {
-  if (!std::filesystem::is_regular_file(schema_file())) return "";
-  return schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), results);
-}
-
-// The place that could not be read.
-std::string defect_of(const Json& results, const Json::exception& e) {
-  const std::string found = defect_of(results);
-  return found.empty() ? sentence_of(e) : found;
-}
-
 }  // namespace
 
 void check_json_depth(std::string_view json, const std::filesystem::path& file) {
@@ -77,25 +66,19 @@ void check_json_depth(std::string_view json, const std::filesystem::path& file) 
                      std::to_string(kDeepest) + " is allowed");
 }
 
-ResultsFile::ResultsFile(const std::filesystem::path& file)
-    : file_(file), results_(read_results(file)) {}
-
 results::Results results_in(const std::filesystem::path& file) {
-  const ResultsFile results(file);
-  results.require_schema();
-  return results.read(results::from_json);
-}
-
-void ResultsFile::require_schema() const {
+  const Json json = read_results(file);
   // Without a schema, what is missing would pass for the default: nothing missed.
   if (!std::filesystem::is_regular_file(schema_file()))
-    throw InputError(file_.string() + ": cannot be checked: there is no " + schema_file().string());
-  const std::string found = defect_of(results_);
-  if (!found.empty()) throw InputError(file_.string() + ": not complete: " + found);
-}
-
-void ResultsFile::refuse(const Json::exception& e) const {
-  throw InputError(file_.string() + ": not complete: " + defect_of(results_, e));
+    throw InputError(file.string() + ": cannot be checked: there is no " + schema_file().string());
+  const std::string found =
+      schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), json);
+  if (!found.empty()) throw InputError(file.string() + ": not complete: " + found);
+  try {
+    return results::from_json(json);
+  } catch (const Json::exception& e) {
+    throw InputError(file.string() + ": not complete: " + sentence_of(e));
+  }
 }
 
 }  // namespace contactcheck

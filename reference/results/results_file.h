@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -15,34 +14,8 @@ namespace contactcheck {
 /// results can be
 void check_json_depth(std::string_view json, const std::filesystem::path& file);
 
-/// All of a file that is as fixtures/results.schema.json says.
-/// @throws InputError with the first place that is not
+/// @throws InputError when the file cannot be read, is no JSON, of another schema, or not as
+/// fixtures/results.schema.json says: with the first place that is not
 results::Results results_in(const std::filesystem::path& file);
-
-class ResultsFile {
- public:
-  /// @throws InputError when it cannot be read, is no JSON or of another schema
-  explicit ResultsFile(const std::filesystem::path& file);
-
-  /// @throws InputError that names the first place where it breaks fixtures/results.schema.json
-  void require_schema() const;
-
-  /// What `use(results)` returns. @throws InputError that names the place when a field that it
-  /// needs is missing or is not what the schema says
-  template <typename Use>
-  auto read(Use&& use) const {
-    try {
-      return use(results_);
-    } catch (const nlohmann::ordered_json::exception& e) {
-      refuse(e);
-    }
-  }
-
- private:
-  [[noreturn]] void refuse(const nlohmann::ordered_json::exception& e) const;
-
-  std::filesystem::path file_;
-  nlohmann::ordered_json results_;
-};
 
 }  // namespace contactcheck

@@ -5,7 +5,7 @@
 namespace contactcheck {
 namespace {
 
-using results::MeasuredGoal, results::Results, results::Run;
+using results::Index, results::MeasuredGoal, results::Run;
 
 /// Why a goal could not be measured, for the report.
 class NotMeasured : public std::runtime_error {
@@ -13,7 +13,7 @@ class NotMeasured : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-const Run& run_of(const Results& results, const std::string& scene, const std::string& detector) {
+const Run& run_of(const Index& results, const std::string& scene, const std::string& detector) {
   const Run* run = results.run(scene, detector);
   if (run == nullptr) throw NotMeasured(detector + " did not run in " + scene);
   if (!run->ok()) throw NotMeasured(detector + ": " + run->message);
@@ -37,7 +37,7 @@ double frame_ms(const Run& run, const std::string& part) {
   return part == "hot" ? times.hot.frame : times.cold.frame;
 }
 
-void measure_over(const Results& results, MeasuredGoal& goal) {
+void measure_over(const Index& results, MeasuredGoal& goal) {
   run_of(results, goal.scene, goal.over);  // who did not run is named
   const Run& run = run_of(results, goal.scene, goal.detector);
   const Question question = times_of(run).question;
@@ -54,7 +54,7 @@ void measure_over(const Results& results, MeasuredGoal& goal) {
   goal.unit = "x";
 }
 
-void measure_over_scene(const Results& results, MeasuredGoal& goal) {
+void measure_over_scene(const Index& results, MeasuredGoal& goal) {
   const double here = frame_ms(run_of(results, goal.scene, goal.detector), goal.part);
   const double there = frame_ms(run_of(results, goal.over_scene, goal.detector), goal.part);
   goal.measured = here / there;
@@ -62,7 +62,7 @@ void measure_over_scene(const Results& results, MeasuredGoal& goal) {
 }
 
 // Over frames with contact: time and pairs of both are means over these.
-void measure_per_pair(const Results& results, MeasuredGoal& goal) {
+void measure_per_pair(const Index& results, MeasuredGoal& goal) {
   const Run& run = run_of(results, goal.scene, goal.detector);
   const results::QuestionTimes& times = times_of(run);
   const double ms = timed_with_contact((goal.part == "hot" ? times.hot : times.cold).contact_frame);
@@ -74,7 +74,7 @@ void measure_per_pair(const Results& results, MeasuredGoal& goal) {
   goal.unit = "us";
 }
 
-void measure(const Results& results, MeasuredGoal& goal) {
+void measure(const Index& results, MeasuredGoal& goal) {
   if (!goal.over.empty()) return measure_over(results, goal);
   if (!goal.over_scene.empty()) return measure_over_scene(results, goal);
   measure_per_pair(results, goal);
@@ -83,13 +83,14 @@ void measure(const Results& results, MeasuredGoal& goal) {
 }  // namespace
 
 std::vector<MeasuredGoal> measure_goals(const std::vector<results::Goal>& goals,
-                                        const Results& results) {
+                                        const results::Results& results) {
+  const Index index(results);
   std::vector<MeasuredGoal> out;
   for (const results::Goal& goal : goals) {
     MeasuredGoal& entry = out.emplace_back(MeasuredGoal{goal, {}, {}, {}, {}, {}, {}});
     try {
       if (!goal.at_least && !goal.at_most) throw NotMeasured("it has no bound");
-      measure(results, entry);
+      measure(index, entry);
       entry.met =
           goal.at_least ? *entry.measured >= *goal.at_least : *entry.measured <= *goal.at_most;
     } catch (const NotMeasured& e) {

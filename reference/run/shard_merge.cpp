@@ -23,7 +23,9 @@ void copy_file_to(const fs::path& file, const fs::path& target) {
 class Merger {
  public:
   Merger(const std::vector<ShardResults>& shards, const fs::path& out, const fs::path& scratch)
-      : shards_(shards), out_(out), scratch_(scratch), output_(out, scratch) {}
+      : shards_(shards), out_(out), scratch_(scratch), output_(out, scratch) {
+    for (const ShardResults& shard : shards) rows_.emplace_back(shard.results);
+  }
 
   results::Results merge(const KnownDefects& known_defects, SuiteOutcome* outcome) {
     const results::Results& first = shards_.front().results;
@@ -40,7 +42,7 @@ class Merger {
     const std::vector<results::ShardScene>& run = first.shard->scenes;
     for (std::size_t i = 0; i < run.size(); ++i) {
       const ShardResults& shard = shards_[i % shards_.size()];
-      output_.add(scene_of(shard, run[i].id));
+      output_.add(scene_of(shard, rows_[i % shards_.size()], run[i].id));
       if (shard.results.resumed && holds(*shard.results.resumed, run[i].id))
         whole.resumed->push_back(run[i].id);
     }
@@ -52,11 +54,11 @@ class Merger {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   }
 
-  FinishedScene scene_of(const ShardResults& shard, const std::string& id) {
+  FinishedScene scene_of(const ShardResults& shard, const results::Index& rows,
+                         const std::string& id) {
     FinishedScene finished;
-    finished.scene = *shard.results.scene(id);
-    for (const results::Run& run : shard.results.runs)
-      if (run.scene == id) finished.runs.push_back(run);
+    finished.scene = *rows.scene(id);
+    for (const results::Run* run : rows.runs_of(id)) finished.runs.push_back(*run);
     for (const results::Disagreement& disagreement : shard.results.disagreements)
       if (disagreement.scene == id)
         finished.disagreements.push_back(with_case(shard, disagreement));
@@ -84,6 +86,7 @@ class Merger {
   }
 
   const std::vector<ShardResults>& shards_;
+  std::vector<results::Index> rows_;  ///< by shard
   fs::path out_, scratch_;
   SuiteOutput output_;
   std::size_t cases_ = 0;

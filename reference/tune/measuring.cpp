@@ -118,10 +118,11 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
   const std::vector<ModelKey> keys(all.begin(), all.end());
   Times times;
   const results::Results results = run(keys, batch, times);
-  if (!book_.has_unit()) choose_anchor(results, batch);
+  const results::Index rows(results);
+  if (!book_.has_unit()) choose_anchor(rows, batch);
   take_times(keys, batch, times);
   std::vector<Measurement> found;
-  for (const std::size_t i : batch) found.push_back(read(i, results));
+  for (const std::size_t i : batch) found.push_back(read(i, rows));
   return found;
 }
 
@@ -148,14 +149,13 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
   return results;
 }
 
-void Measuring::choose_anchor(const results::Results& results,
-                              const std::vector<std::size_t>& batch) {
+void Measuring::choose_anchor(const results::Index& rows, const std::vector<std::size_t>& batch) {
   std::vector<std::string> names;
   if (!anchor_.empty()) names.push_back(anchor_);
   for (const std::size_t i : batch)
     if (key_of(candidates_[i]) == ModelKey{}) names.push_back(candidates_[i].detector);
   for (const std::string& name : names) {
-    const results::Run* run = results.run(own_model().id, name);
+    const results::Run* run = rows.run(own_model().id, name);
     const auto time = run == nullptr ? std::nullopt : time_of(*run, request_.question);
     if (!time || !(*time > 0.0)) continue;
     anchor_ = name;
@@ -176,10 +176,10 @@ void Measuring::take_times(const std::vector<ModelKey>& keys, const std::vector<
   }
 }
 
-Measurement Measuring::read(std::size_t index, const results::Results& results) const {
+Measurement Measuring::read(std::size_t index, const results::Index& rows) const {
   const TuneCandidate& candidate = candidates_[index];
   const ModelKey key = key_of(candidate);
-  const results::Run* run = results.run(models_.at(key).id, candidate.detector);
+  const results::Run* run = rows.run(models_.at(key).id, candidate.detector);
   CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
   Measurement m = errors_of(*run, level_of(request_.question));
   m.deviation = models_.at(key).deviation;

@@ -65,10 +65,10 @@ class Measuring {
   Model make_model(const ModelKey& key) const;
   results::Results run(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
                        Times& times) const;
-  void choose_anchor(const results::Results& results, const std::vector<std::size_t>& batch);
+  void choose_anchor(const results::Index& rows, const std::vector<std::size_t>& batch);
   void take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
                   const Times& times);
-  Measurement read(std::size_t index, const results::Results& results) const;
+  Measurement read(std::size_t index, const results::Index& rows) const;
 
   const std::vector<TuneCandidate>& candidates_;
   MeasuringRequest request_;

@@ -58,9 +58,9 @@ std::string too_large(std::size_t limit) {
 }
 
 // "" where no run of the scene names one.
-std::string recording_of(const results::Results& results, const results::Scene& scene) {
-  for (const results::Run& run : results.runs)
-    if (run.scene == scene.id && !run.recording.empty()) return run.recording;
+std::string recording_of(const results::Index& index, const results::Scene& scene) {
+  for (const results::Run* run : index.runs_of(scene.id))
+    if (!run->recording.empty()) return run->recording;
   return "";
 }
 
@@ -133,9 +133,10 @@ std::string container(std::vector<Candidate>& scenes) {
 }  // namespace
 
 std::string view_bytes(const results::Results& results, const fs::path& folder, std::size_t limit) {
+  const results::Index index(results);
   std::vector<Candidate> scenes;
   for (const results::Scene& scene : results.scenes) {
-    const std::string recording = recording_of(results, scene);
+    const std::string recording = recording_of(index, scene);
     if (!recording.empty()) scenes.push_back(candidate(folder, recording, scene, limit));
   }
   if (scenes.empty()) return "";

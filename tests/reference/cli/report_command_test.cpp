@@ -157,11 +157,18 @@ TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
   const std::string alone = report();
   EXPECT_EQ(report_beside(R"({"command": "contactcheck run other"})").exit_code, 0);
   EXPECT_EQ(text_of(scratch.folder() / "report.html"), alone);
-  EXPECT_EQ(report_beside(R"({"command": "contactcheck run hello"})").exit_code, 0);
+  EXPECT_EQ(report_beside(R"({"command": "contactcheck run hello", "scenes": [], "means": null,
+      "paper": {"source": {"authors": [], "title": "", "journal": "", "year": 1, "doi": ""},
+                "findings": []}})")
+                .exit_code,
+            0);
   EXPECT_NE(text_of(scratch.folder() / "report.html"), alone);
   const Outcome refused = report_beside("{");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("reproduction.json\" is no JSON object"));
+  const Outcome older = report_beside(R"({"command": "contactcheck run hello", "scenes": [{}]})");
+  EXPECT_EQ(older.exit_code, 2);
+  EXPECT_THAT(older.err, HasSubstr("reproduction.json\" is no reproduction as this version"));
   const Outcome deep = report_beside(R"({"command": "contactcheck run hello", "scenes": )" +
                                      std::string(100'000, '[') + std::string(100'000, ']') + "}");
   EXPECT_EQ(deep.exit_code, 2);

@@ -12,20 +12,25 @@ using test::results_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+std::vector<RowChange> changes_between(const results::Results& before,
+                                       const results::Results& after) {
+  return accuracy_changes(results::Index(before), results::Index(after));
+}
+
 // The only change from a perfect row to `after`.
 RowChange change_to(const results::Run& after) {
-  const auto changes = accuracy_changes(results_of({perfect_run("s", "d")}), results_of({after}));
+  const auto changes = changes_between(results_of({perfect_run("s", "d")}), results_of({after}));
   EXPECT_EQ(changes.size(), 1u);
   return changes.empty() ? RowChange{} : changes.front();
 }
 
 RowChange change_from(const results::Run& before) {
-  return accuracy_changes(results_of({before}), results_of({perfect_run("s", "d")})).at(0);
+  return changes_between(results_of({before}), results_of({perfect_run("s", "d")})).at(0);
 }
 
 TEST(AccuracyChanges, EqualRowsHaveNone) {
   const results::Results table = results_of({perfect_run("s", "d"), perfect_run("s", "e")});
-  EXPECT_THAT(accuracy_changes(table, table), IsEmpty());
+  EXPECT_THAT(changes_between(table, table), IsEmpty());
 }
 
 TEST(AccuracyChanges, OneMissedContactIsWorseAndOneLessIsBetter) {
@@ -48,7 +53,7 @@ TEST(AccuracyChanges, WorseAnywhereIsWorse) {
   results::Run before = perfect_run("s", "d"), after = before;
   before.levels[Level::kTriangle].spurious = 5;
   after.levels[Level::kTriangle].missed = 1;
-  const auto changes = accuracy_changes(results_of({before}), results_of({after}));
+  const auto changes = changes_between(results_of({before}), results_of({after}));
   EXPECT_EQ(changes.at(0).direction, Direction::kWorse);
 }
 
@@ -58,7 +63,7 @@ TEST(AccuracyChanges, WhatIsNotClaimedIsNamedAndNotHeldAgainstADetector) {
   before.levels[Level::kVertex].informative = true;
   results::Run after = before;
   after.levels[Level::kVertex].missed = 4;
-  const auto changes = accuracy_changes(results_of({before}), results_of({after}));
+  const auto changes = changes_between(results_of({before}), results_of({after}));
   EXPECT_EQ(changes.at(0).direction, Direction::kOther);
   EXPECT_THAT(changes.at(0).what, ElementsAre("vertex (informative) missed 0 -> 4"));
 }
@@ -85,13 +90,13 @@ TEST(AccuracyChanges, AsManyFramesEarlyAsLateIsNeitherBetterNorWorse) {
   results::Run early = perfect_run("s", "d"), late = early;
   early.geometry.late_frames = -2;
   late.geometry.late_frames = 2;
-  const RowChange later = accuracy_changes(results_of({early}), results_of({late})).at(0);
+  const RowChange later = changes_between(results_of({early}), results_of({late})).at(0);
   EXPECT_EQ(later.direction, Direction::kOther);
   EXPECT_THAT(later.what, ElementsAre("late_frames -2 -> 2"));
-  EXPECT_EQ(accuracy_changes(results_of({late}), results_of({early})).at(0).direction,
+  EXPECT_EQ(changes_between(results_of({late}), results_of({early})).at(0).direction,
             Direction::kOther);
   late.geometry.late_frames = 1;
-  EXPECT_EQ(accuracy_changes(results_of({early}), results_of({late})).at(0).direction,
+  EXPECT_EQ(changes_between(results_of({early}), results_of({late})).at(0).direction,
             Direction::kBetter);
 }
 
@@ -113,7 +118,7 @@ TEST(AccuracyChanges, StatusStandsForTheWholeRow) {
   EXPECT_EQ(change_from(row).direction, Direction::kBetter);
   results::Run absent = row;
   absent.status = results::Status::kAbsent;
-  EXPECT_EQ(accuracy_changes(results_of({absent}), results_of({row})).at(0).direction,
+  EXPECT_EQ(changes_between(results_of({absent}), results_of({row})).at(0).direction,
             Direction::kWorse);
 }
 
@@ -129,13 +134,13 @@ TEST(AccuracyChanges, OfAnotherTruthAreNeitherBetterNorWorse) {
   after.runs[0].levels[Level::kTriangle].truth = 20;
   after.runs[0].levels[Level::kTriangle].missed = 2;
   before.scenes = after.scenes = {test::scene_of("s", "0x1")};
-  EXPECT_EQ(accuracy_changes(before, after).at(0).direction, Direction::kWorse);
+  EXPECT_EQ(changes_between(before, after).at(0).direction, Direction::kWorse);
   after.scenes[0].truth_hash = "0x2";
-  EXPECT_EQ(accuracy_changes(before, after).at(0).direction, Direction::kOther);
-  EXPECT_THAT(accuracy_changes(before, after).at(0).what,
+  EXPECT_EQ(changes_between(before, after).at(0).direction, Direction::kOther);
+  EXPECT_THAT(changes_between(before, after).at(0).what,
               ElementsAre("triangle truth 10 -> 20", "triangle missed 0 -> 2"));
   after.runs[0].status = results::Status::kError;
-  EXPECT_EQ(accuracy_changes(before, after).at(0).direction, Direction::kWorse);
+  EXPECT_EQ(changes_between(before, after).at(0).direction, Direction::kWorse);
 }
 
 TEST(AccuracyChanges, MostImportantComesFirst) {
@@ -149,7 +154,7 @@ TEST(AccuracyChanges, MostImportantComesFirst) {
   after.runs[2].levels[Level::kTriangle].missed = 9;
   after.runs[3].status = results::Status::kError;
   std::vector<std::string> order;
-  for (const RowChange& change : accuracy_changes(before, after)) order.push_back(change.detector);
+  for (const RowChange& change : changes_between(before, after)) order.push_back(change.detector);
   EXPECT_THAT(order, ElementsAre("dead", "many", "one", "hash"));
 }
 
@@ -158,7 +163,7 @@ TEST(AccuracyChanges, RoundedTruthIsALevelOfItsOwn) {
   run.levels_rounded[Level::kTriangle].truth = 10;
   results::Run worse = run;
   worse.levels_rounded[Level::kTriangle].missed = 1;
-  const auto changes = accuracy_changes(results_of({run}), results_of({worse}));
+  const auto changes = changes_between(results_of({run}), results_of({worse}));
   EXPECT_THAT(changes.at(0).what, ElementsAre("triangle rounded missed 0 -> 1"));
 }
 

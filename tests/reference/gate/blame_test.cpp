@@ -22,7 +22,8 @@ Rule rule_about(const char* measure, const std::string& level = "") {
 TEST(WorstFrame, OfAFamilyNamesTheValue) {
   Json results = sample_results();
   row_of(results, "hard-gap", "exact")["per_frame"]["missed"] = {0, 1, 0};
-  const results::Results index = results::from_json(results);
+  const results::Results read = results::from_json(results);
+  const results::Index index(read);
   EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.run("hard-gap", "exact")),
             "frame 1 (1e-9)");
 }
@@ -30,27 +31,31 @@ TEST(WorstFrame, OfAFamilyNamesTheValue) {
 TEST(WorstFrame, OfEqualOnesIsTheFirst) {
   Json results = sample_results();
   row_of(results, "touch", "paper")["per_frame"]["missed"] = {0, 0, 4, 1, 4, 0, 0, 0};
-  const results::Results index = results::from_json(results);
+  const results::Results read = results::from_json(results);
+  const results::Index index(read);
   EXPECT_EQ(worst_frame(rule_about("missed"), index, *index.run("touch", "paper")), "frame 2");
 }
 
 TEST(WorstFrame, OfChangedContactsMayBeOneWithSpuriousOnes) {
   Json results = sample_results();
   row_of(results, "touch", "paper")["per_frame"]["missed"] = std::vector<int>(8, 0);
-  const results::Results index = results::from_json(results);
+  const results::Results read = results::from_json(results);
+  const results::Index index(read);
   EXPECT_EQ(worst_frame(rule_about("contact_hash"), index, *index.run("touch", "paper")),
             "frame 5");
 }
 
 TEST(WorstFrame, IsNotGuessedFromAnotherLevel) {
   const Json results = sample_results();
-  const results::Results index = results::from_json(results);
+  const results::Results read = results::from_json(results);
+  const results::Index index(read);
   EXPECT_EQ(worst_frame(rule_about("missed", "body"), index, *index.run("touch", "paper")), "");
 }
 
 std::string again(const Json& results, const std::string& scene, const std::string& detector,
                   const char* measure = "missed") {
-  const results::Results index = results::from_json(results);
+  const results::Results read = results::from_json(results);
+  const results::Index index(read);
   Rule rule = rule_about(measure);
   rule.reference = "ref";
   return rerun_command(rule, index, *index.run(scene, detector));

@@ -33,7 +33,7 @@ results::Results with_goals() {
 }
 
 TEST(GoalsTable, SaysWhatWasWantedMeasuredAndMet) {
-  const auto lines = goal_lines(with_goals());
+  const auto lines = goals_table(with_goals()).rows;
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_THAT(lines[0], ElementsAre("faster", "s", "d", ">= 12.0x", "11.9x [11.5, 12.5]", "no"));
   EXPECT_THAT(lines[1], ElementsAre("cheap", "s", "d", "<= 0.150 us", "0.125 us", "yes"));
@@ -44,7 +44,7 @@ TEST(GoalsTable, SaysWhatWasWantedMeasuredAndMet) {
 TEST(GoalsTable, IsInBothReportsOfSuitesThatHaveGoalsAlone) {
   EXPECT_THAT(markdown_report(with_goals()), HasSubstr("## Goals of the suite"));
   EXPECT_THAT(terminal_tables(with_goals(), false), HasSubstr("not measured: e: not here"));
-  EXPECT_THAT(goal_lines(sample()), IsEmpty());
+  EXPECT_THAT(goals_table(sample()).rows, IsEmpty());
   EXPECT_THAT(markdown_report(sample()), Not(HasSubstr("Goals")));
   EXPECT_THAT(terminal_tables(sample(), false), Not(HasSubstr("goals")));
 }

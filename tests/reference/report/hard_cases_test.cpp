@@ -6,6 +6,8 @@
 
 #include "core/types/check.h"
 #include "reference/report/markdown.h"
+#include "reference/report/page_data.h"
+#include "reference/report/stability_plot.h"
 #include "reference/report/terminal.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
@@ -22,7 +24,7 @@ using ::testing::Not;
 results::Results hard_results() { return results::from_json(test::hard_results()); }
 
 TEST(HardCases, AreCountedPerDetector) {
-  const auto lines = hard_lines(hard_results());
+  const auto lines = hard_sums(hard_results()).rows;
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_THAT(lines[0], ElementsAre("exact", "triangle", "2 of 2", "6 of 6", "0", "0", "0", "0",
                                     "0.250", "0.250 one"));
@@ -42,6 +44,82 @@ TEST(HardCases, NameTheFirstValueThatGoesWrong) {
                               "for: gaps. From: issue 7."));
 }
 
+std::vector<std::string> texts_of(const std::vector<HeatCell>& row) {
+  std::vector<std::string> texts;
+  for (const HeatCell& cell : row) texts.push_back(cell.text);
+  return texts;
+}
+
+TEST(HardCases, MatrixHasFamiliesAndDetectorsThatGoWrong) {
+  const HeatTable matrix = hard_matrix(hard_results());
+  EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "skin", "crash"));
+  ASSERT_EQ(matrix.rows.size(), 2u);
+  EXPECT_THAT(texts_of(matrix.rows[0]), ElementsAre("one", "3", "2", "error"));
+  EXPECT_THAT(texts_of(matrix.rows[1]), ElementsAre("two", "3", "1", "refused"));
+  const HeatCell &skin = matrix.rows[0][2], &crash = matrix.rows[0][3];
+  EXPECT_EQ(skin.share, 2.0 / 3);
+  EXPECT_EQ(skin.label, "skin in one: 2 of 3 cases wrong");
+  EXPECT_EQ(skin.kind, "");
+  EXPECT_EQ(crash.share, std::nullopt);
+  EXPECT_EQ(crash.label, "signal 11");
+  EXPECT_EQ(crash.kind, "error");
+}
+
+TEST(HardCases, MatrixTellsRightFromNotJudgedAndNotAsked) {
+  results::Results results = hard_results();
+  results.runs[0].per_frame.missed[0] = 1;  // "exact" goes wrong, in family "one" alone
+  HeatTable matrix = hard_matrix(results);
+  EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "exact", "skin", "crash"));
+  EXPECT_EQ(matrix.rows[1][2].text, "·");
+  EXPECT_EQ(matrix.rows[1][2].share, 0.0);
+  results.runs[3].per_frame.level.reset();
+  matrix = hard_matrix(results);
+  EXPECT_EQ(matrix.rows[1][2].text, "-");
+  EXPECT_EQ(matrix.rows[1][2].kind, "aside");
+  results.runs.erase(results.runs.begin() + 3);
+  EXPECT_EQ(hard_matrix(results).rows[1][2].text, "");
+}
+
+TEST(HardCases, SayWhoGoesWrongAndWhereToLook) {
+  const results::Results results = hard_results();
+  const std::vector<WrongFamily> families = wrong_families(results);
+  ASSERT_EQ(families.size(), 2u);
+  EXPECT_EQ(families[0].scene.id, "one");
+  EXPECT_EQ(families[0].aside, "2 detectors go wrong");
+  EXPECT_EQ(families[1].aside, "1 detector goes wrong");
+  EXPECT_EQ(families[0].sentence,
+            "Parameter: gap, m, 3 values from 0 on. Hard for: gaps. From: issue 7.");
+  ASSERT_EQ(families[0].shown.size(), 2u);
+  EXPECT_EQ(families[0].shown[0]->detector, "skin");
+  EXPECT_EQ(families[0].shown[0]->frame, 1u);
+  EXPECT_EQ(families[0].shown[0]->kind, "spurious");
+  EXPECT_EQ(families[0].shown[1]->frame, 2u) << "of the crash";
+  EXPECT_EQ(families[0].shown[1]->kind, "");
+  EXPECT_EQ(families[1].shown[0]->kind, "missed");
+  results::Results unknown = results;
+  unknown.runs[2].failed_frame.reset();
+  EXPECT_FALSE(wrong_families(unknown)[0].shown[1]);
+}
+
+TEST(HardCases, OfThePageAreThoseOfMarkdown) {
+  const results::Results results = hard_results();
+  const nlohmann::ordered_json hard = page_data(results, std::nullopt).at("hard");
+  EXPECT_EQ(hard.at("sums").at("rows"), nlohmann::ordered_json(hard_sums(results).rows));
+  EXPECT_EQ(hard.at("matrix").at("rows").at(1).dump(),
+            R"([{"text":"two"},{"text":"3"},{"text":"1","share":0.3333333333333333,)"
+            R"("label":"skin in two: 1 of 3 cases wrong"},)"
+            R"({"text":"refused","label":"far","kind":"error"}])");
+  const nlohmann::ordered_json& one = hard.at("families").at(0);
+  EXPECT_EQ(one.at("id"), "one");
+  EXPECT_EQ(one.at("title"), "Two | plates");
+  EXPECT_EQ(one.at("table").at("rows").at(0).at(2), "0 missed, 3 spurious of 0 true");
+  EXPECT_EQ(one.at("shown").dump(), R"([{"detector":"skin","frame":1,"kind":"spurious"},)"
+                                    R"({"detector":"crash","frame":2}])");
+  EXPECT_EQ(one.at("picture"), stability_plot(results.scenes[0], family_results(results)));
+  const results::Results sample = results::from_json(test::sample_results());
+  EXPECT_FALSE(page_data(sample, std::nullopt).contains("hard"));
+}
+
 TEST(HardCases, WithoutACaseThatIsToldAreRefused) {
   results::Results results = hard_results();
   results.runs[2].failed_frame = 3;
@@ -56,7 +134,7 @@ TEST(HardCases, StandInBothReportsInPlaceOfASectionPerFamily) {
   EXPECT_THAT(markdown_report(hard_results()), Not(HasSubstr("## one\n")));
   EXPECT_THAT(terminal_tables(hard_results(), false), HasSubstr("hard cases"));
   const results::Results sample = results::from_json(test::sample_results());
-  EXPECT_THAT(hard_lines(sample), IsEmpty());
+  EXPECT_THAT(hard_sums(sample).rows, IsEmpty());
   EXPECT_EQ(hard_cases_markdown(sample), "");
 }
 

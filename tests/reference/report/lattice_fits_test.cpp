@@ -15,7 +15,7 @@ using testing::HasSubstr;
 TEST(LatticeFits, TellsTheErrorOverAllFramesAndTheWorstOne) {
   results::Scene scene;
   scene.fits = {{"cloth", {0.003, 0.0, 0.004, 0.0}, {0.006, 0, 0.01, 0}}, {"box", {0.0}, {0.0}}};
-  const std::string table = fits_markdown(scene);
+  const std::string table = markdown_of(fits_table(scene));
   EXPECT_THAT(table, HasSubstr("| body | RMS | max | in frame |"));
   EXPECT_THAT(table, HasSubstr("| cloth | 2.50 | 10.0 | 2 |"));
   EXPECT_THAT(table, HasSubstr("| box | 0 | 0 | 0 |"));
@@ -32,7 +32,7 @@ TEST(LatticeFits, LineTellsTheWorstFrameOfTheWorstBody) {
 
 TEST(LatticeFits, AreInTheReportOfScenesThatHaveThemAlone) {
   results::Results results = results::from_json(test::sample_results());
-  EXPECT_EQ(fits_markdown(results.scenes[0]), "");
+  EXPECT_TRUE(fits_table(results.scenes[0]).rows.empty());
   EXPECT_THAT(markdown_report(results), testing::Not(HasSubstr("fitted")));
   EXPECT_THAT(terminal_tables(results, false), testing::Not(HasSubstr("fitted")));
   results.scenes[0].fits = {{"cloth", {0.001}, {0.002}}};

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "reference/report/speed_error.h"
 #include "reference/report/summary.h"
 #include "reference/results/results_json.h"
+#include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck {
@@ -14,27 +16,79 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json data_of(const Json& results) { return page_data(results::from_json(results), nullptr); }
+Json data_of(const Json& results) { return page_data(results::from_json(results), std::nullopt); }
 
-TEST(PageData, HoldsResultsAndReproductionAsTheyAre) {
+TEST(PageData, SaysWhatRanWhere) {
+  const Json page = data_of(test::sample_results());
+  EXPECT_EQ(page.at("run"), "`contactcheck run hello` on A CPU, 2 cores, AVX2.");
+  EXPECT_EQ(page.at("machine").at(3), "libraries: eigen 3.4.0, fcl 0.7.0");
+  EXPECT_TRUE(page.at("parts").empty());
+  EXPECT_EQ(page.at("detectors").size(), 5u);
+  EXPECT_EQ(page.at("options").size(), 5u);
+  EXPECT_TRUE(page.at("timed").get<bool>());
+  Json untimed = test::sample_results();
+  for (Json& run : untimed["runs"]) run.erase("time_ms");
+  EXPECT_FALSE(data_of(untimed).at("timed").get<bool>());
+}
+
+TEST(PageData, ScenesHaveTablesAndCosts) {
+  const Json scene = data_of(test::sample_results()).at("scenes").at(0);
+  EXPECT_EQ(scene.at("id"), "hello");
+  std::vector<std::string> titles;
+  for (const Json& table : scene.at("tables")) titles.push_back(table.at("title"));
+  EXPECT_THAT(titles,
+              testing::ElementsAre("Bodies", "Result", testing::StartsWith("Every level"),
+                                   testing::StartsWith("Which stage"), testing::StartsWith("Times"),
+                                   testing::StartsWith("Speed-ups")));
+  EXPECT_EQ(scene.at("disagreements").at(0).at("case"), "cases/0001.json");
+  const Json& costs = scene.at("cost").at("detectors");
+  EXPECT_EQ(costs.at(1).at("cold"), 0.5);
+  EXPECT_TRUE(costs.at(2).is_null());  // ended in an error
+}
+
+TEST(PageData, FamiliesAreNoScenes) {
+  const Json page = data_of(test::hard_results());
+  EXPECT_TRUE(page.at("scenes").empty());
+  ASSERT_EQ(page.at("families").size(), 2u);
+  EXPECT_EQ(page.at("families").at(0).at("id"), "one");
+  EXPECT_EQ(page.at("families").at(0).at("values").size(), 3u);
+}
+
+TEST(PageData, PaperIsWrittenOutWhereThereIsAReproduction) {
+  const PaperPart paper = {
+      .overview = {"Ratios", "", {{"scene", true, ""}, {"paper", false, ""}}, {{"s", "2.00x"}}},
+      .readings = {"`safe`: contains"},
+      .means_title = "Means",
+      .means = {"ours 1.5x"},
+      .scenes = {{"s", "`paper-s`", {"It does not pay."}, {{"Counts", "", {}, {}}}}},
+      .own_numbers = "1 check",
+      .checks = {"Checks", "", {{"in words", true, ""}}, {{"Below 0."}}}};
   const results::Results results = results::from_json(test::sample_results());
-  Json data = page_data(results, {{"schema", "contactcheck-reproduction/1"}});
-  EXPECT_EQ(data.at("reproduction").at("schema"), "contactcheck-reproduction/1");
-  data.erase("reproduction");
-  data.erase("report");
-  EXPECT_EQ(data, results::to_json(results));
-  EXPECT_FALSE(data_of(test::sample_results()).contains("reproduction"));
+  EXPECT_EQ(page_data(results, paper).at("paper"), Json::parse(R"({
+    "overview": {"title": "Ratios", "text": "",
+                 "columns": [{"title": "scene", "left": true}, {"title": "paper", "left": false}],
+                 "rows": [["s", "2.00x"]]},
+    "readings": ["`safe`: contains"],
+    "means_title": "Means",
+    "means": ["ours 1.5x"],
+    "scenes": [{"title": "s", "aside": "`paper-s`", "sentences": ["It does not pay."],
+                "tables": [{"title": "Counts", "text": "", "columns": [], "rows": []}]}],
+    "own_numbers": "1 check",
+    "checks": {"title": "Checks", "text": "", "columns": [{"title": "in words", "left": true}],
+               "rows": [["Below 0."]]}})"));
+  EXPECT_FALSE(data_of(test::sample_results()).contains("paper"));
 }
 
 TEST(PageData, SummaryIsThatOfTheOtherReports) {
-  const Json summary = data_of(test::sample_results()).at("report").at("summary");
-  EXPECT_EQ(summary.at("rows"), Json(summary_lines(results::from_json(test::sample_results()))));
+  const Json summary = data_of(test::sample_results()).at("summary");
+  EXPECT_EQ(summary.at("rows"),
+            Json(summary_table(results::from_json(test::sample_results())).rows));
   EXPECT_EQ(summary.at("columns").size(), summary.at("rows").at(0).size());
 }
 
 TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results::Results results = results::from_json(test::sample_results());
-  Json report = page_data(results, nullptr).at("report");
+  Json report = page_data(results, std::nullopt);
   EXPECT_TRUE(report.at("goals").at("rows").empty());
   EXPECT_TRUE(report.at("pairs").empty());
   EXPECT_FALSE(report.contains("known_defects"));
@@ -43,7 +97,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results.goals[0].met = false;
   results.scenes[0].pairs.emplace().per_kind = {{"sliver", {4, 1}}};
   results.known_defects.emplace().unlisted = {{"fcl-aabb", "gap", "missed", {"0", "1e-9"}}};
-  report = page_data(results, nullptr).at("report");
+  report = page_data(results, std::nullopt);
   EXPECT_EQ(report.at("goals").at("rows").size(), 2u);
   EXPECT_EQ(report.at("goals").at("rows").at(0).back(), "no");
   EXPECT_EQ(report.at("pairs").at(0).at("scene"), "hello");
@@ -58,7 +112,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
 }
 
 TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {
-  const Json claims = data_of(test::sample_results()).at("report").at("claims");
+  const Json claims = data_of(test::sample_results()).at("claims");
   ASSERT_EQ(claims.size(), 1u);
   EXPECT_EQ(claims.at(0).at("title"),
             "ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`");
@@ -66,51 +120,72 @@ TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {
   EXPECT_EQ(claims.at(0).at("rows").at(0).at(3), "4.00x [3.50, 4.25]");
 }
 
-TEST(PageData, SumsAreOfClaimedLevelsAlone) {
-  Json results = test::sample_results();
-  results["runs"][1]["levels"]["body"]["informative"] = true;
-  const Json report = data_of(results).at("report");
-  EXPECT_EQ(report.at("levels"), Json({"body", "triangle"}));
-  EXPECT_EQ(report.at("sums").at("triangle").at(1).at("spurious"), 2);
-  EXPECT_EQ(report.at("sums").at("finest").at(1), report.at("sums").at("triangle").at(1));
-  EXPECT_EQ(report.at("sums").at("body").at(0).at("hit"), 13);
-  EXPECT_TRUE(report.at("sums").at("body").at(1).is_null());
-}
-
-TEST(PageData, SumsOfDifferentLevelsAreNone) {
-  Json results = test::sample_results();
-  Json scene = results["scenes"][0], run = results["runs"][0];
-  scene["id"] = run["scene"] = "second";
-  run["per_frame"]["level"] = "body";
-  results["scenes"].push_back(scene);
-  results["runs"].push_back(run);
-  const Json sums = data_of(results).at("report").at("sums");
-  EXPECT_EQ(sums.at("finest").at(0), "levels differ");
-  EXPECT_EQ(sums.at("body").at(0).at("truth"), 26);
+TEST(PageData, LevelsBeginWithTheFinest) {
+  const Json levels = data_of(test::sample_results()).at("levels");
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels.at(0).at("level"), "finest");
+  EXPECT_EQ(levels.at(2).at("level"), "triangle");
+  const Json& cell = levels.at(2).at("recall").at("rows").at(1).at(1);
+  EXPECT_EQ(cell.at("text"), "0.99999");
+  EXPECT_EQ(cell.at("share"), 1.0 / 200'000);
+  EXPECT_EQ(levels.at(0).at("recall").at("rows").at(2).at(1).at("kind"), "error");
 }
 
 TEST(PageData, EveryChoiceOfTheChartHasItsPoints) {
-  const Json charts = data_of(test::sample_results()).at("report").at("speed_error");
-  EXPECT_EQ(charts.at("scenes"), Json({"scene hello"}));
+  const Json report = data_of(test::sample_results());
+  EXPECT_EQ(report.at("choices"), Json({"scene hello"}));
+  const Json& charts = report.at("speed_error");
   const Json& finest = charts.at("charts").at(0).at("finest");
   for (const char* choice :
        {"worse cold", "worse hot", "missed cold", "missed hot", "spurious cold", "spurious hot"})
     EXPECT_EQ(finest.at(choice).at("points").size(), 2u) << choice;
   // Place of the detector, milliseconds, error, is it on the front?
   EXPECT_EQ(finest.at("missed hot").at("points").at(1), Json({1, 0.25, 1.0 / 200'000, true}));
-  EXPECT_EQ(finest.at("counts").at(1).at("reported"), 200'001);
+  EXPECT_EQ(finest.at("missed hot").at("rows").at(1).at(6), "200001");
   EXPECT_THAT(finest.at("worse cold").at("left_out").get<std::string>(),
               testing::StartsWith("Not in the chart: fcl-obbrss"));
   const Json& body = charts.at("charts").at(0).at("body").at("worse cold");
   EXPECT_EQ(body.at("points").at(1), Json({1, 0.5, 2.0 / 15, true}));
 }
 
+TEST(PageData, StagesTimesAndErrorsStandThereForEveryChoice) {
+  Json results = test::sample_results();
+  results["runs"][0]["geometry"].update(
+      {{"depth_kind", "convex-pair"},
+       {"depth_judged", 4},
+       {"depth_error_max", 0.5},
+       {"depth_error_mean", 0.25},
+       {"depth_error_histogram", {{{"from", 0.25}, {"below", 1.0}, {"count", 3}}}}});
+  const Json report = data_of(results);
+  const std::size_t choices = report.at("choices").size();
+  for (const char* part : {"stages", "times", "graded"})
+    EXPECT_EQ(report.at(part).size(), choices) << part;
+  const Json& stages = report.at("stages").at(0);
+  EXPECT_EQ(stages.at("bars"),
+            Json::array({{"ffd-aabb-sphere2+tri", "hash", 1, 1.0 / 200'000, "< 0.01 %"}}));
+  EXPECT_EQ(stages.at("stages"), Json::array({"hash"}));
+  EXPECT_EQ(stages.at("sentences"), Json::array({"ffd-aabb-sphere2+tri loses 1: 1 in hash."}));
+  EXPECT_EQ(stages.at("without_loss"), "");
+  EXPECT_EQ(stages.at("table").at("rows").size(), 1u);
+  const Json& times = report.at("times").at(0);
+  EXPECT_EQ(times.at("cold").at("bars").at(0),
+            Json({"ffd-aabb-sphere2+tri", nullptr, 0.125, 0.375, 0.5, 0.5}));
+  EXPECT_EQ(times.at("hot").at("bars").at(1), Json({"fcl-aabb", 0.25, 0.5, 0.75, 1.5, 1.25}));
+  EXPECT_EQ(times.at("hot").at("table").at("rows").size(), 2u);
+  const Json& depth = report.at("graded").at(0).at(0);
+  EXPECT_EQ(depth.at("title"), "Depth, convex-pair");
+  EXPECT_EQ(
+      depth.at("rows").dump(),
+      R"([["fcl-aabb","convex-pair",4,250.0,null,500.0,[[250.0,500.0,3,0.75,"75.0 %"]],[]]])");
+  EXPECT_EQ(depth.at("always_zero"), "");
+}
+
 TEST(PageData, LevelThatNobodyClaimsHasNoChart) {
   Json results = test::sample_results();
   for (Json& run : results["runs"])
     if (run.contains("levels")) run["levels"].erase("body");
-  const Json report = data_of(results).at("report");
-  EXPECT_EQ(report.at("levels"), Json({"triangle"}));
+  const Json report = data_of(results);
+  EXPECT_EQ(report.at("levels").size(), 2u);
   EXPECT_FALSE(report.at("speed_error").at("charts").at(0).contains("body"));
 }
 
@@ -118,7 +193,7 @@ TEST(SpeedErrorCharts, LevelLeavesOutWhoDoesNotClaimIt) {
   Json json = test::sample_results();
   json["runs"][1]["levels"].erase("body");
   const results::Results results = results::from_json(json);
-  const SpeedError chart = SpeedErrorCharts(results).chart({.level = Level::kBody});
+  const SpeedError chart = SpeedErrorCharts(results::Index(results)).chart({.level = Level::kBody});
   ASSERT_EQ(chart.points.size(), 1u);
   EXPECT_EQ(chart.points[0].detector, "fcl-aabb");
   EXPECT_THAT(left_out_sentence(chart),

@@ -46,9 +46,13 @@ results::Results results_of(std::vector<Json> runs) {
   return results::from_json(scene_json_of(std::move(runs)));
 }
 
-std::string scene_table_of(std::string (*table)(const RunList&), std::vector<Json> runs) {
+// "" where the scene has no such table.
+std::string detail_of(const std::string& title, std::vector<Json> runs) {
   const results::Results results = results_of(std::move(runs));
-  return table(runs_of_scene(results, "hello"));
+  const results::Index index(results);
+  for (const TitledTable& table : scene_report(index, results.scenes[0]).details)
+    if (table.title.starts_with(title)) return markdown_of(table);
+  return "";
 }
 
 Json renamed(Json run, const char* detector) {
@@ -57,7 +61,7 @@ Json renamed(Json run, const char* detector) {
 }
 
 TEST(LevelsTable, TellsDoublesFromValuesFedAndClaimsFromWhatIsInformative) {
-  const std::string table = scene_table_of(levels_table, {near_run()});
+  const std::string table = detail_of("Every level", {near_run()});
   EXPECT_THAT(
       table,
       HasSubstr("| bullet-vf | near (below 2.00 mm) | doubles | 50 | 49 | 1 | 0 | 0.98000 | 0 |"));
@@ -76,7 +80,7 @@ TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
     (*run)["memory_bytes"] = 1048576;
   }
   with_clock["time_ms"]["cold"]["self_reported"] = 2.25;
-  const std::string table = scene_table_of(times_table, {with_clock, without});
+  const std::string table = detail_of("Times", {with_clock, without});
   EXPECT_THAT(table, HasSubstr("| contact frame | own clock | frame, hot |"));
   EXPECT_THAT(table,
               HasSubstr("| bullet-vf | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 2.25 |"));
@@ -85,7 +89,7 @@ TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
 
 TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
   EXPECT_THAT(
-      scene_table_of(graded_table, {near_run()}),
+      detail_of("Graded errors", {near_run()}),
       HasSubstr("| bullet-vf | - | - | - | vertex-surface | 4 | 4.00 / 1.00 / 3.00 | 3 | 180 "
                 "/ 90.0 / 180 |"));
 }
@@ -93,40 +97,59 @@ TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
 TEST(GradedTable, IsEmptyForDetectorsWithoutContourAndDepth) {
   Json run = near_run();
   run["geometry"] = {{"depth_kind", "none"}};
-  EXPECT_EQ(scene_table_of(graded_table, {run}), "");
+  EXPECT_EQ(detail_of("Graded errors", {run}), "");
 }
 
 TEST(StagesTable, ShowsWhatAStageVisited) {
-  EXPECT_THAT(scene_table_of(stages_table, {near_run()}),
+  EXPECT_THAT(detail_of("Which stage", {near_run()}),
               HasSubstr("| bullet-vf | tree | triangle pairs | 900 | 30 | 77 node pairs | 1 |"));
 }
 
 TEST(CountersTable, GivesMeansPerFrameOfDetectorsThatCount) {
   Json run = near_run();
-  EXPECT_EQ(scene_table_of(counters_table, {run}), "");
+  EXPECT_EQ(detail_of("Work per frame", {run}), "");
   run["frames"] = 50;
   run["counters"] = {{"leaves_mapped", 600}, {"exact_tests", 0}};
-  EXPECT_THAT(scene_table_of(counters_table, {run}),
+  EXPECT_THAT(detail_of("Work per frame", {run}),
               HasSubstr("| bullet-vf | 12.0 leaves mapped, 0 exact tests |"));
 }
 
 TEST(SpeedupsTable, HasTheOptionsOfBothSides) {
   EXPECT_THAT(
-      scene_table_of(speedups_table, {near_run()}),
+      detail_of("Speed-ups", {near_run()}),
       HasSubstr("| bullet-vf | margin=0.001, scale=0 | body | fcl-aabb | depth=deep | 2.00x "
                 "[1.50, 2.50] | 3.00x [2.50, 3.50] | - | - |"));
 }
 
 TEST(SpeedupsTable, LeavesOutTheReferenceAgainstItself) {
-  EXPECT_EQ(scene_table_of(speedups_table, {renamed(near_run(), "fcl-aabb")}), "");
+  EXPECT_EQ(detail_of("Speed-ups", {renamed(near_run(), "fcl-aabb")}), "");
 }
 
-TEST(SceneTables, LeaveOutRunsThatAreNotOk) {
+TEST(SceneReport, HasNoDetailsOfRunsThatAreNotOk) {
   const Json broken = {{"scene", "hello"}, {"detector", "x"}, {"status", "error"}};
-  EXPECT_EQ(scene_table_of(levels_table, {broken}) + scene_table_of(graded_table, {broken}) +
-                scene_table_of(stages_table, {broken}) + scene_table_of(times_table, {broken}) +
-                scene_table_of(speedups_table, {broken}),
-            "");
+  const results::Results results = results_of({broken});
+  const results::Index index(results);
+  const SceneReport report = scene_report(index, results.scenes[0]);
+  EXPECT_TRUE(report.details.empty());
+  ASSERT_EQ(report.result.rows.size(), 1u);
+  EXPECT_EQ(report.result.rows[0][1], "error");
+}
+
+TEST(SceneReport, TellsTheTruthOfEachLevelAndWhatElseAReaderMustKnow) {
+  results::Results results = results_of({near_run()});
+  results.scenes[0].truth = {{Level::kBody, std::uint64_t{13}},
+                             {Level::kVertex, "not judged: open"}};
+  results.runs[0].float_environment = {"flush-to-zero was on"};
+  results.runs[0].not_judged = {{Level::kTriangle, "is not claimed"}};
+  results.disagreements = {{"hello", "bullet-vf", "near", "missed", "cases/1.json", 17},
+                           {"other", "bullet-vf", "near", "missed", "cases/2.json", 1}};
+  const results::Index index(results);
+  const SceneReport report = scene_report(index, results.scenes[0]);
+  EXPECT_EQ(report.truth, "True contacts, summed over frames: body 13, vertex not judged: open.");
+  EXPECT_EQ(report.notes, (std::vector<std::string>{"bullet-vf: flush-to-zero was on",
+                                                    "bullet-vf: level triangle is not claimed"}));
+  ASSERT_EQ(report.disagreements.size(), 1u);
+  EXPECT_EQ(report.disagreements[0]->frame, 17u);
 }
 
 TEST(SemanticsText, NamesEveryClaim) {

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/report/run_row.h"
 #include "reference/results/results_json.h"
 
 namespace contactcheck {
@@ -29,7 +28,11 @@ Json run_of(const char* detector) {
 std::string sweep_tables(const Json& scene, std::vector<Json> runs) {
   const results::Results results =
       results::from_json({{"scenes", Json::array({scene})}, {"runs", std::move(runs)}});
-  return separation_tables(results.scenes[0], runs_of_scene(results, ""));
+  const results::Index index(results);
+  std::string out;
+  for (const TitledTable& table : separation_tables(results.scenes[0], index.runs_of("")))
+    out += markdown_of(table);
+  return out;
 }
 
 TEST(SeparationTables, HaveMediansOfTimesAndSumsOfErrorsBySeparation) {

@@ -12,7 +12,7 @@ using test::sample_results;
 using testing::ElementsAre;
 
 auto summary_of(const nlohmann::ordered_json& results) {
-  return summary_lines(results::from_json(results));
+  return summary_table(results::from_json(results)).rows;
 }
 
 nlohmann::ordered_json two_scenes_in_order() {
@@ -28,8 +28,8 @@ nlohmann::ordered_json two_scenes_in_order() {
 }
 
 TEST(Summary, HasOneCellPerColumn) {
-  for (const auto& line : summary_of(sample_results()))
-    EXPECT_EQ(line.size(), summary_columns().size());
+  const TitledTable summary = summary_table(results::from_json(sample_results()));
+  for (const auto& line : summary.rows) EXPECT_EQ(line.size(), summary.columns.size());
 }
 
 TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {

@@ -11,6 +11,7 @@ namespace {
 
 using test::sample_paper_text;
 using test::tables_of;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -131,6 +132,26 @@ TEST(PaperJson, IsThisDocument) {
     }
   ]
 })");
+}
+
+TEST(PaperChecks, AreTheFiguresOfTheMarkdownEachWithItsSentence) {
+  const TitledTable checks = checks_table(paper_json(tables_of(sample_paper_text()), hand_made()));
+  EXPECT_EQ(checks.title, "Checks of the paper's own numbers");
+  ASSERT_EQ(checks.columns.size(), 8u);
+  EXPECT_EQ(checks.columns.back().title, "in words");
+  EXPECT_THAT(
+      checks.rows,
+      ElementsAre(ElementsAre("rest", "Table 3", "s|t", "two", "-1.500 ms", "-", "does not agree",
+                              "It is too small."),
+                  ElementsAre("gain", "Table 3", "-", "-", "34.5 %", "34.5", "agrees", "It fits."),
+                  ElementsAre("ratio", "Table 1", "-", "-", "2.000", "-", "-", "It is a figure.")));
+}
+
+TEST(PaperChecks, OwnNumbersNameThePaperAndCountContradictions) {
+  const PaperTables tables = tables_of(sample_paper_text());
+  EXPECT_EQ(own_numbers(paper_json(tables, hand_made())),
+            "Doe, Roe: A title, A journal 12, 2001, doi 10.1/x. 3 checks by arithmetic alone; 1 "
+            "contradict a claim or cannot be.");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
@@ -16,11 +17,21 @@ using test::Json;
 using test::paper_of_our_methods;
 using test::sample_closed_loop;
 using test::sample_reproduction_results;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 std::string markdown_of(const Json& results) {
   return reproduction_markdown(reproduce(results::from_json(results), paper_of_our_methods()));
+}
+
+// As the command writes it.
+Json reproduction_of(const Json& results) {
+  const PaperTables tables = paper_of_our_methods();
+  Json out = reproduce(results::from_json(results), tables);
+  out["paper"] = paper_json(tables, check_paper(tables));
+  return out;
 }
 
 std::string terminal_of(const Json& results) {
@@ -140,6 +151,80 @@ TEST(ReproductionMarkdown, OfNothingIsTheIntroductionAlone) {
   Json results = sample_reproduction_results();
   results["scenes"] = Json::array();
   EXPECT_THAT(markdown_of(results), testing::EndsWith("only ratios compare.\n\n"));
+}
+
+TEST(PaperPartOfThePage, OverviewHasARowPerSceneWithThePapersRatiosBesideOurs) {
+  const TitledTable overview = paper_part(reproduction_of(sample_reproduction_results())).overview;
+  EXPECT_EQ(overview.title, "Two levels of spheres over one: the paper's ratios beside ours");
+  ASSERT_EQ(overview.columns.size(), 9u);
+  EXPECT_EQ(overview.columns[1].title, "collision test: paper");
+  EXPECT_EQ(overview.columns[6].title, "ours, safe");
+  EXPECT_THAT(overview.rows,
+              ElementsAre(ElementsAre("s", "2.00x", "1.50x [1.25, 1.75]", "3.00x [2.50, 3.50]", "-",
+                                      "1.500x", "1.25x [1.12, 1.38]", "1.67x [1.50, 1.83]", "-")));
+}
+
+// What the page says of the sample's one scene, and of all scenes.
+TEST(PaperPartOfThePage, SentencesAreThoseOfTheMarkdown) {
+  const Json reproduction = reproduction_of(sample_reproduction_results());
+  const PaperPart part = paper_part(reproduction);
+  const std::string markdown = reproduction_markdown(reproduction);
+  EXPECT_EQ(part.readings.size(), kReadings.size());
+  for (const std::string& sentence : part.readings)
+    EXPECT_THAT(markdown, HasSubstr("- " + sentence + "\n"));
+  EXPECT_THAT(markdown, HasSubstr("## " + part.means_title + "\n"));
+  EXPECT_EQ(part.means.size(), 2u);
+  for (const std::string& sentence : part.means)
+    EXPECT_THAT(markdown, HasSubstr("- " + sentence + "\n"));
+  ASSERT_EQ(part.scenes.size(), 1u);
+  EXPECT_EQ(part.scenes[0].title, "s");
+  EXPECT_EQ(part.scenes[0].aside, "`paper-s`, 60 frames, 41 with contact");
+  EXPECT_EQ(part.scenes[0].sentences.size(), 3u) << "two where ours falls short, the frame rate";
+  for (const std::string& sentence : part.scenes[0].sentences)
+    EXPECT_THAT(markdown, HasSubstr(sentence + "\n"));
+}
+
+TEST(PaperPartOfThePage, SceneHasItsFourTablesUnderTitles) {
+  Json results = sample_reproduction_results();
+  results["runs"][1]["closed_loop"] = sample_closed_loop();
+  const std::vector<TitledTable> tables = paper_part(reproduction_of(results)).scenes.at(0).tables;
+  ASSERT_EQ(tables.size(), 4u);
+  for (const TitledTable& table : tables) {
+    EXPECT_FALSE(table.title.empty());
+    EXPECT_FALSE(table.rows.empty()) << table.title;
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.title;
+  }
+  EXPECT_EQ(tables[1].title,
+            "Milliseconds per whole step, timed in lockstep from the same states, cold");
+  EXPECT_THAT(tables[2].rows.at(3), ElementsAre("cells", "7", "6", "-14.29 %"));
+  EXPECT_THAT(tables[3].text, HasSubstr("Hover at rest is the true distance"));
+  EXPECT_EQ(tables[3].rows.at(0).back(), "body 1, cell 0.50000");
+}
+
+TEST(PaperPartOfThePage, HasThePapersOwnNumbersAndNoMeansOfNothing) {
+  Json results = sample_reproduction_results();
+  results["scenes"] = Json::array();
+  const PaperPart part = paper_part(reproduction_of(results));
+  EXPECT_EQ(part.checks.rows.size(), check_paper(paper_of_our_methods()).size());
+  EXPECT_THAT(part.own_numbers, HasSubstr("; 0 contradict a claim or cannot be."));
+  EXPECT_THAT(part.means, IsEmpty());
+  EXPECT_EQ(part.means_title, "");
+  EXPECT_THAT(part.scenes, IsEmpty());
+  EXPECT_THAT(part.overview.rows, IsEmpty());
+}
+
+TEST(PaperPartOfThePage, RefusesWhatIsNoReproduction) {
+  const Json whole = reproduction_of(sample_reproduction_results());
+  for (const char* key : {"scenes", "means", "paper"}) {
+    Json without = whole;
+    without.erase(key);
+    EXPECT_THROW(paper_part(without), Json::exception) << key;
+    without[key] = "a word";
+    EXPECT_THROW(paper_part(without), Json::exception) << key;
+  }
+  Json older = whole;
+  older["scenes"][0]["ratios"][1].erase("exact");
+  EXPECT_THROW(paper_part(older), Json::exception);
 }
 
 TEST(ReproductionTerminal, HasTwoLinesPerScene) {

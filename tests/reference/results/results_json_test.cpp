@@ -47,17 +47,13 @@ TEST(SparseFile, WithLessThanARunWritesGetsDefaultsAndLosesNothing) {
   }
 }
 
-TEST(Results, FindsScenesAndRuns) {
+TEST(FromJson, KeepsWhatARowSays) {
   const Results results = from_json(read(CONTACTCHECK_KEPT_RESULTS "/default.json"));
-  ASSERT_NE(results.scene("contact"), nullptr);
-  EXPECT_EQ(results.scene("contact")->id, "contact");
-  EXPECT_EQ(results.scene("nowhere"), nullptr);
-  const auto* const run = results.run("contact", "ffd-lazy");
+  const auto* const run = Index(results).run("contact", "ffd-lazy");
   ASSERT_NE(run, nullptr);
   EXPECT_EQ(run->levels.at(Level::kTriangle).missed, 0u);
   EXPECT_EQ(run->times.front().question, Question::kTriangles);
   EXPECT_GT(run->speedup.at(Question::kTriangles).at("fcl-aabb").cold.value, 1.0);
-  EXPECT_EQ(results.run("contact", "nobody"), nullptr);
 }
 
 TEST(FromJson, RefusesWhatIsOfAnotherTypeOrUnknown) {

@@ -5,6 +5,8 @@
 namespace contactcheck::results {
 namespace {
 
+using testing::ElementsAre;
+using testing::IsEmpty;
 using testing::Optional;
 
 LevelCounts rated(LevelCounts counts) {
@@ -56,6 +58,79 @@ TEST(Status, NamesAreTheWordsOfTheDesign) {
 TEST(Hex, HasSixteenDigits) {
   EXPECT_EQ(hex(0), "0x0000000000000000");
   EXPECT_EQ(hex(0xfedcba9876543210), "0xfedcba9876543210");
+}
+
+Scene scene(const std::string& id) {
+  Scene out;
+  out.id = id;
+  return out;
+}
+
+Run row(const std::string& scene, const std::string& detector, Status status = Status::kOk) {
+  Run out;
+  out.scene = scene;
+  out.detector = detector;
+  out.status = status;
+  return out;
+}
+
+/// Rows of the two scenes stand between one another, and one row's scene is not described.
+struct Indexed : testing::Test {
+  Indexed() {
+    results.scenes = {scene("first"), scene("second")};
+    results.runs = {row("second", "b"), row("first", "c", Status::kError), row("second", "a"),
+                    row("first", "a"), row("elsewhere", "b", Status::kAbsent)};
+  }
+
+  Results results;
+};
+
+TEST_F(Indexed, SceneIsFoundByItsId) {
+  const Index index(results);
+  EXPECT_EQ(&index.results(), &results);
+  EXPECT_EQ(index.scene("second"), &results.scenes[1]);
+  EXPECT_EQ(index.scene("elsewhere"), nullptr) << "a row names it, but it is not described";
+  EXPECT_EQ(index.scene(""), nullptr);
+}
+
+TEST_F(Indexed, RowIsFoundByItsSceneAndDetector) {
+  const Index index(results);
+  EXPECT_EQ(index.run("first", "a"), &results.runs[3]);
+  EXPECT_EQ(index.run("second", "a"), &results.runs[2]);
+  EXPECT_EQ(index.run("elsewhere", "b"), &results.runs[4]);
+  EXPECT_EQ(index.run("first", "b"), nullptr) << "both are known, but not together";
+  EXPECT_EQ(index.run("first", "nobody"), nullptr);
+  EXPECT_EQ(index.run("nowhere", "a"), nullptr);
+}
+
+TEST_F(Indexed, RowThatIsNotOkIsNoOkRun) {
+  const Index index(results);
+  EXPECT_EQ(index.run("first", "c"), &results.runs[1]);
+  EXPECT_EQ(index.ok_run("first", "c"), nullptr);
+  EXPECT_EQ(index.ok_run("elsewhere", "b"), nullptr);
+  EXPECT_EQ(index.ok_run("first", "a"), &results.runs[3]);
+  EXPECT_EQ(index.ok_run("first", "nobody"), nullptr);
+}
+
+TEST_F(Indexed, RowsOfASceneAreInTheOrderOfTheFile) {
+  const Index index(results);
+  EXPECT_THAT(index.runs_of("first"), ElementsAre(&results.runs[1], &results.runs[3]));
+  EXPECT_THAT(index.runs_of("second"), ElementsAre(&results.runs[0], &results.runs[2]));
+  EXPECT_THAT(index.runs_of("nowhere"), IsEmpty());
+}
+
+TEST_F(Indexed, DetectorsAreThereOnceByTheirFirstRows) {
+  EXPECT_THAT(Index(results).detectors(), ElementsAre("b", "c", "a"));
+}
+
+// The first counts: a file may name a scene or a row twice.
+TEST_F(Indexed, OfRowsOfOneNameTheFirstIsFound) {
+  results.scenes.push_back(scene("first"));
+  results.runs.push_back(row("first", "a", Status::kError));
+  const Index index(results);
+  EXPECT_EQ(index.scene("first"), &results.scenes[0]);
+  EXPECT_EQ(index.ok_run("first", "a"), &results.runs[3]);
+  EXPECT_EQ(index.runs_of("first").size(), 3u);
 }
 
 }  // namespace

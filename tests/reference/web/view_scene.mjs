@@ -99,42 +99,6 @@ function sceneHeader(arrays) {
   };
 }
 
-// The same once more as a family of hard cases: frames are cases.
-const kFamily = {
-  parameter: "height of the tent, m",
-  values: ["one", "a quarter below", "a half"],
-  origin: "by hand",
-  stresses: "views",
-  true_pairs: [0, 2, 0],
-};
-const kFamilyRun = {
-  scene: "cases",
-  detector: "half-blind",
-  status: "ok",
-  message: "",
-  frames: 3,
-  contact_frames: 1,
-  semantics: {},
-  options: {},
-  per_frame: {level: "triangle", truth: [0, 2, 0], missed: [0, 1, 0], spurious: [0, 0, 1]},
-  levels: {
-    triangle: {
-      truth: 2,
-      reported: 2,
-      hit: 1,
-      missed: 1,
-      spurious: 1,
-      recall: 0.5,
-      spurious_rate: 0.5,
-    },
-  },
-  geometry: {},
-  stages: [],
-  time_ms: {prepare: 1},
-  memory_bytes: 0,
-  contact_hash: "0x0",
-};
-
 function container() {
   const arrays = new Arrays(),
     seeded = sceneHeader(arrays);
@@ -152,51 +116,87 @@ function container() {
 
 const packed = (bytes) => deflateSync(bytes).toString("base64");
 
+// What the program computes of it, as far as tests look at it.
+const kHard = {
+  sums: {title: "", text: "", columns: [], rows: []},
+  matrix: {columns: ["family"], rows: []},
+  families: [
+    {
+      id: "cases",
+      title: "A tent at three heights",
+      aside: "1 detector goes wrong",
+      sentence: "By hand.",
+      table: {
+        title: "",
+        text: "",
+        columns: [
+          {title: "detector", left: true},
+          {title: "first wrong at", left: true},
+        ],
+        rows: [["half-blind", "a quarter below"]],
+      },
+      shown: [{detector: "half-blind", frame: 1, kind: "missed"}],
+      picture:
+        '<svg xmlns="http://www.w3.org/2000/svg" width="50" height="25">' +
+        '<g data-detector="half-blind" data-frame="2"><title>half-blind at a half</title>' +
+        '<rect width="22" height="22"/></g></svg>',
+    },
+  ],
+};
+
 const kNoTable = {title: "", text: "", columns: [], rows: []};
 
 /** @param template the bundler's page.html */
 export function reportOf(template) {
-  const results = {
-    schema: "contactcheck-results/1",
+  const page = {
     version: "0",
-    command: "by hand",
-    machine: {},
-    libraries: {},
+    title: "By hand",
+    findings: [],
+    run: "`by hand`",
+    parts: [],
+    machine: [],
+    detectors: ["half-blind"],
+    options: ["-"],
+    groups: [8],
+    group_names: [],
+    timed: false,
+    fastest: [],
+    references: [],
+    summary: kNoTable,
+    claimed: kNoTable,
+    claims: [],
+    goals: kNoTable,
+    pairs: [],
+    hard: kHard,
+    levels: [{level: "finest", recall: {columns: ["detector"], rows: []}}],
+    result_columns: [],
+    choices: [],
+    stages: [],
+    times: [],
+    graded: [],
+    speed_error: {columns: [], first: 0, charts: []},
     scenes: [
       {
         id: "seeded",
         title: "A tent comes down through a square",
         frames: 3,
-        contact_frames: 1,
-        bodies: [],
+        sentence: "",
+        tables: [],
+        notes: [],
+        disagreements: [],
+        cost: {series: "seeded", triangles: 4, truth: [], distance: [], detectors: [null]},
       },
+    ],
+    // The same once more as a family of hard cases: frames are cases.
+    families: [
       {
         id: "cases",
         title: "A tent at three heights",
-        frames: 3,
-        contact_frames: 1,
-        truth: {},
-        bodies: [],
-        family: kFamily,
+        values: ["one", "a quarter below", "a half"],
       },
     ],
-    runs: [kFamilyRun],
-    disagreements: [],
-    report: {
-      title: "By hand",
-      findings: [],
-      fastest: [],
-      summary: kNoTable,
-      claims: [],
-      goals: kNoTable,
-      pairs: [],
-      levels: ["triangle"],
-      sums: {finest: [null], triangle: [null]},
-      speed_error: {detectors: ["half-blind"], scenes: [], first: 0, charts: []},
-    },
   };
   return template
-    .replace("@results@", packed(Buffer.from(JSON.stringify(results))))
-    .replace("@view@", packed(container()))
-    .replace("@reproduction@", "");
+    .replace("@page@", packed(Buffer.from(JSON.stringify(page))))
+    .replace("@view@", packed(container()));
 }

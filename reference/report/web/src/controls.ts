@@ -15,6 +15,17 @@ export function select(
   return h("label", {class: "control"}, h("span", {}, label), box);
 }
 
+/** One of `words`, by its place. */
+export function selectPlace(
+  label: string,
+  words: string[],
+  place: number,
+  onChange: (place: number) => void,
+): HTMLElement {
+  const options = words.map((text, i): Option => [String(i), text]);
+  return select(label, options, String(place), (value) => onChange(Number(value)));
+}
+
 let groups = 0;
 
 export function radios(

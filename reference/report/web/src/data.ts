@@ -1,8 +1,5 @@
-// What the program put into the page: results.json (with the tables of `contactcheck reproduce`,
-// where there are such), and the scenes for the 3D view.
-import type {Results} from "./results";
-
-export type {Results, Run, Scene} from "./results";
+// What the program put into the page: what to show, and the scenes for the 3D view.
+import type {Page} from "./page";
 
 /** Inflates what html.cpp deflated; an empty text is nothing. */
 async function unpacked(id: string): Promise<ArrayBuffer | null> {
@@ -15,10 +12,10 @@ async function unpacked(id: string): Promise<ArrayBuffer | null> {
   return new Response(stream).arrayBuffer();
 }
 
-export async function readResults(): Promise<Results> {
-  const bytes = await unpacked("contactcheck-results");
-  if (!bytes) throw new Error("the page holds no results");
-  return JSON.parse(new TextDecoder().decode(bytes)) as Results;
+export async function readPage(): Promise<Page> {
+  const bytes = await unpacked("contactcheck-page");
+  if (!bytes) throw new Error("the page holds nothing to show");
+  return JSON.parse(new TextDecoder().decode(bytes)) as Page;
 }
 
 /** The bytes described in reference/view/view_bytes.h; null when the report has no recordings. */

@@ -1,5 +1,6 @@
 // Elements by name. Names of scenes and detectors are untrusted: children that are texts become text
-// nodes, and nothing in this page is parsed as HTML.
+// nodes, and nothing in this page is parsed as HTML but the pictures that the program drew, in which
+// it has escaped them.
 
 export type Child = Node | string | null | undefined | false;
 type Value = string | number | boolean | null | undefined | ((event: Event) => void);

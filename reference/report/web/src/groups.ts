@@ -1,32 +1,32 @@
-// Detectors of one family have one colour and, in legends, one name. The colours (style.css) are
-// Okabe and Ito's, which all kinds of eyes tell apart.
+// Detectors of one group have one colour and, in legends, one name.
 
 import type * as Plot from "@observablehq/plot";
+import type {Page} from "./page";
 
-export interface Group {
-  name: string;
-  colour: string;
-}
-
-const kGroups: [RegExp, Group][] = [
-  [/^(ffd-lazy|full-refit)/, {name: "lazy and refitted tree", colour: "var(--black)"}],
-  [/^ffd-[^:]*\+tri/, {name: "FFD with exact triangle test (+tri)", colour: "var(--green)"}],
-  [/^ffd-/, {name: "FFD, node against plane (the paper)", colour: "var(--orange)"}],
-  [/^fcl/, {name: "FCL", colour: "var(--blue)"}],
-  [/^embree/, {name: "Embree", colour: "var(--sky)"}],
-  [/^bullet/, {name: "Bullet", colour: "var(--red)"}],
-  [/^libccd/, {name: "libccd", colour: "var(--purple)"}],
-  [/^(spatial-hash|aabb-tree|sphere-tree|bd-tree)/, {name: "historic", colour: "var(--yellow)"}],
+// By group. The colours (style/colours.css) are Okabe and Ito's, which all kinds of eyes tell apart;
+// reference/report/detector_group.cpp has them for pictures without a page.
+const kColours = [
+  "var(--black)",
+  "var(--green)",
+  "var(--orange)",
+  "var(--blue)",
+  "var(--sky)",
+  "var(--red)",
+  "var(--purple)",
+  "var(--yellow)",
+  "var(--grey)",
 ];
-const kOther: Group = {name: "other", colour: "var(--grey)"};
 
-export const groupOf = (detector: string): Group =>
-  kGroups.find(([pattern]) => pattern.test(detector))?.[1] ?? kOther;
+/** The colour of a detector's group. @pre the detector is one of the page */
+export const groupColour = ({detectors, groups}: Page, detector: string): string =>
+  kColours[groups[detectors.indexOf(detector)]];
 
-/** Each group once, in the order above. */
-export function groupsOf(detectors: string[]): Group[] {
-  const present = new Set(detectors.map(groupOf));
-  return [...kGroups.map(([, group]) => group), kOther].filter((group) => present.has(group));
+/** The groups of these detectors, each once. */
+export function groupsOf(page: Page, shown: string[]): {name: string; colour: string}[] {
+  const present = new Set(shown.map((name) => page.groups[page.detectors.indexOf(name)]));
+  return page.group_names
+    .map((name, i) => ({name, colour: kColours[i]}))
+    .filter((_, i) => present.has(i));
 }
 
 /** For lines of single detectors: dash pattern and shape beside colour, so that none is told by colour alone. */

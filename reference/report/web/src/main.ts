@@ -1,6 +1,6 @@
-import {readResults, readView} from "./data";
+import {readPage, readView} from "./data";
 import {h, p, type Child} from "./dom";
-import {Report} from "./report";
+import type {Page} from "./page";
 import type {Section} from "./section";
 import {claims} from "./sections/claims";
 import {cost} from "./sections/cost";
@@ -47,8 +47,8 @@ const kSections: Section[] = [
 ];
 
 /** Of a run of hard cases alone, these are the answer. */
-const ordered = (report: Report): Section[] =>
-  report.scenes.length > 0
+const ordered = ({scenes: all}: Page): Section[] =>
+  all.length > 0
     ? kSections
     : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
 
@@ -60,9 +60,9 @@ function navigation(sections: Section[]): HTMLElement {
 }
 
 // One part that cannot be shown (results of another version, or written by hand) takes no other along.
-function contentOf(section: Section, report: Report): Child[] {
+function contentOf(section: Section, page: Page, bytes: ArrayBuffer | null): Child[] {
   try {
-    return section.build(report);
+    return section.build(page, bytes);
   } catch (error) {
     return [p(`This part cannot be shown: ${String(error)}`)];
   }
@@ -83,12 +83,12 @@ function openTarget(): void {
   if (target instanceof HTMLDetailsElement) target.open = true;
 }
 
-function show(report: Report, place: HTMLElement): void {
-  const filled = ordered(report)
-    .map((section) => ({section, content: contentOf(section, report)}))
+function show(page: Page, bytes: ArrayBuffer | null, place: HTMLElement): void {
+  const filled = ordered(page)
+    .map((section) => ({section, content: contentOf(section, page, bytes)}))
     .filter(({content}) => content.some((child) => child));
   place.replaceChildren(
-    header(report),
+    header(page),
     navigation(filled.map(({section}) => section)),
     ...filled.map(({section, content}) => sectionElement(section, content)),
   );
@@ -96,10 +96,11 @@ function show(report: Report, place: HTMLElement): void {
 
 async function main(): Promise<void> {
   provideView(mountView);
-  const report = new Report(await readResults(), await readView());
+  const page = await readPage(),
+    bytes = await readView();
   const place = document.getElementById("report")!;
-  show(report, place);
-  document.title = `contactcheck: ${place.querySelector("h1")!.textContent}`;
+  show(page, bytes, place);
+  document.title = `contactcheck: ${page.title}`;
   addEventListener("hashchange", openTarget);
   openTarget();
 }

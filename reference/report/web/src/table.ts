@@ -1,7 +1,7 @@
 // Tables in a box of their own, which scrolls where the window is narrow. Headings sort.
 import {code, h, type Child} from "./dom";
 import {meaningOf} from "./glossary";
-import type {TextTable} from "./results";
+import type {TextTable} from "./page";
 
 export interface Column {
   title: string;
@@ -100,22 +100,23 @@ export function table(columns: Column[], rows: Row[], what: string): HTMLElement
   );
 }
 
-/** Nothing without rows: a title and a sentence over a table. */
-export function titledTable(title: string, columns: Column[], rows: Row[]): Child[] {
-  return rows.length > 0 ? [h("h4", {}, title), table(columns, rows, title)] : [];
+const kLong = 24; // letters
+const kFailed = new Set(["error", "absent", "refused"]);
+
+function textCell(text: string): Cell | string {
+  if (text.length > kLong) return {text, class: "wrap left"};
+  return kFailed.has(text) ? {text, class: "error"} : text;
 }
 
-const kLong = 24; // letters
+/** Long cells in several lines; of a run that did not end well the status stands out. */
+export const textRow = (row: string[]): Row => row.map(textCell);
 
 /** What the program wrote: code out of its backticks, long cells in several lines. */
 export function textTable({title, text, columns, rows}: TextTable, what = title): Child[] {
   if (rows.length === 0) return [];
-  const cells = rows.map(
-    (row): Row => row.map((cell) => (cell.length > kLong ? {text: cell, class: "wrap"} : cell)),
-  );
   return [
     text && h("p", {}, ...withCode(text)),
-    table(columns, cells, what.replaceAll("`", "") || text),
+    table(columns, rows.map(textRow), what.replaceAll("`", "") || text),
   ];
 }
 

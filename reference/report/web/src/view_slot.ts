@@ -1,6 +1,6 @@
 // The place of the 3D view. Whoever bundles one says so with provideView(); without one, or without
 // recordings in the page, there is no section for it, and tables have no buttons that lead there.
-import type {Results} from "./results";
+import type {Page} from "./page";
 
 export interface ViewTarget {
   scene: string;
@@ -17,7 +17,7 @@ export interface View {
   show(target: ViewTarget): void;
 }
 
-export type MountView = (place: HTMLElement, results: Results, bytes: ArrayBuffer) => View | null;
+export type MountView = (place: HTMLElement, page: Page, bytes: ArrayBuffer) => View | null;
 
 let provided: MountView | null = null;
 let view: View | null = null;
@@ -31,8 +31,8 @@ export const canHaveView = (): boolean => provided !== null;
 export const canShow = (scene: string): boolean => view?.has(scene) ?? false;
 
 /** @pre canHaveView(); `place` is in the document */
-export function mountInto(place: HTMLElement, results: Results, bytes: ArrayBuffer): void {
-  view = provided!(place, results, bytes);
+export function mountInto(place: HTMLElement, page: Page, bytes: ArrayBuffer): void {
+  view = provided!(place, page, bytes);
 }
 
 /**

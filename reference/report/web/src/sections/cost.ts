@@ -5,17 +5,16 @@ import {checkboxes, controlBar, radios, select} from "../controls";
 import {h, p, type Child} from "../dom";
 import {compact, grouped, number} from "../format";
 import {term} from "../glossary";
-import {trianglesOf, type Report} from "../report";
-import type {Scene} from "../results";
+import type {Page, Scene} from "../page";
 import type {Section} from "../section";
 import {
+  costsOf,
   firstChoice,
   frameCosts,
   kMost,
   lineLegend,
   linesOf,
   plainNumber,
-  timed,
   timedDetectors,
   type FrameCost,
   type Lines,
@@ -43,25 +42,16 @@ interface Cost {
   ms: number;
 }
 
-// scaling-contact-4 and contact are one scene at two sizes.
-const seriesOf = (scene: string): string => scene.replace(/^scaling-/, "").replace(/-\d+$/, "");
-
-function costs(report: Report, detectors: string[], part: Part): Cost[] {
-  const out: Cost[] = [];
-  for (const scene of report.scenes)
-    for (const detector of detectors) {
-      const run = report.okRun(scene.id, detector),
-        ms = timed(run) ? run.time_ms[part]!.frame : 0;
-      if (ms > 0)
-        out.push({
-          detector,
-          scene: scene.id,
-          series: seriesOf(scene.id),
-          triangles: trianglesOf(scene),
-          ms,
-        });
-    }
-  return out.sort((a, b) => a.triangles - b.triangles);
+function costs(page: Page, chosen: string[], part: Part): Cost[] {
+  return page.scenes
+    .flatMap((scene) =>
+      costsOf(page, scene, chosen).flatMap(([detector, own]) => {
+        const {series, triangles} = scene.cost,
+          ms = own[part];
+        return ms ? [{detector, scene: scene.id, series, triangles, ms}] : [];
+      }),
+    )
+    .sort((a, b) => a.triangles - b.triangles);
 }
 
 // A line joins the sizes of one scene: between scenes of different kinds a line would say nothing.
@@ -192,24 +182,16 @@ interface FrameCount {
   n: number;
 }
 
-function frameErrors(report: Report, scene: Scene, detectors: string[]): FrameCount[] {
-  return detectors.flatMap((detector) =>
+function frameErrors(page: Page, scene: Scene, chosen: string[]): FrameCount[] {
+  return costsOf(page, scene, chosen).flatMap(([detector, own]) =>
     (["missed", "spurious"] as const).flatMap((kind) =>
-      (report.okRun(scene.id, detector)?.per_frame[kind] ?? []).flatMap((n, frame) =>
-        n > 0 ? [{detector, kind, frame, n}] : [],
-      ),
+      own[kind].map(([frame, n]) => ({detector, kind, frame, n})),
     ),
   );
 }
 
-// The truth of the finest level that any of them is judged at, and the errors of each.
-function drawContacts(
-  width: number,
-  scene: Scene,
-  truth: number[],
-  errors: FrameCount[],
-  lines: Lines,
-): Node {
+// What truly touches, and the errors of each.
+function drawContacts(width: number, scene: Scene, errors: FrameCount[], lines: Lines): Node {
   const xy = {x: "frame", y: "n"} as const;
   const title = (d: FrameCount): string =>
     `${d.detector}, frame ${d.frame}\n${grouped(d.n)} ${d.kind}`;
@@ -228,7 +210,7 @@ function drawContacts(
       nice: true,
     },
     marks: [
-      Plot.areaY(truth, {
+      Plot.areaY(scene.cost.truth, {
         x: (_, i) => i,
         y: (n: number) => n,
         fill: "var(--right)",
@@ -247,23 +229,17 @@ function drawContacts(
   });
 }
 
-function truthOf(report: Report, scene: Scene): number[] {
-  const truths = report.okRunsOf(scene.id).map((run) => run.per_frame.truth ?? []);
-  const sum = (all: number[]): number => all.reduce((a, b) => a + b, 0);
-  return truths.reduce((best, truth) => (sum(truth) > sum(best) ? truth : best), [] as number[]);
-}
-
-function charts(report: Report, state: State): Chart[] {
-  const withDistances = report.scenes.some(hasSeparation);
+function charts(page: Page, state: State): Chart[] {
+  const withDistances = page.scenes.some(hasSeparation);
   return [
     chart("Milliseconds per frame against the number of triangles", (width) =>
-      drawCosts(width, costs(report, state.lines.detectors, state.part), state.lines),
+      drawCosts(width, costs(page, state.lines.detectors, state.part), state.lines),
     ),
     chart("Milliseconds of each frame", (width) =>
       drawFrames(
         width,
         state.scene,
-        frameCosts(report, state.scene, state.lines.detectors),
+        frameCosts(page, state.scene, state.lines.detectors),
         state.lines,
       ),
     ),
@@ -271,8 +247,7 @@ function charts(report: Report, state: State): Chart[] {
       drawContacts(
         width,
         state.scene,
-        truthOf(report, state.scene),
-        frameErrors(report, state.scene, state.lines.detectors),
+        frameErrors(page, state.scene, state.lines.detectors),
         state.lines,
       ),
     ),
@@ -280,7 +255,7 @@ function charts(report: Report, state: State): Chart[] {
       ? [
           chart(kSeparationTitle, (width) =>
             hasSeparation(state.scene)
-              ? drawSeparation(width, report, state.scene, state.lines)
+              ? drawSeparation(width, page, state.scene, state.lines)
               : p("The results hold no distances of this scene."),
           ),
         ]
@@ -304,16 +279,16 @@ export const cost: Section = {
   id: "cost",
   title: "What a frame costs",
   short: "Cost",
-  build(report) {
-    const all = timedDetectors(report);
-    if (all.length === 0 || report.scenes.length === 0) return [];
+  build(page) {
+    const all = timedDetectors(page);
+    if (all.length === 0) return [];
     const state: State = {
-      lines: linesOf(firstChoice(report, all)),
+      lines: linesOf(firstChoice(page, all)),
       part: "cold",
-      scene: report.scenes[0],
+      scene: page.scenes[0],
     };
     const legends = h("div"),
-      [triangles, frames, contacts, separation] = charts(report, state);
+      [triangles, frames, contacts, separation] = charts(page, state);
     const redraw = (change: Partial<State>): void => {
       Object.assign(state, change);
       legends.replaceChildren(lineLegend(state.lines));
@@ -350,9 +325,9 @@ export const cost: Section = {
       controlBar(
         select(
           "Scene",
-          report.scenes.map((s, i) => [String(i), s.id]),
+          page.scenes.map((s, i) => [String(i), s.id]),
           "0",
-          (value) => redraw({scene: report.scenes[Number(value)]}),
+          (value) => redraw({scene: page.scenes[Number(value)]}),
         ),
       ),
       ...separationPart(separation),

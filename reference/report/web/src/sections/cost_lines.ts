@@ -2,8 +2,7 @@
 import {legend} from "../chart";
 import {grouped} from "../format";
 import {kLineStyles} from "../groups";
-import type {Report} from "../report";
-import {kReferences, type Run, type Scene} from "../results";
+import type {FrameCosts, Page, Scene} from "../page";
 import {stroke} from "../swatch";
 
 export const kMost = kLineStyles.length;
@@ -23,22 +22,25 @@ export const lineLegend = ({detectors, style}: Lines): HTMLElement =>
     detectors.map((name) => ({text: name, swatch: stroke(style(name).colour, style(name).dash)})),
   );
 
-export const timed = (run: Run | null): run is Run => run?.time_ms.cold !== undefined;
-
-export function timedDetectors(report: Report): string[] {
-  return report.detectors.filter((name) =>
-    report.scenes.some((scene) => timed(report.okRun(scene.id, name))),
-  );
+export function timedDetectors({detectors, scenes}: Page): string[] {
+  return detectors.filter((_, i) => scenes.some(({cost}) => cost.detectors[i]?.cold));
 }
 
 /** The fastest without error, the usual references, then others in file order. */
-export function firstChoice(report: Report, all: string[]): string[] {
-  const {fastest} = report.results.report;
-  const wanted = [...fastest, ...kReferences, "ffd-aabb-sphere2", ...all];
+export function firstChoice({fastest, references}: Page, all: string[]): string[] {
+  const wanted = [...fastest, ...references, "ffd-aabb-sphere2", ...all];
   return [...new Set(wanted)]
     .filter((name) => all.includes(name))
     .slice(0, 5)
     .sort((a, b) => all.indexOf(a) - all.indexOf(b));
+}
+
+/** What a scene cost each of these detectors that ended well in it. */
+export function costsOf({detectors}: Page, scene: Scene, chosen: string[]): [string, FrameCosts][] {
+  return chosen.flatMap((name): [string, FrameCosts][] => {
+    const own = scene.cost.detectors[detectors.indexOf(name)];
+    return own ? [[name, own]] : [];
+  });
 }
 
 export interface FrameCost {
@@ -48,11 +50,10 @@ export interface FrameCost {
 }
 
 /** Cold; frames that were not timed are left out. */
-export function frameCosts(report: Report, scene: Scene, detectors: string[]): FrameCost[] {
-  return detectors.flatMap((detector) => {
-    const values = report.okRun(scene.id, detector)?.per_frame.frame_ms ?? [];
-    return values.flatMap((ms, frame) => (ms !== null && ms > 0 ? [{detector, frame, ms}] : []));
-  });
+export function frameCosts(page: Page, scene: Scene, chosen: string[]): FrameCost[] {
+  return costsOf(page, scene, chosen).flatMap(([detector, {frame_ms = []}]) =>
+    frame_ms.flatMap((ms, frame) => (ms === null ? [] : [{detector, frame, ms}])),
+  );
 }
 
 export const plainNumber = (value: number): string =>

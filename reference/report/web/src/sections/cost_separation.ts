@@ -2,9 +2,8 @@
 import * as Plot from "@observablehq/plot";
 import {p} from "../dom";
 import {number} from "../format";
-import type {Report} from "../report";
-import type {Scene} from "../results";
-import {frameCosts, plainNumber, type FrameCost, type Lines} from "./cost_lines";
+import type {Page, Scene} from "../page";
+import {costsOf, frameCosts, plainNumber, type FrameCost, type Lines} from "./cost_lines";
 
 interface ApartCost extends FrameCost {
   /** Millimetres. */
@@ -22,20 +21,12 @@ interface Touching {
 
 /** Of the chart's width, in powers of ten, that frames with contact take. */
 const kStrip = 0.16;
-const kBins = 16;
 
-export const hasSeparation = (scene: Scene): boolean => (scene.separation ?? []).length > 0;
+export const hasSeparation = ({cost}: Scene): boolean => cost.distance.length > 0;
 
-function median(values: number[]): number {
-  const sorted = [...values].sort((a, b) => a - b),
-    middle = sorted.length >> 1;
-  return sorted.length % 2 === 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
-}
-
-function apartCosts(scene: Scene, all: FrameCost[]): ApartCost[] {
-  const metres = scene.separation!;
-  return all.flatMap((cost) =>
-    metres[cost.frame] > 0 ? [{...cost, apart: 1e3 * metres[cost.frame]}] : [],
+function apartCosts({cost: {distance}}: Scene, all: FrameCost[]): ApartCost[] {
+  return all.flatMap((one) =>
+    distance[one.frame] > 0 ? [{...one, apart: distance[one.frame]}] : [],
   );
 }
 
@@ -60,9 +51,6 @@ class Span {
   strip(place: number): number {
     return this.low * 10 ** (kStrip * this.powers * (place - 1.3));
   }
-  bin({apart}: ApartCost): number {
-    return Math.floor((kBins * Math.log10(apart / this.low)) / this.powers);
-  }
   /** Powers of ten; where there is at most one, both ends. */
   ticks(): number[] {
     const first = Math.ceil(Math.log10(this.low)),
@@ -77,37 +65,12 @@ class Span {
   }
 }
 
-// Single frames scatter: the line goes through the medians of frames that are about equally far.
-function medians(detector: string, all: ApartCost[], span: Span): ApartCost[] {
-  const bins = new Map<number, ApartCost[]>();
-  for (const cost of all.filter((one) => one.detector === detector))
-    bins.set(span.bin(cost), [...(bins.get(span.bin(cost)) ?? []), cost]);
-  return [...bins.values()]
-    .map((bin) => ({
-      detector,
-      frame: -1,
-      ms: median(bin.map(({ms}) => ms)),
-      apart: median(bin.map(({apart}) => apart)),
-    }))
-    .sort((a, b) => a.apart - b.apart);
-}
-
-function touchingCosts(scene: Scene, all: FrameCost[], {detectors}: Lines, span: Span): Touching[] {
-  return detectors.flatMap((detector, i) => {
-    const ms = all
-      .filter((cost) => cost.detector === detector && scene.separation![cost.frame] === 0)
-      .map((cost) => cost.ms);
-    if (ms.length === 0) return [];
-    return [
-      {
-        detector,
-        x: span.strip((i + 0.5) / detectors.length),
-        low: Math.min(...ms),
-        middle: median(ms),
-        high: Math.max(...ms),
-        frames: ms.length,
-      },
-    ];
+function touchingCosts(page: Page, scene: Scene, {detectors}: Lines, span: Span): Touching[] {
+  return costsOf(page, scene, detectors).flatMap(([detector, {touching}]) => {
+    if (!touching) return [];
+    const [low, middle, high, frames] = touching;
+    const x = span.strip((detectors.indexOf(detector) + 0.5) / detectors.length);
+    return [{detector, x, low, middle, high, frames}];
   });
 }
 
@@ -144,13 +107,13 @@ function touchingMarks(touching: Touching[], {style}: Lines, span: Span): Plot.M
 }
 
 /** @pre hasSeparation(scene) */
-export function drawSeparation(width: number, report: Report, scene: Scene, lines: Lines): Node {
-  const all = frameCosts(report, scene, lines.detectors),
+export function drawSeparation(width: number, page: Page, scene: Scene, lines: Lines): Node {
+  const all = frameCosts(page, scene, lines.detectors),
     apart = apartCosts(scene, all);
   if (all.length === 0) return p("No frame of this scene was timed for these detectors.");
   if (apart.length === 0) return p("The surfaces touch in every timed frame of this scene.");
   const span = new Span(apart),
-    touching = touchingCosts(scene, all, lines, span);
+    touching = touchingCosts(page, scene, lines, span);
   const xy = {x: "apart", y: "ms"} as const,
     style = (d: ApartCost) => lines.style(d.detector);
   const title = (d: ApartCost): string =>
@@ -179,9 +142,10 @@ export function drawSeparation(width: number, report: Report, scene: Scene, line
       ticks: 6,
     },
     marks: [
-      ...lines.detectors.map((name) =>
-        Plot.line(medians(name, apart, span), {
-          ...xy,
+      ...costsOf(page, scene, lines.detectors).map(([name, {by_distance = []}]) =>
+        Plot.line(by_distance, {
+          x: "0",
+          y: "1",
           stroke: lines.style(name).colour,
           strokeDasharray: lines.style(name).dash,
           strokeWidth: 1.8,

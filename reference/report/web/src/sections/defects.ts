@@ -7,8 +7,7 @@ export const defects: Section = {
   id: "defects",
   title: "Known defects of libraries",
   short: "Known defects",
-  build(report) {
-    const known = report.results.report.known_defects;
+  build({known_defects: known}) {
     if (!known) return [];
     return [
       p(known.sentence),

@@ -12,13 +12,10 @@ export const goals: Section = {
   id: "goals",
   title: "Goals of the suite",
   short: "Goals",
-  build(report) {
-    const {columns, rows} = report.results.report.goals;
+  build({goals: {text, columns, rows}}) {
     if (rows.length === 0) return [];
     return [
-      p(
-        "Times are medians; a ratio over a detector is its time over that of the detector named, with a 95 % interval.",
-      ),
+      p(text),
       table(
         columns,
         rows.map((row) => [

@@ -1,33 +1,27 @@
 // How large errors are: depths, normals, distances of spurious pairs, hover.
 import {chart} from "../chart";
-import {controlBar, select} from "../controls";
+import {controlBar, selectPlace} from "../controls";
 import {h, p, type Child} from "../dom";
-import {listed} from "../format";
 import {term} from "../glossary";
-import type {Report} from "../report";
-import type {Scene} from "../results";
-import {chosenScenes, sceneOptions} from "../scene_choice";
+import {groupColour} from "../groups";
+import type {ErrorChart, Page} from "../page";
 import type {Section} from "../section";
-import {kQuantities, spreadOf, type Quantity, type Spread} from "../spreads";
 import {hasTurnedNormals, kTurnedNormals} from "./claims";
-import {drawSpreads} from "./graded_chart";
+import {drawErrors} from "./graded_chart";
 
-// Whose largest error is 0 would be a row of nothing.
-function picture(title: string, all: Spread[], quantity: Quantity): Child[] {
-  if (all.length === 0) return [];
-  const shown = all.filter(({max}) => max > 0),
-    exact = all.filter(({max}) => max === 0);
-  const names = exact.map(({detector}) => detector);
+function picture(page: Page, errors: ErrorChart): Child[] {
+  const colour = ({detector}: {detector: string}): string => groupColour(page, detector);
+  const {title, rows, always_zero} = errors;
   return [
     h("h3", {}, title),
-    shown.length > 0 && chart(title, (width) => drawSpreads(width, shown, quantity)).element,
-    exact.length > 0 && h("p", {class: "note"}, `Always 0: ${listed(names)}.`),
+    rows.length > 0 && chart(title, (width) => drawErrors(width, errors, colour)).element,
+    always_zero && h("p", {class: "note"}, always_zero),
   ];
 }
 
 // The errors of one detector that stand out, and are no surprise to whoever knows it.
-function normalNote(report: Report): Child[] {
-  if (!hasTurnedNormals(report)) return [];
+function normalNote(page: Page): Child[] {
+  if (!hasTurnedNormals(page)) return [];
   return [
     h(
       "p",
@@ -38,30 +32,16 @@ function normalNote(report: Report): Child[] {
   ];
 }
 
-function pictures(report: Report, scenes: Scene[]): Child[] {
-  return kQuantities.flatMap((quantity) => {
-    const all = report.detectors
-      .map((name) => spreadOf(report, name, scenes, quantity))
-      .filter((spread) => spread !== null);
-    const note = quantity.title === "Normal" && all.length > 0 ? normalNote(report) : [];
-    if (!quantity.byKind) return [...picture(quantity.title, all, quantity), ...note];
-    return [...new Set(all.map((spread) => spread.kind))].flatMap((kind) =>
-      picture(
-        `${quantity.title}, ${kind}`,
-        all.filter((spread) => spread.kind === kind),
-        quantity,
-      ),
-    );
-  });
-}
+const pictures = (page: Page, charts: ErrorChart[]): Child[] =>
+  charts.flatMap((errors) => [
+    ...picture(page, errors),
+    ...(errors.title === "Normal" ? normalNote(page) : []),
+  ]);
 
 // A note on the height of bars where there are any.
-function words(report: Report): Child[] {
-  const bars = report.results.runs.some(
-    (run) =>
-      run.geometry?.depth_error_histogram?.length ||
-      run.geometry?.normal_error_deg_histogram?.length ||
-      run.geometry?.spurious_distance_histogram?.length,
+function words(computed: ErrorChart[][]): Child[] {
+  const bars = computed.some((charts) =>
+    charts.some(({rows}) => rows.some(([, , , , , , bins]) => bins.length > 0)),
   );
   return [
     p(
@@ -84,20 +64,15 @@ export const graded: Section = {
   id: "graded",
   title: "How large the errors are",
   short: "Error sizes",
-  build(report) {
-    if (
-      !report.results.runs.some((run) => run.status === "ok" && kQuantities.some(({of}) => of(run)))
-    )
-      return [];
-    const options = sceneOptions(report),
+  build(page) {
+    const {choices, graded: computed} = page,
       place = h("div");
-    const update = (value: string): void => {
-      const shown = pictures(report, chosenScenes(report, value)).filter(
-        (child) => child,
-      ) as Node[];
+    if (computed.every((charts) => charts.length === 0)) return [];
+    const update = (choice: number): void => {
+      const shown = pictures(page, computed[choice]).filter((child) => child) as Node[];
       place.replaceChildren(...(shown.length > 0 ? shown : [p("Nothing was judged here.")]));
     };
-    update(options[0][0]);
-    return [...words(report), controlBar(select("Scenes", options, options[0][0], update)), place];
+    update(0);
+    return [...words(computed), controlBar(selectPlace("Scenes", choices, 0, update)), place];
   },
 };

@@ -1,14 +1,25 @@
 // Errors of one quantity, a row per detector: bars or single values above the line, and on it mean,
 // 95 % and maximum.
 import * as Plot from "@observablehq/plot";
-import {grouped, number, percent} from "../format";
-import {groupOf} from "../groups";
-import type {Bin} from "../results";
-import type {Quantity, Spread} from "../spreads";
+import {grouped, number} from "../format";
+import type {ErrorChart, ErrorRow} from "../page";
 
-interface Bar extends Bin {
+interface Spread {
   detector: string;
+  kind: string;
+  judged: number;
+  mean: number | null;
+  p95: number | null;
+  max: number;
+}
+
+interface Bar {
+  detector: string;
+  from: number;
+  below: number;
+  count: number;
   share: number;
+  percent: string;
 }
 
 interface Point {
@@ -24,7 +35,7 @@ const kAbove = 1.1,
   kBelow = -0.3;
 
 // Errors of rounding and of whole cells stand in one chart, and so does 0: linear below a micrometre.
-function xScale({unit}: Quantity, largest: number): Plot.ScaleOptions {
+function xScale({unit}: ErrorChart, largest: number): Plot.ScaleOptions {
   if (unit === "°") return {domain: [0, 180], ticks: [0, 45, 90, 135, 180]};
   const ticks = [0, 0.01, 0.1, 1, 10, 100, 1000, 10000].filter((tick) => tick <= largest);
   return {
@@ -35,53 +46,53 @@ function xScale({unit}: Quantity, largest: number): Plot.ScaleOptions {
   };
 }
 
-// Bins below a micrometre would be hairs on this scale.
-function barsOf({detector, bins, judged}: Spread, {unit}: Quantity, largest: number): Bar[] {
-  const small = bins.filter((bin) => unit === "mm" && bin.below <= kMicrometre);
-  const others = bins.filter((bin) => !small.includes(bin));
-  const first = {
-    from: 0,
-    below: kMicrometre,
-    count: small.reduce((sum, bin) => sum + bin.count, 0),
-  };
-  return [...(first.count > 0 ? [first] : []), ...others].map((bin) => ({
-    ...bin,
-    detector,
-    below: Math.min(bin.below, Math.max(largest, 2 * kMicrometre)),
-    share: bin.count / judged,
-  }));
-}
+const spreadOf = ([detector, kind, judged, mean, p95, max]: ErrorRow): Spread => ({
+  detector,
+  kind,
+  judged,
+  mean,
+  p95,
+  max,
+});
 
-function sentence(spread: Spread, {unit, what}: Quantity): string {
+const barsOf = ([detector, , , , , , bins]: ErrorRow): Bar[] =>
+  bins.map(([from, below, count, share, percent]) => ({
+    detector,
+    from,
+    below,
+    count,
+    share,
+    percent,
+  }));
+
+const pointsOf = ([detector, , , , , , , points]: ErrorRow): Point[] =>
+  points.map((value) => ({detector, value}));
+
+function sentence(spread: Spread, {unit, what}: ErrorChart): string {
   const kind = spread.kind && spread.kind !== "none" ? ` (${spread.kind})` : "";
   const parts = [
     [spread.mean, "mean "],
     [spread.p95, "95 % below "],
     [spread.max, "largest "],
   ] as const;
-  const values = parts
-    .filter(([value]) => value !== null)
-    .map(([value, text]) => `${text}${number(value)} ${unit}`);
+  const values = parts.flatMap(([value, text]) =>
+    value === null ? [] : [`${text}${number(value)} ${unit}`],
+  );
   return `${spread.detector}${kind}\n${values.join(", ")}\n${grouped(spread.judged)} ${what}`;
 }
 
-const barSentence = (bar: Bar, {unit}: Quantity): string =>
-  `${bar.detector}: ${percent(bar.share)} (${grouped(bar.count)}) from ${number(bar.from)} to ${number(bar.below)} ${unit}`;
+const barSentence = (bar: Bar, {unit}: ErrorChart): string =>
+  `${bar.detector}: ${bar.percent} (${grouped(bar.count)}) from ${number(bar.from)} to ${number(bar.below)} ${unit}`;
 
-function marks(
-  all: Spread[],
-  quantity: Quantity,
-  largest: number,
-  narrow: boolean,
-): Plot.Markish[] {
-  const colour = (d: {detector: string}): string => groupOf(d.detector).colour;
-  const bars = all.flatMap((spread) => barsOf(spread, quantity, largest));
-  const points = all.flatMap(({detector, points: own}): Point[] =>
-    own.map((value) => ({detector, value})),
-  );
+type ColourOf = (d: {detector: string}) => string;
+
+function marks(errors: ErrorChart, colour: ColourOf, narrow: boolean): Plot.Markish[] {
+  const all = errors.rows.map(spreadOf),
+    bars = errors.rows.flatMap(barsOf),
+    points = errors.rows.flatMap(pointsOf);
   const tallest = Math.sqrt(Math.max(...bars.map(({share}) => share), Number.MIN_VALUE));
   const row = {fy: "detector", y: () => kBelow / 2} as const,
-    title = (d: Spread): string => sentence(d, quantity);
+    title = (d: Spread): string => sentence(d, errors);
   const known = (name: "mean" | "p95"): Spread[] => all.filter((spread) => spread[name] !== null);
   return [
     Plot.ruleY(all, {fy: "detector", y: () => 0, stroke: "var(--line)"}),
@@ -96,8 +107,8 @@ function marks(
       insetLeft: 0.5,
       insetRight: 0.5,
       className: "bars",
-      ariaLabel: (d: Bar) => barSentence(d, quantity),
-      title: (d: Bar) => barSentence(d, quantity),
+      ariaLabel: (d: Bar) => barSentence(d, errors),
+      title: (d: Bar) => barSentence(d, errors),
     }),
     Plot.ruleX(points, {
       fy: "detector",
@@ -150,25 +161,26 @@ function marks(
   ];
 }
 
-/** @pre there is at least one */
-export function drawSpreads(width: number, all: Spread[], quantity: Quantity): Node {
+/** @pre there is a row */
+export function drawErrors(width: number, errors: ErrorChart, colour: ColourOf): Node {
   const narrow = width < 600,
-    names = all.map((spread) => spread.detector);
-  const wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
-  const bars = all.some(({bins, points}) => bins.length + points.length > 0);
+    {rows} = errors;
+  const names = rows.map(([detector]) => detector),
+    wide = Math.max(...names.map((name) => name.length)) * 6.6 + 12;
+  const bars = rows.some(([, , , , , , bins, points]) => bins.length + points.length > 0);
   const height = (bars ? kRow : kLabel + 6) + (narrow ? kLabel : 0),
-    largest = Math.max(...all.map(({max}) => max));
+    largest = Math.max(...rows.map(([, , , , , max]) => max));
   const above = (bars ? kAbove : 0.2) + (narrow ? (kLabel / height) * 1.6 : 0);
   return Plot.plot({
     width,
-    height: 48 + height * all.length,
+    height: 48 + height * rows.length,
     marginLeft: narrow ? 10 : wide,
     marginRight: 24,
     marginTop: 6,
     marginBottom: 42,
-    x: {...xScale(quantity, largest), label: quantity.axis, grid: true, tickFormat: String},
+    x: {...xScale(errors, largest), label: `${errors.axis} →`, grid: true, tickFormat: String},
     y: {domain: [kBelow, above], axis: null},
     fy: {domain: names, label: null, axis: narrow ? null : "left", tickSize: 0, padding: 0.06},
-    marks: marks(all, quantity, largest, narrow),
+    marks: marks(errors, colour, narrow),
   });
 }

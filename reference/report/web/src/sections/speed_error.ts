@@ -1,20 +1,21 @@
 // The chart of speed against error: every detector a point.
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
-import {controlBar, radios, select, type Option} from "../controls";
+import {controlBar, radios, select, selectPlace, type Option} from "../controls";
 import {h, p, unfolding} from "../dom";
-import {errorRate, grouped, number, optionsText} from "../format";
 import {term} from "../glossary";
-import {groupOf, groupsOf} from "../groups";
-import {kFinest, type Report} from "../report";
-import type {Caches, Measure, PointCounts, SpeedError} from "../results";
+import {groupColour, groupsOf} from "../groups";
+import type {Caches, Measure, Page, PointsChart} from "../page";
 import type {Section} from "../section";
 import {square, symbol} from "../swatch";
-import {left, right, table} from "../table";
+import {left, table} from "../table";
 
-interface Point extends PointCounts {
+interface Point {
   detector: string;
   options: string;
+  /** As a line of the table has it. */
+  question: string;
+  cells: string[];
   ms: number;
   error: number;
   onFront: boolean;
@@ -32,6 +33,7 @@ interface Chart {
   leftOut: string;
 }
 
+const kFinest = "finest"; // each detector at the finest level that it claims everywhere
 const kMeasures: Record<Measure, string> = {
   worse: "missed or spurious, whichever is worse",
   missed: "missed",
@@ -59,12 +61,11 @@ const kAnswers: Record<string, string> = {
 const shapeOf = (question: string) =>
   (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
 
-function sentenceOf(point: Point): string {
-  const {detector, options, level, ms, question} = point;
+function sentenceOf({cells, options}: Point): string {
+  const [detector, question, ms, level, truth, missed, reported, spurious] = cells;
   return [
-    `${detector}: ${number(ms)} ms per frame (question ${question})`,
-    `missed ${grouped(point.missed)} of ${grouped(point.truth)}, ` +
-      `spurious ${grouped(point.spurious)} of ${grouped(point.reported)} (level ${level})`,
+    `${detector}: ${ms} ms per frame (question ${question})`,
+    `missed ${missed} of ${truth}, spurious ${spurious} of ${reported} (level ${level})`,
     `options: ${options}`,
   ].join("\n");
 }
@@ -119,7 +120,7 @@ function anchorOf(ms: number, [low, high]: [number, number]): Anchor {
   return place < 0.3 ? "start" : place > 0.7 ? "end" : "middle";
 }
 
-function draw(width: number, all: Point[], choice: Choice): Node {
+function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
   if (all.length === 0) return p("No detector was timed and judged so.");
   const front = all.filter((point) => point.onFront).sort((a, b) => a.ms - b.ms);
   const times = all.map((point) => point.ms),
@@ -171,7 +172,7 @@ function draw(width: number, all: Point[], choice: Choice): Node {
       Plot.dot(all, {
         ...xy,
         r: 5.5,
-        fill: (d: Point) => groupOf(d.detector).colour,
+        fill: (d: Point) => groupColour(page, d.detector),
         stroke: "var(--surface)",
         symbol: (d: Point) => shapeOf(d.question),
         ariaLabel: sentenceOf,
@@ -201,8 +202,11 @@ function draw(width: number, all: Point[], choice: Choice): Node {
   });
 }
 
-function legends(all: Point[]): HTMLElement {
-  const colours = groupsOf(all.map((point) => point.detector)).map((group) => ({
+function legends(page: Page, all: Point[]): HTMLElement {
+  const colours = groupsOf(
+    page,
+    all.map((point) => point.detector),
+  ).map((group) => ({
     text: group.name,
     swatch: square(group.colour),
   }));
@@ -215,51 +219,29 @@ function legends(all: Point[]): HTMLElement {
   return legend([...colours, ...shapes]);
 }
 
-function pointsTable(all: Point[]): HTMLElement {
-  const rows = all.map((point) => [
-    point.detector,
-    point.options,
-    point.question,
-    number(point.ms),
-    point.level,
-    String(point.truth),
-    String(point.missed),
-    String(point.reported),
-    String(point.spurious),
-    errorRate(point.error),
-    point.onFront ? "yes" : "",
-  ]);
+function pointsTable({speed_error: {columns}}: Page, all: Point[]): HTMLElement {
   return table(
-    [
-      left("detector"),
-      left("options"),
-      left("question timed"),
-      right("ms per frame"),
-      left("level"),
-      right("truth"),
-      right("missed"),
-      right("reported"),
-      right("spurious"),
-      right("error"),
-      left("on the front"),
-    ],
-    rows,
+    [columns[0], left("options"), ...columns.slice(1)],
+    all.map(({cells, options}) => [cells[0], options, ...cells.slice(1)]),
     "Points of the chart of speed against error",
   );
 }
 
-const kNothing = {counts: [], points: [], left_out: ""};
+const kNothing: PointsChart = {points: [], rows: [], left_out: ""};
 
-function chartOf(report: Report, {detectors, charts}: SpeedError, choice: Choice): Chart {
-  const level = charts[choice.scenes]?.[choice.level];
-  const {points, left_out} = level?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
+function chartOf({detectors, options, speed_error: {charts}}: Page, choice: Choice): Chart {
+  const {points, rows, left_out} =
+    charts[choice.scenes]?.[choice.level]?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
   return {
-    points: points.map(([at, ms, error, onFront]) => {
-      const detector = detectors[at];
-      const run = report.results.runs.find((r) => r.detector === detector && r.status === "ok");
-      const options = optionsText(run?.options);
-      return {...level!.counts[at]!, detector, options, ms, error, onFront};
-    }),
+    points: points.map(([at, ms, error, onFront], i) => ({
+      detector: detectors[at],
+      options: options[at],
+      question: rows[i][1],
+      cells: rows[i],
+      ms,
+      error,
+      onFront,
+    })),
     leftOut: left_out,
   };
 }
@@ -267,8 +249,8 @@ function chartOf(report: Report, {detectors, charts}: SpeedError, choice: Choice
 export const speedError: Section = {
   id: "speed-error",
   title: "Speed against error",
-  build(report) {
-    if (!report.timed)
+  build(page) {
+    if (!page.timed)
       return [
         p(
           "This run measured no times (",
@@ -276,30 +258,30 @@ export const speedError: Section = {
           "), so that there is nothing to compare.",
         ),
       ];
-    const computed = report.results.report.speed_error;
+    const computed = page.speed_error;
     const choice: Choice = {
       scenes: computed.first,
       level: kFinest,
       measure: "worse",
       caches: "cold",
     };
-    let shown = chartOf(report, computed, choice);
+    let shown = chartOf(page, choice);
     const below = h("div");
     const picture = chart("Time per frame and share of errors of every detector", (width) =>
-      draw(width, shown.points, choice),
+      draw(page, width, shown.points, choice),
     );
     const update = (change: Partial<Choice>): void => {
-      shown = chartOf(report, computed, Object.assign(choice, change));
+      shown = chartOf(page, Object.assign(choice, change));
       picture.redraw();
       below.replaceChildren(
-        legends(shown.points),
+        legends(page, shown.points),
         ...(shown.leftOut ? [h("p", {class: "note"}, shown.leftOut)] : []),
-        unfolding("The same as a table", () => [pointsTable(shown.points)]),
+        unfolding("The same as a table", () => [pointsTable(page, shown.points)]),
       );
     };
     update({});
-    const scenes = computed.scenes.map((words, i): Option => [String(i), words]);
-    const levels = report.results.report.levels.map((level): Option => [level, level]);
+    const {choices} = page;
+    const levels = page.levels.slice(1).map(({level}): Option => [level, level]);
     return [
       p(
         "Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it " +
@@ -308,7 +290,7 @@ export const speedError: Section = {
         " is both faster and better than a detector there. Times of different questions (shapes) do not compare.",
       ),
       controlBar(
-        select("Scenes", scenes, String(choice.scenes), (value) => update({scenes: Number(value)})),
+        selectPlace("Scenes", choices, choice.scenes, (scenes) => update({scenes})),
         select("Level", [[kFinest, "finest in every scene"], ...levels], choice.level, (level) =>
           update({level}),
         ),

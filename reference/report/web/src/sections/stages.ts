@@ -1,15 +1,13 @@
 // Where true contacts are lost: stage by stage.
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
-import {controlBar, select} from "../controls";
+import {controlBar, selectPlace} from "../controls";
 import {h, p, unfolding} from "../dom";
-import {grouped, listed, percent, share, shortList} from "../format";
-import {finestLevel, type Report} from "../report";
-import type {Run, Scene, Stage} from "../results";
-import {chosenScenes, sceneOptions} from "../scene_choice";
+import {grouped} from "../format";
+import type {StageLosses} from "../page";
 import type {Section} from "../section";
 import {square} from "../swatch";
-import {left, right, table} from "../table";
+import {textTable} from "../table";
 
 const kColours = [
   "var(--blue)",
@@ -21,50 +19,12 @@ const kColours = [
   "var(--grey)",
 ];
 
-interface Losses {
-  detector: string;
-  truth: number;
-  stages: Stage[];
-}
-
 interface Loss {
   detector: string;
   stage: string;
   missed: number;
   share: number;
-}
-
-function addStage(stages: Stage[], stage: Stage): void {
-  const own = stages.find(
-    (s) => s.name === stage.name && s.unit === stage.unit && s.visited_unit === stage.visited_unit,
-  );
-  if (!own) {
-    stages.push({...stage});
-    return;
-  }
-  own.in += stage.in;
-  own.out += stage.out;
-  own.missed += stage.missed;
-  if (own.visited !== undefined) own.visited += stage.visited ?? 0;
-}
-
-// Stages cover pairs of triangles, and so do truth and missed of these two levels. What is judged by
-// pairs of bodies alone may stop at the first contact: the others are no loss.
-const countsTriangles = (run: Run): boolean => ["cell", "triangle"].includes(finestLevel(run));
-
-function lossesOf(report: Report, detector: string, scenes: Scene[]): Losses | null {
-  const runs = scenes
-    .map((scene) => report.okRun(scene.id, detector))
-    .filter((run) => run !== null)
-    .filter((run) => (run.stages ?? []).length > 0 && countsTriangles(run));
-  if (runs.length === 0) return null;
-  const stages: Stage[] = [];
-  let truth = 0;
-  for (const run of runs) {
-    truth += run.levels[finestLevel(run)]?.truth ?? 0;
-    for (const stage of run.stages) addStage(stages, stage);
-  }
-  return {detector, truth, stages};
+  percent: string;
 }
 
 function draw(width: number, losses: Loss[], names: string[]): Node {
@@ -99,7 +59,7 @@ function draw(width: number, losses: Loss[], names: string[]): Node {
           ariaLabel: (d: Loss) => `${d.detector}: ${d.missed} lost in ${d.stage}`,
           tip: true,
           title: (d: Loss) =>
-            `${d.detector}\nstage ${d.stage}\n${grouped(d.missed)} true pairs lost (${percent(d.share)})`,
+            `${d.detector}\nstage ${d.stage}\n${grouped(d.missed)} true pairs lost (${d.percent})`,
         }),
       ),
       Plot.text(
@@ -129,64 +89,15 @@ function draw(width: number, losses: Loss[], names: string[]): Node {
   });
 }
 
-function sentences(all: Losses[]): string[] {
-  return all
-    .filter((l) => l.stages.some((stage) => stage.missed > 0))
-    .map(({detector, stages}) => {
-      const parts = stages
-        .filter((stage) => stage.missed > 0)
-        .map((stage) => `${grouped(stage.missed)} in ${stage.name}`);
-      const total = stages.reduce((sum, stage) => sum + stage.missed, 0);
-      return `${detector} loses ${grouped(total)}: ${listed(parts)}.`;
-    });
-}
-
-function stagesTable(all: Losses[]): HTMLElement {
-  const rows = all.flatMap(({detector, stages}) =>
-    stages.map((stage) => [
-      detector,
-      stage.name,
-      stage.unit,
-      String(stage.in),
-      String(stage.out),
-      stage.visited === undefined ? "-" : `${stage.visited} ${stage.visited_unit}`,
-      String(stage.missed),
-    ]),
-  );
-  return table(
-    [
-      left("detector"),
-      left("stage"),
-      left("unit"),
-      right("in"),
-      right("out"),
-      right("visited"),
-      right("missed"),
-    ],
-    rows,
-    "What went in and out of every stage, summed over the scenes chosen",
-  );
-}
-
-function picture(all: Losses[]): HTMLElement[] {
-  if (all.length === 0)
-    return [p("No detector with stages was judged by pairs of triangles here.")];
-  const losses: Loss[] = all.flatMap(({detector, truth, stages}) =>
-    stages
-      .filter((stage) => stage.missed > 0)
-      .map((stage) => ({
-        detector,
-        stage: stage.name,
-        missed: stage.missed,
-        share: share(stage.missed, truth) ?? 0,
-      })),
-  );
-  if (losses.length === 0) return [p("No stage of any detector lost a true contact here.")];
-  const order = [...new Set(all.flatMap(({stages}) => stages.map((stage) => stage.name)))];
-  const names = order.filter((name) => losses.some((loss) => loss.stage === name));
-  const clean = all
-    .filter(({stages}) => stages.every((stage) => stage.missed === 0))
-    .map(({detector}) => detector);
+function picture({bars, stages: names, sentences, without_loss}: StageLosses): HTMLElement[] {
+  if (bars.length === 0) return [p(without_loss)];
+  const losses = bars.map(([detector, stage, missed, share, percent]) => ({
+    detector,
+    stage,
+    missed,
+    share,
+    percent,
+  }));
   return [
     chart("Share of true contacts lost in each stage", (width) => draw(width, losses, names))
       .element,
@@ -196,16 +107,8 @@ function picture(all: Losses[]): HTMLElement[] {
         swatch: square(kColours[i % kColours.length]),
       })),
     ),
-    h(
-      "ul",
-      {class: "plain"},
-      ...sentences(all)
-        .slice(0, 12)
-        .map((text) => h("li", {}, text)),
-    ),
-    ...(clean.length > 0
-      ? [h("p", {class: "note"}, `Without a loss in any stage: ${shortList(clean, 24)}.`)]
-      : []),
+    h("ul", {class: "plain"}, ...sentences.map((text) => h("li", {}, text))),
+    ...(without_loss ? [h("p", {class: "note"}, without_loss)] : []),
   ];
 }
 
@@ -213,27 +116,22 @@ export const stages: Section = {
   id: "stages",
   title: "Where contacts are lost, stage by stage",
   short: "Stages",
-  build(report) {
-    if (!report.results.runs.some((run) => (run.stages ?? []).length > 0)) return [];
-    const options = sceneOptions(report),
-      place = h("div");
-    const update = (value: string): void => {
-      const all = report.detectors
-        .map((name) => lossesOf(report, name, chosenScenes(report, value)))
-        .filter((l) => l !== null);
+  build({choices, stages: computed}) {
+    if (computed.every(({table}) => table.rows.length === 0)) return [];
+    const place = h("div");
+    const update = (choice: number): void =>
       place.replaceChildren(
-        ...picture(all),
-        unfolding("What went in and out of every stage", () => [stagesTable(all)]),
+        ...picture(computed[choice]),
+        unfolding("What went in and out of every stage", () => textTable(computed[choice].table)),
       );
-    };
-    update(options[0][0]);
+    update(0);
     return [
       p(
         "A detector sorts pairs out in stages, from coarse to fine. A stage loses a true pair of triangles when what goes in still ",
         "covers it and what comes out does not. The losses of all stages add up to what the detector misses; ",
         "a scene in which it is judged by pairs of bodies alone does not count.",
       ),
-      controlBar(select("Scenes", options, options[0][0], update)),
+      controlBar(selectPlace("Scenes", choices, 0, update)),
       place,
     ];
   },

@@ -1,6 +1,5 @@
 // One line per detector: the sums over scenes, as the other reports have them.
 import {p} from "../dom";
-import {plural} from "../format";
 import {term} from "../glossary";
 import type {Section} from "../section";
 import {table} from "../table";
@@ -8,11 +7,10 @@ import {table} from "../table";
 export const summary: Section = {
   id: "summary",
   title: "Summary",
-  build(report) {
-    const {columns, rows} = report.results.report.summary;
+  build({summary: {columns, rows}}) {
     return [
       p(
-        `Sums over ${plural(report.results.scenes.length, "scene")}, at the finest `,
+        "Sums over scenes, at the finest ",
         term("level"),
         " that a detector claims. " +
           "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the " +

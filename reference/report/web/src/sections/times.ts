@@ -1,17 +1,14 @@
 // Time per phase of a frame, as stacked bars, with and without the mapping of the vertices.
 import * as Plot from "@observablehq/plot";
 import {chart, legend} from "../chart";
-import {controlBar, radios, select} from "../controls";
+import {controlBar, radios, selectPlace} from "../controls";
 import {h, p, unfolding} from "../dom";
 import {number} from "../format";
-import type {Report} from "../report";
-import type {Phases, Run, Scene} from "../results";
-import {chosenScenes, sceneOptions} from "../scene_choice";
+import type {Caches, PhaseTimes} from "../page";
 import type {Section} from "../section";
 import {square} from "../swatch";
-import {left, right, table} from "../table";
+import {textTable} from "../table";
 
-type Part = "cold" | "hot";
 type Phase = "map" | "update" | "query";
 
 const kPhases: [Phase, string, string][] = [
@@ -22,8 +19,6 @@ const kPhases: [Phase, string, string][] = [
 
 interface Bar {
   detector: string;
-  question: string;
-  scenes: number;
   phases: Record<Phase, number | null>;
   total: number;
 }
@@ -34,43 +29,21 @@ interface Piece {
   ms: number;
 }
 
-const phasesOf = (phases: Phases): Record<Phase, number | null> => ({
-  map: phases.map,
-  update: phases.update,
-  query: phases.query,
-});
-
-// The mean over scenes; a lazy detector maps within its query, and has no time of mapping.
-function barOf(detector: string, runs: Run[], part: Part, mapping: boolean): Bar | null {
-  const timed = runs.filter((run) => run.time_ms[part]);
-  if (timed.length === 0) return null;
-  const mean = (phase: Phase): number | null => {
-    const values = timed
-      .map((run) => phasesOf(run.time_ms[part]!)[phase])
-      .filter((ms) => ms !== null);
-    return values.length > 0 ? values.reduce((sum, ms) => sum + ms, 0) / timed.length : null;
-  };
-  const phases = {map: mapping ? mean("map") : null, update: mean("update"), query: mean("query")};
-  const total = (phases.map ?? 0) + (phases.update ?? 0) + (phases.query ?? 0);
-  return {detector, question: timed[0].time_ms.question ?? "", scenes: timed.length, phases, total};
-}
-
 interface Choice {
-  scenes: Scene[];
-  part: Part;
+  scenes: number;
+  caches: Caches;
   mapping: boolean;
   whole: boolean;
 }
 
-function barsOf(report: Report, choice: Choice): Bar[] {
-  return report.detectors
-    .map((detector) => {
-      const runs = choice.scenes
-        .map((scene) => report.okRun(scene.id, detector))
-        .filter((run) => run !== null);
-      return barOf(detector, runs, choice.part, choice.mapping);
-    })
-    .filter((bar) => bar !== null)
+// The fastest first.
+function barsOf({bars}: PhaseTimes, mapping: boolean): Bar[] {
+  return bars
+    .map(([detector, map, update, query, sum, withoutMap]) => ({
+      detector,
+      phases: {map: mapping ? map : null, update, query},
+      total: mapping ? sum : withoutMap,
+    }))
     .sort((a, b) => a.total - b.total);
 }
 
@@ -150,52 +123,24 @@ function draw(width: number, all: Bar[], whole: boolean): Node {
   });
 }
 
-function barsTable(bars: Bar[]): HTMLElement {
-  const rows = bars.map(({detector, question, scenes, phases, total}) => [
-    detector,
-    question,
-    String(scenes),
-    number(phases.map),
-    number(phases.update),
-    number(phases.query),
-    number(total),
-  ]);
-  return table(
-    [
-      left("detector"),
-      left("question"),
-      right("scenes"),
-      right("map"),
-      right("update"),
-      right("query"),
-      right("sum"),
-    ],
-    rows,
-    "Milliseconds per frame and phase",
-  );
-}
-
 export const times: Section = {
   id: "times",
   title: "Where the time goes",
   short: "Time per phase",
-  build(report) {
-    if (!report.timed) return [];
-    const options = sceneOptions(report);
-    const choice: Choice = {
-      scenes: chosenScenes(report, options[0][0]),
-      part: "cold",
-      mapping: true,
-      whole: false,
-    };
-    let bars = barsOf(report, choice);
+  build({timed, choices, times: computed}) {
+    if (!timed) return [];
+    const choice: Choice = {scenes: 0, caches: "cold", mapping: true, whole: false};
+    const chosen = (): PhaseTimes => computed[choice.scenes][choice.caches];
+    let bars = barsOf(chosen(), choice.mapping);
     const below = h("div");
     const picture = chart("Milliseconds per frame and phase of every detector", (width) =>
       bars.length > 0 ? draw(width, bars, choice.whole) : h("p", {}, "No detector was timed here."),
     );
     const update = (change: Partial<Choice>): void => {
-      bars = barsOf(report, Object.assign(choice, change));
+      Object.assign(choice, change);
+      bars = barsOf(chosen(), choice.mapping);
       picture.redraw();
+      const {table} = chosen();
       below.replaceChildren(
         ...(bars.length > kMost
           ? [
@@ -206,7 +151,7 @@ export const times: Section = {
               ),
             ]
           : []),
-        unfolding("The same as a table", () => [barsTable(bars)]),
+        unfolding("The same as a table", () => textTable(table)),
       );
     };
     update({});
@@ -217,17 +162,15 @@ export const times: Section = {
         "do not compare. A bar with ▸ is cut.",
       ),
       controlBar(
-        select("Scenes", options, options[0][0], (value) =>
-          update({scenes: chosenScenes(report, value)}),
-        ),
+        selectPlace("Scenes", choices, choice.scenes, (scenes) => update({scenes})),
         radios(
           "Caches",
           [
             ["cold", "cold"],
             ["hot", "hot"],
           ],
-          choice.part,
-          (value) => update({part: value as Part}),
+          choice.caches,
+          (value) => update({caches: value as Caches}),
         ),
         radios(
           "Mapping",

@@ -7,13 +7,13 @@ export const view: Section = {
   id: "view",
   title: "Scenes in 3D",
   short: "3D view",
-  build({results, viewBytes}) {
-    if (!viewBytes || !canHaveView()) return [];
+  build(page, bytes) {
+    if (!bytes || !canHaveView()) return [];
     const place = h("div", {class: "view-place", "aria-busy": "true"});
     // Once it stands in the page and has a size.
     requestAnimationFrame(() => {
       try {
-        mountInto(place, results, viewBytes);
+        mountInto(place, page, bytes);
       } catch (error) {
         place.textContent = `The 3D view cannot be shown: ${String(error)}`;
       }

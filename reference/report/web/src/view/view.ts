@@ -1,7 +1,7 @@
 // The 3D view: any scene of the report, frame by frame, with the contacts that a detector missed or
 // made up. It draws from the container alone, which was made from recordings and contacts files.
 import {h} from "../dom";
-import type {Results} from "../data";
+import type {Page} from "../page";
 import {Bodies} from "./bodies";
 import {Bounds, kBounds} from "./bounds";
 import {type Colours, onColoursChange, readColours} from "./colours";
@@ -47,14 +47,12 @@ class SceneViewer implements View {
 
   constructor(
     private readonly place: HTMLElement,
-    results: Results,
+    {scenes, families}: Page,
     private readonly container: Container,
   ) {
     const title = (scene: string): string =>
-      results.scenes.find(({id}) => id === scene)?.title ?? scene;
-    this.cases = new Map(
-      results.scenes.flatMap(({id, family}) => (family ? [[id, family.values] as const] : [])),
-    );
+      [...scenes, ...families].find(({id}) => id === scene)?.title ?? scene;
+    this.cases = new Map(families.map(({id, values}) => [id, values]));
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
       detector: (name) =>
@@ -365,13 +363,13 @@ function leftOut({leftOut: scenes}: Container): HTMLElement[] {
  * @returns null when none of its scenes could be taken in; `place` then says why
  * @throws Error when the bytes are damaged
  */
-export function mountView(place: HTMLElement, results: Results, bytes: ArrayBuffer): View | null {
+export function mountView(place: HTMLElement, page: Page, bytes: ArrayBuffer): View | null {
   const container = new Container(bytes);
   if (container.scenes.length === 0) {
     place.replaceChildren(...leftOut(container));
     return null;
   }
-  const view = new SceneViewer(place, results, container);
+  const view = new SceneViewer(place, page, container);
   (window as unknown as {contactcheckView: View}).contactcheckView = view;
   return view;
 }

@@ -1,0 +1,105 @@
+#include "reference/report/frame_costs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string_view>
+
+#include "reference/statistics/statistics.h"
+
+namespace contactcheck {
+namespace {
+
+using results::Run;
+
+constexpr int kBins = 16;  // of a logarithm from the smallest to the largest distance
+
+std::string series_of(std::string scene) {
+  constexpr std::string_view kScaling = "scaling-";
+  if (scene.starts_with(kScaling)) scene.erase(0, kScaling.size());
+  const std::size_t name_end = scene.find_last_not_of("0123456789");
+  const bool has_size = name_end != std::string::npos && name_end + 1 < scene.size();
+  if (has_size && scene[name_end] == '-') scene.erase(name_end);
+  return scene;
+}
+
+std::vector<std::pair<std::size_t, std::uint64_t>> frames_with(
+    const std::vector<std::uint64_t>& counts) {
+  std::vector<std::pair<std::size_t, std::uint64_t>> out;
+  for (std::size_t f = 0; f < counts.size(); ++f)
+    if (counts[f] > 0) out.emplace_back(f, counts[f]);
+  return out;
+}
+
+std::vector<std::pair<double, double>> medians_by_distance(
+    const std::vector<std::pair<double, double>>& frames) {
+  if (frames.empty()) return {};
+  const auto [nearest, farthest] = std::minmax_element(frames.begin(), frames.end());
+  const double low = std::log(nearest->first),
+               span = std::max(std::log(farthest->first) - low, 1e-9);
+  std::map<int, std::pair<std::vector<double>, std::vector<double>>> bins;
+  for (const auto& [distance, ms] : frames) {
+    auto& [distances, times] = bins[static_cast<int>(kBins * (std::log(distance) - low) / span)];
+    distances.push_back(distance);
+    times.push_back(ms);
+  }
+  std::vector<std::pair<double, double>> out;
+  for (auto& [bin, values] : bins)
+    out.emplace_back(median(std::move(values.first)), median(std::move(values.second)));
+  return out;
+}
+
+void add_distances(const std::vector<double>& distance, DetectorCosts& costs) {
+  std::vector<std::pair<double, double>> apart;
+  std::vector<double> touching;
+  for (std::size_t f = 0; f < std::min(distance.size(), costs.frame_ms.size()); ++f) {
+    if (!costs.frame_ms[f]) continue;
+    if (distance[f] > 0.0) {
+      apart.emplace_back(distance[f], *costs.frame_ms[f]);
+    } else {
+      touching.push_back(*costs.frame_ms[f]);
+    }
+  }
+  costs.by_distance = medians_by_distance(apart);
+  if (touching.empty()) return;
+  const auto [low, high] = std::minmax_element(touching.begin(), touching.end());
+  costs.touching = {*low, median(touching), *high, touching.size()};
+}
+
+DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
+  DetectorCosts out;
+  out.detector = run.detector;
+  out.missed = frames_with(run.per_frame.missed);
+  out.spurious = frames_with(run.per_frame.spurious);
+  if (run.times.empty()) return out;
+  out.cold = run.times.front().cold.frame;
+  out.hot = run.times.front().hot.frame;
+  if (!run.per_frame.frame_ms) return out;
+  out.frame_ms = *run.per_frame.frame_ms;
+  // A clock that did not tick measured nothing.
+  for (std::optional<double>& ms : out.frame_ms)
+    if (ms && !(*ms > 0.0)) ms.reset();
+  add_distances(distance, out);
+  return out;
+}
+
+}  // namespace
+
+SceneCosts scene_costs(const results::Index& index, const results::Scene& scene) {
+  SceneCosts out;
+  out.series = series_of(scene.id);
+  for (const results::SceneBody& body : scene.bodies) out.triangles += body.triangles;
+  for (const double metres : scene.separation) out.distance.push_back(1e3 * metres);
+  const auto sum = [](const std::vector<std::uint64_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+  };
+  for (const Run* run : index.runs_of(scene.id)) {
+    if (!run->ok()) continue;
+    if (sum(run->per_frame.truth) > sum(out.truth)) out.truth = run->per_frame.truth;
+    out.detectors.push_back(costs_of(*run, out.distance));
+  }
+  return out;
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,48 @@
+// What the frames of a scene cost each detector, and what they hold.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/results/results.h"
+
+namespace contactcheck {
+
+/// Of frames in which surfaces touch; milliseconds, caches cold.
+struct TouchingCost {
+  double low = 0.0, median = 0.0, high = 0.0;
+  std::size_t frames = 0;
+};
+
+/// Of a row that is `ok`.
+struct DetectorCosts {
+  std::string detector;
+  std::optional<double> cold, hot;  ///< milliseconds per frame; none: not timed
+  /// By frame, cold; none in frames that were not timed. Empty: no frame was.
+  std::vector<std::optional<double>> frame_ms;
+  /// Frames with errors, and how many, at the finest level that the detector claims.
+  std::vector<std::pair<std::size_t, std::uint64_t>> missed, spurious;
+  /// (distance in millimetres, milliseconds), near before far: medians of timed frames that are
+  /// about equally far apart, since single frames scatter.
+  std::vector<std::pair<double, double>> by_distance;
+  std::optional<TouchingCost> touching;  ///< none where no timed frame touches
+};
+
+struct SceneCosts {
+  /// Scenes of one kind at several sizes have one: "contact" of scaling-contact-4 and contact.
+  std::string series;
+  std::size_t triangles = 0;  ///< of all bodies
+  /// True contacts by frame, at the level at which most are counted.
+  std::vector<std::uint64_t> truth;
+  /// The smallest distance between surfaces of two bodies by frame, millimetres; empty: unknown.
+  std::vector<double> distance;
+  std::vector<DetectorCosts> detectors;
+};
+
+/// @pre `scene` is one of those of `index`
+SceneCosts scene_costs(const results::Index& index, const results::Scene& scene);
+
+}  // namespace contactcheck

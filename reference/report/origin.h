@@ -1,0 +1,22 @@
+// Where results come from: command, machine, parts of a run, and what each detector claims.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reference/report/markdown_table.h"
+#include "reference/results/results.h"
+
+namespace contactcheck {
+
+/// Command, machine, compiler, libraries and version, a line each; `code` stands in backticks.
+std::vector<std::string> machine_lines(const results::Results& results);
+
+/// What keeps a reader from taking a part for the whole: of which shard, or of how many, and which
+/// scenes were taken over from an interrupted run. None for a whole run.
+std::vector<std::string> part_sentences(const results::Results& results);
+
+/// Of each detector's first row that is `ok`: options, and what it claims in words.
+TitledTable semantics_table(const results::Results& results);
+
+}  // namespace contactcheck

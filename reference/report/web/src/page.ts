@@ -1,0 +1,226 @@
+// What the program gives the page (reference/report/page_data.h): it is all computed, in words where
+// there are words, and drawn here. Code in texts stands in backticks. Units: milliseconds,
+// millimetres, degrees.
+
+/** What the page shows: sums, sentences and points for every choice that it offers. */
+export interface Page {
+  version: string;
+  title: string;
+  findings: {topic: string; sentence: string}[];
+  /** The command, and where it ran. */
+  run: string;
+  /** Of what whole this is a part. */
+  parts: string[];
+  machine: string[];
+  /** In the order of their first runs; of each its options in words, and its place in `group_names`. */
+  detectors: string[];
+  options: string[];
+  groups: number[];
+  group_names: string[];
+  /** Whether any run was timed. */
+  timed: boolean;
+  /** Without error and fastest in some scene, most scenes first. */
+  fastest: string[];
+  references: string[];
+  summary: TextTable;
+  claimed: TextTable;
+  /** Of the paper and of the libraries. */
+  claims: TextTable[];
+  goals: TextTable;
+  known_defects?: {sentence: string; tables: TextTable[]};
+  pairs: {scene: string; table: TextTable}[];
+  hard?: Hard;
+  /** Where reproduction.json is of the same run. */
+  paper?: PaperPart;
+  /** The first is "finest": each detector at its own. */
+  levels: {level: string; recall: HeatTable; spurious: HeatTable}[];
+  result_columns: TextColumn[];
+  /** Of scenes, in words; each of the next has an entry per choice. */
+  choices: string[];
+  stages: StageLosses[];
+  times: Record<Caches, PhaseTimes>[];
+  graded: ErrorChart[][];
+  speed_error: SpeedError;
+  /** Motions (and random pairs). */
+  scenes: Scene[];
+  /** Whose frames are hard cases, each a value of a parameter. */
+  families: {id: string; title: string; values: string[]}[];
+}
+
+export interface TextColumn {
+  title: string;
+  left: boolean;
+  meaning?: string;
+}
+
+/** `share`: of errors, the colour. */
+export interface HeatCell {
+  text: string;
+  share?: number;
+  label?: string;
+  kind?: "error" | "aside";
+}
+
+/** The first column names the row. */
+export interface HeatTable {
+  columns: string[];
+  rows: HeatCell[][];
+}
+
+/** Units: milliseconds, millimetres. */
+export interface Scene {
+  id: string;
+  title: string;
+  frames: number;
+  sentence: string;
+  tables: TextTable[];
+  notes: string[];
+  /** With the truth, the first of each kind. */
+  disagreements: Disagreement[];
+  cost: {
+    /** The same for scenes that are one at several sizes. */
+    series: string;
+    triangles: number;
+    /** By frame. */
+    truth: number[];
+    /** By frame; empty where the results hold none. */
+    distance: number[];
+    /** In the order of `detectors`; null where a detector did not end well. */
+    detectors: (FrameCosts | null)[];
+  };
+}
+
+export interface FrameCosts {
+  /** [frame, how many] */
+  missed: [number, number][];
+  spurious: [number, number][];
+  /** Milliseconds per frame; these and what follows where it was timed. */
+  cold?: number;
+  hot?: number;
+  /** By frame, cold; null where it was not timed. */
+  frame_ms?: (number | null)[];
+  /** [distance, milliseconds]: medians of frames about equally far. */
+  by_distance?: [number, number][];
+  /** Of frames that touch: lowest, median, highest, and how many there are. */
+  touching?: [number, number, number, number];
+}
+
+export interface Disagreement {
+  frame: number;
+  detector: string;
+  level: string;
+  kind: "missed" | "spurious";
+  case: string;
+}
+
+/** The families of hard cases. */
+export interface Hard {
+  sums: TextTable;
+  matrix: HeatTable;
+  families: WrongFamily[];
+}
+
+/** One that some detector goes wrong in. */
+export interface WrongFamily {
+  id: string;
+  title: string;
+  aside: string;
+  sentence: string;
+  table: TextTable;
+  /** Per row of the table; null where the case is not known. */
+  shown: ({detector: string; frame: number; kind?: "missed" | "spurious"} | null)[];
+  /** An SVG document; its squares have data-detector and data-frame. */
+  picture: string;
+}
+
+/** The paper's tables beside ours. */
+export interface PaperPart {
+  /** Two levels of spheres over one. */
+  overview: TextTable;
+  /** Ways to read the paper's method. */
+  readings: string[];
+  means_title: string;
+  means: string[];
+  scenes: PaperScene[];
+  own_numbers: string;
+  /** Of the paper's own numbers. */
+  checks: TextTable;
+}
+
+export interface PaperScene {
+  title: string;
+  aside: string;
+  sentences: string[];
+  tables: TextTable[];
+}
+
+/** Where true pairs of triangles are lost. */
+export interface StageLosses {
+  /** Detector, stage, how many, share of the true ones, the same in percent. */
+  bars: [string, string, number, number, string][];
+  /** That lost some. */
+  stages: string[];
+  sentences: string[];
+  /** A sentence: who lost nothing, or why there is no bar. */
+  without_loss: string;
+  table: TextTable;
+}
+
+/** Milliseconds per frame. */
+export interface PhaseTimes {
+  /** Detector, map (null: none), update, query, their sum, their sum without map; least sum first. */
+  bars: [string, number | null, number, number, number, number][];
+  table: TextTable;
+}
+
+/** Errors of one quantity, in its unit. */
+export interface ErrorChart {
+  title: string;
+  axis: string;
+  unit: string;
+  /** What was judged. */
+  what: string;
+  rows: ErrorRow[];
+  always_zero: string;
+}
+
+export type ErrorRow = [
+  detector: string,
+  kind: string,
+  judged: number,
+  mean: number | null,
+  p95: number | null,
+  max: number,
+  bins: [from: number, below: number, count: number, share: number, percent: string][],
+  points: number[],
+];
+
+export interface TextTable {
+  id?: string;
+  title: string;
+  text: string;
+  columns: TextColumn[];
+  rows: string[][];
+}
+
+/** The points of the chart of speed against error. */
+export interface SpeedError {
+  /** Of the choices of scenes. */
+  first: number;
+  columns: TextColumn[];
+  /** By choice of scenes, then by level. */
+  charts: Record<string, LevelCharts>[];
+}
+
+export type Caches = "cold" | "hot";
+export type Measure = "worse" | "missed" | "spurious";
+
+export type LevelCharts = Record<`${Measure} ${Caches}`, PointsChart>;
+
+export interface PointsChart {
+  /** Place in `detectors`, milliseconds, error, is on the front. */
+  points: [number, number, number, boolean][];
+  /** The points as lines of a table. */
+  rows: string[][];
+  left_out: string;
+}

@@ -109,6 +109,14 @@ class FclBody {
     require_ok(model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true), "endReplaceModel");
   }
 
+  /// By FCL's own test: without area it leaves the triangle's normal as it was in memory, which may
+  /// be one of an earlier triangle.
+  bool has_normal(std::uint32_t triangle) const {
+    const fcl::Triangle& t = model_.tri_indices[triangle];
+    const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+    return (b - a).cross(c - a).squaredNorm() > 0.0;
+  }
+
   fcl::BVHModel<BV>& model() { return model_; }
   const Aabb& box() const { return box_; }
 
@@ -165,8 +173,11 @@ class FclDetector final : public Detector {
     }
   }
 
-  static void append_depth(const ElementPair& triangles, const fcl::Contactd& contact,
-                           ContactSet& out) {
+  void append_depth(const ElementPair& triangles, const fcl::Contactd& contact,
+                    ContactSet& out) const {
+    if (!bodies_[triangles.body_a]->has_normal(triangles.a) ||
+        !bodies_[triangles.body_b]->has_normal(triangles.b))
+      return;
     const bool unit = std::abs(contact.normal.norm() - 1.0) < 1e-6;  // false for NaN
     if (!unit || !(contact.penetration_depth >= 0.0)) return;
     out.piece_contacts.push_back({triangles, contact.penetration_depth, contact.normal});

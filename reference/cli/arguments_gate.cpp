@@ -19,8 +19,8 @@ void add_gate(CommandLine& line) {
       "gate", "hold results against the rules of a policy; what a CI job calls");
   gate->add_option("results", arguments->results, "a results.json")->required();
   gate->add_option("--policy", arguments->policy,
-                   "rules, as fixtures/policies/README.md describes them")
-      ->required()
+                   "rules, as fixtures/policies/README.md describes them; without it, where a "
+                   "baseline is given, fixtures/policies/unchanged.json: nothing may differ")
       ->type_name("FILE");
   gate->add_option("--baseline", arguments->baseline,
                    "results of an earlier run, as accept writes them; what they have must be there")
@@ -36,7 +36,8 @@ void add_gate(CommandLine& line) {
       "Examples:\n"
       "  contactcheck gate out/results.json --policy fixtures/policies/default.json\n"
       "  contactcheck gate out/results.json --policy fixtures/policies/ci.json \\\n"
-      "      --baseline fixtures/baselines/ci.json --junit out/gate.xml --github");
+      "      --baseline fixtures/baselines/ci.json --junit out/gate.xml --github\n"
+      "  contactcheck gate out/results.json --baseline before.json");
   choose(*gate, line, [arguments] { return gate_command(*arguments); });
 }
 

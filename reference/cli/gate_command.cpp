@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/deform/atomic_file.h"
+#include "core/types/check.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
 #include "reference/gate/github.h"
@@ -12,6 +13,7 @@
 #include "reference/gate/screen.h"
 #include "reference/results/results_file.h"
 #include "reference/run/exit_codes.h"
+#include "reference/scene/catalogue.h"
 
 namespace contactcheck {
 namespace {
@@ -19,7 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 GateResult judged(const GateArguments& arguments) {
-  const Policy policy = read_policy(arguments.policy);
+  if (arguments.policy.empty() && arguments.baseline.empty())
+    throw InputError("gate needs --policy FILE, --baseline FILE or both");
+  const Policy policy =
+      read_policy(arguments.policy.empty() ? fixtures_directory() / "policies" / "unchanged.json"
+                                           : arguments.policy);
   const results::Results now = results_in(arguments.results);
   if (arguments.baseline.empty()) return run_gate(policy, now, nullptr);
   const results::Results before = results_in(arguments.baseline);

@@ -84,10 +84,6 @@ Check cannot_judge(const Rule& rule, const std::string& reason) {
 
 const results::Run* row_before(const results::Index* before, const results::Run& row,
                                std::string& reason) {
-  if (before == nullptr) {
-    reason = "no baseline is given";
-    return nullptr;
-  }
   const results::Run* const old = before->run(row.scene, row.detector);
   if (old == nullptr) {
     reason = "the baseline has no such row";

@@ -77,6 +77,16 @@ std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& r
   return out;
 }
 
+std::optional<Check> too_many_open(const Policy& policy, const GateResult& result) {
+  const std::vector<std::string> open = result.rules_with(Verdict::kCannotJudge);
+  if (!policy.cannot_judge_at_most || open.size() <= *policy.cannot_judge_at_most)
+    return std::nullopt;
+  Check out = failure(kOpenRule, "they are " + quoted(open));
+  out.measured = "rules that cannot judge " + std::to_string(open.size());
+  out.allowed = "at most " + std::to_string(*policy.cannot_judge_at_most);
+  return out;
+}
+
 std::vector<Check> lost_rows(const results::Index& now, const results::Results& before) {
   std::vector<Check> out;
   std::set<std::string> lost_scenes;

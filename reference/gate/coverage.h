@@ -2,6 +2,7 @@
 // its baseline.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace contactcheck {
 /// The name under which checks against the baseline's rows stand, beside the rules.
 inline constexpr const char* kBaselineRule = "everything that the baseline has";
 
+/// The name under which it stands that too many rules cannot judge.
+inline constexpr const char* kOpenRule = "rules can judge what they are about";
+
 struct RowName {
   std::string scene, detector;
 };
@@ -21,6 +25,9 @@ struct RowName {
 /// A failure for every pattern of the rule that stands for none of `rows`, which are those that the
 /// rule is about; one failure for a rule without any row.
 std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows);
+
+/// A failure where more rules cannot judge some of their rows than the policy allows.
+std::optional<Check> too_many_open(const Policy& policy, const GateResult& result);
 
 /// A failure for every scene and every row of the baseline that the results lack, and for every row
 /// that ended well in the baseline and does not now.

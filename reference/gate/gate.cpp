@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/types/check.h"
 #include "reference/gate/accuracy_rule.h"
 #include "reference/gate/blame.h"
 #include "reference/gate/coverage.h"
@@ -87,6 +88,11 @@ class Gate {
 
 GateResult run_gate(const Policy& policy, const results::Results& results,
                     const results::Results* baseline) {
+  for (const Rule& rule : policy.rules)
+    if (baseline == nullptr && needs_baseline(rule))
+      throw InputError("policy \"" + policy.id + "\": rule \"" + rule.name +
+                       "\" compares with an earlier run, and none is given; --baseline FILE names "
+                       "one");
   const results::Index now(results);
   std::optional<results::Index> before;
   if (baseline != nullptr) before.emplace(*baseline);
@@ -99,6 +105,7 @@ GateResult run_gate(const Policy& policy, const results::Results& results,
   for (const Rule& rule : policy.rules) gate.apply(rule, out.checks);
   if (baseline != nullptr)
     for (Check& lost : lost_rows(now, *baseline)) out.checks.push_back(std::move(lost));
+  if (std::optional<Check> open = too_many_open(policy, out)) out.checks.push_back(*open);
   return out;
 }
 

@@ -8,8 +8,8 @@
 namespace contactcheck {
 
 /// Every rule on every row that it is about. A rule whose patterns match nothing is a failure; so
-/// is what the baseline has and the results lack. `baseline` may be null: then the rules that need
-/// one cannot be judged.
+/// is what the baseline has and the results lack, and more rules that cannot judge than the policy
+/// allows. `baseline` may be null. @throws InputError when it is and a rule needs one
 GateResult run_gate(const Policy& policy, const results::Results& results,
                     const results::Results* baseline);
 

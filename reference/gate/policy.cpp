@@ -152,11 +152,13 @@ Policy read_policy(const std::filesystem::path& file) {
   const std::string document = "policy " + in_quotes(file.string());
   const JsonValue value = parse_json(read_file_bytes(file, "policy"), document);
   const JsonField root(value, document);
-  root.only_keys({"schema", "id", "title", "rules"});
+  root.only_keys({"schema", "id", "title", "rules", "cannot_judge_at_most"});
   root.at("schema").one_of({"contactcheck-policy/1"});
   Policy policy;
   policy.id = root.at("id").text();
   policy.title = root.at("title").text();
+  if (root.has("cannot_judge_at_most"))
+    policy.cannot_judge_at_most = root.at("cannot_judge_at_most").whole(0, 1'000'000);
   for (const JsonField& item : root.at("rules").items(1)) {
     Rule rule = parse_rule(item);
     require_own_name(item, rule, policy.rules);

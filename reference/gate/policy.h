@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct Rule {
 struct Policy {
   std::string id, title;
   std::vector<Rule> rules;  ///< at least one
+  /// More rules than this that cannot judge some of their rows make the gate red; none: any number
+  /// may.
+  std::optional<std::size_t> cannot_judge_at_most;
 };
 
 /// Does it need the results of an earlier run?

@@ -34,6 +34,14 @@ std::size_t GateResult::count(Verdict verdict) const {
       checks.begin(), checks.end(), [&](const Check& c) { return c.verdict == verdict; }));
 }
 
+std::vector<std::string> GateResult::rules_with(Verdict verdict) const {
+  std::vector<std::string> out;
+  for (const Check& check : checks)
+    if (check.verdict == verdict && std::find(out.begin(), out.end(), check.rule) == out.end())
+      out.push_back(check.rule);
+  return out;
+}
+
 std::string counts_text(const GateResult& result) {
   std::string out = std::to_string(result.checks.size()) + " checks of " +
                     std::to_string(result.rules) + " rules:";
@@ -41,6 +49,8 @@ std::string counts_text(const GateResult& result) {
        {Verdict::kPass, Verdict::kFail, Verdict::kTooNoisy, Verdict::kCannotJudge})
     out += std::string(v == Verdict::kPass ? " " : ", ") + std::to_string(result.count(v)) + " " +
            name_of(v);
+  if (const std::size_t open = result.rules_with(Verdict::kCannotJudge).size(); open > 0)
+    out += " (of " + std::to_string(open) + (open == 1 ? " rule)" : " rules)");
   return out;
 }
 

@@ -36,6 +36,8 @@ struct GateResult {
 
   bool red() const;
   std::size_t count(Verdict verdict) const;
+  /// The names of the rules with a check of that verdict, each once.
+  std::vector<std::string> rules_with(Verdict verdict) const;
 };
 
 /// Checks of one rule, in the order of the first of each.
@@ -56,7 +58,7 @@ std::vector<RuleChecks> by_rule(const GateResult& result, Wanted wanted) {
   return out;
 }
 
-/// "142 checks of 9 rules: 140 pass, 1 fail, 0 too noisy to judge, 1 cannot judge"
+/// "142 checks of 9 rules: 138 pass, 1 fail, 0 too noisy to judge, 3 cannot judge (of 2 rules)"
 std::string counts_text(const GateResult& result);
 
 /// In one line: "bunny-touch  ffd-lazy: missed 3 at level triangle, allowed at most 0, frame 7".

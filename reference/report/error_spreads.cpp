@@ -41,18 +41,25 @@ RunErrors hover_errors(const Geometry& geometry) {
 }
 
 struct Quantity {
-  const char *title, *axis, *what;
+  const char *title, *axis, *what, *truth;
   bool length;   // in metres, drawn in millimetres; else degrees
   bool by_kind;  // of depth: kinds that do not compare have charts of their own
   RunErrors (*of)(const Geometry& geometry);
 };
 
 constexpr Quantity kQuantities[] = {
-    {"Depth", "error of the depth, mm", "contacts judged", true, true, depth_errors},
-    {"Normal", "error of the normal, degrees", "contacts judged", false, false, normal_errors},
+    {"Depth", "error of the depth, mm", "contacts judged",
+     "The true depth is the shortest translation that parts two convex pieces (convex-pair), or a "
+     "vertex's distance to the surface (vertex-surface).",
+     true, true, depth_errors},
+    {"Normal", "error of the normal, degrees", "contacts judged",
+     "The true normal is the direction of the shortest translation that parts two convex pieces, "
+     "or the way from a vertex to the nearest surface; of several that are equally short the one "
+     "nearest to what was reported counts.",
+     false, false, normal_errors},
     {"Distance of spurious pairs of triangles", "true distance of pairs reported as touching, mm",
-     "spurious pairs", true, false, spurious_distances},
-    {"Hover", "true distance at the first report of contact, mm", "episodes of contact", true,
+     "spurious pairs", "", true, false, spurious_distances},
+    {"Hover", "true distance at the first report of contact, mm", "episodes of contact", "", true,
      false, hover_errors}};
 
 using BinSums = std::map<double, HistogramBin>;  // by `from`, in the unit of the results
@@ -117,8 +124,13 @@ ErrorChart& chart_of(std::vector<ErrorChart>& charts, const std::string& title,
   const auto own = std::find_if(charts.begin(), charts.end(),
                                 [&](const ErrorChart& chart) { return chart.title == title; });
   if (own != charts.end()) return *own;
-  charts.push_back(
-      {title, quantity.axis, quantity.length ? "mm" : "\u00b0", quantity.what, {}, ""});
+  charts.push_back({title,
+                    quantity.axis,
+                    quantity.length ? "mm" : "\u00b0",
+                    quantity.what,
+                    quantity.truth,
+                    {},
+                    ""});
   return charts.back();
 }
 

@@ -39,7 +39,8 @@ struct ErrorRow {
 struct ErrorChart {
   std::string title;  ///< "Depth, convex-pair"
   std::string axis, unit;
-  std::string what;  ///< was judged: "contacts judged"
+  std::string what;   ///< was judged: "contacts judged"
+  std::string truth;  ///< a sentence: what errors are measured against; may be ""
   std::vector<ErrorRow> rows;
   std::string always_zero;  ///< "Always 0: a, b and c.", who is in no row for that; may be ""
 };

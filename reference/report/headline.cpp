@@ -87,17 +87,23 @@ std::string places_text(const Results& results) {
   return listed(parts);
 }
 
+// What was judged by it: contacts alone. How early, how deep and in which direction have sentences
+// of their own.
 std::string title_of(const std::vector<Verdict>& all, const std::string& places) {
+  if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
   const auto right = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.flawless(); }));
-  if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
-  if (all.size() == 1)
-    return all[0].detector + " made " + (right == 1 ? "no error" : "errors") + " in " + places;
-  if (right == all.size())
-    return fmt::format("All {} detectors made no error in {}", right, places);
-  if (right == 0)
-    return fmt::format("None of {} detectors is without error in {}", all.size(), places);
-  return fmt::format("{} of {} detectors made no error in {}", right, all.size(), places);
+  const bool failed =
+      std::any_of(all.begin(), all.end(), [](const Verdict& v) { return v.failed; });
+  const std::string who = all.size() == 1 ? all[0].detector
+                          : right == 0 || right == all.size()
+                              ? fmt::format("All {} detectors", all.size())
+                              : fmt::format("{} of {} detectors", right, all.size());
+  return fmt::format("{} {} in {}", who,
+                     right > 0 ? "missed and invented no contact"
+                     : failed  ? "missed or invented contacts, or ended in an error,"
+                               : "missed or invented contacts",
+                     places);
 }
 
 void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& out) {
@@ -110,8 +116,8 @@ void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& ou
     own->second.push_back(verdict.detector);
   }
   for (const auto& [level, names] : by_level)
-    out.push_back(
-        {"No error", fmt::format("At level {}: {}.", level ? name_of(*level) : "", listed(names))});
+    out.push_back({"Nothing missed or invented",
+                   fmt::format("At level {}: {}.", level ? name_of(*level) : "", listed(names))});
 }
 
 using Member = std::uint64_t ErrorCounts::*;
@@ -165,7 +171,7 @@ void add_wrong(const std::vector<Verdict>& all, bool missed, std::vector<Headlin
                    short_list(texts, kMostDetectors))});
 }
 
-/// A detector and the scenes in which it is the fastest without error.
+/// A detector and the scenes in which it is the fastest of those that were right.
 struct Winner {
   std::string detector;
   Names scenes;
@@ -235,12 +241,74 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
                                          : fmt::format("in all {} scenes", total);
   std::vector<const Run*> runs;
   for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
-  out.push_back({"Fastest without error",
+  out.push_back({"Fastest of these",
                  fmt::format("{} {}: {} ms per frame there for all pairs of triangles, caches "
                              "cold{}.{}",
                              best.detector, where, format_number(mean_frame_ms(runs, false)),
                              others.empty() ? "" : "; " + listed(others),
                              slower_text(index.results(), best.detector))});
+}
+
+/// The largest error of one detector, and what it was.
+struct Largest {
+  std::string detector, aside;
+  double error = 0.0;
+};
+
+Largest& largest_of(const std::string& detector, const std::string& aside,
+                    std::vector<Largest>& all) {
+  for (Largest& one : all)
+    if (one.detector == detector && one.aside == aside) return one;
+  return all.emplace_back(Largest{detector, aside});
+}
+
+// Worst first; without those that were never off.
+Names texts_of(std::vector<Largest> all, const char* unit) {
+  std::erase_if(all, [](const Largest& one) { return !(one.error > 0.0); });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Largest& a, const Largest& b) { return a.error > b.error; });
+  Names out;
+  for (const Largest& one : all)
+    out.push_back(fmt::format("{} {} {}{}", one.detector, format_number(one.error), unit,
+                              one.aside.empty() ? "" : " (" + one.aside + ")"));
+  return out;
+}
+
+// A detector may see contact as far off as it declares. The moment of first contact is found to
+// within 1e-6 of the scene's size.
+void add_hover(const Index& index, std::vector<HeadlineFinding>& out) {
+  constexpr double kTolerance = 1e-5;
+  std::vector<Largest> all;
+  for (const Run& run : index.results().runs) {
+    const results::Scene* scene = index.scene(run.scene);
+    const double margin = run.semantics.margin, gap = run.geometry.hover_gap_max.value_or(0.0);
+    if (!run.ok() || scene == nullptr || !(gap - margin > kTolerance * scene->size)) continue;
+    Largest& own = largest_of(
+        run.detector, margin > 0.0 ? "margin " + format_millimetres(margin) + " mm" : "", all);
+    own.error = std::max(own.error, 1e3 * gap);
+  }
+  const Names texts = texts_of(all, "mm");
+  if (!texts.empty())
+    out.push_back({"Too early", fmt::format("{} reported contact before it was nearer than "
+                                            "declared: {}.",
+                                            plural(texts.size(), "detector"),
+                                            short_list(texts, kMostDetectors))});
+}
+
+void add_depths(const Results& results, std::vector<HeadlineFinding>& out) {
+  std::vector<Largest> depths, normals;
+  for (const Run& run : results.runs) {
+    if (!run.ok()) continue;
+    const results::Geometry& g = run.geometry;
+    Largest& depth = largest_of(run.detector, name_of(g.depth_kind), depths);
+    depth.error = std::max(depth.error, 1e3 * g.depth.max.value_or(0.0));
+    Largest& normal = largest_of(run.detector, "", normals);
+    normal.error = std::max(normal.error, g.normal_deg.max.value_or(0.0));
+  }
+  if (const Names texts = texts_of(depths, "mm"); !texts.empty())
+    out.push_back({"Depth", "Off by at most: " + short_list(texts, kMostDetectors) + "."});
+  if (const Names texts = texts_of(normals, "degrees"); !texts.empty())
+    out.push_back({"Normal", "Off by at most: " + short_list(texts, kMostDetectors) + "."});
 }
 
 void add_status(const Index& index, results::Status status, const char* topic,
@@ -310,6 +378,8 @@ Headline headline_of(const Results& results) {
   add_fastest(index, winners, out.findings);
   add_wrong(verdicts, true, out.findings);
   add_wrong(verdicts, false, out.findings);
+  add_hover(index, out.findings);
+  add_depths(results, out.findings);
   add_status(index, results::Status::kError, "Ended in an error", out.findings);
   add_status(index, results::Status::kRefused, "Refused the input", out.findings);
   add_absent(results, out.findings);

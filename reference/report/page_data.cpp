@@ -231,6 +231,7 @@ Json graded_json(const results::Index& index, const std::vector<SceneChoice>& ch
                         {"axis", chart.axis},
                         {"unit", chart.unit},
                         {"what", chart.what},
+                        {"truth", chart.truth},
                         {"rows", std::move(rows)},
                         {"always_zero", chart.always_zero}});
     }

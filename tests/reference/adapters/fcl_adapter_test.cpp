@@ -345,6 +345,24 @@ TEST_P(FclDetectors, DegenerateTrianglesOnASurfaceAreFound) {
   EXPECT_THAT(triangles(world), ElementsAre(ElementPair{0, 1, 0, 0}, ElementPair{0, 1, 0, 1}));
 }
 
+// FCL gives it the normal of an earlier triangle, or whatever else was in memory.
+TEST_P(FclDetectors, TriangleWithoutAreaHasNoDepth) {
+  const TriangleMesh floor = {{Vec3(-8, -8, 0), Vec3(8, -8, 0), Vec3(0, 8, 0)}, {{0, 1, 2}}};
+  const TriangleMesh spikes = {
+      {Vec3(0, 0, -0.125), Vec3(1, 0, 0.875), Vec3(-1, 0, 0.875), Vec3(0, 0, -1), Vec3(0, 0, 1),
+       Vec3(0, 0, 0.5), Vec3(0.25, 0.25, 0), Vec3(0.25, 0.25, 0), Vec3(0.25, 0.25, 0)},
+      {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  for (const bool swapped : {false, true}) {
+    const ContactSet contacts =
+        ask(*prepared(World(swapped ? std::vector{spikes, floor} : std::vector{floor, spikes})),
+            Question::kContacts);
+    EXPECT_THAT(contacts.triangles, SizeIs(3));
+    EXPECT_THAT(contacts.piece_contacts, Not(IsEmpty()));
+    for (const PieceContact& c : contacts.piece_contacts)
+      EXPECT_EQ(c.pieces, (ElementPair{0, 1, 0, 0}));
+  }
+}
+
 TEST_P(FclDetectors, BodyFlattenedToAPointIsAnswered) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
   World world({box, box});

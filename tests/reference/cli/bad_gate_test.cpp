@@ -38,7 +38,9 @@ BadCommand gate_with(const std::string& name, const Words& more, const Words& na
 INSTANTIATE_TEST_SUITE_P(
     Gate, BadGate,
     testing::Values(
-        gate_with("NoPolicy", {}, {"--policy", "required"}),
+        gate_with("NeitherPolicyNorBaseline", {}, {"--policy", "--baseline"}),
+        gate_with("NoBaselineForARuleThatNeedsOne", {"--policy", "DIR/policy.json"},
+                  {"policy \"own\"", "rule \"same contacts\"", "--baseline"}),
         gate_with("PolicyThatIsNotThere", {"--policy", "DIR/none.json"}, {"DIR/none.json"}),
         gate_with("PolicyThatIsAFolder", {"--policy", "DIR/folder"}, {"DIR/folder", "folder"}),
         gate_with("PolicyThatIsAResultsFile", {"--policy", "DIR/results.json"},
@@ -55,9 +57,12 @@ INSTANTIATE_TEST_SUITE_P(
                   {"--policy", "DIR/policy.json", "--baseline", "DIR/negative.json"},
                   {"DIR/negative.json", "runs[2].levels.cell.missed is -1", "at least 0"}),
         gate_with("JunitBelowAFile",
-                  {"--policy", "DIR/policy.json", "--junit", "DIR/text.txt/gate.xml"},
+                  {"--policy", "DIR/policy.json", "--baseline", "DIR/baseline.json", "--junit",
+                   "DIR/text.txt/gate.xml"},
                   {"DIR/text.txt/gate.xml", "Not a directory"}),
-        gate_with("JunitOntoAFolder", {"--policy", "DIR/policy.json", "--junit", "DIR/folder"},
+        gate_with("JunitOntoAFolder",
+                  {"--policy", "DIR/policy.json", "--baseline", "DIR/baseline.json", "--junit",
+                   "DIR/folder"},
                   {"DIR/folder"}),
         gate_with("UnknownFlag", {"--policy", "DIR/policy.json", "--strict"}, {"--strict"}),
         BadCommand{"ResultsThatBreakTheSchema",
@@ -95,7 +100,8 @@ TEST(GithubSummary, ThatCannotBeWrittenIsRefused) {
   test::write_gate_files(scratch);
   const test::Environment environment("GITHUB_STEP_SUMMARY", scratch.folder() / "none" / "s.md");
   test::expect_refused({"",
-                        {"gate", "DIR/results.json", "--policy", "DIR/policy.json", "--github"},
+                        {"gate", "DIR/results.json", "--policy", "DIR/policy.json", "--baseline",
+                         "DIR/baseline.json", "--github"},
                         {"DIR/none/s.md", "GITHUB_STEP_SUMMARY", "No such file"}},
                        scratch);
 }
@@ -135,6 +141,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"NextSchema",
                 R"({"schema": "contactcheck-policy/2", "id": "a", "title": "b", "rules": []})",
                 {"schema is \"contactcheck-policy/2\"", "contactcheck-policy/1"}},
+        BadText{"LimitOfOpenRules",
+                R"({"schema": "contactcheck-policy/1", "id": "a", "title": "b", "rules": [],)"
+                R"( "cannot_judge_at_most": -1})",
+                {"cannot_judge_at_most is -1", "0"}},
         BadText{"NoRules", test::policy_text(""), {"rules is an array of 0", "at least 1"}},
         BadText{"RuleAsText", test::policy_text("\"R\""), {"rules[0] is \"R\"", "an object"}},
         BadText{

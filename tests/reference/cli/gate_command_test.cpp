@@ -105,12 +105,19 @@ TEST_F(GateCommand, ChangedContactHashIsRed) {
                         "was: the detector's answer changed\n"));
 }
 
-TEST_F(GateCommand, WithoutABaselineJudgesTheRest) {
-  const Outcome outcome =
-      contactcheck_program({"gate", path("results.json"), "--policy", path("policy.json")});
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.out, HasSubstr("2 pass, 0 fail, 0 too noisy to judge, 4 cannot judge"));
-  EXPECT_THAT(outcome.out, HasSubstr("no baseline is given"));
+TEST_F(GateCommand, WithABaselineAloneAllowsNoOtherAnswer) {
+  const std::vector<std::string> words = {"gate", path("results.json"), "--baseline",
+                                          path("baseline.json")};
+  const Outcome same = contactcheck_program(words);
+  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, StartsWith("unchanged  every answer is that of the baseline\n"));
+  Json results = sample_results();
+  row_of(results, "touch", "paper")["levels"]["cell"]["missed"] = 4;
+  scratch_.write("results.json", results.dump());
+  const Outcome other = contactcheck_program(words);
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.out, HasSubstr("FAIL  as many contacts are missed as were\n"
+                                   "  touch  paper: missed 4 at level cell, allowed 3"));
 }
 
 TEST_F(GateCommand, WritesXmlThatAParserReads) {

@@ -271,9 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "'measure': 'stage_missed', 'stage': 'spheres', 'at_most': 0",
                  "the detector has no stage \"spheres\""},
         Unjudged{"NoStages", "single", "'measure': 'stage_missed', 'at_most': 0",
-                 "the detector has no stages"},
-        Unjudged{"NoBaseline", "exact", "'measure': 'contact_hash', 'unchanged': true",
-                 "no baseline is given"}),
+                 "the detector has no stages"}),
     [](const testing::TestParamInfo<Unjudged>& test) { return test.param.name; });
 
 TEST(RecallOverNothing, CannotBeJudged) {

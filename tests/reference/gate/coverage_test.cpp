@@ -1,7 +1,9 @@
 // What a gate must not pass over in silence.
 #include <gmock/gmock.h>
 
+#include "core/types/check.h"
 #include "reference/gate/coverage.h"
+#include "reference/results/results_json.h"
 #include "tests/reference/gate/gate_world.h"
 
 namespace contactcheck {
@@ -56,6 +58,40 @@ TEST(OracleRuleWithoutRandomPairs, MatchesNothing) {
       red_sentences(checks_of("'scenes': ['touch'], 'measure': 'oracle_wrong', 'at_most': 0",
                               sample_results())),
       testing::ElementsAre("R: matches nothing: no row has a scene of \"touch\""));
+}
+
+// Of three rules, one cannot judge a row: "single" has no stages.
+GateResult result_with_open_rule(std::optional<std::size_t> allowed) {
+  Policy policy = test::policy_of(kHolds);
+  policy.rules.push_back(test::policy_of("'scenes': ['touch'], 'detectors': ['single', 'exact'], "
+                                         "'measure': 'stage_missed', 'at_most': 9")
+                             .rules[0]);
+  policy.rules.back().name = "stages";
+  policy.cannot_judge_at_most = allowed;
+  return run_gate(policy, results::from_json(sample_results()), nullptr);
+}
+
+TEST(RulesThatCannotJudge, AreCounted) {
+  EXPECT_THAT(counts_text(result_with_open_rule({})),
+              testing::EndsWith(" 1 cannot judge (of 1 rule)"));
+}
+
+TEST(RulesThatCannotJudge, BreakAPolicyThatAllowsFewer) {
+  EXPECT_FALSE(result_with_open_rule({}).red());
+  EXPECT_FALSE(result_with_open_rule(1).red());
+  EXPECT_THAT(red_sentences(result_with_open_rule(0).checks),
+              testing::ElementsAre("rules can judge what they are about: rules that cannot judge "
+                                   "1, allowed at most 0; they are \"stages\""));
+}
+
+TEST(RuleThatNeedsABaseline, IsRefusedWithoutOne) {
+  for (const char* rule :
+       {"'measure': 'contact_hash', 'unchanged': true",
+        "'measure': 'slowdown', 'question': 'triangles', 'reference': 'ref', 'at_most': 1.1"})
+    EXPECT_THROW(checks_of(std::string("'scenes': ['touch'], 'detectors': ['exact'], ") + rule,
+                           sample_results()),
+                 InputError)
+        << rule;
 }
 
 TEST(Baseline, OfTheSameRowsIsGreen) {

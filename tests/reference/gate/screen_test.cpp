@@ -31,21 +31,22 @@ TEST(Screen, NamesEachBrokenRuleWithItsCommandAndWhatIsOpen) {
                  open_check("as fast as it was", Verdict::kCannotJudge, "another machine"),
                  open_check("as fast as it was", Verdict::kCannotJudge, "another machine")}),
       false);
-  EXPECT_EQ(text,
-            "ci  A fast run\n"
-            "6 checks of 2 rules: 0 pass, 3 fail, 1 too noisy to judge, 2 cannot judge\n"
-            "FAIL  none missed\n"
-            "  (exact is exact)\n"
-            "  touch  exact: missed 3, allowed at most 0, frame 7\n"
-            "    contactcheck run touch --detector exact\n"
-            "  touch  lazy: missed 3, allowed at most 0, frame 7\n"
-            "    contactcheck run touch --detector lazy\n"
-            "  ... and 1 more of this rule\n"
-            "too noisy to judge\n"
-            "  fast: touch  exact: wide\n"
-            "cannot judge\n"
-            "  as fast as it was: touch  exact: another machine; and 1 more\n"
-            "gate: red\n");
+  EXPECT_EQ(
+      text,
+      "ci  A fast run\n"
+      "6 checks of 2 rules: 0 pass, 3 fail, 1 too noisy to judge, 2 cannot judge (of 1 rule)\n"
+      "FAIL  none missed\n"
+      "  (exact is exact)\n"
+      "  touch  exact: missed 3, allowed at most 0, frame 7\n"
+      "    contactcheck run touch --detector exact\n"
+      "  touch  lazy: missed 3, allowed at most 0, frame 7\n"
+      "    contactcheck run touch --detector lazy\n"
+      "  ... and 1 more of this rule\n"
+      "too noisy to judge\n"
+      "  fast: touch  exact: wide\n"
+      "cannot judge\n"
+      "  as fast as it was: touch  exact: another machine; and 1 more\n"
+      "gate: red\n");
 }
 
 TEST(Screen, ShowsWhatThePolicyMakesRedAmongTheBrokenRules) {

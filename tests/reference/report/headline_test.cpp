@@ -38,29 +38,33 @@ std::string sentence_about(const Results& results, const std::string& topic) {
   return "";
 }
 
-TEST(Headline, TitleSaysHowManyMadeNoError) {
+TEST(Headline, TitleSaysHowManyWereRight) {
   EXPECT_EQ(headline_of(run_of({"a", "b"}, {row("a", "x", 0, 0), row("a", "y", 1, 0)})).title,
-            "1 of 2 detectors made no error in 2 scenes");
-  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0)})).title, "x made no error in 1 scene");
-  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 2)})).title, "x made errors in 1 scene");
+            "1 of 2 detectors missed and invented no contact in 2 scenes");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0)})).title,
+            "x missed and invented no contact in 1 scene");
+  EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 2)})).title,
+            "x missed or invented contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0), row("a", "y", 0, 0)})).title,
-            "All 2 detectors made no error in 1 scene");
+            "All 2 detectors missed and invented no contact in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 1, 0), row("a", "y", 1, 0)})).title,
-            "None of 2 detectors is without error in 1 scene");
+            "All 2 detectors missed or invented contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({}, {})).title, "Nothing was judged in this run");
 }
 
 TEST(Headline, FamiliesCountByTheirCases) {
   Results results = run_of({"a", "gap"}, {row("gap", "x", 0, 0)});
   results.scenes[1].family.emplace().values = {"0", "1e-9", "1e-3"};
-  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene and 3 hard cases");
+  EXPECT_EQ(headline_of(results).title,
+            "x missed and invented no contact in 1 scene and 3 hard cases");
 }
 
 TEST(Headline, AnErrorIsNoFlawlessRun) {
   Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0)});
   results.runs[1].status = results::Status::kError;
   results.runs[1].message = "signal 11";
-  EXPECT_EQ(headline_of(results).title, "x made errors in 2 scenes");
+  EXPECT_EQ(headline_of(results).title,
+            "x missed or invented contacts, or ended in an error, in 2 scenes");
   EXPECT_EQ(sentence_about(results, "Ended in an error"), "x in b (signal 11).");
 }
 
@@ -68,7 +72,7 @@ TEST(Headline, WhatTheOracleCouldNotJudgeIsNobodysError) {
   Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0)});
   results.runs[1].status = results::Status::kError;
   results.scenes[1].unjudged = "scene b: no progress";
-  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene");
+  EXPECT_EQ(headline_of(results).title, "x missed and invented no contact in 1 scene");
   EXPECT_EQ(sentence_about(results, "Ended in an error"), "");
   EXPECT_EQ(sentence_about(results, "Not judged"), "scene b: no progress.");
 }
@@ -77,7 +81,7 @@ TEST(Headline, InformativeLevelsAreHeldAgainstNobody) {
   Results results = run_of({"a"}, {row("a", "x", 0, 0)});
   results.runs[0].levels[Level::kVertex] = {5, 0, 0, 5, 0};
   results.runs[0].levels[Level::kVertex].informative = true;
-  EXPECT_EQ(headline_of(results).title, "x made no error in 1 scene");
+  EXPECT_EQ(headline_of(results).title, "x missed and invented no contact in 1 scene");
 }
 
 TEST(Headline, TheWrongAreNamedWorstFirst) {
@@ -88,10 +92,10 @@ TEST(Headline, TheWrongAreNamedWorstFirst) {
             "and x 6.3 % (1 of 16).");
   EXPECT_EQ(sentence_about(results, "Spurious"),
             "1 detector reported contacts that are none, at level triangle: w 33.3 % (8 of 24).");
-  EXPECT_EQ(sentence_about(results, "No error"), "At level triangle: z.");
+  EXPECT_EQ(sentence_about(results, "Nothing missed or invented"), "At level triangle: z.");
 }
 
-TEST(Headline, TheFastestWithoutErrorIsFoundSceneByScene) {
+TEST(Headline, TheFastestOfThoseThatWereRightIsFoundSceneByScene) {
   std::vector<results::Run> runs = {row("a", "x", 0, 0, 2.0),
                                     row("a", "y", 0, 0, 1.0),
                                     row("b", "x", 0, 0, 1.0),
@@ -102,12 +106,44 @@ TEST(Headline, TheFastestWithoutErrorIsFoundSceneByScene) {
   runs[2].speedup[Question::kTriangles]["embree"].cold = {3.0, 2.0, 4.0};
   runs[4].speedup[Question::kTriangles]["embree"].cold = {5.0, 4.0, 6.0};
   const Results results = run_of({"a", "b", "c"}, runs);
-  EXPECT_EQ(sentence_about(results, "Fastest without error"),
+  EXPECT_EQ(sentence_about(results, "Fastest of these"),
             "x in 2 of 3 scenes: 1.00 ms per frame there for all pairs of triangles, caches cold; "
             "y in a. embree takes 3.00 to 5.00 times as long.");
   EXPECT_THAT(headline_of(results).fastest, ElementsAre("x", "y"));
   EXPECT_THAT(headline_of(run_of({"a"}, {row("a", "x", 0, 0, 2.0)})).fastest, IsEmpty())
       << "alone it beats nobody";
+}
+
+TEST(Headline, ContactSeenFartherOffThanDeclaredIsToldApart) {
+  Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0),
+                                        row("a", "skin", 0, 0), row("a", "exact", 0, 0)});
+  for (results::Scene& scene : results.scenes) scene.size = 1.0;
+  results.runs[0].geometry.hover_gap_max = 0.004;
+  results.runs[1].geometry.hover_gap_max = 0.0287;
+  for (results::Run& run : results.runs)
+    run.semantics.margin = run.detector == "exact" ? 0.0 : 0.002;
+  results.runs[2].geometry.hover_gap_max = 0.002;  // as declared
+  results.runs[3].geometry.hover_gap_max = 1e-7;   // as well as the moment is known
+  EXPECT_EQ(headline_of(results).title,
+            "All 3 detectors missed and invented no contact in 2 scenes");
+  EXPECT_EQ(sentence_about(results, "Too early"),
+            "1 detector reported contact before it was nearer than declared: x 28.7 mm (margin "
+            "2.00 mm).");
+}
+
+TEST(Headline, DepthsAndNormalsHaveSentencesOfTheirOwn) {
+  Results results =
+      run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0), row("a", "y", 0, 0)});
+  EXPECT_EQ(sentence_about(results, "Depth") + sentence_about(results, "Normal"), "");
+  for (results::Run& run : results.runs) run.geometry.depth_kind = DepthKind::kConvexPair;
+  results.runs[0].geometry.depth.max = 0.001;
+  results.runs[1].geometry.depth.max = 0.0005;
+  results.runs[2].geometry.depth.max = 0.25;
+  results.runs[1].geometry.normal_deg.max = 80.0;
+  results.runs[2].geometry.normal_deg.max = 0.0;  // never off
+  EXPECT_EQ(sentence_about(results, "Depth"),
+            "Off by at most: y 250 mm (convex-pair) and x 1.00 mm (convex-pair).");
+  EXPECT_EQ(sentence_about(results, "Normal"), "Off by at most: x 80.0 degrees.");
 }
 
 TEST(Headline, GoalsAreCounted) {

@@ -19,7 +19,7 @@ export interface Page {
   group_names: string[];
   /** Whether any run was timed. */
   timed: boolean;
-  /** Without error and fastest in some scene, most scenes first. */
+  /** Right and fastest in some scene, most scenes first. */
   fastest: string[];
   references: string[];
   summary: TextTable;
@@ -180,6 +180,8 @@ export interface ErrorChart {
   unit: string;
   /** What was judged. */
   what: string;
+  /** A sentence: what errors are measured against; may be empty. */
+  truth: string;
   rows: ErrorRow[];
   always_zero: string;
 }

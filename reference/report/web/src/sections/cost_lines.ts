@@ -26,7 +26,7 @@ export function timedDetectors({detectors, scenes}: Page): string[] {
   return detectors.filter((_, i) => scenes.some(({cost}) => cost.detectors[i]?.cold));
 }
 
-/** The fastest without error, the usual references, then others in file order. */
+/** The fastest that were right, the usual references, then others in file order. */
 export function firstChoice({fastest, references}: Page, all: string[]): string[] {
   const wanted = [...fastest, ...references, "ffd-aabb-sphere2", ...all];
   return [...new Set(wanted)]

@@ -11,9 +11,10 @@ import {drawErrors} from "./graded_chart";
 
 function picture(page: Page, errors: ErrorChart): Child[] {
   const colour = ({detector}: {detector: string}): string => groupColour(page, detector);
-  const {title, rows, always_zero} = errors;
+  const {title, rows, truth, always_zero} = errors;
   return [
     h("h3", {}, title),
+    truth && p(truth),
     rows.length > 0 && chart(title, (width) => drawErrors(width, errors, colour)).element,
     always_zero && h("p", {class: "note"}, always_zero),
   ];

@@ -48,7 +48,7 @@ TEST(GithubSummary, IsATableOfWhatIsRedAndAListOfWhatIsOpen) {
   EXPECT_EQ(github_summary(result_of({red, open})),
             "## contactcheck gate ci: red\n\n"
             "A fast run. 2 checks of 2 rules: 0 pass, 1 fail, 0 too noisy to judge, 1 cannot "
-            "judge.\n\n"
+            "judge (of 1 rule).\n\n"
             "| rule | scene | detector | measured | allowed | frame | remark | again |\n"
             "|---|---|---|---|---|---|---|---|\n"
             "| a\\|b | touch | d&lt;1> | missed 3 | at most 0 | frame 7 |  | "

@@ -289,7 +289,7 @@ void add_hover(const Index& index, std::vector<HeadlineFinding>& out) {
   }
   const Names texts = texts_of(all, "mm");
   if (!texts.empty())
-    out.push_back({"Too early", fmt::format("{} reported contact before it was nearer than "
+    out.push_back({"Too early", fmt::format("{} reported contact of bodies farther apart than "
                                             "declared: {}.",
                                             plural(texts.size(), "detector"),
                                             short_list(texts, kMostDetectors))});

@@ -127,7 +127,7 @@ TEST(Headline, ContactSeenFartherOffThanDeclaredIsToldApart) {
   EXPECT_EQ(headline_of(results).title,
             "All 3 detectors missed and invented no contact in 2 scenes");
   EXPECT_EQ(sentence_about(results, "Too early"),
-            "1 detector reported contact before it was nearer than declared: x 28.7 mm (margin "
+            "1 detector reported contact of bodies farther apart than declared: x 28.7 mm (margin "
             "2.00 mm).");
 }
 

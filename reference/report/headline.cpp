@@ -253,6 +253,15 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
 struct Largest {
   std::string detector, aside;
   double error = 0.0;
+  double sum = 0.0;  ///< of all errors, where means are known
+  std::uint64_t judged = 0;
+
+  void add(const results::ErrorSpread& spread, double factor) {
+    error = std::max(error, factor * spread.max.value_or(0.0));
+    if (!spread.mean) return;
+    sum += factor * *spread.mean * static_cast<double>(spread.judged);
+    judged += spread.judged;
+  }
 };
 
 Largest& largest_of(const std::string& detector, const std::string& aside,
@@ -268,9 +277,12 @@ Names texts_of(std::vector<Largest> all, const char* unit) {
   std::stable_sort(all.begin(), all.end(),
                    [](const Largest& a, const Largest& b) { return a.error > b.error; });
   Names out;
-  for (const Largest& one : all)
-    out.push_back(fmt::format("{} {} {}{}", one.detector, format_number(one.error), unit,
+  for (const Largest& one : all) {
+    const std::string mean =
+        one.judged > 0 ? format_number(one.sum / static_cast<double>(one.judged)) + " and " : "";
+    out.push_back(fmt::format("{} {}{} {}{}", one.detector, mean, format_number(one.error), unit,
                               one.aside.empty() ? "" : " (" + one.aside + ")"));
+  }
   return out;
 }
 
@@ -300,15 +312,13 @@ void add_depths(const Results& results, std::vector<HeadlineFinding>& out) {
   for (const Run& run : results.runs) {
     if (!run.ok()) continue;
     const results::Geometry& g = run.geometry;
-    Largest& depth = largest_of(run.detector, name_of(g.depth_kind), depths);
-    depth.error = std::max(depth.error, 1e3 * g.depth.max.value_or(0.0));
-    Largest& normal = largest_of(run.detector, "", normals);
-    normal.error = std::max(normal.error, g.normal_deg.max.value_or(0.0));
+    largest_of(run.detector, name_of(g.depth_kind), depths).add(g.depth, 1e3);
+    largest_of(run.detector, "", normals).add(g.normal_deg, 1.0);
   }
   if (const Names texts = texts_of(depths, "mm"); !texts.empty())
-    out.push_back({"Depth", "Off by at most: " + short_list(texts, kMostDetectors) + "."});
+    out.push_back({"Depth", "Mean and largest error: " + short_list(texts, kMostDetectors) + "."});
   if (const Names texts = texts_of(normals, "degrees"); !texts.empty())
-    out.push_back({"Normal", "Off by at most: " + short_list(texts, kMostDetectors) + "."});
+    out.push_back({"Normal", "Mean and largest error: " + short_list(texts, kMostDetectors) + "."});
 }
 
 void add_status(const Index& index, results::Status status, const char* topic,

@@ -140,10 +140,15 @@ TEST(Headline, DepthsAndNormalsHaveSentencesOfTheirOwn) {
   results.runs[1].geometry.depth.max = 0.0005;
   results.runs[2].geometry.depth.max = 0.25;
   results.runs[1].geometry.normal_deg.max = 80.0;
+  results.runs[0].geometry.depth.mean = 0.0004;
+  results.runs[0].geometry.depth.judged = 3;
+  results.runs[1].geometry.depth.mean = 0.0;
+  results.runs[1].geometry.depth.judged = 1;
   results.runs[2].geometry.normal_deg.max = 0.0;  // never off
-  EXPECT_EQ(sentence_about(results, "Depth"),
-            "Off by at most: y 250 mm (convex-pair) and x 1.00 mm (convex-pair).");
-  EXPECT_EQ(sentence_about(results, "Normal"), "Off by at most: x 80.0 degrees.");
+  EXPECT_EQ(
+      sentence_about(results, "Depth"),
+      "Mean and largest error: y 250 mm (convex-pair) and x 0.300 and 1.00 mm (convex-pair).");
+  EXPECT_EQ(sentence_about(results, "Normal"), "Mean and largest error: x 80.0 degrees.");
 }
 
 TEST(Headline, GoalsAreCounted) {

@@ -39,8 +39,8 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
       "and ffd-aabb 11.1 % (1 of 9).",
     "Too early":
       "2 detectors reported contact of bodies farther apart than declared: ffd-grid 200 mm and ffd-aabb 12.5 mm.",
-    Depth: "Off by at most: ffd-aabb 4.00 mm (convex-pair).",
-    Normal: "Off by at most: ffd-aabb 90.0 degrees.",
+    Depth: "Mean and largest error: ffd-aabb 1.00 and 4.00 mm (convex-pair).",
+    Normal: "Mean and largest error: ffd-aabb 10.0 and 90.0 degrees.",
     "Ended in an error": "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
     "Not built": "<img src=x onerror=alert(1)>.",
     Goals: "1 of 3 goals of the suite is met; 1 goal could not be measured.",

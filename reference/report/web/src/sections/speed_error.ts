@@ -285,7 +285,7 @@ export const speedError: Section = {
     return [
       p(
         "Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it " +
-          "makes no error. The dashed steps are the Pareto fronts: no other detector that answers the same ",
+          "missed and invented nothing. The dashed steps are the Pareto fronts: no other detector that answers the same ",
         term("question"),
         " is both faster and better than a detector there. Times of different questions (shapes) do not compare.",
       ),

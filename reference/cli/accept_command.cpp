@@ -35,7 +35,7 @@ int accept_command(const fs::path& results_file, const fs::path& file) {
                      ": is a shard of a run; a baseline is made of the merged results");
   if (results.runs.empty())
     throw InputError(results_file.string() +
-                     ": runs is empty; a baseline of nothing holds nothing");
+                     ": runs is empty; a baseline must contain at least one run");
   const results::Results baseline = baseline_of(results);
   const std::string changes = before ? changes_text(*before, baseline) : "";
   write_file_atomically(file, baseline_text(baseline));

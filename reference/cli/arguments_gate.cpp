@@ -19,8 +19,7 @@ void add_gate(CommandLine& line) {
       "gate", "hold results against the rules of a policy; what a CI job calls");
   gate->add_option("results", arguments->results, "a results.json")->required();
   gate->add_option("--policy", arguments->policy,
-                   "rules, as fixtures/policies/README.md describes them; without it, where a "
-                   "baseline is given, fixtures/policies/unchanged.json: nothing may differ")
+                   "policy file (default with --baseline: fixtures/policies/unchanged.json)")
       ->type_name("FILE");
   gate->add_option("--baseline", arguments->baseline,
                    "results of an earlier run, as accept writes them; what they have must be there")

@@ -13,7 +13,7 @@
 #include "reference/gate/screen.h"
 #include "reference/results/results_file.h"
 #include "reference/run/exit_codes.h"
-#include "reference/scene/catalogue.h"
+#include "reference/scene/fixtures_folder.h"
 
 namespace contactcheck {
 namespace {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "reference/cli/commands.h"
@@ -11,7 +12,9 @@ int report_command(const std::filesystem::path& file, const std::vector<std::str
   check_report_formats(formats);
   const results::Results results = results_in(file);
   const auto folder = file.parent_path();
-  const auto files = report_texts(results, folder, formats, paper_part_in(folder, results));
+  const bool page = std::find(formats.begin(), formats.end(), "html") != formats.end();
+  const auto files =
+      report_texts(results, folder, formats, page ? paper_part_in(folder, results) : std::nullopt);
   write_report(out, files);
   std::printf("%s\n", report_paths(out, files).c_str());
   return 0;

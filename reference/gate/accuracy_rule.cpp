@@ -33,7 +33,7 @@ std::string why_hash_changed(const results::Run& row, const results::Run& old,
 }
 
 Check hash_against_baseline(const Rule& rule, const results::Index& now,
-                            const results::Index* before, const results::Run& row) {
+                            const results::Index& before, const results::Run& row) {
   std::string reason;
   const results::Run* const old = row_before(before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
@@ -41,7 +41,7 @@ Check hash_against_baseline(const Rule& rule, const results::Index& now,
       checked(rule, row.contact_hash == old->contact_hash, "contact_hash " + row.contact_hash);
   out.allowed = old->contact_hash + ", that of the baseline";
   if (row.contact_hash != old->contact_hash)
-    out.reason = why_hash_changed(row, *old, now.scene(row.scene), before->scene(row.scene));
+    out.reason = why_hash_changed(row, *old, now.scene(row.scene), before.scene(row.scene));
   return out;
 }
 
@@ -58,17 +58,20 @@ bool within(const Rule& rule, double value) {
   return rule.bound == Bound::kAtMost ? value <= rule.limit : value >= rule.limit;
 }
 
-Check number_against_baseline(const Rule& rule, const results::Index* before,
+Check number_against_baseline(const Rule& rule, const results::Index& before,
                               const results::Run& row, const Reading& reading) {
   std::string reason;
   const results::Run* const old = row_before(before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
   Rule same_level = rule;
   same_level.level = reading.level ? name_of(*reading.level) : "";
-  const Reading known = read_measure(same_level, before->results(), *old);
-  if (!known.value) return cannot_judge(rule, "in the baseline: " + known.why_not);
-  Check out = checked(rule, *reading.value == *known.value, measured_text(rule, reading));
-  out.allowed = shown(*known.value) + ", that of the baseline";
+  const Reading known = read_measure(same_level, before.results(), *old);
+  if (!reading.value && !known.value) return cannot_judge(rule, reading.why_not);
+  // What is there on one side alone has changed.
+  Check out = checked(rule, reading.value == known.value, "");
+  if (reading.value) out.measured = measured_text(rule, reading);
+  out.allowed = (known.value ? shown(*known.value) : "none") + ", that of the baseline";
+  if (!reading.value) out.reason = "was " + out.allowed + "; now " + reading.why_not;
   return out;
 }
 
@@ -82,9 +85,9 @@ Check cannot_judge(const Rule& rule, const std::string& reason) {
   return out;
 }
 
-const results::Run* row_before(const results::Index* before, const results::Run& row,
+const results::Run* row_before(const results::Index& before, const results::Run& row,
                                std::string& reason) {
-  const results::Run* const old = before->run(row.scene, row.detector);
+  const results::Run* const old = before.run(row.scene, row.detector);
   if (old == nullptr) {
     reason = "the baseline has no such row";
   } else if (!old->ok()) {
@@ -98,10 +101,10 @@ Check judge_accuracy(const Rule& rule, const results::Index& now, const results:
   if (rule.measure->kind == MeasureKind::kStatus) return judge_status(rule, row);
   if (rule.measure->kind == MeasureKind::kHash)
     return rule.bound == Bound::kEquals ? hash_against_truth(rule, now, row)
-                                        : hash_against_baseline(rule, now, before, row);
+                                        : hash_against_baseline(rule, now, *before, row);
   const Reading reading = read_measure(rule, now.results(), row);
+  if (rule.bound == Bound::kUnchanged) return number_against_baseline(rule, *before, row, reading);
   if (!reading.value) return cannot_judge(rule, reading.why_not);
-  if (rule.bound == Bound::kUnchanged) return number_against_baseline(rule, before, row, reading);
   return checked(rule, within(rule, *reading.value), measured_text(rule, reading));
 }
 

@@ -8,7 +8,8 @@
 namespace contactcheck {
 
 /// Verdict, what was measured and why. `before`: the baseline, or null.
-/// @pre the rule is no timing rule; the row's status is `ok`, unless the rule is about the status
+/// @pre not null where needs_baseline(rule); the rule is no timing rule; the row's status is `ok`,
+/// unless the rule is about the status
 Check judge_accuracy(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row);
 
@@ -20,7 +21,7 @@ Check cannot_judge(const Rule& rule, const std::string& reason);
 
 /// The baseline's row of the same scene and detector if it ended well; else null, and `reason` says
 /// what is in its place.
-const results::Run* row_before(const results::Index* before, const results::Run& row,
+const results::Run* row_before(const results::Index& before, const results::Run& row,
                                std::string& reason);
 
 }  // namespace contactcheck

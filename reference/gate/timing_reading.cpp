@@ -141,7 +141,7 @@ bool is_above_zero(const Ratio& r) { return r.low > 0.0; }
 Check judge_slowdown(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
   std::string reason;
-  const results::Run* const old = row_before(before, row, reason);
+  const results::Run* const old = row_before(*before, row, reason);
   if (old == nullptr) return cannot_judge(rule, reason);
   reason = other_machine(now.results(), before->results());
   if (!reason.empty()) return cannot_judge(rule, reason);

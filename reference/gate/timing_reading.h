@@ -14,7 +14,7 @@ namespace contactcheck {
 std::string other_machine(const results::Results& now, const results::Results& before);
 
 /// Verdict, what was measured and why. `before`: the baseline, or null.
-/// @pre the rule is a timing rule; the row's status is `ok`
+/// @pre not null where needs_baseline(rule); the rule is a timing rule; the row's status is `ok`
 Check judge_timing(const Rule& rule, const results::Index& now, const results::Index* before,
                    const results::Run& row);
 

@@ -49,12 +49,14 @@ struct Quantity {
 
 constexpr Quantity kQuantities[] = {
     {"Depth", "error of the depth, mm", "contacts judged",
-     "The true depth is the shortest translation that parts two convex pieces (convex-pair), or a "
-     "vertex's distance to the surface (vertex-surface).",
+     "The true depth is the shortest translation that separates two convex pieces (convex-pair), "
+     "or "
+     "the distance of a vertex inside a body to its surface (vertex-surface).",
      true, true, depth_errors},
     {"Normal", "error of the normal, degrees", "contacts judged",
-     "The true normal is the direction of the shortest translation that parts two convex pieces, "
-     "or the way from a vertex to the nearest surface; of several that are equally short the one "
+     "The true normal is the direction of the shortest translation that separates two convex "
+     "pieces, or the offset from a vertex to the nearest point of the surface; of several that are "
+     "equally short the one "
      "nearest to what was reported counts.",
      false, false, normal_errors},
     {"Distance of spurious pairs of triangles", "true distance of pairs reported as touching, mm",

@@ -87,22 +87,21 @@ std::string places_text(const Results& results) {
   return listed(parts);
 }
 
-// What was judged by it: contacts alone. How early, how deep and in which direction have sentences
-// of their own.
+// Of contacts alone. How early, how deep and in which direction have sentences of their own.
 std::string title_of(const std::vector<Verdict>& all, const std::string& places) {
   if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
   const auto right = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.flawless(); }));
   const bool failed =
       std::any_of(all.begin(), all.end(), [](const Verdict& v) { return v.failed; });
-  const std::string who = all.size() == 1 ? all[0].detector
+  const std::string who = all.size() == 1 ? all[0].detector + " has"
                           : right == 0 || right == all.size()
-                              ? fmt::format("All {} detectors", all.size())
-                              : fmt::format("{} of {} detectors", right, all.size());
+                              ? fmt::format("All {} detectors have", all.size())
+                              : fmt::format("{} of {} detectors have", right, all.size());
   return fmt::format("{} {} in {}", who,
-                     right > 0 ? "missed and invented no contact"
-                     : failed  ? "missed or invented contacts, or ended in an error,"
-                               : "missed or invented contacts",
+                     right > 0 ? "no missed and no spurious contacts"
+                     : failed  ? "missed or spurious contacts, or status error,"
+                               : "missed or spurious contacts",
                      places);
 }
 
@@ -116,7 +115,7 @@ void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& ou
     own->second.push_back(verdict.detector);
   }
   for (const auto& [level, names] : by_level)
-    out.push_back({"Nothing missed or invented",
+    out.push_back({"No missed or spurious contacts",
                    fmt::format("At level {}: {}.", level ? name_of(*level) : "", listed(names))});
 }
 
@@ -166,7 +165,7 @@ void add_wrong(const std::vector<Verdict>& all, bool missed, std::vector<Headlin
   out.push_back(
       {missed ? "Missed" : "Spurious",
        fmt::format("{} {}{}: {}.", plural(wrong.size(), "detector"),
-                   missed ? "did not report all true contacts" : "reported contacts that are none",
+                   missed ? "did not report all true contacts" : "reported spurious contacts",
                    levels.size() == 1 ? ", at level " + std::string(name_of(*levels.begin())) : "",
                    short_list(texts, kMostDetectors))});
 }
@@ -238,7 +237,7 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
   const std::string where = total > best.scenes.size()
                                 ? fmt::format("in {} of {} scenes", best.scenes.size(), total)
                             : total == 1 ? "in the scene"
-                                         : fmt::format("in all {} scenes", total);
+                                         : fmt::format("in all {} scenes", grouped_digits(total));
   std::vector<const Run*> runs;
   for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
   out.push_back({"Fastest of these",
@@ -249,55 +248,58 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
                              slower_text(index.results(), best.detector))});
 }
 
-/// The largest error of one detector, and what it was.
-struct Largest {
+/// The errors of one detector, over all scenes.
+struct DetectorErrors {
   std::string detector, aside;
-  double error = 0.0;
-  double sum = 0.0;  ///< of all errors, where means are known
-  std::uint64_t judged = 0;
+  double largest = 0.0, sum = 0.0;
+  std::uint64_t judged = 0;  ///< of the sum
 
   void add(const results::ErrorSpread& spread, double factor) {
-    error = std::max(error, factor * spread.max.value_or(0.0));
+    largest = std::max(largest, factor * spread.max.value_or(0.0));
     if (!spread.mean) return;
     sum += factor * *spread.mean * static_cast<double>(spread.judged);
     judged += spread.judged;
   }
 };
 
-Largest& largest_of(const std::string& detector, const std::string& aside,
-                    std::vector<Largest>& all) {
-  for (Largest& one : all)
-    if (one.detector == detector && one.aside == aside) return one;
-  return all.emplace_back(Largest{detector, aside});
+DetectorErrors& errors_of(const std::string& detector, std::vector<DetectorErrors>& all) {
+  for (DetectorErrors& one : all)
+    if (one.detector == detector) return one;
+  all.emplace_back().detector = detector;
+  return all.back();
 }
 
 // Worst first; without those that were never off.
-Names texts_of(std::vector<Largest> all, const char* unit) {
-  std::erase_if(all, [](const Largest& one) { return !(one.error > 0.0); });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Largest& a, const Largest& b) { return a.error > b.error; });
+Names texts_of(std::vector<DetectorErrors> all, const char* unit) {
+  std::erase_if(all, [](const DetectorErrors& one) { return !(one.largest > 0.0); });
+  std::stable_sort(all.begin(), all.end(), [](const DetectorErrors& a, const DetectorErrors& b) {
+    return a.largest > b.largest;
+  });
   Names out;
-  for (const Largest& one : all) {
-    const std::string mean =
-        one.judged > 0 ? format_number(one.sum / static_cast<double>(one.judged)) + " and " : "";
-    out.push_back(fmt::format("{} {}{} {}{}", one.detector, mean, format_number(one.error), unit,
-                              one.aside.empty() ? "" : " (" + one.aside + ")"));
+  for (const DetectorErrors& one : all) {
+    std::string aside = one.aside;
+    if (one.judged > 0)
+      aside += (aside.empty() ? "mean " : ", mean ") +
+               format_number(one.sum / static_cast<double>(one.judged));
+    out.push_back(fmt::format("{} {} {}{}", one.detector, format_number(one.largest), unit,
+                              aside.empty() ? "" : " (" + aside + ")"));
   }
   return out;
 }
 
-// A detector may see contact as far off as it declares. The moment of first contact is found to
-// within 1e-6 of the scene's size.
+// A detector may see contact as far off as it declares. The moment of first contact is known to
+// within 1e-6 of the scene's size; ten times that is a difference.
 void add_hover(const Index& index, std::vector<HeadlineFinding>& out) {
-  constexpr double kTolerance = 1e-5;
-  std::vector<Largest> all;
+  constexpr double kDifference = 1e-5;
+  std::vector<DetectorErrors> all;
   for (const Run& run : index.results().runs) {
     const results::Scene* scene = index.scene(run.scene);
     const double margin = run.semantics.margin, gap = run.geometry.hover_gap_max.value_or(0.0);
-    if (!run.ok() || scene == nullptr || !(gap - margin > kTolerance * scene->size)) continue;
-    Largest& own = largest_of(
-        run.detector, margin > 0.0 ? "margin " + format_millimetres(margin) + " mm" : "", all);
-    own.error = std::max(own.error, 1e3 * gap);
+    if (!run.ok() || scene == nullptr || !(gap - margin > kDifference * scene->size)) continue;
+    DetectorErrors& own = errors_of(run.detector, all);
+    if (1e3 * gap <= own.largest) continue;
+    own.largest = 1e3 * gap;
+    own.aside = margin > 0.0 ? "margin " + format_millimetres(margin) + " mm" : "";
   }
   const Names texts = texts_of(all, "mm");
   if (!texts.empty())
@@ -307,18 +309,22 @@ void add_hover(const Index& index, std::vector<HeadlineFinding>& out) {
                                             short_list(texts, kMostDetectors))});
 }
 
-void add_depths(const Results& results, std::vector<HeadlineFinding>& out) {
-  std::vector<Largest> depths, normals;
-  for (const Run& run : results.runs) {
-    if (!run.ok()) continue;
-    const results::Geometry& g = run.geometry;
-    largest_of(run.detector, name_of(g.depth_kind), depths).add(g.depth, 1e3);
-    largest_of(run.detector, "", normals).add(g.normal_deg, 1.0);
+// Not of families, some of which are as large as planets. Kinds of depth do not compare.
+void add_depths(const Index& index, std::vector<HeadlineFinding>& out) {
+  std::map<DepthKind, std::vector<DetectorErrors>> depths;
+  std::vector<DetectorErrors> normals;
+  for (const Run& run : index.results().runs) {
+    const results::Scene* scene = index.scene(run.scene);
+    if (!run.ok() || scene == nullptr || scene->family) continue;
+    errors_of(run.detector, depths[run.geometry.depth_kind]).add(run.geometry.depth, 1e3);
+    errors_of(run.detector, normals).add(run.geometry.normal_deg, 1.0);
   }
-  if (const Names texts = texts_of(depths, "mm"); !texts.empty())
-    out.push_back({"Depth", "Mean and largest error: " + short_list(texts, kMostDetectors) + "."});
+  for (const auto& [kind, all] : depths)
+    if (const Names texts = texts_of(all, "mm"); !texts.empty())
+      out.push_back({std::string("Depth, ") + name_of(kind),
+                     "Largest error: " + short_list(texts, kMostDetectors) + "."});
   if (const Names texts = texts_of(normals, "degrees"); !texts.empty())
-    out.push_back({"Normal", "Mean and largest error: " + short_list(texts, kMostDetectors) + "."});
+    out.push_back({"Normal", "Largest error: " + short_list(texts, kMostDetectors) + "."});
 }
 
 void add_status(const Index& index, results::Status status, const char* topic,
@@ -389,7 +395,7 @@ Headline headline_of(const Results& results) {
   add_wrong(verdicts, true, out.findings);
   add_wrong(verdicts, false, out.findings);
   add_hover(index, out.findings);
-  add_depths(results, out.findings);
+  add_depths(index, out.findings);
   add_status(index, results::Status::kError, "Ended in an error", out.findings);
   add_status(index, results::Status::kRefused, "Refused the input", out.findings);
   add_absent(results, out.findings);

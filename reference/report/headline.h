@@ -14,15 +14,15 @@ struct HeadlineFinding {
 };
 
 struct Headline {
-  std::string title;  ///< "3 of 5 detectors missed and invented no contact in 2 scenes"
+  std::string title;  ///< "3 of 5 detectors have no missed and no spurious contacts in 2 scenes"
   std::vector<HeadlineFinding> findings;
   /// The detectors that were right and fastest in some scene, most scenes first.
   std::vector<std::string> fastest;
 };
 
-/// A detector missed and invented no contact where it was right at every level that it claims, in
-/// every scene that was judged, and never ended in an error. Contact seen farther off than
-/// declared, and errors of depths and normals, are findings of their own.
+/// A detector has no missed and no spurious contacts where it was right at every level that it
+/// claims, in every scene that was judged, and never ended in an error. Contact seen farther off
+/// than declared, and errors of depths and normals, are findings of their own.
 Headline headline_of(const results::Results& results);
 
 }  // namespace contactcheck

@@ -17,7 +17,7 @@ std::string deflated(std::string_view bytes) {
   std::string out(size, '\0');
   const int result =
       compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_DEFAULT_COMPRESSION);
   if (result != Z_OK) throw InputError("the HTML report is too large for the memory.");
   out.resize(size);
   return out;

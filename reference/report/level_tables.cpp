@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
-#include "reference/report/error_counts.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "reference/report/claims.h"
-#include "reference/report/format.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"

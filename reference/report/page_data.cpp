@@ -147,27 +147,30 @@ constexpr Measure kMeasures[] = {{"worse", ErrorMeasure::kWorse},
                                  {"missed", ErrorMeasure::kMissed},
                                  {"spurious", ErrorMeasure::kSpurious}};
 
+constexpr std::size_t kTimeCell = 2, kErrorCell = 8;  // of speed_error_columns
+
 // Of one choice of scenes and one level; null where nothing can be drawn.
 Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>& detectors,
                   SpeedErrorChoice choice) {
-  Json out = Json::object();
+  // Time, error and front of a point differ from chart to chart, its other cells do not.
+  Json out = {{"cells", std::vector<Json>(detectors.size())}};
   bool any = false;
   for (const Measure& measure : kMeasures)
     for (const bool hot : {false, true}) {
       choice.measure = measure.measure;
       choice.hot = hot;
       const SpeedError chart = charts.chart(choice);
-      Json points = Json::array(), rows = Json::array();
+      Json points = Json::array();
       for (const SpeedErrorPoint& p : chart.points) {
         const auto at = std::find(detectors.begin(), detectors.end(), p.detector);
-        points.push_back({at - detectors.begin(), p.ms, p.error, p.on_front});
-        rows.push_back(speed_error_cells(p));
+        const std::size_t place = static_cast<std::size_t>(at - detectors.begin());
+        const std::vector<std::string> cells = speed_error_cells(p);
+        points.push_back({place, p.ms, p.error, p.on_front, cells[kTimeCell], cells[kErrorCell]});
+        out["cells"][place] = cells;
       }
       any = any || !points.empty();
       out[std::string(measure.name) + (hot ? " hot" : " cold")] = {
-          {"points", std::move(points)},
-          {"rows", std::move(rows)},
-          {"left_out", left_out_sentence(chart)}};
+          {"points", std::move(points)}, {"left_out", left_out_sentence(chart)}};
     }
   return any || !choice.level ? out : Json(nullptr);
 }

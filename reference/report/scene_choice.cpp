@@ -12,7 +12,8 @@ std::vector<SceneChoice> scene_choices(const results::Results& results) {
     if (!scene.family) choices.push_back({"scene " + scene.id, {scene.id}});
   }
   all.words = fmt::format("all {} scenes", all.ids.size());
-  hard.words = fmt::format("all {} families of hard cases", hard.ids.size());
+  hard.words = hard.ids.size() == 1 ? "the family of hard cases"
+                                    : fmt::format("all {} families of hard cases", hard.ids.size());
   if (!hard.ids.empty()) choices.insert(choices.begin(), hard);
   if (all.ids.size() > 1) choices.insert(choices.begin(), all);
   return choices;

@@ -1,7 +1,6 @@
 // What a chart can be drawn for: all scenes, all families of hard cases, each scene.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -69,6 +69,7 @@ std::vector<TitledTable> separation_tables(const results::Scene& scene, const Ru
            sum_text(values_at(run.per_frame.spurious, s, orientations));
   };
   std::vector<TitledTable> out;
+  if (std::none_of(runs.begin(), runs.end(), [](const Run* run) { return run->ok(); })) return out;
   if (timed(runs))
     out.push_back(table(
         "Time of a frame against separation (ms, cold, medians over the orientations that were "

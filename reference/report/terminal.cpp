@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "reference/report/format.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"

@@ -110,13 +110,13 @@ TEST_F(GateCommand, WithABaselineAloneAllowsNoOtherAnswer) {
                                           path("baseline.json")};
   const Outcome same = contactcheck_program(words);
   EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
-  EXPECT_THAT(same.out, StartsWith("unchanged  every answer is that of the baseline\n"));
+  EXPECT_THAT(same.out, StartsWith("unchanged  contacts, errors of depths"));
   Json results = sample_results();
   row_of(results, "touch", "paper")["levels"]["cell"]["missed"] = 4;
   scratch_.write("results.json", results.dump());
   const Outcome other = contactcheck_program(words);
   EXPECT_EQ(other.exit_code, 1);
-  EXPECT_THAT(other.out, HasSubstr("FAIL  as many contacts are missed as were\n"
+  EXPECT_THAT(other.out, HasSubstr("FAIL  missed contacts unchanged\n"
                                    "  touch  paper: missed 4 at level cell, allowed 3"));
 }
 

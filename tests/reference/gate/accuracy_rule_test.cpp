@@ -284,6 +284,21 @@ TEST(RecallOverNothing, CannotBeJudged) {
             "nothing was reported at level cell");
 }
 
+TEST(NumberOfOneSideAlone, IsAChange) {
+  Json with = sample_results();
+  row_of(with, "touch", "exact")["geometry"]["depth_error_max"] = 0.25;
+  const Json without = sample_results();
+  const std::string rule = "'measure': 'depth_error_max', 'unchanged': true";
+  const Check lost = check_of("exact", rule, without, &with);
+  EXPECT_EQ(lost.verdict, Verdict::kFail);
+  EXPECT_EQ(lost.reason,
+            "was 0.25, that of the baseline; now depth_error_max was not measured in this row");
+  const Check found = check_of("exact", rule, with, &without);
+  EXPECT_EQ(found.verdict, Verdict::kFail);
+  EXPECT_EQ(found.allowed, "none, that of the baseline");
+  EXPECT_EQ(check_of("exact", rule, without, &without).verdict, Verdict::kCannotJudge);
+}
+
 TEST(RowThatTheBaselineLacks, CannotBeCompared) {
   Json baseline = sample_results();
   baseline["runs"].erase(0);

@@ -40,15 +40,15 @@ std::string sentence_about(const Results& results, const std::string& topic) {
 
 TEST(Headline, TitleSaysHowManyWereRight) {
   EXPECT_EQ(headline_of(run_of({"a", "b"}, {row("a", "x", 0, 0), row("a", "y", 1, 0)})).title,
-            "1 of 2 detectors missed and invented no contact in 2 scenes");
+            "1 of 2 detectors have no missed and no spurious contacts in 2 scenes");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0)})).title,
-            "x missed and invented no contact in 1 scene");
+            "x has no missed and no spurious contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 2)})).title,
-            "x missed or invented contacts in 1 scene");
+            "x has missed or spurious contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 0, 0), row("a", "y", 0, 0)})).title,
-            "All 2 detectors missed and invented no contact in 1 scene");
+            "All 2 detectors have no missed and no spurious contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({"a"}, {row("a", "x", 1, 0), row("a", "y", 1, 0)})).title,
-            "All 2 detectors missed or invented contacts in 1 scene");
+            "All 2 detectors have missed or spurious contacts in 1 scene");
   EXPECT_EQ(headline_of(run_of({}, {})).title, "Nothing was judged in this run");
 }
 
@@ -56,7 +56,7 @@ TEST(Headline, FamiliesCountByTheirCases) {
   Results results = run_of({"a", "gap"}, {row("gap", "x", 0, 0)});
   results.scenes[1].family.emplace().values = {"0", "1e-9", "1e-3"};
   EXPECT_EQ(headline_of(results).title,
-            "x missed and invented no contact in 1 scene and 3 hard cases");
+            "x has no missed and no spurious contacts in 1 scene and 3 hard cases");
 }
 
 TEST(Headline, AnErrorIsNoFlawlessRun) {
@@ -64,7 +64,7 @@ TEST(Headline, AnErrorIsNoFlawlessRun) {
   results.runs[1].status = results::Status::kError;
   results.runs[1].message = "signal 11";
   EXPECT_EQ(headline_of(results).title,
-            "x missed or invented contacts, or ended in an error, in 2 scenes");
+            "x has missed or spurious contacts, or status error, in 2 scenes");
   EXPECT_EQ(sentence_about(results, "Ended in an error"), "x in b (signal 11).");
 }
 
@@ -72,7 +72,7 @@ TEST(Headline, WhatTheOracleCouldNotJudgeIsNobodysError) {
   Results results = run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0)});
   results.runs[1].status = results::Status::kError;
   results.scenes[1].unjudged = "scene b: no progress";
-  EXPECT_EQ(headline_of(results).title, "x missed and invented no contact in 1 scene");
+  EXPECT_EQ(headline_of(results).title, "x has no missed and no spurious contacts in 1 scene");
   EXPECT_EQ(sentence_about(results, "Ended in an error"), "");
   EXPECT_EQ(sentence_about(results, "Not judged"), "scene b: no progress.");
 }
@@ -81,7 +81,7 @@ TEST(Headline, InformativeLevelsAreHeldAgainstNobody) {
   Results results = run_of({"a"}, {row("a", "x", 0, 0)});
   results.runs[0].levels[Level::kVertex] = {5, 0, 0, 5, 0};
   results.runs[0].levels[Level::kVertex].informative = true;
-  EXPECT_EQ(headline_of(results).title, "x missed and invented no contact in 1 scene");
+  EXPECT_EQ(headline_of(results).title, "x has no missed and no spurious contacts in 1 scene");
 }
 
 TEST(Headline, TheWrongAreNamedWorstFirst) {
@@ -91,8 +91,8 @@ TEST(Headline, TheWrongAreNamedWorstFirst) {
             "2 detectors did not report all true contacts, at level triangle: y 25.0 % (4 of 16) "
             "and x 6.3 % (1 of 16).");
   EXPECT_EQ(sentence_about(results, "Spurious"),
-            "1 detector reported contacts that are none, at level triangle: w 33.3 % (8 of 24).");
-  EXPECT_EQ(sentence_about(results, "Nothing missed or invented"), "At level triangle: z.");
+            "1 detector reported spurious contacts, at level triangle: w 33.3 % (8 of 24).");
+  EXPECT_EQ(sentence_about(results, "No missed or spurious contacts"), "At level triangle: z.");
 }
 
 TEST(Headline, TheFastestOfThoseThatWereRightIsFoundSceneByScene) {
@@ -125,7 +125,7 @@ TEST(Headline, ContactSeenFartherOffThanDeclaredIsToldApart) {
   results.runs[2].geometry.hover_gap_max = 0.002;  // as declared
   results.runs[3].geometry.hover_gap_max = 1e-7;   // as well as the moment is known
   EXPECT_EQ(headline_of(results).title,
-            "All 3 detectors missed and invented no contact in 2 scenes");
+            "All 3 detectors have no missed and no spurious contacts in 2 scenes");
   EXPECT_EQ(sentence_about(results, "Too early"),
             "1 detector reported contact of bodies farther apart than declared: x 28.7 mm (margin "
             "2.00 mm).");
@@ -134,7 +134,7 @@ TEST(Headline, ContactSeenFartherOffThanDeclaredIsToldApart) {
 TEST(Headline, DepthsAndNormalsHaveSentencesOfTheirOwn) {
   Results results =
       run_of({"a", "b"}, {row("a", "x", 0, 0), row("b", "x", 0, 0), row("a", "y", 0, 0)});
-  EXPECT_EQ(sentence_about(results, "Depth") + sentence_about(results, "Normal"), "");
+  EXPECT_EQ(sentence_about(results, "Depth, convex-pair") + sentence_about(results, "Normal"), "");
   for (results::Run& run : results.runs) run.geometry.depth_kind = DepthKind::kConvexPair;
   results.runs[0].geometry.depth.max = 0.001;
   results.runs[1].geometry.depth.max = 0.0005;
@@ -145,10 +145,9 @@ TEST(Headline, DepthsAndNormalsHaveSentencesOfTheirOwn) {
   results.runs[1].geometry.depth.mean = 0.0;
   results.runs[1].geometry.depth.judged = 1;
   results.runs[2].geometry.normal_deg.max = 0.0;  // never off
-  EXPECT_EQ(
-      sentence_about(results, "Depth"),
-      "Mean and largest error: y 250 mm (convex-pair) and x 0.300 and 1.00 mm (convex-pair).");
-  EXPECT_EQ(sentence_about(results, "Normal"), "Mean and largest error: x 80.0 degrees.");
+  EXPECT_EQ(sentence_about(results, "Depth, convex-pair"),
+            "Largest error: y 250 mm and x 1.00 mm (mean 0.300).");
+  EXPECT_EQ(sentence_about(results, "Normal"), "Largest error: x 80.0 degrees.");
 }
 
 TEST(Headline, GoalsAreCounted) {

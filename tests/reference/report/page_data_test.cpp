@@ -140,12 +140,14 @@ TEST(PageData, EveryChoiceOfTheChartHasItsPoints) {
        {"worse cold", "worse hot", "missed cold", "missed hot", "spurious cold", "spurious hot"})
     EXPECT_EQ(finest.at(choice).at("points").size(), 2u) << choice;
   // Place of the detector, milliseconds, error, is it on the front?
-  EXPECT_EQ(finest.at("missed hot").at("points").at(1), Json({1, 0.25, 1.0 / 200'000, true}));
-  EXPECT_EQ(finest.at("missed hot").at("rows").at(1).at(6), "200001");
+  EXPECT_EQ(finest.at("missed hot").at("points").at(1),
+            Json({1, 0.25, 1.0 / 200'000, true, "0.250", "0.00001"}));
+  EXPECT_EQ(finest.at("cells").at(1).at(6), "200001");
+  EXPECT_TRUE(finest.at("cells").at(2).is_null());
   EXPECT_THAT(finest.at("worse cold").at("left_out").get<std::string>(),
               testing::StartsWith("Not in the chart: fcl-obbrss"));
   const Json& body = charts.at("charts").at(0).at("body").at("worse cold");
-  EXPECT_EQ(body.at("points").at(1), Json({1, 0.5, 2.0 / 15, true}));
+  EXPECT_EQ(body.at("points").at(1), Json({1, 0.5, 2.0 / 15, true, "0.500", "0.13334"}));
 }
 
 TEST(PageData, StagesTimesAndErrorsStandThereForEveryChoice) {

@@ -16,18 +16,18 @@ test("the title says how many were right", async () => {
   const {page} = await report.shared();
   assert.equal(
     await page.locator("h1").textContent(),
-    "2 of 5 detectors missed and invented no contact in 2 scenes",
+    "2 of 5 detectors have no missed and no spurious contacts in 2 scenes",
   );
   assert.equal(
     await page.title(),
-    "contactcheck: 2 of 5 detectors missed and invented no contact in 2 scenes",
+    "contactcheck: 2 of 5 detectors have no missed and no spurious contacts in 2 scenes",
   );
 });
 
 test("the findings name who is exact, fastest, wrong and failed", async () => {
   const {page} = await report.shared();
   assert.deepEqual(await findings(page), {
-    "Nothing missed or invented": "At level triangle: fcl-aabb and ffd-lazy.",
+    "No missed or spurious contacts": "At level triangle: fcl-aabb and ffd-lazy.",
     "Fastest of these":
       "ffd-lazy in all 2 scenes: 0.0300 ms per frame there for all pairs of triangles, caches cold. " +
       "fcl-aabb takes 25.0 to 37.5 times as long and fcl-obbrss takes 500 to 750 times as long.",
@@ -35,12 +35,12 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
       "2 detectors did not report all true contacts: ffd-aabb 25.0 % (4 of 16, level cell) and " +
       "fcl-obbrss 6.3 % (1 of 16, level triangle).",
     Spurious:
-      "2 detectors reported contacts that are none, at level cell: ffd-grid 41.7 % (10 of 24) " +
+      "2 detectors reported spurious contacts, at level cell: ffd-grid 41.7 % (10 of 24) " +
       "and ffd-aabb 11.1 % (1 of 9).",
     "Too early":
       "2 detectors reported contact of bodies farther apart than declared: ffd-grid 200 mm and ffd-aabb 12.5 mm.",
-    Depth: "Mean and largest error: ffd-aabb 1.00 and 4.00 mm (convex-pair).",
-    Normal: "Mean and largest error: ffd-aabb 10.0 and 90.0 degrees.",
+    "Depth, convex-pair": "Largest error: ffd-aabb 4.00 mm (mean 1.00).",
+    Normal: "Largest error: ffd-aabb 90.0 degrees (mean 10.0).",
     "Ended in an error": "<img src=x onerror=alert(1)> in meet (<b>signal 11</b> in phase query).",
     "Not built": "<img src=x onerror=alert(1)>.",
     Goals: "1 of 3 goals of the suite is met; 1 goal could not be measured.",
@@ -66,7 +66,7 @@ test("a scene that could not be judged is nobody's error", async () => {
   );
   assert.match(
     await page.locator("h1").textContent(),
-    /missed and invented no contact in 1 scene$/,
+    /no missed and no spurious contacts in 1 scene$/,
   );
 });
 

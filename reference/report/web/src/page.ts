@@ -85,7 +85,7 @@ export interface Scene {
     truth: number[];
     /** By frame; empty where the results hold none. */
     distance: number[];
-    /** In the order of `detectors`; null where a detector did not end well. */
+    /** In the order of `detectors`; null where a detector has no row, or one that is not ok. */
     detectors: (FrameCosts | null)[];
   };
 }
@@ -217,12 +217,13 @@ export interface SpeedError {
 export type Caches = "cold" | "hot";
 export type Measure = "worse" | "missed" | "spurious";
 
-export type LevelCharts = Record<`${Measure} ${Caches}`, PointsChart>;
+export type LevelCharts = {
+  /** Per detector its line of the table; of each chart are the third, the last but one and the last cell. */
+  cells: (string[] | null)[];
+} & Record<`${Measure} ${Caches}`, PointsChart>;
 
 export interface PointsChart {
-  /** Place in `detectors`, milliseconds, error, is on the front. */
-  points: [number, number, number, boolean][];
-  /** The points as lines of a table. */
-  rows: string[][];
+  /** Place in `detectors`, milliseconds, error, is on the front; the first two numbers in words. */
+  points: [number, number, number, boolean, string, string][];
   left_out: string;
 }

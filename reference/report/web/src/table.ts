@@ -3,7 +3,7 @@ import {code, h, type Child} from "./dom";
 import {meaningOf} from "./glossary";
 import type {TextTable} from "./page";
 
-export interface Column {
+interface Column {
   title: string;
   left?: boolean;
   /** For the legend of words. */
@@ -23,7 +23,7 @@ export interface Cell {
   label?: string;
 }
 
-export type Row = (string | Cell)[];
+type Row = (string | Cell)[];
 
 const cellOf = (cell: string | Cell): Cell => (typeof cell === "string" ? {text: cell} : cell);
 
@@ -103,13 +103,20 @@ export function table(columns: Column[], rows: Row[], what: string): HTMLElement
 const kLong = 24; // letters
 const kFailed = new Set(["error", "absent", "refused"]);
 
-function textCell(text: string): Cell | string {
-  if (text.length > kLong) return {text, class: "wrap left"};
-  return kFailed.has(text) ? {text, class: "error"} : text;
+// Of a run that did not end well: its status and a message, and nothing else.
+const isFailed = (row: string[]): boolean => kFailed.has(row[1]) && row.slice(3).every((t) => !t);
+
+function textCell(text: string, i: number, failed: boolean): Cell | string {
+  if (failed && i === 1) return {text, class: "error"};
+  if (text.length > kLong || (failed && i === 2)) return {text, class: "wrap left"};
+  return text;
 }
 
 /** Long cells in several lines; of a run that did not end well the status stands out. */
-export const textRow = (row: string[]): Row => row.map(textCell);
+export const textRow = (row: string[]): Row => {
+  const failed = row.length > 3 && isFailed(row);
+  return row.map((text, i) => textCell(text, i, failed));
+};
 
 /** What the program wrote: code out of its backticks, long cells in several lines. */
 export function textTable({title, text, columns, rows}: TextTable, what = title): Child[] {

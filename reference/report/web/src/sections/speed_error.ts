@@ -227,21 +227,24 @@ function pointsTable({speed_error: {columns}}: Page, all: Point[]): HTMLElement 
   );
 }
 
-const kNothing: PointsChart = {points: [], rows: [], left_out: ""};
+const kNothing: PointsChart = {points: [], left_out: ""};
 
-function chartOf({detectors, options, speed_error: {charts}}: Page, choice: Choice): Chart {
-  const {points, rows, left_out} =
-    charts[choice.scenes]?.[choice.level]?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
+function chartOf({options, speed_error: {charts}}: Page, choice: Choice): Chart {
+  const level = charts[choice.scenes]?.[choice.level];
+  const {points, left_out} = level?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
   return {
-    points: points.map(([at, ms, error, onFront], i) => ({
-      detector: detectors[at],
-      options: options[at],
-      question: rows[i][1],
-      cells: rows[i],
-      ms,
-      error,
-      onFront,
-    })),
+    points: points.map(([at, ms, error, onFront, time, share]) => {
+      const [detector, question, , ...counts] = level.cells[at]!;
+      return {
+        detector,
+        options: options[at],
+        question,
+        cells: [detector, question, time, ...counts.slice(0, -2), share, onFront ? "yes" : ""],
+        ms,
+        error,
+        onFront,
+      };
+    }),
     leftOut: left_out,
   };
 }
@@ -285,7 +288,7 @@ export const speedError: Section = {
     return [
       p(
         "Each point is one detector in one configuration. Left is faster, down is better: at the bottom line it " +
-          "missed and invented nothing. The dashed steps are the Pareto fronts: no other detector that answers the same ",
+          "has no missed and no spurious contacts. The dashed steps are the Pareto fronts: no other detector that answers the same ",
         term("question"),
         " is both faster and better than a detector there. Times of different questions (shapes) do not compare.",
       ),

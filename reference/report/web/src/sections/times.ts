@@ -151,7 +151,7 @@ export const times: Section = {
               ),
             ]
           : []),
-        unfolding("The same as a table", () => textTable(table)),
+        unfolding("As a table, with mapping", () => textTable(table)),
       );
     };
     update({});

@@ -20,7 +20,7 @@ struct ErrorBin {
   double share = 0.0;  ///< of all errors of the row; in [0, 1]
 };
 
-/// One detector; numbers in the unit of the chart.
+/// One detector, whose depths are of one kind; numbers in the unit of the chart.
 struct ErrorRow {
   std::string detector;
   DepthKind kind = DepthKind::kNone;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -111,21 +110,6 @@ HeatCell matrix_cell(const FamilyResult& result) {
           fmt::format("{}: {} of {} cases wrong", where, wrong, result.cases())};
 }
 
-// Of a family.
-std::vector<HeatCell> matrix_row(const results::Scene& scene,
-                                 const std::vector<std::string>& detectors,
-                                 const std::vector<FamilyResult>& all) {
-  std::vector<HeatCell> row = {{scene.id, {}, ""},
-                               {std::to_string(scene.family->values.size()), {}, ""}};
-  for (const std::string& detector : detectors) {
-    const auto own = std::find_if(all.begin(), all.end(), [&](const FamilyResult& result) {
-      return &result.scene == &scene && result.detector() == detector;
-    });
-    row.push_back(own == all.end() ? HeatCell{} : matrix_cell(*own));
-  }
-  return row;
-}
-
 }  // namespace
 
 TitledTable hard_sums(const results::Results& results) {
@@ -157,22 +141,26 @@ TitledTable hard_sums(const results::Results& results) {
 }
 
 HeatTable hard_matrix(const results::Results& results) {
-  const std::vector<FamilyResult> all = family_results(results);
-  std::vector<std::string> order;
+  const results::Index index(results);
   std::set<std::string> wrong_detectors;
   std::set<const results::Scene*> wrong_scenes;
-  for (const FamilyResult& result : all) {
-    if (std::find(order.begin(), order.end(), result.detector()) == order.end())
-      order.push_back(result.detector());
+  for (const FamilyResult& result : family_results(results)) {
     if (!result.goes_wrong()) continue;
     wrong_detectors.insert(result.detector());
     wrong_scenes.insert(&result.scene);
   }
-  std::erase_if(order, [&](const std::string& name) { return !wrong_detectors.contains(name); });
   HeatTable out{{"family", "cases"}, {}};
-  out.columns.insert(out.columns.end(), order.begin(), order.end());
-  for (const results::Scene& scene : results.scenes)
-    if (wrong_scenes.contains(&scene)) out.rows.push_back(matrix_row(scene, order, all));
+  for (const std::string& detector : index.detectors())
+    if (wrong_detectors.contains(detector)) out.columns.push_back(detector);
+  for (const results::Scene& scene : results.scenes) {
+    if (!wrong_scenes.contains(&scene)) continue;
+    std::vector<HeatCell>& row = out.rows.emplace_back();
+    row = {{scene.id, {}, ""}, {std::to_string(scene.family->values.size()), {}, ""}};
+    for (std::size_t c = row.size(); c < out.columns.size(); ++c) {
+      const results::Run* run = index.run(scene.id, out.columns[c]);
+      row.push_back(run == nullptr ? HeatCell{} : matrix_cell({scene, *run}));
+    }
+  }
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/separation_table.h"
+#include "reference/report/stage_losses.h"
 
 namespace contactcheck {
 namespace {
@@ -107,21 +108,9 @@ TitledTable graded_table(const RunList& runs) {
 }
 
 TitledTable stages_table(const RunList& runs) {
-  TitledTable out{"Which stage lost which true triangle pairs (sums over frames)",
-                  "",
-                  {{"detector", true, ""},
-                   {"stage", true, ""},
-                   {"unit", true, ""},
-                   {"in", false, ""},
-                   {"out", false, ""},
-                   {"visited", false, ""},
-                   {"missed", false, ""}},
-                  {}};
-  for (const Run* run : runs)
-    for (const results::Stage& s : run->stages)
-      out.rows.push_back({run->detector, s.name, s.unit, format_count(s.in), format_count(s.out),
-                          s.visited ? format_count(*s.visited) + " " + s.visited_unit : "-",
-                          format_count(s.missed)});
+  TitledTable out =
+      empty_stages_table("Which stage lost which true triangle pairs (sums over frames)");
+  for (const Run* run : runs) add_stages(run->detector, run->stages, out);
   return out;
 }
 

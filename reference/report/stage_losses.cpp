@@ -114,22 +114,31 @@ std::string no_loss_sentence(const std::vector<DetectorLosses>& all) {
   return "Without a loss in any stage: " + short_list(names, kNamesWithoutLoss) + ".";
 }
 
+TitledTable empty_stages_table(const std::string& title) {
+  return {title,
+          "",
+          {{"detector", true, ""},
+           {"stage", true, ""},
+           {"unit", true, ""},
+           {"in", false, ""},
+           {"out", false, ""},
+           {"visited", false, ""},
+           {"missed", false, ""}},
+          {}};
+}
+
+void add_stages(const std::string& detector, const std::vector<results::Stage>& stages,
+                TitledTable& table) {
+  for (const results::Stage& s : stages)
+    table.rows.push_back({detector, s.name, s.unit, format_count(s.in), format_count(s.out),
+                          s.visited ? format_count(*s.visited) + " " + s.visited_unit : "-",
+                          format_count(s.missed)});
+}
+
 TitledTable stage_losses_table(const std::vector<DetectorLosses>& all) {
-  TitledTable out{"What went in and out of every stage, summed over the scenes chosen",
-                  "",
-                  {{"detector", true, ""},
-                   {"stage", true, ""},
-                   {"unit", true, ""},
-                   {"in", false, ""},
-                   {"out", false, ""},
-                   {"visited", false, ""},
-                   {"missed", false, ""}},
-                  {}};
-  for (const DetectorLosses& own : all)
-    for (const results::Stage& s : own.stages)
-      out.rows.push_back({own.detector, s.name, s.unit, std::to_string(s.in), std::to_string(s.out),
-                          s.visited ? fmt::format("{} {}", *s.visited, s.visited_unit) : "-",
-                          std::to_string(s.missed)});
+  TitledTable out =
+      empty_stages_table("What went in and out of every stage, summed over the scenes chosen");
+  for (const DetectorLosses& own : all) add_stages(own.detector, own.stages, out);
   return out;
 }
 

@@ -41,6 +41,11 @@ std::vector<DetectorLosses> stage_losses(const std::vector<const results::Run*>&
 /// Of all detectors in these scenes, in the order of the index.
 std::vector<DetectorLosses> stage_losses(const results::Index& index, const SceneChoice& scenes);
 
+/// Columns for stages, and a row for each.
+TitledTable empty_stages_table(const std::string& title);
+void add_stages(const std::string& detector, const std::vector<results::Stage>& stages,
+                TitledTable& table);
+
 /// Names of the stages that lost something in some detector, in the order of all stages.
 std::vector<std::string> losing_stages(const std::vector<DetectorLosses>& all);
 /// "ffd-aabb loses 4: 2 in hash and 2 in node-plane.", of the first `most` that lose something.

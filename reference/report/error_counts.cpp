@@ -15,8 +15,8 @@ std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
 }  // namespace
 
 bool ErrorCounts::add(const results::Run& run, std::optional<Level> level) {
-  const results::LevelCounts* counts = counts_of(run, level);
-  if (counts == nullptr || counts->informative) return false;
+  const results::LevelCounts* counts = claimed_counts(run, level);
+  if (counts == nullptr) return false;
   truth += counts->truth;
   reported += counts->reported;
   missed += counts->missed;

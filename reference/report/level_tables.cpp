@@ -13,12 +13,6 @@ namespace {
 
 using results::LevelCounts, results::Run;
 
-// Of what the detector claims; null where that was not judged.
-const LevelCounts* claimed_counts(const Run& run, std::optional<Level> level) {
-  const LevelCounts* counts = counts_of(run, level);
-  return counts == nullptr || counts->informative ? nullptr : counts;
-}
-
 void add_counts(LevelCounts counts, const std::string& where, std::vector<HeatCell>& recall,
                 std::vector<HeatCell>& spurious) {
   counts.set_rates();

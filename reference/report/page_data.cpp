@@ -268,7 +268,7 @@ Json costs_json(const SceneCosts& costs, const std::vector<std::string>& detecto
     if (!c.cold) continue;
     out.update({{"cold", *c.cold}, {"hot", *c.hot}, {"by_distance", c.by_distance}});
     Json& frames = out["frame_ms"] = Json::array();
-    for (const std::optional<double> ms : c.frame_ms) frames.push_back(ms ? Json(*ms) : Json());
+    for (const std::optional<double> ms : c.frame_ms) frames.push_back(number_json(ms));
     if (c.touching)
       out["touching"] = {c.touching->low, c.touching->median, c.touching->high, c.touching->frames};
   }

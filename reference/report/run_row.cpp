@@ -95,6 +95,11 @@ const results::LevelCounts* counts_of(const Run& run, std::optional<Level> level
   return counts == run.levels.end() ? nullptr : &counts->second;
 }
 
+const results::LevelCounts* claimed_counts(const Run& run, std::optional<Level> level) {
+  const results::LevelCounts* counts = counts_of(run, level);
+  return counts == nullptr || counts->informative ? nullptr : counts;
+}
+
 const results::Speedup* speedup_of(const Run& run, Question question,
                                    const std::string& reference) {
   const auto by_reference = run.speedup.find(question);

@@ -23,6 +23,8 @@ std::vector<std::string> result_cells(const results::Run& run);
 
 /// Those of a level; null where it was not judged, or where there is no level.
 const results::LevelCounts* counts_of(const results::Run& run, std::optional<Level> level);
+/// The same; null also where the level is no claim of the detector.
+const results::LevelCounts* claimed_counts(const results::Run& run, std::optional<Level> level);
 /// The speed-up over a reference in a question, or null.
 const results::Speedup* speedup_of(const results::Run& run, Question question,
                                    const std::string& reference);

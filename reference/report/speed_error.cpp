@@ -17,25 +17,20 @@ namespace {
 using results::Run;
 using Runs = std::vector<const Run*>;
 
-bool claims(const Run& run, std::optional<Level> level) {
-  const results::LevelCounts* counts = counts_of(run, level);
-  return counts != nullptr && !counts->informative;
-}
-
 // Counts of different levels do not add up: where the finest one is not the same in all scenes that
 // were judged, it is the finest that the detector claims in each of them.
 std::optional<Level> common_level(const Runs& runs) {
   Runs judged;
   std::set<Level> finest;
   for (const Run* run : runs) {
-    if (!claims(*run, run->per_frame.level)) continue;
+    if (!claimed_counts(*run, run->per_frame.level)) continue;
     judged.push_back(run);
     finest.insert(*run->per_frame.level);
   }
   if (finest.size() == 1) return *finest.begin();
   for (const Level level : kFineToCoarse)
     if (std::all_of(judged.begin(), judged.end(),
-                    [&](const Run* run) { return claims(*run, level); }))
+                    [&](const Run* run) { return claimed_counts(*run, level) != nullptr; }))
       return level;
   return {};
 }

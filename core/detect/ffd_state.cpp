@@ -133,12 +133,13 @@ std::string validate(const FfdModelOf<T>& model, const FfdStateOf<T>& state,
   return "";
 }
 
-#define CONTACTCHECK_STATE_OF(T)                                                                 \
-  template void update_state(const FfdModelOf<T>&, const FfdConfig&, std::span<const Vec3Of<T>>, \
-                             FfdStateOf<T>&);                                                    \
-  template std::string validate(const FfdModelOf<T>&, const FfdStateOf<T>&,                      \
-                                std::span<const Vec3Of<T>>)
-CONTACTCHECK_STATE_OF(double);
-CONTACTCHECK_STATE_OF(float);
+template void update_state(const FfdModelOf<double>&, const FfdConfig&,
+                           std::span<const Vec3Of<double>>, FfdStateOf<double>&);
+template void update_state(const FfdModelOf<float>&, const FfdConfig&,
+                           std::span<const Vec3Of<float>>, FfdStateOf<float>&);
+template std::string validate(const FfdModelOf<double>&, const FfdStateOf<double>&,
+                              std::span<const Vec3Of<double>>);
+template std::string validate(const FfdModelOf<float>&, const FfdStateOf<float>&,
+                              std::span<const Vec3Of<float>>);
 
 }  // namespace contactcheck

@@ -30,7 +30,7 @@ bool refits(const BodyShape& shape, BoundSource bounds) {
 
 template <class Real>
 std::string broken_promise(const LazyState& state, const std::vector<Vec3Of<Real>>& vertices) {
-  const std::string broken = validate(state, std::span<const Vec3Of<Real>>(vertices));
+  std::string broken = validate(state, std::span<const Vec3Of<Real>>(vertices));
   if (!broken.empty()) return broken;
   for (const Vec3Of<Real>& v : vertices)
     if (!state.box.contains(v.template cast<double>())) return "a vertex leaves the body's box";

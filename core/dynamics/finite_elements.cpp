@@ -129,7 +129,7 @@ Corners FiniteElements::answer(const HexahedronStiffness& stiffness, const Displ
   for (int i = 0; i < 24; ++i)
     for (int k = 0; k < 24; ++k) sums[k] += stiffness[24 * i + k] * u[i];
   Corners out;
-  for (int c = 0; c < 8; ++c) out[c] = Vec3(sums[3 * c], sums[3 * c + 1], sums[3 * c + 2]);
+  for (std::size_t c = 0; c < 8; ++c) out[c] = Vec3(sums[3 * c], sums[3 * c + 1], sums[3 * c + 2]);
   return out;
 }
 
@@ -157,7 +157,7 @@ double FiniteElements::elastic_energy(std::span<const Vec3> positions) const {
   for (const Element& element : elements_) {
     const Displacements u = strained(element, pose_of(element, positions));
     const Corners answers = answer(kinds_[element.kind].stiffness, u);
-    for (int c = 0; c < 8; ++c)
+    for (std::size_t c = 0; c < 8; ++c)
       sum += ordered_dot(answers[c], Vec3(u[3 * c], u[3 * c + 1], u[3 * c + 2]));
   }
   return 0.5 * sum;

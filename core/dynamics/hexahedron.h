@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "core/types/vec3.h"
 
@@ -11,7 +12,7 @@ namespace contactcheck {
 
 /// A symmetric matrix over three displacements of each of the 8 corners: entry (i, k) at
 /// [24 * i + k], corner c's displacements at 3 c, 3 c + 1, 3 c + 2. N/m.
-using HexahedronStiffness = std::array<double, 24 * 24>;
+using HexahedronStiffness = std::array<double, std::size_t{24} * 24>;
 
 /// Trilinear displacements and, to bend without locking, one inner parabola per axis and direction
 /// ("incompatible modes"), which no neighbour sees and which are eliminated here. Their correction

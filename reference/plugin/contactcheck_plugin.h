@@ -23,6 +23,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The names of C and of the interface: no style of C++ may rename them.
+ * NOLINTBEGIN(readability-identifier-naming) */
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -306,5 +308,6 @@ CONTACTCHECK_PLUGIN_EXPORT const contactcheck_plugin* contactcheck_plugin_entry(
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

@@ -79,9 +79,9 @@ const Run* Index::ok_run(const std::string& scene, const std::string& detector) 
 }
 
 const std::vector<const Run*>& Index::runs_of(const std::string& scene) const {
-  static const std::vector<const Run*> kNone;
+  static const std::vector<const Run*> none;
   const auto it = runs_.find(scene);
-  return it == runs_.end() ? kNone : it->second;
+  return it == runs_.end() ? none : it->second;
 }
 
 NamedErrors errors_of(const Geometry& g) {

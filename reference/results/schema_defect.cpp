@@ -52,32 +52,32 @@ std::string joined_texts(const Json& values) {
 
 // A keyword that nothing here checks would be ignored in silence.
 void require_known_keywords(const Json& schema) {
-  static const std::set<std::string> kOfOneSchema = {
+  static const std::set<std::string> of_one_schema = {
       "items", "additionalProperties", "propertyNames", "if", "then", "else"};
-  static const std::set<std::string> kOfSchemas = {"allOf", "anyOf", "oneOf", "properties",
+  static const std::set<std::string> of_schemas = {"allOf", "anyOf", "oneOf", "properties",
                                                    "$defs"};
-  static const std::set<std::string> kOthers = {"$ref",
-                                                "$schema",
-                                                "title",
-                                                "description",
-                                                "type",
-                                                "const",
-                                                "enum",
-                                                "minLength",
-                                                "minimum",
-                                                "exclusiveMinimum",
-                                                "maximum",
-                                                "required",
-                                                "dependentRequired",
-                                                "minItems",
-                                                "uniqueItems"};
+  static const std::set<std::string> others = {"$ref",
+                                               "$schema",
+                                               "title",
+                                               "description",
+                                               "type",
+                                               "const",
+                                               "enum",
+                                               "minLength",
+                                               "minimum",
+                                               "exclusiveMinimum",
+                                               "maximum",
+                                               "required",
+                                               "dependentRequired",
+                                               "minItems",
+                                               "uniqueItems"};
   if (!schema.is_object()) return;  // true or false
   for (const auto& [keyword, value] : schema.items()) {
-    if (kOfOneSchema.count(keyword)) {
+    if (of_one_schema.count(keyword)) {
       require_known_keywords(value);
-    } else if (kOfSchemas.count(keyword)) {
+    } else if (of_schemas.count(keyword)) {
       for (const Json& part : value) require_known_keywords(part);
-    } else if (!kOthers.count(keyword)) {
+    } else if (!others.count(keyword)) {
       throw std::invalid_argument("the schema has the keyword " + in_quotes(keyword) +
                                   ", which is not checked");
     }
@@ -92,12 +92,12 @@ class Checker {
   std::string defect(const Json& schema, const Json& value, const std::string& path) const {
     if (schema == false) return (path.empty() ? "the document" : path) + " is not allowed";
     if (schema.contains("$ref")) {
-      const std::string found = defect(referred(schema.at("$ref")), value, path);
+      std::string found = defect(referred(schema.at("$ref")), value, path);
       if (!found.empty()) return found;
     }
     for (const auto check : {&Checker::kind, &Checker::range, &Checker::members, &Checker::items,
                              &Checker::combinations}) {
-      const std::string found = (this->*check)(schema, value, path);
+      std::string found = (this->*check)(schema, value, path);
       if (!found.empty()) return found;
     }
     return "";
@@ -180,7 +180,7 @@ class Checker {
           return item_path(path, i) + " is " + value_text(value[i]) + ", as an earlier one is";
     if (!schema.contains("items")) return "";
     for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::string found = defect(schema.at("items"), value[i], item_path(path, i));
+      std::string found = defect(schema.at("items"), value[i], item_path(path, i));
       if (!found.empty()) return found;
     }
     return "";
@@ -188,17 +188,16 @@ class Checker {
 
   std::string combinations(const Json& schema, const Json& value, const std::string& path) const {
     for (const Json& part : schema.value("allOf", Json::array())) {
-      const std::string found = defect(part, value, path);
+      std::string found = defect(part, value, path);
       if (!found.empty()) return found;
     }
     if (schema.contains("if")) {
       const char* const branch = holds(schema.at("if"), value) ? "then" : "else";
-      const std::string found =
-          schema.contains(branch) ? defect(schema.at(branch), value, path) : "";
+      std::string found = schema.contains(branch) ? defect(schema.at(branch), value, path) : "";
       if (!found.empty()) return found;
     }
     for (const char* keyword : {"anyOf", "oneOf"}) {
-      const std::string found = alternatives(schema, keyword, value, path);
+      std::string found = alternatives(schema, keyword, value, path);
       if (!found.empty()) return found;
     }
     return "";

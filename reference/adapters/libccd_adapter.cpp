@@ -67,7 +67,7 @@ void register_libccd_detectors(DetectorCatalog& catalog) {
 }
 
 std::string libccd_version() {
-  const std::string said = CONTACTCHECK_CCD_VERSION;
+  std::string said = CONTACTCHECK_CCD_VERSION;
   // 2.1, the one release after 2.0, kept 2.0 as its number in its CMake, pkg-config and library
   // names; this macro is new in its headers.
 #ifdef CCD_EXPORT

@@ -66,7 +66,7 @@ class Finder {
     std::optional<Approach> any;
     for (const double share : kDepths) {
       for (Way& way : ways_) {
-        const std::optional<Approach> found = try_way(share * small_, way);
+        std::optional<Approach> found = try_way(share * small_, way);
         if (found && found->robust) return found;
         if (found && !any) any = found;
       }

@@ -39,7 +39,7 @@ bool truth_value(const JsonField& field) {
 
 // It goes into tables and on terminals.
 std::string one_line(const JsonField& field) {
-  const std::string text = field.text();
+  std::string text = field.text();
   const bool control = std::any_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
   });

@@ -31,7 +31,7 @@ std::string read_file_bytes(const std::filesystem::path& file, const std::string
   std::ifstream in = open_input_file(file, name);
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  const std::string bytes = size <= longest ? first_bytes(in, longest + 1) : "";
+  std::string bytes = size <= longest ? first_bytes(in, longest + 1) : "";
   if (in.bad()) throw InputError(name + " cannot be read.");
   if (std::max<std::uintmax_t>(size, bytes.size()) > longest)
     throw InputError(name + " has more than " + std::to_string(longest >> 20) + " MiB.");

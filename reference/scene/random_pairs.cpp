@@ -49,8 +49,9 @@ struct RandomPairs::Regime {
   Vec3 center(std::size_t slot) const {
     const auto [x, y, z] = place_of(slot);
     // About the origin: coordinates of all exponents, and of both signs in one triangle.
-    const Vec3 steps(static_cast<double>(x) - kSlotsX / 2, static_cast<double>(y) - kSlotsY / 2,
-                     static_cast<double>(z) - kSlotsZ / 2);
+    constexpr std::size_t kMiddleX = kSlotsX / 2, kMiddleY = kSlotsY / 2, kMiddleZ = kSlotsZ / 2;
+    const Vec3 steps(static_cast<double>(x) - kMiddleX, static_cast<double>(y) - kMiddleY,
+                     static_cast<double>(z) - kMiddleZ);
     return origin + spacing * steps;
   }
   Aabb box(std::size_t slot) const {
@@ -99,7 +100,7 @@ HardPair RandomPairs::pair_in(const Regime& regime, std::size_t frame, std::size
     return {{left, left, left}, {right, right, right}};
   }
   PairRandom random(spec_.seed, 2 * (frame * kSlots + slot));
-  const HardPair pair = make_hard_pair(kind_of(frame, slot), {center, regime.size}, random);
+  HardPair pair = make_hard_pair(kind_of(frame, slot), {center, regime.size}, random);
   const Aabb box = regime.box(slot);
   CONTACTCHECK_INVARIANT(strictly_inside(box, pair.a) && strictly_inside(box, pair.b),
                          "a pair lies in its slot");

@@ -25,7 +25,8 @@ function page(template, script, style) {
   return template.replace("/*style*/", () => style).replace("/*script*/", () => script);
 }
 
-// String literals have a largest length; neighbours are joined by the compiler.
+// String literals have a largest length; neighbours are joined by the compiler, which may warn of
+// the length of the whole.
 function cppLiteral(text) {
   const bytes = Buffer.from(text, "utf8"),
     lines = [];
@@ -52,6 +53,10 @@ const html = page(
 writeFileSync(
   outCpp,
   `#include "reference/report/web/report_template.h"
+
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Woverlength-strings"
+#endif
 
 namespace contactcheck {
 

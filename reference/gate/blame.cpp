@@ -99,7 +99,7 @@ std::string frames_flag(const results::Run& row, const results::Scene* scene,
 std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row) {
   const auto frame = frame_to_blame(rule, index.results(), row);
   if (!frame) return "";
-  const std::string out = "frame " + std::to_string(*frame);
+  std::string out = "frame " + std::to_string(*frame);
   const results::Scene* const scene = index.scene(row.scene);
   if (scene == nullptr || !scene->family || *frame >= scene->family->values.size()) return out;
   return out + " (" + scene->family->values[*frame] + ")";

@@ -18,7 +18,6 @@ Keys bounds_of(const Measure& measure) {
     case MeasureKind::kSpeedup:
       return {"at_least"};
     case MeasureKind::kSlowdown:
-      return {"at_most"};
     case MeasureKind::kOracle:
       return {"at_most"};
     default:

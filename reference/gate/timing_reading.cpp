@@ -127,7 +127,7 @@ std::string other_measurement(const Rule& rule, const results::Index& now,
   if (row.contact_frames != old.contact_frames)
     return fmt::format("contact_frames is {} here and {} in the baseline", row.contact_frames,
                        old.contact_frames);
-  const std::string found = other_timed_frames(rule, now, before, row, old);
+  std::string found = other_timed_frames(rule, now, before, row, old);
   if (!found.empty()) return found;
   std::string ignored;
   return speedup_in(rule, row, ignored)->reference_options ==

@@ -92,7 +92,8 @@ LevelTables level_tables(const results::Index& index, std::optional<Level> level
           return !run->ok() || claimed_counts(*run, level ? level : run->per_frame.level);
         }))
       continue;
-    std::vector<HeatCell> recall = {{detector, {}, ""}}, spurious = recall;
+    const HeatCell name = {detector, {}, ""};
+    std::vector<HeatCell> recall = {name}, spurious = {name};
     if (scenes.size() > 1) add_sum(detector, present, level, recall, spurious);
     for (const Run* run : runs) add_scene(run, level, recall, spurious);
     out.recall.rows.push_back(std::move(recall));

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 // Before anything runs: a summary that nobody can write would be noticed too late.
 fs::path required_summary_file() {
-  const fs::path file = github_summary_file();
+  fs::path file = github_summary_file();
   if (file.empty())
     throw InputError("--github: the environment names no file in GITHUB_STEP_SUMMARY");
   return file;

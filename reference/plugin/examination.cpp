@@ -68,7 +68,7 @@ class Examination {
         interrupts.pass_on();
       }
       const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      const std::string limit = broken_limit(seconds);
+      std::string limit = broken_limit(seconds);
       if (limit.empty()) continue;
       process_.kill();
       return limit;

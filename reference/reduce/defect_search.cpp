@@ -77,7 +77,7 @@ Snapshot DefectSearch::bodies_of_error(const ReductionTask& task, const Finding&
   const std::size_t count = task.snapshot.bodies.size();
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = a + 1; b < count; ++b) {
-      const Snapshot two = two_of(task.snapshot, a, b);
+      Snapshot two = two_of(task.snapshot, a, b);
       if (shows(probe_.ask(two, levels_for(finding.level)), finding)) return two;
     }
   refuse_more_bodies(task, finding);

@@ -32,7 +32,7 @@ fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
     if (body.contains("mesh")) make_paths_absolute(body["mesh"], file.parent_path());
   change(scene, document);
   fs::create_directories(folder);
-  const fs::path variant = folder / (id + ".json");
+  fs::path variant = folder / (id + ".json");
   write_file_atomically(variant, scene.dump(1) + "\n");
   return variant;
 }

@@ -119,7 +119,7 @@ class Reducer {
     const std::size_t largest =
         std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
     for (std::size_t n = 1; pair && n < largest; n *= kGrowth)
-      if (const auto start = embedded(surroundings_of(whole, *pair, n))) return start;
+      if (auto start = embedded(surroundings_of(whole, *pair, n))) return start;
     return embedded(whole);
   }
 

@@ -19,6 +19,18 @@ void write(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
+void write_pages(const std::filesystem::path& folder) {
+  CLI::App app;
+  const contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
+  contactcheck::CommandLine line{app, catalog, "", {}};
+  contactcheck::describe_program(line);
+  const contactcheck::ProgramWords program = contactcheck::words_of(app);
+  write(folder / "contactcheck.1", contactcheck::man_page(program));
+  write(folder / "contactcheck.bash", contactcheck::bash_completion(program));
+  write(folder / "_contactcheck", contactcheck::zsh_completion(program));
+  write(folder / "contactcheck.fish", contactcheck::fish_completion(program));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,17 +38,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: write_command_pages FOLDER\n");
     return 2;
   }
-  CLI::App app;
-  const contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
-  contactcheck::CommandLine line{app, catalog, "", {}};
-  contactcheck::describe_program(line);
-  const contactcheck::ProgramWords program = contactcheck::words_of(app);
-  const std::filesystem::path folder = argv[1];
   try {
-    write(folder / "contactcheck.1", contactcheck::man_page(program));
-    write(folder / "contactcheck.bash", contactcheck::bash_completion(program));
-    write(folder / "_contactcheck", contactcheck::zsh_completion(program));
-    write(folder / "contactcheck.fish", contactcheck::fish_completion(program));
+    write_pages(argv[1]);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "write_command_pages: %s\n", e.what());
     return 1;

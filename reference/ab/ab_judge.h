@@ -16,20 +16,20 @@ struct AbLimits {
   double floor_us = 20.0;    ///< microseconds a frame that do not matter, whatever the ratio
 };
 
-/// An interval wider than this (high / low) that holds the limit says nothing.
+/// An interval or range wider than this (high / low) that contains the limit says nothing.
 inline constexpr double kNoisyWidth = 1.25;
 
 enum class AbVerdict {
   kPass,      ///< not shown to be slower than allowed, or by less than the floor
-  kSlower,    ///< the whole interval is beyond the limit, and the excess beyond the floor
+  kSlower,    ///< all of the interval is beyond the limit, and the excess beyond the floor
   kTooNoisy,  ///< the limit lies inside a wide interval: it cannot be judged
 };
 
-/// One detector on one scene: its own question, cold.
+/// One detector on one scene: its own question, in playback.
 struct AbTime {
   std::string scene, detector;
-  Ratio ratio;                          ///< time(head) / time(base), below 1 is faster
-  double base_ms = 0.0, head_ms = 0.0;  ///< medians over rounds, per frame
+  Ratio ratio;  ///< time(head) / time(base) over rounds (mean_ratio), below 1 is faster
+  double base_ms = 0.0, head_ms = 0.0;  ///< geometric means over rounds, per frame
   AbVerdict verdict = AbVerdict::kPass;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reference/diff/diff_text.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -61,9 +62,10 @@ std::vector<Section> sections_of(const AbJudgement& judgement, const AbSetting& 
 
 std::string limits_text(const AbSetting& setting) {
   return fmt::format(
-      "{} rounds in turns; time(head) / time(base), median and 95 % interval over rounds; allowed "
+      "{} rounds in turns; time(head) / time(base), geometric mean and {} over rounds; allowed "
       "{:.2f}x, or {:g} us a frame",
-      setting.rounds, setting.limits.slower_than, setting.limits.floor_us);
+      setting.rounds, setting.rounds < kFewestForInterval ? "range" : "95 % interval",
+      setting.limits.slower_than, setting.limits.floor_us);
 }
 
 std::string verdict_text(const AbJudgement& judgement, const AbSetting& setting) {
@@ -124,9 +126,10 @@ std::string ab_markdown(const AbJudgement& judgement, const AbSetting& setting) 
     text += fmt::format("\n### {} ({})\n\n", escaped(section.title), section.lines.size());
     for (const std::string& line : section.lines) text += "- " + escaped(line) + "\n";
   }
-  text +=
-      "\n| scene | detector | head / base | 95 % | base ms | head ms | |\n"
-      "|---|---|--:|--:|--:|--:|---|\n";
+  text += fmt::format(
+      "\n| scene | detector | head / base | {} | base ms | head ms | |\n"
+      "|---|---|--:|--:|--:|--:|---|\n",
+      interval_name(setting.rounds));
   for (const AbTime& t : judgement.times)
     text += fmt::format("| {} | {} | {:.2f} | {:.2f} to {:.2f} | {:.3g} | {:.3g} | {} |\n",
                         escaped(t.scene), escaped(t.detector), t.ratio.value, t.ratio.low,

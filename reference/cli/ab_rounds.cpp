@@ -23,7 +23,7 @@ class Build {
  public:
   Build(const AbSide& side, const AbArguments& arguments)
       : name_(side.name), program_(side.program), out_(fs::absolute(arguments.out) / side.name) {
-    words_ = {"run", "--quiet", "--repeat", std::to_string(arguments.repeats)};
+    words_ = {"run", "--quiet", "--processes", "1"};
     if (arguments.frames > 0) add("--frames", std::to_string(arguments.frames));
     for (const std::string& detector : side.detectors) add("--detector", detector);
     add("--out", out_.string());

@@ -46,15 +46,14 @@ void add_ab(CommandLine& line) {
       ->check(whole_in(3, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
-  ab->add_option("--repeat", arguments->repeats, "timed repeats per frame and round (default 3)")
-      ->check(whole_in(1, 1000));
   add_ab_limits(*ab, *arguments);
   ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)");
   ab->add_flag("--quiet", arguments->quiet, "no progress");
   ab->footer(
-      "Rounds are base head, head base, ..., each in fresh processes. A detector fails only when\n"
-      "the whole 95 % interval of its ratio over rounds is beyond the limit and the excess beyond\n"
-      "the floor. Its own question counts, with cold caches.\n"
+      "Rounds are base head, head base, ..., each in fresh processes. A ratio is the geometric\n"
+      "mean over rounds, with its 95 % interval; with fewer than 5 rounds, with their range. A\n"
+      "detector fails only when all of that is beyond the limit and the excess beyond the floor.\n"
+      "Its own question counts, in playback: all frames in order, nothing flushed.\n"
       "Exit code 1 when a detector is slower, or when answers differ.\n"
       "Examples:\n"
       "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "

@@ -82,8 +82,9 @@ void add_tune(CommandLine& line) {
           "frames to choose by (default: the scene's, at most 30; of a simulated scene half of "
           "its own); the choice is confirmed on others")
       ->check(whole_in(4, 100000));
-  tune->add_option("--repeat", arguments->repeats, "timed repeats per frame (default 5)")
-      ->check(whole_in(1, 1000));
+  tune->add_option("--processes", arguments->processes,
+                   "passes through the frames, each in a fresh process (default 5)")
+      ->check(whole_in(1, 100));
   CLI::Option* most =
       tune->add_option("--most", arguments->most,
                        "measurements at most, those that are made again too (default: no limit)")

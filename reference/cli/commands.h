@@ -22,7 +22,9 @@ struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
   std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
-  std::size_t frames = 0, repeats = RunSettings{}.repeats, processes = RunSettings{}.processes;
+  std::size_t frames = 0, step_repeats = RunSettings{}.step_repeats;
+  std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
+  std::uint64_t seed = RunSettings{}.seed;
   std::filesystem::path out = "out";
   std::optional<PairSpec> pairs;     ///< a scene of so many random pairs, beside the targets
   std::optional<Shard> shard;        ///< run this part alone
@@ -72,7 +74,7 @@ struct AbArguments {
   std::filesystem::path base, head;    ///< two builds of this program, or two libraries
   std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
   std::vector<std::string> detectors;  ///< empty: those of the suite
-  std::size_t rounds = 7, frames = 0, repeats = 3;
+  std::size_t rounds = 7, frames = 0;
   double slower_than = 1.1;  ///< time(head) / time(base) that is allowed
   double floor_us = 20.0;    ///< microseconds a frame that do not matter
   bool accuracy_may_change = false, quiet = false, github = false;
@@ -90,7 +92,7 @@ struct TuneArguments {
   std::optional<double> max_hover, max_deviation;  ///< metres
   std::optional<long> max_late;                    ///< frames
   std::optional<double> budget_ms;
-  std::size_t frames = 0, repeats = RunSettings{}.repeats, most = 0;
+  std::size_t frames = 0, processes = 5, most = 0;
   bool exhaustive = false, quiet = false;
   double call_limit = RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;

@@ -132,8 +132,12 @@ void take_shard(const Shard& shard, SuiteRequest& request) {
 RunSettings settings_of(const RunArguments& arguments) {
   RunSettings settings;
   settings.frames = arguments.frames;
-  settings.repeats = arguments.repeats;
-  settings.processes = arguments.processes;
+  settings.step_repeats = arguments.step_repeats;
+  settings.seed = arguments.seed;
+  if (arguments.processes) {
+    settings.processes = *arguments.processes;
+    settings.one_pass_beyond = 0.0;
+  }
   settings.timing = arguments.timing;
   settings.closed_loop = arguments.closed_loop;
   settings.threads = arguments.threads;

@@ -46,7 +46,8 @@ Limits limits_of(const TuneArguments& arguments) {
 
 RunSettings settings_of(const TuneArguments& arguments) {
   RunSettings settings;
-  settings.repeats = arguments.repeats;
+  settings.processes = arguments.processes;
+  settings.one_pass_beyond = 0.0;  // pairs need as many passes of all
   settings.call_limit = arguments.call_limit;
   settings.memory_limit = arguments.memory_limit_mib << 20;
   return settings;

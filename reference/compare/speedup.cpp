@@ -11,149 +11,143 @@ namespace {
 
 constexpr double kMillisecondsPerNanosecond = 1e-6;
 
-using Mode = std::vector<PhaseSample> FrameSamples::*;
 using Value = std::function<double(const PhaseSample&)>;
+using Places = std::vector<std::size_t>;  // in a pass
 
-// Which repeats are taken: (process, repeat) pairs.
-using Draw = std::vector<std::pair<std::size_t, std::size_t>>;
+double whole(const PhaseSample& s) { return s.total(); }
+double unmapped(const PhaseSample& s) { return s.update + s.query; }
 
-double frame_median(const ProcessSamples& processes, std::size_t frame, Mode mode,
-                    const Value& value, const Draw& draw) {
-  std::vector<double> values;
-  for (const auto& [process, repeat] : draw)
-    values.push_back(value((processes[process].frames.at(frame).*mode)[repeat]));
-  return median(std::move(values));
-}
-
-std::size_t repeats_of(const QuestionSamples& samples) {
-  return samples.frames.empty() ? 0 : samples.frames.begin()->second.cold.size();
-}
-
-Draw everything(const ProcessSamples& processes) {
-  Draw draw;
-  for (std::size_t p = 0; p < processes.size(); ++p)
-    for (std::size_t r = 0; r < repeats_of(processes[p]); ++r) draw.emplace_back(p, r);
-  return draw;
-}
-
-// Processes, and within each as many repeats as it has. One draw takes the same repeats of both
-// sides of a ratio, as they ran together.
-Draw resample(const ProcessSamples& processes, Resampler& resampler) {
-  Draw draw;
-  for (std::size_t i = 0; i < processes.size(); ++i) {
-    const std::size_t p = resampler.below(processes.size());
-    const std::size_t n = repeats_of(processes[p]);
-    for (std::size_t r = 0; r < n; ++r) draw.emplace_back(p, resampler.below(n));
-  }
-  return draw;
-}
-
-double total(const ProcessSamples& processes, const std::vector<std::size_t>& frames, Mode mode,
-             const Value& value, const Draw& draw) {
-  double sum = 0.0;
-  for (std::size_t f : frames) sum += frame_median(processes, f, mode, value, draw);
-  return sum;
-}
-
-Ratio ratio_of(const ProcessSamples& reference, const ProcessSamples& detector,
-               const std::vector<std::size_t>& frames, Mode mode, const Value& value) {
-  const auto time_ratio = [&](const Draw& draw) {
-    return total(reference, frames, mode, value, draw) /
-           std::max(total(detector, frames, mode, value, draw), 1.0);
-  };
-  return bootstrap(time_ratio(everything(detector)),
-                   [&](Resampler& resampler) { return time_ratio(resample(detector, resampler)); });
-}
-
-std::vector<std::size_t> common_frames(const ProcessSamples& a, const ProcessSamples& b) {
-  std::vector<std::size_t> frames;
-  for (const auto& [frame, samples] : a.front().frames)
-    if (b.front().frames.count(frame)) frames.push_back(frame);
-  return frames;
-}
-
-std::vector<std::size_t> only_contact(const std::vector<std::size_t>& frames,
-                                      const std::vector<bool>& contact_frames) {
-  std::vector<std::size_t> out;
-  for (std::size_t f : frames)
-    if (contact_frames[f]) out.push_back(f);
+// The first frame of a playback is another matter: memory is not there yet.
+Places played_places(std::size_t frames) {
+  Places out;
+  for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);
   return out;
+}
+
+Places cold_places(const TimedFrames& frames) {
+  Places out(frames.cold.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = i;
+  return out;
+}
+
+Places played_contact(const TimedFrames& frames) {
+  Places out = played_places(frames.contact.size());
+  std::erase_if(out, [&](std::size_t f) { return !frames.contact[f]; });
+  return out;
+}
+
+Places cold_contact(const TimedFrames& frames) {
+  Places out = cold_places(frames);
+  std::erase_if(out, [&](std::size_t i) { return !frames.contact[frames.cold[i]]; });
+  return out;
+}
+
+// A clock that has not ticked has seen a nanosecond at most.
+double mean_of(const Pass& pass, const Places& places, const Value& value) {
+  double sum = 0.0;
+  for (const std::size_t place : places) sum += value(pass.at(place));
+  return std::max(sum, 1.0) / static_cast<double>(places.size());
+}
+
+double mean_ms(const std::vector<Pass>& passes, const Places& places, const Value& value) {
+  std::vector<double> means;
+  for (const Pass& pass : passes) means.push_back(mean_of(pass, places, value));
+  return geometric_mean(means) * kMillisecondsPerNanosecond;
 }
 
 // A detector that says nothing once has said nothing.
-bool all_reported(const ProcessSamples& processes, Mode mode) {
-  for (const QuestionSamples& process : processes)
-    for (const auto& [frame, samples] : process.frames)
-      for (const PhaseSample& repeat : samples.*mode)
-        if (!repeat.reported) return false;
+bool all_reported(const std::vector<Pass>& passes) {
+  for (const Pass& pass : passes)
+    for (const PhaseSample& frame : pass)
+      if (!frame.reported) return false;
   return true;
 }
 
-results::PhaseTimes phase_times(const ProcessSamples& processes,
-                                const std::vector<std::size_t>& frames,
-                                const std::vector<std::size_t>& contact, Mode mode) {
-  const Draw all = everything(processes);
-  const auto mean = [&](const std::vector<std::size_t>& over, const Value& value) {
-    return total(processes, over, mode, value, all) * kMillisecondsPerNanosecond /
-           static_cast<double>(over.size());
-  };
+// Which share of the whole a phase is, over all passes.
+double share_of(const std::vector<Pass>& passes, const Places& places, const Value& phase) {
+  double sum = 0.0, all = 0.0;
+  for (const Pass& pass : passes)
+    for (const std::size_t place : places) {
+      sum += phase(pass.at(place));
+      all += pass.at(place).total();
+    }
+  return all > 0.0 ? sum / all : 0.0;
+}
+
+results::PhaseTimes phase_times(const std::vector<Pass>& passes, bool lazy_map,
+                                const Places& places, const Places& contact) {
   results::PhaseTimes out;
-  if (!processes.front().lazy_map)
-    out.map = mean(frames, [](const PhaseSample& s) { return s.map; });
-  out.update = mean(frames, [](const PhaseSample& s) { return s.update; });
-  out.query = mean(frames, [](const PhaseSample& s) { return s.query; });
-  out.frame = mean(frames, [](const PhaseSample& s) { return s.total(); });
-  if (!contact.empty())
-    out.contact_frame = mean(contact, [](const PhaseSample& s) { return s.total(); });
-  if (all_reported(processes, mode))
-    out.self_reported = mean(frames, [](const PhaseSample& s) { return *s.reported; });
+  out.frame = mean_ms(passes, places, whole);
+  const auto phase = [&](double PhaseSample::*member) {
+    return out.frame *
+           share_of(passes, places, [member](const PhaseSample& s) { return s.*member; });
+  };
+  if (!lazy_map) out.map = phase(&PhaseSample::map);
+  out.update = phase(&PhaseSample::update);
+  out.query = phase(&PhaseSample::query);
+  if (!contact.empty()) out.contact_frame = mean_ms(passes, contact, whole);
+  if (all_reported(passes))
+    out.self_reported = mean_ms(passes, places, [](const PhaseSample& s) { return *s.reported; });
+  double cpu = 0.0;
+  for (const Pass& pass : passes)
+    for (const std::size_t place : places) cpu += pass.at(place).cpu;
+  out.cpu = cpu / static_cast<double>(passes.size() * places.size()) * kMillisecondsPerNanosecond;
   return out;
+}
+
+Ratio ratio_of(const std::vector<Pass>& reference, const std::vector<Pass>& detector,
+               const Places& places, const Value& value) {
+  std::vector<double> ratios;
+  for (std::size_t p = 0; p < std::min(reference.size(), detector.size()); ++p)
+    ratios.push_back(mean_of(reference[p], places, value) / mean_of(detector[p], places, value));
+  return mean_ratio(ratios);
 }
 
 }  // namespace
 
-results::QuestionTimes summarize_times(const ProcessSamples& processes,
-                                       const std::vector<bool>& contact_frames) {
-  const std::vector<std::size_t> frames = common_frames(processes, processes);
-  CONTACTCHECK_INVARIANT(!frames.empty(), "times of at least one frame");
-  const std::vector<std::size_t> contact = only_contact(frames, contact_frames);
+results::QuestionTimes summarize_times(const QuestionSamples& samples, const TimedFrames& frames) {
+  CONTACTCHECK_INVARIANT(!samples.playback.empty() && !frames.contact.empty(),
+                         "times of at least one pass through at least one frame");
+  for (const Pass& pass : samples.playback)
+    CONTACTCHECK_INVARIANT(pass.size() == frames.contact.size(), "all frames are timed");
+  const Places contact = played_contact(frames);
   results::QuestionTimes out;
-  out.question = processes.front().question;
-  out.timed_frames = frames.size();
+  out.question = samples.question;
+  out.timed_frames = frames.contact.size();
   out.timed_contact_frames = contact.size();
-  out.repeats = everything(processes).size();
-  out.cold = phase_times(processes, frames, contact, &FrameSamples::cold);
-  out.hot = phase_times(processes, frames, contact, &FrameSamples::hot);
+  out.passes = samples.playback.size();
+  out.playback = phase_times(samples.playback, samples.lazy_map,
+                             played_places(frames.contact.size()), contact);
+  out.playback.first_frame = mean_ms(samples.playback, {0}, whole);
+  if (!samples.cold.empty())
+    out.cold =
+        phase_times(samples.cold, samples.lazy_map, cold_places(frames), cold_contact(frames));
   return out;
 }
 
-std::vector<std::optional<double>> cold_frame_ms(const ProcessSamples& processes,
-                                                 std::size_t frames) {
-  const Draw all = everything(processes);
-  std::vector<std::optional<double>> out(frames);
-  for (const auto& [frame, samples] : processes.front().frames)
-    out.at(frame) = frame_median(
-                        processes, frame, &FrameSamples::cold,
-                        [](const PhaseSample& s) { return s.total(); }, all) *
-                    kMillisecondsPerNanosecond;
+std::vector<std::optional<double>> frame_ms(const QuestionSamples& samples) {
+  std::vector<std::optional<double>> out(samples.playback.front().size());
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    std::vector<double> by_pass;
+    for (const Pass& pass : samples.playback) by_pass.push_back(pass.at(f).total());
+    out[f] = median(std::move(by_pass)) * kMillisecondsPerNanosecond;
+  }
   return out;
 }
 
-std::optional<results::Speedup> compute_speedup(const ProcessSamples& reference,
-                                                const ProcessSamples& detector,
-                                                const std::vector<bool>& contact_frames) {
-  const std::vector<std::size_t> frames = common_frames(reference, detector);
-  if (frames.empty()) return std::nullopt;
-  const auto whole = [](const PhaseSample& s) { return s.total(); };
-  const auto unmapped = [](const PhaseSample& s) { return s.update + s.query; };
-  const std::vector<std::size_t> contact = only_contact(frames, contact_frames);
+results::Speedup compute_speedup(const QuestionSamples& reference, const QuestionSamples& detector,
+                                 const TimedFrames& frames) {
+  const auto played = [&](const Places& places, const Value& value) {
+    return ratio_of(reference.playback, detector.playback, places, value);
+  };
+  const Places all = played_places(frames.contact.size()), contact = played_contact(frames);
   results::Speedup out;
-  out.cold = ratio_of(reference, detector, frames, &FrameSamples::cold, whole);
-  out.hot = ratio_of(reference, detector, frames, &FrameSamples::hot, whole);
-  if (!contact.empty())
-    out.contact_frames = ratio_of(reference, detector, contact, &FrameSamples::cold, whole);
-  if (!reference.front().lazy_map && !detector.front().lazy_map)
-    out.without_map = ratio_of(reference, detector, frames, &FrameSamples::cold, unmapped);
+  out.playback = played(all, whole);
+  if (!contact.empty()) out.contact_frames = played(contact, whole);
+  if (!reference.lazy_map && !detector.lazy_map) out.without_map = played(all, unmapped);
+  if (!reference.cold.empty() && !detector.cold.empty())
+    out.cold = ratio_of(reference.cold, detector.cold, cold_places(frames), whole);
+  out.passes = std::min(reference.playback.size(), detector.playback.size());
   return out;
 }
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -11,40 +9,42 @@
 
 namespace contactcheck {
 
-/// Nanoseconds of one repeat of one frame.
+/// Nanoseconds of one frame.
 struct PhaseSample {
   double map = 0.0, update = 0.0, query = 0.0;
   std::optional<double> reported = std::nullopt;  ///< of update and query, by the detector itself
+  double cpu = 0.0;                               ///< CPU time of the whole process tree
   double total() const { return map + update + query; }
 };
 
-struct FrameSamples {
-  std::vector<PhaseSample> cold, hot;  ///< one per repeat; repeat r of all detectors ran together
-};
+/// What one detector took in one pass in one question, frame after frame, in a fresh process.
+using Pass = std::vector<PhaseSample>;
 
-/// The samples of one detector and one question in one process.
+/// The samples of one detector and one question.
 struct QuestionSamples {
   Question question = Question::kTriangles;
   bool lazy_map = false;  ///< the detector maps what it needs itself: no phase `map`
-  std::map<std::size_t, FrameSamples> frames;
+  /// By process, at least one; pass p of all detectors ran beside one another.
+  std::vector<Pass> playback;
+  std::vector<Pass> cold;  ///< over the cold frames alone; empty: another one's question
 };
 
-/// One entry per fresh process; all hold the same frames.
-using ProcessSamples = std::vector<QuestionSamples>;
+/// Which frames a scene's samples are of, and which of them have contact.
+struct TimedFrames {
+  std::vector<bool> contact;      ///< by frame of the scene
+  std::vector<std::size_t> cold;  ///< frames of the scene, ascending
+};
 
-/// @pre processes is not empty and holds at least one frame
-results::QuestionTimes summarize_times(const ProcessSamples& processes,
-                                       const std::vector<bool>& contact_frames);
+/// @pre every pass has all frames
+results::QuestionTimes summarize_times(const QuestionSamples& samples, const TimedFrames& frames);
 
-/// Median over repeats per frame, cold, milliseconds; none of a frame that was not timed.
-std::vector<std::optional<double>> cold_frame_ms(const ProcessSamples& processes,
-                                                 std::size_t frames);
+/// Per frame the median over passes, milliseconds, in playback.
+std::vector<std::optional<double>> frame_ms(const QuestionSamples& samples);
 
-/// time(reference) / time(detector) over the frames both were timed on. The intervals
-/// are bootstraps over processes and, within each, over repeats. None when the two share no timed
-/// frame.
-std::optional<results::Speedup> compute_speedup(const ProcessSamples& reference,
-                                                const ProcessSamples& detector,
-                                                const std::vector<bool>& contact_frames);
+/// time(reference) / time(detector), pass by pass, over as many passes of both. The first frame of
+/// a playback counts only where there is no other.
+/// @pre both of the same question and of all frames
+results::Speedup compute_speedup(const QuestionSamples& reference, const QuestionSamples& detector,
+                                 const TimedFrames& frames);
 
 }  // namespace contactcheck

@@ -27,15 +27,22 @@ std::optional<TimeChange> change_of(const results::Run& was, const results::Run&
   for (const auto& [reference, now] : *after) {
     if (reference == is.detector) continue;
     const auto then = before->find(reference);
-    if (then != before->end() && usable(now.cold) && usable(then->second.cold))
-      return TimeChange{is.scene, is.detector, reference, quotient(now.cold, then->second.cold)};
+    if (then != before->end() && usable(now.playback) && usable(then->second.playback))
+      return TimeChange{is.scene, is.detector, reference,
+                        quotient(now.playback, then->second.playback),
+                        std::min(now.passes, then->second.passes)};
   }
   return std::nullopt;
 }
 
-bool is_clear(const Ratio& factor) {
+bool is_clear(const TimeChange& change) {
+  const Ratio& factor = change.factor;
+  if (change.passes < kFewestForInterval) {
+    constexpr double kBeyond = 1.0 + kSmallestChangeOfRange;
+    return factor.low > kBeyond || factor.high < 1.0 / kBeyond;
+  }
   const bool one_sided = factor.low > 1.0 || factor.high < 1.0;
-  return one_sided && std::fabs(std::log(factor.value)) > std::log1p(kSmallestTimeChange);
+  return one_sided && log_size(change) > std::log1p(kSmallestTimeChange);
 }
 
 }  // namespace
@@ -46,7 +53,7 @@ std::vector<TimeChange> time_changes(const results::Index& before, const results
     const results::Run* was = before.run(row.scene, row.detector);
     if (was == nullptr) continue;
     const std::optional<TimeChange> change = change_of(*was, row);
-    if (change && is_clear(change->factor)) changes.push_back(*change);
+    if (change && is_clear(*change)) changes.push_back(*change);
   }
   std::stable_sort(changes.begin(), changes.end(), [](const TimeChange& a, const TimeChange& b) {
     return log_size(a) > log_size(b);

@@ -10,7 +10,6 @@
 
 namespace contactcheck {
 namespace {
-using Words = std::vector<std::string>;
 
 std::optional<std::size_t> largest(const std::vector<std::uint64_t>& counts) {
   std::optional<std::size_t> at;
@@ -75,14 +74,11 @@ std::string target_of(const results::Results& results, const std::string& scene)
   return scene;
 }
 
-// " --repeat 9", where the run's command had it.
-std::string same_flag(const results::Results& results, const std::string& flag) {
-  const Words words = shell_words(results.command);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i].rfind(flag + "=", 0) == 0) return " " + in_shell(words[i]);
-    if (words[i] == flag && i + 1 < words.size()) return " " + flag + " " + in_shell(words[i + 1]);
-  }
-  return "";
+// " --processes 3"; nothing where the results do not say how they were timed.
+std::string processes_flag(const results::Results& results, Verdict verdict) {
+  std::size_t processes = results.timing ? results.timing->processes : 0;
+  if (verdict == Verdict::kCannotJudge) processes = std::max(processes, kFewestForInterval);
+  return processes == 0 ? "" : " --processes " + std::to_string(processes);
 }
 
 // Frames of families, recordings and random pairs are what they are.
@@ -105,7 +101,8 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
   return out + " (" + scene->family->values[*frame] + ")";
 }
 
-std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row) {
+std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
+                          Verdict verdict) {
   const results::Scene* const scene = index.scene(row.scene);
   const std::string detector = " --detector " + in_shell(row.detector);
   if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
@@ -114,7 +111,7 @@ std::string rerun_command(const Rule& rule, const results::Index& index, const r
       "contactcheck run " + in_shell(target) + frames_flag(row, scene, target) + detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
   return command + " --detector " + in_shell(rule.reference) +
-         same_flag(index.results(), "--repeat") + same_flag(index.results(), "--processes");
+         processes_flag(index.results(), verdict);
 }
 
 std::string pairs_command(const results::Scene& scene) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reference/gate/policy.h"
+#include "reference/gate/verdict.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -16,8 +17,9 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 
 /// A shell command that runs this row again: the scene, as the results' own command names it where
 /// it was a file, the detector with its options, the number of frames; of a timing rule with its
-/// reference, repeats and processes too.
-std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row);
+/// reference and as many processes, and with enough for an interval where it could not be judged.
+std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
+                          Verdict verdict);
 
 /// The same for the random pairs of a scene.
 std::string pairs_command(const results::Scene& scene);

@@ -63,7 +63,7 @@ Check ended(const results::Index& now, const results::Run& row) {
   out.measured = std::string("status ") + name_of(row.status);
   out.allowed = "ok, that of the baseline";
   out.frame = worst_frame(accuracy, now, row);
-  out.rerun = rerun_command(accuracy, now, row);
+  out.rerun = rerun_command(accuracy, now, row, Verdict::kFail);
   return out;
 }
 

@@ -58,7 +58,7 @@ class Gate {
     out.detector = row.detector;
     if (out.verdict != Verdict::kPass) {
       if (out.verdict == Verdict::kFail) out.frame = worst_frame(rule, now_, row);
-      out.rerun = rerun_command(rule, now_, row);
+      out.rerun = rerun_command(rule, now_, row, out.verdict);
     }
     return with_colour(rule, out);
   }

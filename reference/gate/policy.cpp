@@ -97,7 +97,7 @@ void parse_timing(const JsonField& field, Rule& rule) {
   rule.question = field.at("question").one_of({"triangles", "body", "cells", "contacts"});
   rule.reference = field.at("reference").text();
   if (field.has("part"))
-    rule.part = field.at("part").one_of({"cold", "hot", "contact_frames", "without_map"});
+    rule.part = field.at("part").one_of({"playback", "cold", "contact_frames", "without_map"});
   if (field.has("floor_us")) rule.floor_us = field.at("floor_us").number(kMicroseconds);
   if (field.has("noise_width")) rule.noise_width = field.at("noise_width").number(kShare);
   rule.noisy_fails = fails(field, "noisy", false);

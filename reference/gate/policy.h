@@ -32,12 +32,12 @@ struct Rule {
   std::string stage;      ///< of stage_missed; empty: all together
   std::string question;   ///< of timing rules
   std::string reference;  ///< of timing rules: a detector
-  std::string part = "cold";
+  std::string part = "playback";
   /// A detector that exceeds the limit by less than this per frame is let through: a ratio between
   /// two times of a few microseconds says nothing that matters.
   double floor_us = 2.0;
-  /// A measurement whose 95 % interval holds the limit is too noisy to judge when the upper end of
-  /// the interval is beyond the lower one by more than this share.
+  /// A measurement whose 95 % interval contains the limit is too noisy to judge when the upper end
+  /// of the interval is beyond the lower one by more than this share.
   double noise_width = 0.1;
   bool noisy_fails = false;     ///< "too noisy to judge" makes the gate red
   bool unjudged_fails = false;  ///< so does "cannot judge"

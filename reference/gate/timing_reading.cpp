@@ -32,14 +32,18 @@ const results::Speedup* speedup_in(const Rule& rule, const results::Run& row, st
 std::optional<Ratio> ratio_in(const Rule& rule, const results::Run& row, std::string& reason) {
   const results::Speedup* const speedup = speedup_in(rule, row, reason);
   if (speedup == nullptr) return std::nullopt;
-  if (rule.part == "cold") return speedup->cold;
-  if (rule.part == "hot") return speedup->hot;
-  const bool unmapped = rule.part == "without_map";
-  const std::optional<Ratio>& part = unmapped ? speedup->without_map : speedup->contact_frames;
-  if (!part)
-    reason = unmapped ? "one of the two maps lazily: no time without mapping"
-                      : "no frame with contact was timed";
-  return part;
+  const auto present = [&](const std::optional<Ratio>& part, const std::string& why_not) {
+    if (!part) reason = why_not;
+    return part;
+  };
+  if (rule.part == "cold")
+    return present(speedup->cold, "no cold times: " + rule.question +
+                                      " is not the own question of both detectors");
+  if (rule.part == "without_map")
+    return present(speedup->without_map, "one of the two maps lazily: no time without mapping");
+  if (rule.part == "contact_frames")
+    return present(speedup->contact_frames, "no frame with contact was timed");
+  return speedup->playback;
 }
 
 // Null where the row has no times of the question.
@@ -54,68 +58,91 @@ const results::QuestionTimes* times_of(const Rule& rule, const results::Run& row
 std::optional<double> frame_us(const Rule& rule, const results::Run& row) {
   const results::QuestionTimes* const times = times_of(rule, row);
   if (times == nullptr) return std::nullopt;
-  const results::PhaseTimes& phases = rule.part == "hot" ? times->hot : times->cold;
-  if (rule.part == "without_map")
-    return kMicrosecondsPerMillisecond * (phases.update + phases.query);
-  if (rule.part != "contact_frames") return kMicrosecondsPerMillisecond * phases.frame;
-  if (!phases.contact_frame) return std::nullopt;
-  return kMicrosecondsPerMillisecond * *phases.contact_frame;
+  const results::PhaseTimes& playback = times->playback;
+  std::optional<double> ms = playback.frame;
+  if (rule.part == "without_map") ms = playback.update + playback.query;
+  if (rule.part == "contact_frames") ms = playback.contact_frame;
+  if (rule.part == "cold") ms = times->cold ? std::optional(times->cold->frame) : std::nullopt;
+  return ms ? std::optional(kMicrosecondsPerMillisecond * *ms) : std::nullopt;
 }
 
-std::string interval_text(const Ratio& r) {
+std::vector<std::size_t> cold_frames(const results::Index& results, const results::Run& row) {
+  const results::Scene* const scene = results.scene(row.scene);
+  return scene == nullptr ? std::vector<std::size_t>{} : scene->cold_frames;
+}
+
+// What the ratio is a mean over.
+std::size_t frames_of(const Rule& rule, const results::Index& results, const results::Run& row) {
+  if (rule.part == "cold") return cold_frames(results, row).size();
+  const results::QuestionTimes* const times = times_of(rule, row);
+  if (times == nullptr) return 0;
+  return rule.part == "contact_frames" ? times->timed_contact_frames : times->timed_frames;
+}
+
+std::string ratio_text(const Ratio& r, std::size_t passes) {
+  if (passes == 1) return fmt::format("{:.4g}x (1 pass)", r.value);
+  if (passes < kFewestForInterval)
+    return fmt::format("{:.4g}x ({} {:.4g} to {:.4g})", r.value, interval_name(passes), r.low,
+                       r.high);
   return fmt::format("{:.4g}x [{:.4g}, {:.4g}]", r.value, r.low, r.high);
+}
+
+// Why a range does not decide, and what would. `passes`: "3 passes".
+std::string too_few_passes(const std::string& passes, std::size_t frames, const Ratio& range,
+                           const std::string& remedy) {
+  const std::string ends = range.low == range.high
+                               ? fmt::format("{:.3g}x", range.value)
+                               : fmt::format("the range {:.3g}x to {:.3g}x", range.low, range.high);
+  return fmt::format("{} {}, {}: the limit lies within a factor {} of {}; {}", frames,
+                     frames == 1 ? "frame" : "frames", passes, kRangeFactor, ends, remedy);
+}
+
+std::string passes_text(std::size_t passes) {
+  return passes == 1 ? "1 pass" : fmt::format("{} passes", passes);
 }
 
 std::string where_text(const Rule& rule) {
   return fmt::format("over {}, {}, {}", rule.reference, rule.question, rule.part);
 }
 
-Check judged(const Rule& rule, const Ratio& slowness, const std::string& measured,
-             const results::Run& row) {
+// `too_few`: the reason where the passes are too few to decide.
+Check judged(const Rule& rule, const Ratio& slowness, std::size_t passes,
+             const std::string& measured, const std::string& too_few, const results::Run& row) {
   const std::optional<double> us = frame_us(rule, row);
   if (!us) return cannot_judge(rule, "no times per frame of the question " + rule.question);
-  const TimingVerdict verdict = judge_slowness({slowness, *us}, {rule.floor_us, rule.noise_width});
+  const TimingVerdict verdict =
+      judge_slowness({slowness, *us, passes}, {rule.floor_us, rule.noise_width});
   Check out;
   out.verdict = verdict.verdict;
   out.measured = measured;
   out.allowed = allowed_text(rule);
-  out.reason = verdict.reason;
+  out.reason = verdict.verdict == Verdict::kCannotJudge ? too_few : verdict.reason;
   return out;
 }
 
-Check judge_speedup(const Rule& rule, const results::Run& row) {
+Check judge_speedup(const Rule& rule, const results::Index& now, const results::Run& row) {
   std::string reason;
   const auto ratio = ratio_in(rule, row, reason);
   if (!ratio) return cannot_judge(rule, reason);
-  return judged(rule, slowness_of(*ratio, rule.limit),
-                "speedup " + interval_text(*ratio) + " " + where_text(rule), row);
+  const std::size_t passes = speedup_in(rule, row, reason)->passes;
+  return judged(rule, slowness_of(*ratio, rule.limit), passes,
+                "speedup " + ratio_text(*ratio, passes) + " " + where_text(rule),
+                too_few_passes(passes_text(passes), frames_of(rule, now, row), *ratio,
+                               fmt::format("--processes {} gives an interval", kFewestForInterval)),
+                row);
 }
 
-// Of the reference, in the question; nothing where the results have no times of it.
-std::optional<std::size_t> timed_frames_of_reference(const Rule& rule,
-                                                     const results::Index& results,
-                                                     const results::Run& row) {
-  const results::Run* const reference = results.run(row.scene, rule.reference);
-  const results::QuestionTimes* const times =
-      reference == nullptr ? nullptr : times_of(rule, *reference);
-  return times == nullptr ? std::nullopt : std::optional(times->timed_frames);
-}
-
-// A ratio is over the frames that both sides were timed on: where the reference had time for fewer,
-// it is another ratio.
 std::string other_timed_frames(const Rule& rule, const results::Index& now,
                                const results::Index& before, const results::Run& row,
                                const results::Run& old) {
   const results::QuestionTimes *times = times_of(rule, row), *old_times = times_of(rule, old);
   if (times == nullptr || old_times == nullptr) return "";
-  const std::size_t timed = times->timed_frames, timed_then = old_times->timed_frames;
-  if (timed != timed_then)
-    return fmt::format("{} frames are timed here and {} in the baseline", timed, timed_then);
-  const auto here = timed_frames_of_reference(rule, now, row),
-             there = timed_frames_of_reference(rule, before, old);
-  if (!here || !there || std::min(*here, timed) == std::min(*there, timed)) return "";
-  return fmt::format("{} frames of {} are timed here and {} in the baseline", *here, rule.reference,
-                     *there);
+  if (times->timed_frames != old_times->timed_frames)
+    return fmt::format("{} frames are timed here and {} in the baseline", times->timed_frames,
+                       old_times->timed_frames);
+  return rule.part == "cold" && cold_frames(now, row) != cold_frames(before, old)
+             ? "other frames are timed cold in the baseline"
+             : "";
 }
 
 // Not the same frames or not the same reference: another ratio.
@@ -136,6 +163,13 @@ std::string other_measurement(const Rule& rule, const results::Index& now,
              : "the reference has other options in the baseline";
 }
 
+std::string remedy_of_slowdown(std::size_t passes, std::size_t passes_then) {
+  const char* const where = passes_then >= kFewestForInterval ? ""
+                            : passes >= kFewestForInterval    ? " in the baseline"
+                                                              : " here and in the baseline";
+  return fmt::format("--processes {}{} gives an interval", kFewestForInterval, where);
+}
+
 bool is_above_zero(const Ratio& r) { return r.low > 0.0; }
 
 Check judge_slowdown(const Rule& rule, const results::Index& now, const results::Index* before,
@@ -154,9 +188,13 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
   if (!is_above_zero(*ratio) || !is_above_zero(*known))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
   const Ratio slow = quotient(*known, *ratio);
-  return judged(rule, over_limit(slow, rule.limit),
+  const std::size_t here = speedup_in(rule, row, reason)->passes,
+                    there = speedup_in(rule, *old, reason)->passes, passes = std::min(here, there);
+  return judged(rule, over_limit(slow, rule.limit), passes,
                 fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
-                            interval_text(slow), ratio->value, known->value, where_text(rule)),
+                            ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),
+                too_few_passes(fmt::format("{}, {} in the baseline", passes_text(here), there),
+                               frames_of(rule, now, row), slow, remedy_of_slowdown(here, there)),
                 row);
 }
 
@@ -194,7 +232,7 @@ std::string other_machine(const results::Results& now, const results::Results& b
 
 Check judge_timing(const Rule& rule, const results::Index& now, const results::Index* before,
                    const results::Run& row) {
-  return rule.measure->kind == MeasureKind::kSpeedup ? judge_speedup(rule, row)
+  return rule.measure->kind == MeasureKind::kSpeedup ? judge_speedup(rule, now, row)
                                                      : judge_slowdown(rule, now, before, row);
 }
 

@@ -17,10 +17,20 @@ TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance)
   return out;
 }
 
+TimingVerdict of_range(const Slowness& slowness, const TimingTolerance& tolerance) {
+  if (slowness.ratio.low > kRangeFactor) return beyond(slowness, tolerance);
+  TimingVerdict out;
+  // Of a frame that is shorter than the floor no excess can reach it.
+  if (slowness.frame_us < tolerance.floor_us) return out;
+  if (slowness.ratio.high >= 1.0 / kRangeFactor) out.verdict = Verdict::kCannotJudge;
+  return out;
+}
+
 }  // namespace
 
 TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance) {
   const Ratio& r = slowness.ratio;
+  if (slowness.passes < kFewestForInterval) return of_range(slowness, tolerance);
   if (r.low > 1.0) return beyond(slowness, tolerance);
   const bool wide = r.high > r.low * (1.0 + tolerance.noise_width);
   if (r.high <= 1.0 || !wide) return {};

@@ -1,6 +1,7 @@
 // When a ratio of times is beyond its limit: on plain numbers, so that a simulation can ask it.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "reference/gate/verdict.h"
@@ -11,8 +12,13 @@ namespace contactcheck {
 /// A detector's time over the longest time that its limit allows: beyond 1 it is too slow.
 struct Slowness {
   Ratio ratio;
-  double frame_us = 0.0;  ///< the detector's time per frame
+  double frame_us = 0.0;   ///< the detector's time per frame
+  std::size_t passes = 0;  ///< behind the ratio: they tell what its ends are (interval_name)
 };
+
+/// Few passes show a range and no interval: another pass may lie outside it. The limit must lie
+/// outside the range by this factor.
+inline constexpr double kRangeFactor = 1.5;
 
 /// How the rule may judge it; as in a policy.
 struct TimingTolerance {
@@ -22,12 +28,15 @@ struct TimingTolerance {
 struct TimingVerdict {
   Verdict verdict = Verdict::kPass;
   double excess_us = 0.0;  ///< per frame above what is allowed; 0 where nothing is
-  std::string reason;      ///< unless it passes for being fast enough
+  std::string reason;      ///< unless it is fast enough or cannot be judged
 };
 
-/// Fails when the whole interval is beyond 1 and the excess per frame reaches the floor. Too noisy
-/// when 1 lies inside an interval that is wider than the noise width: whether it would have failed
-/// is a matter of luck then. Passes else.
+/// With an interval: fails when all of it is beyond 1 and the excess per frame reaches the floor.
+/// Too noisy when 1 lies inside an interval that is wider than the noise width: whether it would
+/// have failed is a matter of luck then. Passes else.
+/// With a range: fails when all of it is beyond kRangeFactor and the excess reaches the floor,
+/// passes when all of it is below 1 / kRangeFactor or the frame is shorter than the floor. Cannot
+/// be judged else; the caller says why.
 TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance);
 
 /// Of a speed-up (time of the reference / time of the detector) that must be at least `limit`.

@@ -10,8 +10,8 @@ namespace contactcheck {
 enum class Verdict {
   kPass,
   kFail,
-  kTooNoisy,    ///< a ratio of times whose interval holds the limit and is wide
-  kCannotJudge  ///< there is no such number in the results, or none that it may be compared with
+  kTooNoisy,    ///< a ratio of times whose interval contains the limit and is wide
+  kCannotJudge  ///< no such number in the results, none to compare it with, or too few passes
 };
 
 /// "pass", "fail", "too noisy to judge", "cannot judge"

@@ -50,7 +50,8 @@ class Columns {
     add_geometry();
     add_times();
     for (const std::string& reference : references_of(results)) add_speedup(reference);
-    add_members("", "", ok_run, std::pair("memory_bytes", &Run::memory_bytes),
+    add_members("", "", ok_run, std::pair("prepared_bytes", &Run::prepared_bytes),
+                std::pair("memory_bytes", &Run::memory_bytes),
                 std::pair("contact_hash", &Run::contact_hash));
     add_members("", "", any_run, std::pair("recording", &Run::recording));
   }
@@ -62,9 +63,6 @@ class Columns {
   static const Run* ok_run(const Run& run) { return run.ok() ? &run : nullptr; }
   // Other programs leave the frames of runs that are not `ok` out.
   static const Run* run_of_frames(const Run& run) { return run.frames > 0 ? &run : ok_run(run); }
-  static const QuestionTimes* own_times(const Run& run) {
-    return run.times.empty() ? nullptr : &run.times.front();
-  }
 
   // Of what `part` finds in a run; cells are empty where that is null.
   template <typename Part, typename... Members>
@@ -119,40 +117,47 @@ class Columns {
 
   void add_times() {
     columns_.push_back({"question", [](const Run& run) {
-                          return run.times.empty() ? "" : name_of(own_times(run)->question);
-                        }});
-    add_members("", "", own_times, std::pair("timed_frames", &QuestionTimes::timed_frames),
-                std::pair("repeats", &QuestionTimes::repeats));
-    add_members("", "", ok_run, std::pair("prepare_ms", &Run::prepare_ms));
-    add_phases("cold", &QuestionTimes::cold);
-    add_phases("hot", &QuestionTimes::hot);
-    columns_.push_back({"speedup_question", [](const Run& run) {
                           return run.times.empty() ? "" : name_of(compared_question(run));
                         }});
+    add_members("", "", compared_times, std::pair("timed_frames", &QuestionTimes::timed_frames),
+                std::pair("passes", &QuestionTimes::passes));
+    add_members("", "", ok_run, std::pair("prepare_ms", &Run::prepare_ms));
+    for (const bool cold : {false, true}) add_phases(cold);
   }
 
-  void add_phases(const char* name, PhaseTimes QuestionTimes::*phases) {
+  void add_phases(bool cold) {
     const auto part = [=](const Run& run) {
-      return run.times.empty() ? nullptr : &(run.times.front().*phases);
+      const QuestionTimes* times = compared_times(run);
+      return times == nullptr ? nullptr : phases_of(*times, cold);
     };
+    const char* name = cold ? "cold" : "playback";
     add_members(name, "_ms", part, std::pair("_map", &PhaseTimes::map),
                 std::pair("_update", &PhaseTimes::update), std::pair("_query", &PhaseTimes::query),
                 std::pair("_frame", &PhaseTimes::frame),
-                std::pair("_contact_frame", &PhaseTimes::contact_frame),
-                std::pair("_self_reported", &PhaseTimes::self_reported));
+                std::pair("_contact_frame", &PhaseTimes::contact_frame));
+    if (!cold) add_members(name, "_ms", part, std::pair("_first_frame", &PhaseTimes::first_frame));
+    add_members(name, "_ms", part, std::pair("_self_reported", &PhaseTimes::self_reported),
+                std::pair("_cpu", &PhaseTimes::cpu));
   }
 
   void add_speedup(const std::string& reference) {
-    for (const auto& [name, ratio] :
-         {std::pair("_cold", &Speedup::cold), std::pair("_hot", &Speedup::hot)})
-      add_members(
-          "vs_" + reference + name, "",
-          [=, ratio = ratio](const Run& run) {
-            const Speedup* speedup = speedup_of(run, compared_question(run), reference);
-            return speedup == nullptr ? nullptr : &(speedup->*ratio);
-          },
-          std::pair("_ratio", &Ratio::value), std::pair("_low", &Ratio::low),
-          std::pair("_high", &Ratio::high));
+    const std::string name = "vs_" + reference;
+    const auto speedup = [=](const Run& run) {
+      return speedup_of(run, compared_question(run), reference);
+    };
+    const auto add_ratio = [&](const char* regime, auto part) {
+      add_members(name + regime, "", part, std::pair("_ratio", &Ratio::value),
+                  std::pair("_low", &Ratio::low), std::pair("_high", &Ratio::high));
+    };
+    add_ratio("_playback", [=](const Run& run) {
+      const Speedup* found = speedup(run);
+      return found == nullptr ? nullptr : &found->playback;
+    });
+    add_ratio("_cold", [=](const Run& run) {
+      const Speedup* found = speedup(run);
+      return found == nullptr || !found->cold ? nullptr : &*found->cold;
+    });
+    add_members(name, "", speedup, std::pair("_passes", &Speedup::passes));
   }
 
   // In the order of their first speed-up.

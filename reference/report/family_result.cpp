@@ -46,7 +46,7 @@ std::optional<std::size_t> FamilyResult::failed_frame() const {
 
 std::optional<double> FamilyResult::milliseconds() const {
   if (!judged() || run.times.empty()) return {};
-  return run.times.front().cold.frame;
+  return run.times.front().playback.frame;
 }
 
 std::vector<FamilyResult> family_results(const results::Results& results) {

@@ -37,7 +37,7 @@ struct FamilyResult {
   bool goes_wrong() const { return failed() || wrong() > 0; }
   /// The case in which it ended in an error, where that is known.
   std::optional<std::size_t> failed_frame() const;
-  /// Milliseconds of a case, cold, mapping and update included; nothing where none was timed.
+  /// Milliseconds of a case in playback, mapping and update included; nothing where none was timed.
   std::optional<double> milliseconds() const;
 };
 

@@ -94,11 +94,45 @@ std::string short_list(const std::vector<std::string>& names, std::size_t most) 
   return text + " and " + std::to_string(names.size() - most) + " more";
 }
 
-std::string format_ratio(const std::optional<Ratio>& ratio, bool interval) {
+std::string format_counts(const Range& range) {
+  if (!range.low) return "-";
+  const std::string from = fmt::format("{:.0f}", *range.low);
+  return range.low == range.high ? from : fmt::format("{} to {:.0f}", from, *range.high);
+}
+
+std::string counted_passes(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " pass" : " passes");
+}
+
+std::string format_ratio(const std::optional<Ratio>& ratio) {
+  return ratio ? significant(ratio->value) + "x" : "-";
+}
+
+std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes) {
   if (!ratio) return "-";
-  std::string text = significant(ratio->value) + "x";
-  if (interval) text += " [" + significant(ratio->low) + ", " + significant(ratio->high) + "]";
-  return text;
+  if (passes == 1) return format_ratio(ratio) + " (1 pass)";
+  if (passes < kFewestForInterval) return format_ratio_range(ratio);
+  return fmt::format("{} [{}, {}]", format_ratio(ratio), significant(ratio->low),
+                     significant(ratio->high));
+}
+
+std::string format_ratio_range(const std::optional<Ratio>& ratio) {
+  if (!ratio) return "-";
+  return fmt::format("{} ({} to {})", format_ratio(ratio), significant(ratio->low),
+                     significant(ratio->high));
+}
+
+std::string ends_sentence(const std::set<std::size_t>& passes) {
+  std::string interval, range;
+  for (const std::size_t n : passes) {
+    if (n == 1) continue;
+    std::string& numbers = n < kFewestForInterval ? range : interval;
+    numbers += (numbers.empty() ? "" : " or ") + std::to_string(n);
+  }
+  if (!interval.empty()) interval = "[low, high] is the 95 % interval over " + interval + " passes";
+  if (!range.empty()) range = "(low to high) is the range of " + range + " passes";
+  if (interval.empty() && range.empty()) return "";
+  return interval + (interval.empty() || range.empty() ? "" : "; ") + range + ".";
 }
 
 }  // namespace contactcheck

@@ -2,8 +2,10 @@
 // what was not measured.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,7 +40,18 @@ std::string plural(std::uint64_t n, const std::string& one);
 std::string listed(const std::vector<std::string>& names);
 /// The first `most`, and how many there are besides.
 std::string short_list(const std::vector<std::string>& names, std::size_t most);
-/// "12.3x", with `interval` "12.3x [11.8, 12.9]".
-std::string format_ratio(const std::optional<Ratio>& ratio, bool interval);
+/// Whole numbers: "3", "1 to 3"; "-" of nothing.
+std::string format_counts(const Range& range);
+/// "1 pass", "3 passes"
+std::string counted_passes(std::size_t n);
+/// "12.3x"
+std::string format_ratio(const std::optional<Ratio>& ratio);
+/// With its ends, which passes make an interval of 95 % or a range (interval_name): "12.3x [11.8,
+/// 12.9]" or "12.3x (11.8 to 12.9)"; "12.3x (1 pass)" has none.
+std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes);
+/// "12.3x (11.8 to 12.9)": the ends are a range, whatever they are of.
+std::string format_ratio_range(const std::optional<Ratio>& ratio);
+/// What the ends are of ratios over so many passes; empty where none has ends.
+std::string ends_sentence(const std::set<std::size_t>& passes);
 
 }  // namespace contactcheck

@@ -73,8 +73,8 @@ DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
   out.missed = frames_with(run.per_frame.missed);
   out.spurious = frames_with(run.per_frame.spurious);
   if (run.times.empty()) return out;
-  out.cold = run.times.front().cold.frame;
-  out.hot = run.times.front().hot.frame;
+  out.playback = run.times.front().playback.frame;
+  if (const auto& cold = run.times.front().cold) out.cold = cold->frame;
   if (!run.per_frame.frame_ms) return out;
   out.frame_ms = *run.per_frame.frame_ms;
   // A clock that did not tick measured nothing.

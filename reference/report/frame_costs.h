@@ -11,7 +11,7 @@
 
 namespace contactcheck {
 
-/// Of frames in which surfaces touch; milliseconds, caches cold.
+/// Of frames in which surfaces touch; milliseconds, playback.
 struct TouchingCost {
   double low = 0.0, median = 0.0, high = 0.0;
   std::size_t frames = 0;
@@ -20,8 +20,8 @@ struct TouchingCost {
 /// Of a row that is `ok`.
 struct DetectorCosts {
   std::string detector;
-  std::optional<double> cold, hot;  ///< milliseconds per frame; none: not timed
-  /// By frame, cold; none in frames that were not timed. Empty: no frame was.
+  std::optional<double> playback, cold;  ///< milliseconds per frame; none: not timed so
+  /// By frame, playback; none in frames that were not timed. Empty: no frame was.
   std::vector<std::optional<double>> frame_ms;
   /// Frames with errors, and how many, at the finest level that the detector claims.
   std::vector<std::pair<std::size_t, std::uint64_t>> missed, spurious;

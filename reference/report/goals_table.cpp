@@ -1,5 +1,7 @@
 #include "reference/report/goals_table.h"
 
+#include <set>
+
 #include "reference/report/format.h"
 
 namespace contactcheck {
@@ -14,11 +16,18 @@ std::string wanted(const MeasuredGoal& goal) {
          unit_of(goal);
 }
 
-std::string measured(const MeasuredGoal& goal) {
+// Of the ratio that the goal is about. None known: then its ends are no more than a range.
+std::size_t passes_of(const MeasuredGoal& goal, const results::Index& index) {
+  const results::Run* run = index.ok_run(goal.scene, goal.detector);
+  if (run == nullptr || run->times.empty()) return 0;
+  const results::Speedup* speedup = speedup_of(*run, run->times.front().question, goal.over);
+  return speedup == nullptr ? run->times.front().passes : speedup->passes;
+}
+
+std::string measured(const MeasuredGoal& goal, std::size_t passes) {
   if (!goal.measured) return "-";
-  std::string out = format_number(goal.measured) + unit_of(goal);
-  if (goal.low) out += " [" + format_number(goal.low) + ", " + format_number(goal.high) + "]";
-  return out;
+  if (!goal.low || !goal.high) return format_number(goal.measured) + unit_of(goal);
+  return format_ratio(Ratio{*goal.measured, *goal.low, *goal.high}, passes);
 }
 
 std::string met_text(const MeasuredGoal& goal) {
@@ -31,18 +40,27 @@ std::string met_text(const MeasuredGoal& goal) {
 TitledTable goals_table(const results::Results& results) {
   TitledTable out{
       "Goals of the suite",
-      "Times are medians; a ratio over a detector is its time over that of the detector "
-      "named, with a 95 % interval.",
+      "Times are of playback unless the goal is of cold caches; a ratio over a detector is its "
+      "time over that of the detector named.",
       {{"goal", true, ""},
        {"scene", true, ""},
        {"detector", true, ""},
        {"wanted", false, ""},
        {"measured", false, ""},
+       {"passes", false, ""},
        {"met", true, ""}},
       {}};
-  for (const MeasuredGoal& goal : results.goals)
-    out.rows.push_back(
-        {goal.goal, goal.scene, goal.detector, wanted(goal), measured(goal), met_text(goal)});
+  const results::Index index(results);
+  std::set<std::size_t> with_ends;
+  for (const MeasuredGoal& goal : results.goals) {
+    const std::size_t passes = passes_of(goal, index);
+    if (goal.low && passes > 0) with_ends.insert(passes);
+    out.rows.push_back({goal.goal, goal.scene, goal.detector, wanted(goal), measured(goal, passes),
+                        goal.measured && passes > 0 ? std::to_string(passes) : "-",
+                        met_text(goal)});
+  }
+  const std::string ends = ends_sentence(with_ends);
+  if (!ends.empty()) out.text += " " + ends;
   return out;
 }
 

@@ -192,7 +192,8 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
             run->times.front().question != Question::kTriangles)
           continue;
         ++candidates;
-        if (best == nullptr || run->times.front().cold.frame < best->times.front().cold.frame)
+        if (best == nullptr ||
+            run->times.front().playback.frame < best->times.front().playback.frame)
           best = run;
       }
       if (candidates < 2) continue;
@@ -207,16 +208,15 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
   return out;
 }
 
-std::string slower_text(const Results& results, const std::string& detector) {
+// In the scenes of the time that stands before it.
+std::string slower_text(const std::vector<const Run*>& runs, const std::string& detector) {
   Names texts;
   for (const std::string reference : kReferences) {
     if (reference == detector) continue;
     Range times;
-    for (const Run& run : results.runs) {
-      if (run.detector != detector || !run.ok()) continue;
-      const results::Speedup* speedup = speedup_of(run, Question::kTriangles, reference);
-      if (speedup != nullptr) times.add(speedup->cold.value);
-    }
+    for (const Run* run : runs)
+      if (const results::Speedup* speedup = speedup_of(*run, Question::kTriangles, reference))
+        times.add(speedup->playback.value);
     if (!times.low) continue;
     texts.push_back(fmt::format("{} takes {} times as long", reference, format_range(times)));
   }
@@ -240,12 +240,12 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
                                          : fmt::format("in all {} scenes", grouped_digits(total));
   std::vector<const Run*> runs;
   for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
-  out.push_back({"Fastest of these",
-                 fmt::format("{} {}: {} ms per frame there for all pairs of triangles, caches "
-                             "cold{}.{}",
-                             best.detector, where, format_number(mean_frame_ms(runs, false)),
-                             others.empty() ? "" : "; " + listed(others),
-                             slower_text(index.results(), best.detector))});
+  out.push_back(
+      {"Fastest of these",
+       fmt::format("{} {}: {} ms per frame there for all pairs of triangles, in "
+                   "playback{}.{}",
+                   best.detector, where, format_number(mean_frame_ms(runs, false)),
+                   others.empty() ? "" : "; " + listed(others), slower_text(runs, best.detector))});
 }
 
 /// The errors of one detector, over all scenes.

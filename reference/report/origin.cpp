@@ -13,10 +13,31 @@ std::vector<std::string> machine_lines(const results::Results& results) {
   std::string libraries;
   for (const auto& [name, version] : results.libraries)
     libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
-  return {fmt::format("command: `{}`", results.command),
-          fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, m.isa, m.os),
-          fmt::format("built with {}, {}", m.compiler, m.build), "libraries: " + libraries,
-          fmt::format("contactcheck {}, schema {}", results.version, results::kSchema)};
+  std::vector<std::string> out = {
+      fmt::format("command: `{}`", results.command),
+      fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, m.isa, m.os),
+      fmt::format("built with {}, {}", m.compiler, m.build), "libraries: " + libraries,
+      fmt::format("contactcheck {}, schema {}", results.version, results::kSchema)};
+  if (const std::string line = timing_line(results); !line.empty()) out.push_back(line);
+  return out;
+}
+
+std::string timing_line(const results::Results& results) {
+  if (!results.timing) return "";
+  const results::Timing& t = *results.timing;
+  std::string out = fmt::format("timing: {}, {} in a fresh process that has judged nothing",
+                                counted_passes(t.processes), t.processes == 1 ? "made" : "each");
+  if (t.one_pass_beyond > 0.0 && t.processes > 1)
+    out += fmt::format("; a detector whose pass takes over {:g} s has 1", t.one_pass_beyond);
+  out += fmt::format("; order drawn by seed {}", t.seed);
+  Range cold;
+  for (const results::Scene& scene : results.scenes)
+    if (!scene.cold_frames.empty()) cold.add(static_cast<double>(scene.cold_frames.size()));
+  if (cold.low)
+    out += fmt::format("; cold: {} {} of each scene after a sweep of {:g} MiB", format_counts(cold),
+                       *cold.high > 1.0 ? "frames" : "frame",
+                       static_cast<double>(t.sweep_bytes) / 1048576.0);
+  return out;
 }
 
 std::vector<std::string> part_sentences(const results::Results& results) {

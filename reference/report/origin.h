@@ -9,8 +9,12 @@
 
 namespace contactcheck {
 
-/// Command, machine, compiler, libraries and version, a line each; `code` stands in backticks.
+/// Command, machine, compiler, libraries, version and how it was timed, a line each; `code` stands
+/// in backticks.
 std::vector<std::string> machine_lines(const results::Results& results);
+
+/// How the times were measured; empty where nothing was timed.
+std::string timing_line(const results::Results& results);
 
 /// What keeps a reader from taking a part for the whole: of which shard, or of how many, and which
 /// scenes were taken over from an interrupted run. None for a whole run.

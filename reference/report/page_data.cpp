@@ -147,7 +147,7 @@ constexpr Measure kMeasures[] = {{"worse", ErrorMeasure::kWorse},
                                  {"missed", ErrorMeasure::kMissed},
                                  {"spurious", ErrorMeasure::kSpurious}};
 
-constexpr std::size_t kTimeCell = 2, kErrorCell = 8;  // of speed_error_columns
+constexpr std::size_t kTimeCell = 2, kErrorCell = 9;  // of speed_error_columns
 
 // Of one choice of scenes and one level; null where nothing can be drawn.
 Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>& detectors,
@@ -156,9 +156,9 @@ Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>
   Json out = {{"cells", std::vector<Json>(detectors.size())}};
   bool any = false;
   for (const Measure& measure : kMeasures)
-    for (const bool hot : {false, true}) {
+    for (const bool cold : {false, true}) {
       choice.measure = measure.measure;
-      choice.hot = hot;
+      choice.cold = cold;
       const SpeedError chart = charts.chart(choice);
       Json points = Json::array();
       for (const SpeedErrorPoint& p : chart.points) {
@@ -169,7 +169,7 @@ Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>
         out["cells"][place] = cells;
       }
       any = any || !points.empty();
-      out[std::string(measure.name) + (hot ? " hot" : " cold")] = {
+      out[std::string(measure.name) + (cold ? " cold" : " playback")] = {
           {"points", std::move(points)}, {"left_out", left_out_sentence(chart)}};
     }
   return any || !choice.level ? out : Json(nullptr);
@@ -202,14 +202,14 @@ Json times_json(const results::Index& index, const std::vector<SceneChoice>& cho
   Json out = Json::array();
   for (const SceneChoice& choice : choices) {
     Json& times = out.emplace_back(Json::object());
-    for (const bool hot : {false, true}) {
-      const std::vector<PhaseMeans> all = phase_times(index, choice, hot);
+    for (const bool cold : {false, true}) {
+      const std::vector<PhaseMeans> all = phase_times(index, choice, cold);
       Json bars = Json::array();
       for (const PhaseMeans& own : all)
         bars.push_back({own.detector, number_json(own.map), own.update, own.query, own.total(),
                         own.without_map()});
-      times[hot ? "hot" : "cold"] = {{"bars", std::move(bars)},
-                                     {"table", to_json(phase_times_table(all))}};
+      times[cold ? "cold" : "playback"] = {{"bars", std::move(bars)},
+                                           {"table", to_json(phase_times_table(all))}};
     }
   }
   return out;
@@ -265,8 +265,9 @@ Json costs_json(const SceneCosts& costs, const std::vector<std::string>& detecto
     const auto at = std::find(detectors.begin(), detectors.end(), c.detector) - detectors.begin();
     Json& out = of_detectors[static_cast<std::size_t>(at)];
     out = {{"missed", c.missed}, {"spurious", c.spurious}};
-    if (!c.cold) continue;
-    out.update({{"cold", *c.cold}, {"hot", *c.hot}, {"by_distance", c.by_distance}});
+    if (!c.playback) continue;
+    out.update({{"playback", *c.playback}, {"by_distance", c.by_distance}});
+    if (c.cold) out["cold"] = *c.cold;
     Json& frames = out["frame_ms"] = Json::array();
     for (const std::optional<double> ms : c.frame_ms) frames.push_back(number_json(ms));
     if (c.touching)

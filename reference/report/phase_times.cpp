@@ -9,17 +9,19 @@ namespace {
 
 // None where no run was timed.
 std::optional<PhaseMeans> means_of(const std::string& detector,
-                                   const std::vector<const results::Run*>& runs, bool hot) {
+                                   const std::vector<const results::Run*>& runs, bool cold) {
   PhaseMeans out;
   out.detector = detector;
   for (const results::Run* run : runs) {
     if (run->times.empty()) continue;
     const results::QuestionTimes& times = run->times.front();
-    const results::PhaseTimes& phases = hot ? times.hot : times.cold;
+    const results::PhaseTimes* phases = phases_of(times, cold);
+    if (phases == nullptr) continue;
     if (out.scenes++ == 0) out.question = times.question;
-    if (phases.map) out.map = out.map.value_or(0.0) + *phases.map;
-    out.update += phases.update;
-    out.query += phases.query;
+    if (phases->map) out.map = out.map.value_or(0.0) + *phases->map;
+    out.update += phases->update;
+    out.query += phases->query;
+    out.timed.add(*run, times);
   }
   if (out.scenes == 0) return {};
   const auto scenes = static_cast<double>(out.scenes);
@@ -32,10 +34,10 @@ std::optional<PhaseMeans> means_of(const std::string& detector,
 }  // namespace
 
 std::vector<PhaseMeans> phase_times(const results::Index& index, const SceneChoice& scenes,
-                                    bool hot) {
+                                    bool cold) {
   std::vector<PhaseMeans> all;
   for (const std::string& detector : index.detectors())
-    if (auto means = means_of(detector, ok_runs(index, detector, scenes), hot))
+    if (auto means = means_of(detector, ok_runs(index, detector, scenes), cold))
       all.push_back(std::move(*means));
   std::stable_sort(all.begin(), all.end(),
                    [](const PhaseMeans& a, const PhaseMeans& b) { return a.total() < b.total(); });
@@ -51,12 +53,14 @@ TitledTable phase_times_table(const std::vector<PhaseMeans>& all) {
                    {"map", false, ""},
                    {"update", false, ""},
                    {"query", false, ""},
-                   {"sum", false, ""}},
+                   {"sum", false, ""},
+                   {"passes", false, ""}},
                   {}};
   for (const PhaseMeans& own : all)
     out.rows.push_back({own.detector, name_of(own.question), std::to_string(own.scenes),
                         format_number(own.map), format_number(own.update), format_number(own.query),
-                        format_number(own.total())});
+                        format_number(own.total()) + own.timed.cut_text(),
+                        format_counts(own.timed.passes)});
   return out;
 }
 

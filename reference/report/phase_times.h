@@ -22,15 +22,16 @@ struct PhaseMeans {
   /// alone, those count with 0.
   std::optional<double> map;
   double update = 0.0, query = 0.0;
+  TimedPart timed;
 
   double without_map() const { return update + query; }
   double total() const { return map.value_or(0.0) + update + query; }
 };
 
-/// Of all detectors that were timed in one of these scenes, with caches cold or hot; the least
-/// total first.
+/// Of all detectors that were timed in one of these scenes, in playback or cold; the least total
+/// first.
 std::vector<PhaseMeans> phase_times(const results::Index& index, const SceneChoice& scenes,
-                                    bool hot);
+                                    bool cold);
 
 /// A row per detector, in this order.
 TitledTable phase_times_table(const std::vector<PhaseMeans>& all);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/report/format.h"
 #include "reference/results/references.h"
 
 namespace contactcheck {
@@ -18,16 +17,20 @@ std::string body_errors(const Run& run) {
 }
 
 // Ours, with a pipe's way in it, and beside it what the detector says of itself.
-std::string cold_frame(const Run& run) {
-  if (run.times.empty()) return "-";
-  const results::PhaseTimes& cold = run.times.front().cold;
-  const std::string text = format_number(cold.frame);
-  return cold.self_reported ? text + " (own " + format_number(cold.self_reported) + ")" : text;
+std::string frame_cell(const Run& run, const results::QuestionTimes& times) {
+  TimedPart part;
+  part.add(run, times);
+  const std::optional<double> own = times.playback.self_reported;
+  return format_number(times.playback.frame) + (own ? " (own " + format_number(own) + ")" : "") +
+         part.cut_text();
 }
 
-std::string speed_cell(const Run& run, const char* reference) {
+// A reference may have fewer passes than the row: then the ratio is not over all of the row's.
+std::string speed_cell(const Run& run, const char* reference, const results::QuestionTimes* times) {
   const results::Speedup* s = speedup_of(run, compared_question(run), reference);
-  return s == nullptr ? "-" : format_ratio(s->cold, false);
+  if (s == nullptr) return "-";
+  const bool fewer = times != nullptr && s->passes != times->passes;
+  return format_ratio(s->playback) + (fewer ? " (" + counted_passes(s->passes) + ")" : "");
 }
 
 template <typename Value>
@@ -51,13 +54,14 @@ const std::vector<Column>& result_columns() {
         {"body m/s", false, "pairs of bodies missed / spurious, over all frames"},
         {"hover mm", false, "largest true distance at the moment contact is first reported"},
         {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
+        {"question", true, "question of the next columns"},
         {"ms/frame", false,
-         "map + update + query, cold median, own question; (own ...): update + query by its own "
-         "clock"},
-        {"question", true, "question in which the next columns compare"}};
+         "map + update + query in playback, without the first frame; (own ...): update + query by "
+         "its own clock"},
+        {"passes", false, "timed passes through the frames, each in a fresh process"}};
     for (const std::string reference : kReferences)
-      all.push_back(
-          {"vs " + reference, false, "time of " + reference + " / time of this detector, cold"});
+      all.push_back({"vs " + reference, false,
+                     "time of " + reference + " / time of this detector, playback"});
     return all;
   }();
   return columns;
@@ -75,6 +79,7 @@ std::vector<std::string> result_cells(const Run& run) {
   const auto count = [&](std::uint64_t results::LevelCounts::*member) {
     return counts == nullptr ? "-" : format_count(counts->*member);
   };
+  const results::QuestionTimes* times = compared_times(run);
   std::vector<std::string> cells = {run.detector,
                                     finest_level(run),
                                     count(&results::LevelCounts::truth),
@@ -84,9 +89,10 @@ std::vector<std::string> result_cells(const Run& run) {
                                     body_errors(run),
                                     format_millimetres(run.geometry.hover_gap_max),
                                     format_count(run.geometry.late_frames),
-                                    cold_frame(run),
-                                    name_of(compared_question(run))};
-  for (const char* reference : kReferences) cells.push_back(speed_cell(run, reference));
+                                    name_of(compared_question(run)),
+                                    times == nullptr ? "-" : frame_cell(run, *times),
+                                    times == nullptr ? "-" : std::to_string(times->passes)};
+  for (const char* reference : kReferences) cells.push_back(speed_cell(run, reference, times));
   return cells;
 }
 
@@ -108,20 +114,52 @@ const results::Speedup* speedup_of(const Run& run, Question question,
   return speedup == by_reference->second.end() ? nullptr : &speedup->second;
 }
 
-Question compared_question(const Run& run) {
-  const std::vector<Question>& questions = run.semantics.questions;
-  return std::find(questions.begin(), questions.end(), Question::kTriangles) != questions.end()
-             ? Question::kTriangles
-             : Question::kBody;
+const results::QuestionTimes* times_in(const Run& run, Question question) {
+  const auto times =
+      std::find_if(run.times.begin(), run.times.end(),
+                   [&](const results::QuestionTimes& one) { return one.question == question; });
+  return times == run.times.end() ? nullptr : &*times;
 }
 
-std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool hot) {
+Question compared_question(const Run& run) {
+  const Question question =
+      run.semantics.answers(Question::kTriangles) ? Question::kTriangles : Question::kBody;
+  return run.times.empty() || times_in(run, question) != nullptr ? question
+                                                                 : run.times.front().question;
+}
+
+const results::QuestionTimes* compared_times(const Run& run) {
+  return times_in(run, compared_question(run));
+}
+
+const results::PhaseTimes* phases_of(const results::QuestionTimes& times, bool cold) {
+  if (!cold) return &times.playback;
+  return times.cold ? &*times.cold : nullptr;
+}
+
+void TimedPart::add(const Run& run, const results::QuestionTimes& times) {
+  passes.add(static_cast<double>(times.passes));
+  timed_frames += times.timed_frames;
+  frames += run.frames;
+}
+
+std::string TimedPart::frames_text() const {
+  const std::string timed = std::to_string(timed_frames);
+  return timed_frames < frames ? timed + " of " + std::to_string(frames) + " frames" : timed;
+}
+
+std::string TimedPart::cut_text() const {
+  return timed_frames < frames ? " (" + frames_text() + ")" : "";
+}
+
+std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool cold) {
   double ms = 0.0, frames = 0.0;
   for (const Run* run : runs) {
-    if (run->times.empty()) return {};
-    const results::QuestionTimes& times = run->times.front();
+    const results::PhaseTimes* times =
+        run->times.empty() ? nullptr : phases_of(run->times.front(), cold);
+    if (times == nullptr) return {};
     const auto n = static_cast<double>(run->frames);
-    ms += n * (hot ? times.hot : times.cold).frame;
+    ms += n * times->frame;
     frames += n;
   }
   const double mean = ms / frames;

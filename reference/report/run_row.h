@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/report/format.h"
 #include "reference/results/results.h"
 
 namespace contactcheck {
@@ -28,12 +29,30 @@ const results::LevelCounts* claimed_counts(const results::Run& run, std::optiona
 /// The speed-up over a reference in a question, or null.
 const results::Speedup* speedup_of(const results::Run& run, Question question,
                                    const std::string& reference);
-/// The question a run is compared in: triangles where it answers them, else body.
+/// The times in a question; null where it was not timed in it.
+const results::QuestionTimes* times_in(const results::Run& run, Question question);
+/// The question of a row's time and speed-ups: triangles where it answers them, else body. A row
+/// that was timed, but not in that question, has its own.
 Question compared_question(const results::Run& run);
+/// The times in it; null where nothing was timed.
+const results::QuestionTimes* compared_times(const results::Run& run);
+/// Null where it was not timed cold.
+const results::PhaseTimes* phases_of(const results::QuestionTimes& times, bool cold);
 
-/// Milliseconds per frame, caches cold or hot: the mean over all frames of these runs, each with
-/// its own question. Nothing where one of them was not timed.
-std::optional<double> mean_frame_ms(const std::vector<const results::Run*>& runs, bool hot);
+/// What stands behind the times of one row or several.
+struct TimedPart {
+  Range passes;
+  std::size_t timed_frames = 0, frames = 0;
+  void add(const results::Run& run, const results::QuestionTimes& times);
+  /// "60", or "4 of 60 frames" where some were not timed.
+  std::string frames_text() const;
+  /// To be appended to a time: " (4 of 60 frames)", empty where all were timed.
+  std::string cut_text() const;
+};
+
+/// Milliseconds per frame, in playback or cold: the mean over all frames of these runs, each with
+/// its own question. Nothing where one of them was not timed so.
+std::optional<double> mean_frame_ms(const std::vector<const results::Run*>& runs, bool cold);
 
 /// "margin=0.001, scale=0"; "-" without options.
 std::string options_text(const results::Texts& options);

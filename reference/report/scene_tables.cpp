@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reference/report/format.h"
 #include "reference/report/lattice_fits.h"
@@ -115,7 +116,7 @@ TitledTable stages_table(const RunList& runs) {
 }
 
 TitledTable times_table(const RunList& runs) {
-  TitledTable out{"Times in milliseconds per frame (medians over repeats; cold unless said)",
+  TitledTable out{"Times in milliseconds per frame (playback unless said, means over passes)",
                   "",
                   {{"detector", true, ""},
                    {"question", true, ""},
@@ -125,25 +126,33 @@ TitledTable times_table(const RunList& runs) {
                    {"query", false, ""},
                    {"frame", false, ""},
                    {"contact frame", false, ""},
+                   {"first frame", false, "of a pass; the times before leave it out"},
                    {"own clock", false,
                     "update + query as the detector itself measured them, without the way through "
                     "a pipe"},
-                   {"frame, hot", false, ""},
-                   {"timed frames", false, ""},
-                   {"repeats", false, ""},
-                   {"memory, MiB", false, ""}},
+                   {"CPU time", false, "of the whole process tree"},
+                   {"frame, cold", false, "only of a detector's own question"},
+                   {"frames", false, "that were timed"},
+                   {"passes", false, ""},
+                   {"prepared, MiB", false, "heap that prepare leaves"},
+                   {"memory, MiB", false, "heap, the largest over all frames"}},
                   {}};
-  for (const Run* run : runs) {
-    if (run->times.empty()) continue;
-    const results::QuestionTimes& t = run->times.front();
-    out.rows.push_back({run->detector, name_of(t.question), format_number(run->prepare_ms),
-                        format_number(t.cold.map), format_number(t.cold.update),
-                        format_number(t.cold.query), format_number(t.cold.frame),
-                        format_number(t.cold.contact_frame), format_number(t.cold.self_reported),
-                        format_number(t.hot.frame), format_count(t.timed_frames),
-                        format_count(t.repeats),
-                        format_number(static_cast<double>(run->memory_bytes) / 1048576.0)});
-  }
+  const auto mebibytes = [](std::uint64_t bytes) {
+    return format_number(static_cast<double>(bytes) / 1048576.0);
+  };
+  for (const Run* run : runs)
+    for (const results::QuestionTimes& t : run->times) {
+      TimedPart part;
+      part.add(*run, t);
+      out.rows.push_back(
+          {run->detector, name_of(t.question), format_number(run->prepare_ms),
+           format_number(t.playback.map), format_number(t.playback.update),
+           format_number(t.playback.query), format_number(t.playback.frame),
+           format_number(t.playback.contact_frame), format_number(t.playback.first_frame),
+           format_number(t.playback.self_reported), format_number(t.playback.cpu),
+           t.cold ? format_number(t.cold->frame) : "-", part.frames_text(), format_count(t.passes),
+           mebibytes(run->prepared_bytes), mebibytes(run->memory_bytes)});
+    }
   return out;
 }
 
@@ -164,31 +173,44 @@ TitledTable counters_table(const RunList& runs) {
   return out;
 }
 
+// The passes of a speed-up, and which frames they went through where it was not all of them.
+std::string speedup_passes(const Run& run, Question question, const results::Speedup& speedup) {
+  const results::QuestionTimes* times = times_in(run, question);
+  TimedPart part;
+  if (times != nullptr) part.add(run, *times);
+  return std::to_string(speedup.passes) + part.cut_text();
+}
+
 // By question and reference.
 TitledTable speedups_table(const RunList& runs) {
+  std::set<std::size_t> passes;
   TitledTable out{
       "Speed-ups: time of the reference / time of the detector on the same question, frames and "
-      "repeats, with 95 % intervals",
+      "passes",
       "",
       {{"detector", true, ""},
        {"its options", true, ""},
        {"question", true, ""},
        {"reference", true, ""},
        {"its options", true, ""},
+       {"playback", false, ""},
        {"cold", false, ""},
-       {"hot", false, ""},
-       {"contact frames, cold", false, ""},
-       {"without map, cold", false, ""}},
+       {"contact frames, playback", false, ""},
+       {"without map, playback", false, ""},
+       {"passes", false, ""}},
       {}};
   for (const Run* run : runs)
     for (const auto& [question, references] : run->speedup)
       for (const auto& [reference, s] : references)
-        if (reference != run->detector)
-          out.rows.push_back({run->detector, options_text(run->options), name_of(question),
-                              reference, options_text(s.reference_options),
-                              format_ratio(s.cold, true), format_ratio(s.hot, true),
-                              format_ratio(s.contact_frames, true),
-                              format_ratio(s.without_map, true)});
+        if (reference != run->detector) {
+          passes.insert(s.passes);
+          out.rows.push_back(
+              {run->detector, options_text(run->options), name_of(question), reference,
+               options_text(s.reference_options), format_ratio(s.playback, s.passes),
+               format_ratio(s.cold, s.passes), format_ratio(s.contact_frames, s.passes),
+               format_ratio(s.without_map, s.passes), speedup_passes(*run, question, s)});
+        }
+  out.text = ends_sentence(passes);
   return out;
 }
 

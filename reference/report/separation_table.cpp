@@ -70,11 +70,17 @@ std::vector<TitledTable> separation_tables(const results::Scene& scene, const Ru
   };
   std::vector<TitledTable> out;
   if (std::none_of(runs.begin(), runs.end(), [](const Run* run) { return run->ok(); })) return out;
-  if (timed(runs))
-    out.push_back(table(
-        "Time of a frame against separation (ms, cold, medians over the orientations that were "
-        "timed)",
-        sweep, runs, time));
+  if (timed(runs)) {
+    TitledTable& times = out.emplace_back(
+        table("Time of a frame against separation (ms, playback, medians over the orientations)",
+              sweep, runs, time));
+    times.columns.push_back({"passes", false, ""});
+    std::size_t row = 0;
+    for (const Run* run : runs)
+      if (run->ok())
+        times.rows[row++].push_back(run->times.empty() ? "-"
+                                                       : format_count(run->times.front().passes));
+  }
   out.push_back(table(
       "Missed / spurious against separation (at the finest level judged, sums over orientations)",
       sweep, runs, errors));

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/types/semantics.h"
-#include "reference/report/run_row.h"
 
 namespace contactcheck {
 namespace {
@@ -57,12 +56,15 @@ Attempt point_of(const std::string& detector, const Runs& runs, std::size_t scen
                  const SpeedErrorChoice& choice) {
   if (runs.size() < scenes)
     return {{}, fmt::format("ended well in {} of {} scenes", runs.size(), scenes)};
-  const auto ms = mean_frame_ms(runs, choice.hot);
-  if (!ms) return {{}, "not timed"};
+  const auto ms = mean_frame_ms(runs, choice.cold);
+  if (!ms) return {{}, choice.cold ? "not timed cold" : "not timed"};
   SpeedErrorPoint point;
   const std::optional<Level> level = choice.level ? choice.level : common_level(runs);
   bool judged = false;
-  for (const Run* run : runs) judged = point.add(*run, level) || judged;
+  for (const Run* run : runs) {
+    judged = point.add(*run, level) || judged;
+    point.timed.add(*run, run->times.front());
+  }
   if (choice.level && !judged)
     return {{}, fmt::format("does not claim level {}", name_of(*choice.level))};
   const auto error = share_of(point, choice.measure);

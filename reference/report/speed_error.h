@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reference/report/error_counts.h"
+#include "reference/report/run_row.h"
 #include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
@@ -19,6 +20,7 @@ struct SpeedErrorPoint : ErrorCounts {
   /// Of the counts: the finest that the detector claims in every scene that was judged.
   Level level = Level::kTriangle;
   double ms = 0.0;  ///< per frame: map + update + query, the mean over all frames; positive
+  TimedPart timed;
   /// By the measure of the chart; in [0, 1].
   double error = 0.0;
   /// No other point of the same question is faster without being worse.
@@ -44,7 +46,7 @@ struct SpeedErrorChoice {
   std::size_t scenes = 0;           ///< place in SpeedErrorCharts::scenes
   std::optional<Level> level = {};  ///< none: the finest that each detector claims in all of them
   ErrorMeasure measure = ErrorMeasure::kWorse;
-  bool hot = false;  ///< times with caches hot
+  bool cold = false;  ///< times after a sweep through the caches
 };
 
 /// Every chart of a run: what the Markdown report draws is one of those that the HTML page offers.

@@ -225,7 +225,7 @@ class SpeedErrorPlot {
       svg_.text(kMargin, bottom() + y, words, Anchor::kStart, "faint");
     };
     line(58,
-         "Time: mapping, update and query, cold caches, mean over all frames. Errors: share of "
+         "Time: mapping, update and query in playback, mean over frames. Errors: share of "
          "contacts missed or of reports spurious (the worse),");
     line(76,
          "at the finest level judged in every scene. Dashed: the Pareto front of each question; no "

@@ -16,11 +16,12 @@ using results::Run;
 struct Sums {
   std::string detector;
   std::optional<Level> level;
-  std::string question;
+  std::optional<Question> question;  ///< of the speed-ups; those of another one do not compare
   std::size_t scenes = 0, not_ok = 0;
   std::optional<LevelCounts> counts, body;  ///< none: nothing judged, which is no perfect score
   std::optional<double> hover;
   std::array<Range, kReferences.size()> speedups;
+  Range passes;  ///< of these
 };
 
 void add_counts(const LevelCounts* counts, std::optional<LevelCounts>& sum) {
@@ -35,14 +36,16 @@ void add_run(const Run& run, Sums& sums) {
     return;
   }
   ++sums.scenes;
-  sums.question = name_of(compared_question(run));
+  if (!sums.question) sums.question = compared_question(run);
   add_counts(counts_of(run, sums.level), sums.counts);
   add_counts(counts_of(run, Level::kBody), sums.body);
   if (const auto hover = run.geometry.hover_gap_max)
     sums.hover = std::max(sums.hover.value_or(0.0), *hover);
   for (std::size_t i = 0; i < kReferences.size(); ++i)
-    if (const auto* speedup = speedup_of(run, compared_question(run), kReferences[i]))
-      sums.speedups[i].add(speedup->cold.value);
+    if (const auto* speedup = speedup_of(run, *sums.question, kReferences[i])) {
+      sums.speedups[i].add(speedup->playback.value);
+      sums.passes.add(static_cast<double>(speedup->passes));
+    }
 }
 
 std::vector<std::string> cells_of(Sums s) {
@@ -62,7 +65,8 @@ std::vector<std::string> cells_of(Sums s) {
       count(&LevelCounts::spurious),
       s.body ? format_count(s.body->missed) + "/" + format_count(s.body->spurious) : "-",
       format_millimetres(s.hover),
-      s.question};
+      s.question ? name_of(*s.question) : "",
+      format_counts(s.passes)};
   for (const Range& range : s.speedups)
     cells.push_back(range.low ? format_range(range) + "x" : "-");
   return cells;
@@ -87,7 +91,8 @@ Sums& line_of(const Run& run, std::vector<Sums>& all) {
 
 TitledTable summary_table(const results::Results& results) {
   TitledTable out{"Summary",
-                  "Sums over scenes; speed-ups are the smallest and the largest of any scene.",
+                  "Sums over scenes; speed-ups are the smallest and the largest of any scene, in "
+                  "playback.",
                   {{"detector", true, ""},
                    {"scenes", false, ""},
                    {"level", true, ""},
@@ -97,7 +102,8 @@ TitledTable summary_table(const results::Results& results) {
                    {"spurious", false, ""},
                    {"body m/s", false, ""},
                    {"hover mm", false, ""},
-                   {"question", true, ""}},
+                   {"question", true, ""},
+                   {"passes", false, ""}},
                   {}};
   for (const char* reference : kReferences)
     out.columns.push_back({std::string("vs ") + reference, false, ""});

@@ -8,6 +8,7 @@
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
 #include "reference/report/lattice_fits.h"
+#include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
@@ -113,6 +114,8 @@ std::string terminal_tables(const results::Results& results, bool color) {
            "\n";
   if (const TitledTable goals = goals_table(results); !goals.rows.empty())
     out += paint("goals", kBold, color) + "\n" + table(goals, color);
+  if (const std::string timing = timing_line(results); !timing.empty())
+    out += "  " + timing + "\n\n";
   return out + legend();
 }
 

@@ -111,8 +111,8 @@ TitledTable ratios_table(const Json& ratios) {
       const Json& ours = row.at(reading.id);
       if (ours.is_null()) continue;
       table.rows.push_back({from, to, fmt::format("ours, {}", reading.id),
-                            format_ratio(ratio(ours.at("test")), true),
-                            format_ratio(ratio(ours.at("total")), true),
+                            format_ratio_range(ratio(ours.at("test"))),
+                            format_ratio_range(ratio(ours.at("total"))),
                             ours.at("same_contacts").get<bool>() ? "yes" : "no",
                             fmt::format("{}, {}", format_count(whole(ours.at("missed_before"))),
                                         format_count(whole(ours.at("missed_after"))))});
@@ -269,7 +269,7 @@ TitledTable overview(const Json& scenes) {
         cells.push_back(part == std::string("test") ? paper_test(paper) : paper_total(paper));
         for (const MethodReading& reading : kReadings) {
           const Json& ours = row.at(reading.id);
-          cells.push_back(ours.is_null() ? "-" : format_ratio(ratio(ours.at(part)), true));
+          cells.push_back(ours.is_null() ? "-" : format_ratio_range(ratio(ours.at(part))));
         }
       }
       table.rows.push_back(std::move(cells));
@@ -326,8 +326,8 @@ std::string reproduction_terminal(const Json& reproduction) {
             "  {:<10} {:<22} {:>8.3f}x {:>24} {:>24}  {}\n", text(scene.at("scene")),
             part == std::string("test") ? "collision test" : "frames per second",
             row.at("paper_reports").at(part).get<double>(),
-            format_ratio(ratio(row.at("safe").at(part)), true),
-            row.at("paper").is_null() ? "-" : format_ratio(ratio(row.at("paper").at(part)), true),
+            format_ratio_range(ratio(row.at("safe").at(part))),
+            row.at("paper").is_null() ? "-" : format_ratio_range(ratio(row.at("paper").at(part))),
             row.at("safe").at("same_contacts").get<bool>() ? "yes" : "no");
     }
   return out;

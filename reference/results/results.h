@@ -18,7 +18,7 @@
 namespace contactcheck::results {
 
 /// The field `schema` of the files that this program reads and writes.
-inline constexpr const char* kSchema = "contactcheck-results/1";
+inline constexpr const char* kSchema = "contactcheck-results/2";
 
 using Texts = std::map<std::string, std::string>;
 
@@ -100,26 +100,44 @@ struct Stage {
   std::string visited_unit;  ///< with visited
 };
 
-/// Milliseconds per frame: medians over repeats, averaged over the timed frames.
+/// Milliseconds per frame: of each pass the mean over its frames, of the passes the geometric mean.
+/// Phases are shares of `frame` and add up to it.
 struct PhaseTimes {
   std::optional<double> map;  ///< none for detectors that map what they need themselves
   double update = 0.0, query = 0.0, frame = 0.0;
-  std::optional<double> contact_frame;  ///< mean over timed contact frames
+  std::optional<double> contact_frame;  ///< over frames with contact; none without any
+  std::optional<double> first_frame;    ///< of a playback, whose other times leave it out
   std::optional<double> self_reported;  ///< update and query, by the detector's own clock
+  double cpu = 0.0;                     ///< CPU time of the whole process tree
 };
 
+/// A detector's times in one question.
 struct QuestionTimes {
   Question question = Question::kTriangles;
-  std::size_t timed_frames = 0, timed_contact_frames = 0, repeats = 0;
-  PhaseTimes cold, hot;
+  std::size_t timed_frames = 0, timed_contact_frames = 0;
+  std::size_t passes = 0;  ///< through these frames, each in a fresh process
+  PhaseTimes playback;     ///< all frames in order, nothing flushed between them
+  /// The scene's cold_frames, each after a sweep through the caches; only of its own question.
+  std::optional<PhaseTimes> cold;
 };
 
-/// time(reference) / time(detector) over the same frames.
+/// time(reference) / time(detector) over the same frames of as many passes of both: the geometric
+/// mean, with its 95 % interval or the range of the passes (statistics.h).
 struct Speedup {
-  Ratio cold, hot;
-  std::optional<Ratio> contact_frames;  ///< cold; none without a timed contact frame
-  std::optional<Ratio> without_map;     ///< cold; none when one side maps lazily
+  Ratio playback;
+  std::optional<Ratio> cold;            ///< none unless the question is both's own
+  std::optional<Ratio> contact_frames;  ///< playback; none without a frame with contact
+  std::optional<Ratio> without_map;     ///< playback; none when one side maps lazily
+  std::size_t passes = 0;
   Texts reference_options;
+};
+
+/// How a run has timed.
+struct Timing {
+  std::size_t processes = 0;   ///< passes of each detector
+  double one_pass_beyond = 0;  ///< seconds: a detector that takes longer has one; 0: no limit
+  std::uint64_t seed = 0;      ///< of the order of detectors and of the cold frames
+  std::uint64_t sweep_bytes = 0;
 };
 
 /// The motion that a detector drives, judged by the oracle on its own frames.
@@ -175,7 +193,8 @@ struct Run {
   double prepare_ms = 0.0;
   std::vector<QuestionTimes> times;  ///< its own question first; empty without timing
   std::map<Question, std::map<std::string, Speedup>> speedup;  ///< by reference detector
-  std::uint64_t memory_bytes = 0;
+  std::uint64_t memory_bytes = 0;    ///< heap: the largest over all frames
+  std::uint64_t prepared_bytes = 0;  ///< heap that prepare leaves
   std::string contact_hash;
   std::vector<std::string> float_environment;  ///< what the detector left changed
   std::vector<std::string> notes;              ///< what else a reader must know
@@ -234,6 +253,7 @@ struct Scene {
   std::string truth_hash;
   std::vector<SceneBody> bodies;
   std::vector<double> separation;
+  std::vector<std::size_t> cold_frames;  ///< ascending; empty: nothing was timed
   std::optional<Family> family;
   std::optional<Sweep> sweep;
   std::vector<LatticeFit> fits;
@@ -305,6 +325,7 @@ struct Results {
   Machine machine;
   std::vector<std::pair<std::string, std::string>> libraries;
   std::vector<Plugin> plugins;
+  std::optional<Timing> timing;
   std::vector<Scene> scenes;
   std::vector<Run> runs;
   std::vector<Disagreement> disagreements;

@@ -1,5 +1,7 @@
 #include "reference/results/results_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +10,7 @@
 #include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/file_text.h"
+#include "reference/scene/json_value.h"
 
 namespace contactcheck {
 namespace {
@@ -30,8 +33,12 @@ Json read_results(const std::filesystem::path& file) {
   } catch (const Json::out_of_range& e) {  // a number that no double holds
     throw InputError(file.string() + ": " + sentence_of(e));
   }
-  const auto schema = results.is_object() ? results.find("schema") : results.end();
-  if (!results.is_object() || schema == results.end() || *schema != results::kSchema)
+  const Json schema = results.is_object() ? results.value("schema", Json()) : Json();
+  if (schema == "contactcheck-results/1")
+    throw InputError(file.string() +
+                     ": field schema is \"contactcheck-results/1\": results of an earlier version, "
+                     "to be recorded anew with `contactcheck run`");
+  if (schema != results::kSchema)
     throw InputError(file.string() + ": field schema is not \"" + results::kSchema + "\"");
   check_json_depth(bytes, file);
   return results;
@@ -55,6 +62,47 @@ std::size_t depth_of(std::string_view json) {
   return deepest;
 }
 
+std::string times_place(std::size_t question) {
+  return question == 0 ? "time_ms" : item_path("time_ms_other_questions", question - 1);
+}
+
+std::string speedup_defect(const results::Run& run, const results::QuestionTimes& times) {
+  const auto found = run.speedup.find(times.question);
+  if (found == run.speedup.end()) return "";
+  for (const auto& [reference, speedup] : found->second)
+    if (speedup.passes > times.passes)
+      return fmt::format("speedup.{}.{}.passes is {}; it must be at most {}, the row's passes",
+                         name_of(times.question), reference, speedup.passes, times.passes);
+  return "";
+}
+
+// What a schema cannot state. The first impossible time of a row, or "".
+std::string time_defect(const results::Run& run) {
+  for (std::size_t i = 0; i < run.times.size(); ++i) {
+    const results::QuestionTimes& times = run.times[i];
+    if (times.timed_frames > run.frames)
+      return fmt::format("{}.timed_frames is {}; it must be at most {}, the row's frames",
+                         times_place(i), times.timed_frames, run.frames);
+    if (times.timed_contact_frames > times.timed_frames)
+      return fmt::format("{}.timed_contact_frames is {}; it must be at most {}, the timed frames",
+                         times_place(i), times.timed_contact_frames, times.timed_frames);
+    const std::string found = speedup_defect(run, times);
+    if (!found.empty()) return found;
+  }
+  const auto& frame_ms = run.per_frame.frame_ms;  // a baseline has left out its entries
+  if (frame_ms && !frame_ms->empty() && frame_ms->size() != run.frames)
+    return fmt::format("per_frame.frame_ms has {} entries; it must have {}, the row's frames",
+                       frame_ms->size(), run.frames);
+  return "";
+}
+
+std::string time_defect(const results::Results& results) {
+  for (std::size_t i = 0; i < results.runs.size(); ++i)
+    if (const std::string found = time_defect(results.runs[i]); !found.empty())
+      return member_path(item_path("runs", i), found);
+  return "";
+}
+
 std::filesystem::path schema_file() { return fixtures_directory() / "results.schema.json"; }
 
 }  // namespace
@@ -74,11 +122,15 @@ results::Results results_in(const std::filesystem::path& file) {
   const std::string found =
       schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), json);
   if (!found.empty()) throw InputError(file.string() + ": not complete: " + found);
+  results::Results out;
   try {
-    return results::from_json(json);
+    out = results::from_json(json);
   } catch (const Json::exception& e) {
     throw InputError(file.string() + ": not complete: " + sentence_of(e));
   }
+  const std::string impossible = time_defect(out);
+  if (!impossible.empty()) throw InputError(file.string() + ": " + impossible);
+  return out;
 }
 
 }  // namespace contactcheck

@@ -15,7 +15,7 @@ namespace contactcheck {
 void check_json_depth(std::string_view json, const std::filesystem::path& file);
 
 /// @throws InputError when the file cannot be read, is no JSON, of another schema, or not as
-/// fixtures/results.schema.json says: with the first place that is not
+/// fixtures/results.schema.json says, or has times that cannot be: with the first such place
 results::Results results_in(const std::filesystem::path& file);
 
 }  // namespace contactcheck

@@ -216,7 +216,9 @@ void fields(Io& io, PhaseTimes& t) {
   io("query", t.query);
   io("frame", t.frame);
   io("contact_frame", t.contact_frame);
+  io.unless_empty("first_frame", t.first_frame);
   io.unless_empty("self_reported", t.self_reported);
+  io("cpu", t.cpu);
 }
 
 template <typename Io>
@@ -224,9 +226,9 @@ void fields(Io& io, QuestionTimes& t) {
   io("question", t.question);
   io("timed_frames", t.timed_frames);
   io("timed_contact_frames", t.timed_contact_frames);
-  io("repeats", t.repeats);
-  io("cold", t.cold);
-  io("hot", t.hot);
+  io("passes", t.passes);
+  io("playback", t.playback);
+  io.unless_empty("cold", t.cold);
 }
 
 template <typename Io>
@@ -238,11 +240,22 @@ void fields(Io& io, Ratio& r) {
 
 template <typename Io>
 void fields(Io& io, Speedup& s) {
+  io("playback", s.playback);
   io("cold", s.cold);
-  io("hot", s.hot);
   io("contact_frames", s.contact_frames);
   io("without_map", s.without_map);
+  io("passes", s.passes);
+  std::string interval = interval_name(s.passes);
+  io("interval", interval);
   io("reference_options", s.reference_options);
+}
+
+template <typename Io>
+void fields(Io& io, Timing& t) {
+  io("processes", t.processes);
+  io("one_pass_beyond", t.one_pass_beyond);
+  io("seed", t.seed);
+  io("sweep_bytes", t.sweep_bytes);
 }
 
 template <typename Io>
@@ -347,6 +360,7 @@ void fields(Io& io, Run& run) {
     io("time_ms", own_times(run));
   }
   io("memory_bytes", run.memory_bytes);
+  io("prepared_bytes", run.prepared_bytes);
   io("contact_hash", run.contact_hash);
   io("float_environment", run.float_environment);
   io("notes", run.notes);
@@ -431,6 +445,7 @@ void fields(Io& io, Scene& s) {
   io("truth_hash", s.truth_hash);
   io("bodies", s.bodies);
   io.unless_empty("separation", s.separation);
+  io.unless_empty("cold_frames", s.cold_frames);
   io.unless_empty("family", s.family);
   io.unless_empty("sweep", s.sweep);
   io.unless_empty("fits", s.fits);
@@ -543,6 +558,7 @@ void fields(Io& io, Results& r) {
   io("machine", r.machine);
   io("libraries", r.libraries);
   io.unless_empty("plugins", r.plugins);
+  io.unless_empty("timing", r.timing);
   io("scenes", r.scenes);
   io("runs", r.runs);
   io("disagreements", r.disagreements);

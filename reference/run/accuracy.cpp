@@ -22,6 +22,22 @@ std::uint64_t heap_in_use() {
   return info.uordblks + info.hblkhd;
 }
 
+// What was taken since then; below 0 where more was given back.
+long signed_growth(std::uint64_t before) {
+  return static_cast<long>(heap_in_use()) - static_cast<long>(before);
+}
+
+template <typename T>
+std::uint64_t held_bytes(const std::vector<T>& list) {
+  return list.capacity() * sizeof(T);
+}
+
+std::uint64_t list_bytes(const ContactSet& c) {
+  return held_bytes(c.bodies) + held_bytes(c.cells) + held_bytes(c.triangles) +
+         held_bytes(c.vertices) + held_bytes(c.near) + held_bytes(c.piece_contacts) +
+         held_bytes(c.vertex_contacts);
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -46,8 +62,7 @@ class AccuracyPass {
         position_(position),
         detector_(detector),
         progress_(progress),
-        run_(run),
-        heap_before_(heap_in_use()) {}
+        run_(run) {}
 
   AccuracyOutcome run() {
     prepare();
@@ -62,9 +77,12 @@ class AccuracyPass {
  private:
   void prepare() {
     progress_.enter(position_, 0, Phase::kPrepare);
+    const std::uint64_t heap_before = heap_in_use();
     const auto start = std::chrono::steady_clock::now();
     detector_.prepare(scene_.bodies);
     run_.prepare_ms = 1e3 * seconds_since(start);
+    held_ = signed_growth(heap_before);
+    run_.prepared_bytes = run_.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held_, 0));
     note_environment(guard_, "prepare", run_);
     run_.semantics = detector_.semantics();
   }
@@ -86,7 +104,6 @@ class AccuracyPass {
     const Frame frame = tools_.judged.frame(f);
     const AnswerCheck check(scene_, f);
     answer_own_question(frame, check);
-    if (f == 0) run_.memory_bytes = std::max(heap_in_use(), heap_before_) - heap_before_;
     hash_ = chain_hash(hash_, f, contacts_);
     truth_pairs_.push_back(tools_.judged.truth[f].surface.bodies);
     reported_pairs_.push_back(contacts_.bodies);
@@ -102,13 +119,18 @@ class AccuracyPass {
 
   void answer_own_question(const Frame& frame, const AnswerCheck& check) {
     contacts_.clear();
-    const auto start = std::chrono::steady_clock::now();
     progress_.enter(position_, frame.index, Phase::kUpdate);
+    const std::uint64_t heap_before = heap_in_use();
     detector_.update(frame);
+    held_ += signed_growth(heap_before);
     note_environment(guard_, "update", run_);
     progress_.enter(position_, frame.index, Phase::kQuery);
+    const std::uint64_t heap_asked = heap_in_use(), list_before = list_bytes(contacts_);
     detector_.query(own(), contacts_);
-    outcome_.seconds_per_frame += seconds_since(start) / static_cast<double>(scene_.frames);
+    // The list of contacts is ours, and grows while it is filled.
+    held_ += signed_growth(heap_asked) - static_cast<long>(list_bytes(contacts_) - list_before);
+    run_.memory_bytes =
+        std::max(run_.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held_, 0)));
     note_environment(guard_, "query", run_);
     contacts_.canonicalize();
     check(contacts_);
@@ -200,7 +222,7 @@ class AccuracyPass {
   Detector& detector_;
   ProgressWriter& progress_;
   results::Run& run_;
-  std::uint64_t heap_before_;
+  long held_ = 0;  ///< heap that the detector's calls have left, bytes
   const FloatEnvironmentGuard guard_;
   std::vector<Level> levels_;
   std::optional<Judge> judge_, rounded_judge_;

@@ -14,8 +14,7 @@ namespace contactcheck {
 
 /// What the untimed pass leaves beside a detector's row.
 struct AccuracyOutcome {
-  double seconds_per_frame = 0.0;  ///< roughly: picks the timed frames
-  JudgedAnswers answers;           ///< to every question in every frame
+  JudgedAnswers answers;  ///< to every question in every frame
   std::vector<FrameDifferences> differences = {};
   std::vector<Disagreement> disagreements = {};  ///< scene and detector left empty
 };

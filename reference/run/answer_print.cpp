@@ -87,17 +87,12 @@ std::string count_difference(std::size_t list, std::uint64_t answered, std::uint
          std::to_string(judged) + " that were judged";
 }
 
-// Pairs of elements imply their bodies.
-bool implies_bodies(const AnswerSizes& sizes) {
-  return sizes[kCells] + sizes[kTriangles] + sizes[kNear] > 0;
-}
-
-}  // namespace
-
 AnswerSizes sizes_of(const ContactSet& c) {
   return {c.bodies.size(), c.cells.size(),          c.triangles.size(),      c.vertices.size(),
           c.near.size(),   c.piece_contacts.size(), c.vertex_contacts.size()};
 }
+
+}  // namespace
 
 AnswerPrint print_of(const ContactSet& contacts, const Asked& asked) {
   const AnswerSizes sizes = sizes_of(contacts);
@@ -118,19 +113,6 @@ std::string answer_difference(const AnswerPrint& answer, const AnswerPrint& judg
     if (answer.hashes[list] != judged.hashes[list])
       return "it answered " + std::to_string(answer.sizes[list]) + " " + kRecords[list] +
              ", and others than those that were judged";
-  }
-  return "";
-}
-
-std::string raw_difference(const AnswerSizes& answer, const AnswerPrint& judged,
-                           const Asked& asked) {
-  for (std::size_t list = kAnswerLists; list-- > 0;) {
-    if (!is_compared(list, asked)) continue;
-    const std::uint64_t fewest = judged.sizes[list];
-    const bool implied = list == kBodies && implies_bodies(answer);
-    const bool may_be = implied || (!is_of_contacts(list) && fewest > 0 && answer[list] >= fewest);
-    if (!may_be && is_other_count(list, answer[list], fewest))
-      return count_difference(list, answer[list], fewest);
   }
   return "";
 }

@@ -16,9 +16,8 @@ namespace contactcheck {
 /// The lists of a ContactSet, in its order.
 constexpr std::size_t kAnswerLists = 7;
 
-/// How many records each list of an answer has. Reads nothing of the records.
+/// How many records each list of an answer has.
 using AnswerSizes = std::array<std::uint64_t, kAnswerLists>;
-AnswerSizes sizes_of(const ContactSet& contacts);
 
 /// A question, and whether it is the detector's own: then more of its answer is judged.
 struct Asked {
@@ -46,10 +45,5 @@ using JudgedAnswers = std::vector<JudgedQuestion>;
 /// Where `answer` is not `judged` (of contacts: has more than 8 where the other has less than
 /// half): "it answered 0 pairs of triangles and not the 12 that were judged"; "" where it is.
 std::string answer_difference(const AnswerPrint& answer, const AnswerPrint& judged);
-
-/// The same by the sizes of an answer that is not canonical: repeats can only make a list longer
-/// than it was judged. What it says is wrong; what it lets pass may be.
-std::string raw_difference(const AnswerSizes& answer, const AnswerPrint& judged,
-                           const Asked& asked);
 
 }  // namespace contactcheck

@@ -31,10 +31,20 @@ const T& timed_with_contact(const std::optional<T>& time) {
   return *time;
 }
 
-double frame_ms(const Run& run, const std::string& part) {
+template <typename T>
+const T& timed_cold(const std::optional<T>& time) {
+  if (!time) throw NotMeasured("it was not timed cold");
+  return *time;
+}
+
+const results::PhaseTimes& phases_of(const Run& run, const std::string& part) {
   const results::QuestionTimes& times = times_of(run);
-  if (part == "contact_frames") return timed_with_contact(times.cold.contact_frame);
-  return part == "hot" ? times.hot.frame : times.cold.frame;
+  return part == "cold" ? timed_cold(times.cold) : times.playback;
+}
+
+double frame_ms(const Run& run, const std::string& part) {
+  const results::PhaseTimes& phases = phases_of(run, part);
+  return part == "contact_frames" ? timed_with_contact(phases.contact_frame) : phases.frame;
 }
 
 void measure_over(const Index& results, MeasuredGoal& goal) {
@@ -46,8 +56,8 @@ void measure_over(const Index& results, MeasuredGoal& goal) {
     throw NotMeasured(goal.over + " does not answer the question " + name_of(question));
   const results::Speedup& speedup = by_reference->second.at(goal.over);
   const Ratio ratio = goal.part == "contact_frames" ? timed_with_contact(speedup.contact_frames)
-                      : goal.part == "hot"          ? speedup.hot
-                                                    : speedup.cold;
+                      : goal.part == "cold"         ? timed_cold(speedup.cold)
+                                                    : speedup.playback;
   goal.measured = ratio.value;
   goal.low = ratio.low;
   goal.high = ratio.high;
@@ -61,16 +71,30 @@ void measure_over_scene(const Index& results, MeasuredGoal& goal) {
   goal.unit = "x";
 }
 
-// Over frames with contact: time and pairs of both are means over these.
+// The frames that the times of this part are of: a playback leaves out the first, if it has others.
+std::vector<std::size_t> frames_of(const Index& results, const Run& run, const std::string& part) {
+  const results::Scene* const scene = results.scene(run.scene);
+  if (part == "cold") return scene == nullptr ? std::vector<std::size_t>{} : scene->cold_frames;
+  std::vector<std::size_t> out;
+  const std::size_t frames = run.per_frame.truth.size();
+  for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);
+  return out;
+}
+
+// Time and pairs are means over the same frames with contact.
 void measure_per_pair(const Index& results, MeasuredGoal& goal) {
   const Run& run = run_of(results, goal.scene, goal.detector);
-  const results::QuestionTimes& times = times_of(run);
-  const double ms = timed_with_contact((goal.part == "hot" ? times.hot : times.cold).contact_frame);
-  const auto triangles = run.levels.find(Level::kTriangle);
-  if (triangles == run.levels.end()) throw NotMeasured("no frame with contact was timed");
-  const double pairs =
-      static_cast<double>(triangles->second.truth) / static_cast<double>(run.contact_frames);
-  goal.measured = 1e3 * ms / pairs;
+  const double ms = timed_with_contact(phases_of(run, goal.part).contact_frame);
+  if (run.per_frame.level != Level::kTriangle)
+    throw NotMeasured("its contacts were not judged as pairs of triangles");
+  double pairs = 0.0, contact_frames = 0.0;
+  for (const std::size_t frame : frames_of(results, run, goal.part)) {
+    const std::uint64_t truth = run.per_frame.truth.at(frame);
+    pairs += static_cast<double>(truth);
+    contact_frames += truth > 0;
+  }
+  if (pairs == 0.0) throw NotMeasured("no frame with contact was timed");
+  goal.measured = 1e3 * ms * contact_frames / pairs;
   goal.unit = "us";
 }
 

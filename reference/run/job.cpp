@@ -19,11 +19,10 @@ RunSettings settings_from(const json& j) {
   j.at("detectors").get_to(s.detectors);
   j.at("plugins").get_to(s.plugins);
   j.at("frames").get_to(s.frames);
-  j.at("repeats").get_to(s.repeats);
   j.at("processes").get_to(s.processes);
-  j.at("time_budget").get_to(s.time_budget);
-  j.at("fewest_timed_frames").get_to(s.fewest_timed_frames);
-  j.at("sweep_bytes").get_to(s.sweep_bytes);
+  j.at("one_pass_beyond").get_to(s.one_pass_beyond);
+  j.at("seed").get_to(s.seed);
+  j.at("step_repeats").get_to(s.step_repeats);
   j.at("timing").get_to(s.timing);
   j.at("closed_loop").get_to(s.closed_loop);
   j.at("threads").get_to(s.threads);
@@ -36,11 +35,10 @@ json to_json(const RunSettings& s) {
   return {{"detectors", s.detectors},
           {"plugins", s.plugins},
           {"frames", s.frames},
-          {"repeats", s.repeats},
           {"processes", s.processes},
-          {"time_budget", s.time_budget},
-          {"fewest_timed_frames", s.fewest_timed_frames},
-          {"sweep_bytes", s.sweep_bytes},
+          {"one_pass_beyond", s.one_pass_beyond},
+          {"seed", s.seed},
+          {"step_repeats", s.step_repeats},
           {"timing", s.timing},
           {"closed_loop", s.closed_loop},
           {"threads", s.threads},
@@ -81,41 +79,42 @@ JudgedAnswers judged_answers_from(const json& answers) {
   return out;
 }
 
-json to_json(const std::vector<PhaseSample>& repeats) {
-  json out = json::array();
-  for (const PhaseSample& s : repeats) {
-    out.push_back({s.map, s.update, s.query});
-    if (s.reported) out.back().push_back(*s.reported);
-  }
-  return out;
+json to_json(const Turn& turn) {
+  return {turn.position, static_cast<int>(turn.question), turn.cold};
 }
 
-std::vector<PhaseSample> repeats_from(const json& repeats) {
-  std::vector<PhaseSample> out;
-  for (const json& s : repeats) {
-    out.push_back({s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()});
-    if (s.size() > 3) out.back().reported = s.at(3).get<double>();
-  }
-  return out;
+Turn turn_from(const json& turn) {
+  return {turn.at(0).get<std::uint32_t>(), static_cast<Question>(turn.at(1).get<int>()),
+          turn.at(2).get<bool>()};
 }
 
-json to_json(const QuestionSamples& samples) {
+json to_json(const TurnAnswer& answer) {
   json frames = json::array();
-  for (const auto& [frame, s] : samples.frames)
-    frames.push_back({{"frame", frame}, {"cold", to_json(s.cold)}, {"hot", to_json(s.hot)}});
-  return {{"question", static_cast<int>(samples.question)},
-          {"lazy_map", samples.lazy_map},
-          {"frames", frames}};
+  for (const PhaseSample& s : answer.samples) {
+    frames.push_back({s.map, s.update, s.query, s.cpu});
+    if (s.reported) frames.back().push_back(*s.reported);
+  }
+  json out = {{"turn", to_json(answer.turn)},
+              {"error", answer.error},
+              {"lazy_map", answer.lazy_map},
+              {"frames", std::move(frames)}};
+  if (answer.failed_frame) out["failed_frame"] = *answer.failed_frame;
+  return out;
 }
 
-QuestionSamples samples_from(const json& samples) {
-  QuestionSamples out;
-  out.question = static_cast<Question>(samples.at("question").get<int>());
-  out.lazy_map = samples.at("lazy_map").get<bool>();
-  for (const json& f : samples.at("frames"))
-    out.frames[f.at("frame").get<std::size_t>()] = {repeats_from(f.at("cold")),
-                                                    repeats_from(f.at("hot"))};
-  return out;
+TurnAnswer turn_answer_from(const json& j) {
+  TurnAnswer answer;
+  answer.turn = turn_from(j.at("turn"));
+  j.at("error").get_to(answer.error);
+  j.at("lazy_map").get_to(answer.lazy_map);
+  if (j.contains("failed_frame")) answer.failed_frame = j.at("failed_frame").get<std::size_t>();
+  for (const json& s : j.at("frames")) {
+    PhaseSample& frame = answer.samples.emplace_back();
+    frame = {s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()};
+    frame.cpu = s.at(3).get<double>();
+    if (s.size() > 4) frame.reported = s.at(4).get<double>();
+  }
+  return answer;
 }
 
 // Texts of libraries may hold anything; JSON takes UTF-8 alone.
@@ -137,12 +136,13 @@ void write_job(const std::filesystem::path& file, const Job& job) {
   json j = {{"scene_file", job.scene_file.string()},
             {"settings", to_json(job.settings)},
             {"skip", job.skip},
-            {"process", job.process},
-            {"order", job.order},
-            {"prefixes", job.prefixes},
+            {"turns", json::array()},
+            {"cold_frames", job.cold_frames},
             {"answers", json::array()},
             {"answer_file", job.answer_file.string()},
-            {"recording_file", job.recording_file.string()}};
+            {"recording_file", job.recording_file.string()},
+            {"temporary", job.temporary.string()}};
+  for (const Turn& turn : job.turns) j["turns"].push_back(to_json(turn));
   for (const JudgedAnswers& answers : job.answers) j["answers"].push_back(to_json(answers));
   if (job.text)
     j["text"] = {
@@ -168,12 +168,12 @@ Job read_job(const std::filesystem::path& file) {
                             j.at("unjudged").at("frame").get<std::uint32_t>()};
   job.settings = settings_from(j.at("settings"));
   j.at("skip").get_to(job.skip);
-  j.at("process").get_to(job.process);
-  j.at("order").get_to(job.order);
-  j.at("prefixes").get_to(job.prefixes);
+  for (const json& turn : j.at("turns")) job.turns.push_back(turn_from(turn));
+  j.at("cold_frames").get_to(job.cold_frames);
   for (const json& answers : j.at("answers")) job.answers.push_back(judged_answers_from(answers));
   job.answer_file = j.at("answer_file").get<std::string>();
   job.recording_file = j.at("recording_file").get<std::string>();
+  job.temporary = j.at("temporary").get<std::string>();
   return job;
 }
 
@@ -186,19 +186,17 @@ void write_answer(const std::filesystem::path& file, SceneAnswer answer) {
   json detectors = json::array();
   for (DetectorAnswer& d : answer.detectors) {
     found.runs.push_back(std::move(d.run));
-    json samples = json::array();
-    for (const QuestionSamples& s : d.samples) samples.push_back(to_json(s));
     detectors.push_back({{"position", d.position},
-                         {"samples", std::move(samples)},
                          {"answers", to_json(d.answers)},
                          {"contacts", std::move(d.contacts)}});
   }
+  json timed = json::array();
+  for (const TurnAnswer& turn : answer.timed) timed.push_back(to_json(turn));
   const json out = {{"results", results::to_json(found)},
                     {"contact_frames", answer.contact_frames},
-                    {"order", answer.order},
-                    {"prefixes", answer.prefixes},
                     {"truth_contacts", std::move(answer.truth_contacts)},
-                    {"detectors", std::move(detectors)}};
+                    {"detectors", std::move(detectors)},
+                    {"timed", std::move(timed)}};
   write_file_atomically(file, text_of(out));
 }
 
@@ -209,17 +207,15 @@ SceneAnswer read_answer(const std::filesystem::path& file) {
   answer.scene = std::move(found.scenes.at(0));
   answer.disagreements = std::move(found.disagreements);
   j.at("contact_frames").get_to(answer.contact_frames);
-  j.at("order").get_to(answer.order);
-  j.at("prefixes").get_to(answer.prefixes);
   j.at("truth_contacts").get_to(answer.truth_contacts);
   for (const json& d : j.at("detectors")) {
     DetectorAnswer& read = answer.detectors.emplace_back();
     d.at("position").get_to(read.position);
     read.run = std::move(found.runs.at(answer.detectors.size() - 1));
-    for (const json& samples : d.at("samples")) read.samples.push_back(samples_from(samples));
     read.answers = judged_answers_from(d.at("answers"));
     d.at("contacts").get_to(read.contacts);
   }
+  for (const json& turn : j.at("timed")) answer.timed.push_back(turn_answer_from(turn));
   return answer;
 }
 

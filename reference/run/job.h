@@ -22,14 +22,12 @@ struct RunSettings {
   std::vector<std::string> detectors;  ///< canonical names
   /// Records of the detectors from outside this program that are among them (plugin/plugin.h).
   std::vector<std::string> plugins;
-  std::size_t frames = 0;  ///< 0: as the scene says
-  std::size_t repeats = 5;
-  std::size_t processes = 1;  ///< fresh processes whose samples are pooled
-  /// Aim for the timed part per detector and question, seconds: slow detectors are timed on fewer
-  /// frames (see frames_within_budget), the same for both sides of a ratio.
-  double time_budget = 0.15;
-  std::size_t fewest_timed_frames = 4;
-  std::size_t sweep_bytes = std::size_t{8} << 20;  ///< read and written before each cold repeat
+  std::size_t frames = 0;        ///< 0: as the scene says
+  std::size_t processes = 3;     ///< passes, each in a fresh process
+  double one_pass_beyond = 2.0;  ///< seconds for all its questions: a slower detector has one pass;
+                                 ///< 0: no limit
+  std::uint64_t seed = 1;        ///< of the order of detectors and of the cold frames
+  std::size_t step_repeats = 5;  ///< of whole steps, timed in lockstep
   bool timing = true;
   /// Simulated scenes: drive them with every detector too, and (with timing) time whole steps.
   bool closed_loop = false;
@@ -47,45 +45,61 @@ struct Unjudged {
   std::uint32_t frame = 0;
 };
 
-/// One worker's job: one scene.
+/// What a worker that times does next: a fresh instance of a detector through all frames, or, in
+/// its own question, through the cold ones.
+struct Turn {
+  std::uint32_t position = 0;  ///< in the job's list
+  Question question = Question::kTriangles;
+  bool cold = false;
+};
+
+/// One worker's job: one scene, to be judged by all detectors, or turns of some to be timed.
 struct Job {
   std::filesystem::path scene_file;  ///< scene (.json) or recording (.ccr)
   std::optional<PairSpec> pairs;     ///< random pairs in place of a file
   std::optional<SceneText> text;     ///< a scene's text in place of a file
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
-  std::size_t process = 0;          ///< 0 judges and times, others only time
   /// Where an earlier try has shown that the oracle cannot judge the scene: it is not asked again,
   /// and all detectors end in this error.
   std::optional<Unjudged> unjudged;
-  /// For processes above 0, out of process 0's answer: the order of frames, and per detector how
-  /// many of them are timed (0: not timed).
-  std::vector<std::size_t> order, prefixes;
-  std::vector<JudgedAnswers> answers;    ///< likewise: per detector, what was judged
+  std::vector<Turn> turns;               ///< empty: judge
+  std::vector<std::size_t> cold_frames;  ///< with turns
+  std::vector<JudgedAnswers> answers;    ///< with turns: per detector, what was judged
   std::filesystem::path answer_file;     ///< where the worker writes
-  std::filesystem::path recording_file;  ///< where process 0 writes the recording; empty: nowhere
+  std::filesystem::path recording_file;  ///< where the judging one writes it; empty: nowhere
+  /// The temporary folder of whom it starts (TMPDIR); empty: everybody's.
+  std::filesystem::path temporary;
 };
 
 void write_job(const std::filesystem::path& file, const Job& job);
 Job read_job(const std::filesystem::path& file);
 
-/// What became of one detector in one process.
+/// What became of one detector that was judged.
 struct DetectorAnswer {
   std::uint32_t position = 0;  ///< in the job's list
-  results::Run run;            ///< without times: they are made of the samples of all processes
-  std::vector<QuestionSamples> samples;
-  JudgedAnswers answers;  ///< for the processes that only time; empty without them
-  std::string contacts;   ///< its part of contacts/SCENE.json (contacts_json.h); empty: none
+  results::Run run;            ///< without times
+  JudgedAnswers answers;       ///< for the processes that time; empty without them
+  std::string contacts;        ///< its part of contacts/SCENE.json (contacts_json.h); empty: none
 };
 
-/// A worker's answer to its job.
+/// What became of a turn.
+struct TurnAnswer {
+  Turn turn;
+  std::string error;  ///< not empty: there are no samples
+  std::optional<std::size_t> failed_frame;
+  bool lazy_map = false;  ///< see QuestionSamples
+  Pass samples;
+};
+
+/// A worker's answer to its job: with turns, `timed` alone.
 struct SceneAnswer {
   results::Scene scene;
   std::vector<bool> contact_frames;
-  std::vector<std::size_t> order, prefixes;          ///< as in Job
   std::vector<results::Disagreement> disagreements;  ///< each with the path of its case file
   std::string truth_contacts;                        ///< of contacts/SCENE.json; empty: no file
   std::vector<DetectorAnswer> detectors;
+  std::vector<TurnAnswer> timed;
 };
 
 void write_answer(const std::filesystem::path& file, SceneAnswer answer);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "reference/run/cache_sweep.h"
 #include "reference/run/float_environment.h"
 #include "reference/run/printable.h"
-#include "reference/run/timing.h"
 #include "reference/simulate/driven_simulation.h"
 #include "reference/simulate/simulate_scene.h"
 #include "reference/statistics/statistics.h"

@@ -18,13 +18,12 @@ bool same_contacts(const Semantics& semantics, const Semantics& other) {
   return semantics.depth == other.depth && of_triangles(semantics) == of_triangles(other);
 }
 
-// The detectors of all processes, the judging one's first.
+// The rows of the process that judged, and what later processes say of them.
 class Rows {
  public:
   explicit Rows(const SceneAnswers& scene) : scene_(scene) {
-    for (const SceneAnswer& answer : scene.answers)
-      for (const DetectorAnswer& detector : answer.detectors)
-        if (!scene.broken.contains(detector.position)) add(detector, &answer == &first());
+    for (const DetectorAnswer& detector : scene.judged.detectors)
+      if (!scene.broken.contains(detector.position)) add(detector);
   }
 
   // One per detector of the task.
@@ -32,7 +31,7 @@ class Rows {
     for (auto& [position, run] : runs_)
       if (samples_.contains(position)) add_times(position, run);
     for (const auto& [position, questions] : samples_)
-      for (const ProcessSamples& question : questions)
+      for (const QuestionSamples& question : questions)
         tell(task().id, task().detectors[position], question);
     std::vector<results::Run> out;
     for (std::uint32_t i = 0; i < task().detectors.size(); ++i) {
@@ -46,51 +45,44 @@ class Rows {
   }
 
  private:
-  void add(const DetectorAnswer& detector, bool judged) {
+  void add(const DetectorAnswer& detector) {
     const std::uint32_t position = detector.position;
-    if (judged) {
-      results::Run& run = runs_[position] = detector.run;
-      if (scene_.recorded) run.recording = "recordings/" + task().id + ".ccr";
-    } else if (runs_.at(position).ok() && !detector.run.ok()) {
-      // It worked in the first process and does not in this one: that is its result.
-      const std::size_t contact_frames = runs_[position].contact_frames;
-      runs_[position] = detector.run;
-      runs_[position].contact_frames = contact_frames;
-    }
-    if (detector.samples.empty() || !runs_[position].ok()) {
-      samples_.erase(position);
+    results::Run& run = runs_[position] = detector.run;
+    if (scene_.recorded) run.recording = "recordings/" + task().id + ".ccr";
+    if (!run.ok()) return;
+    if (const TurnAnswer* failed = scene_.turns.failure(position)) {
+      // It was judged well and fails now: that is its result.
+      run.status = results::Status::kError;
+      run.message = failed->error;
+      run.failed_frame = failed->failed_frame;
       return;
     }
-    std::vector<ProcessSamples>& by_question = samples_[position];
-    by_question.resize(detector.samples.size());
-    for (std::size_t q = 0; q < detector.samples.size(); ++q)
-      by_question[q].push_back(detector.samples[q]);
+    std::vector<QuestionSamples> samples = scene_.turns.samples(position, run.semantics.questions);
+    if (!samples.empty()) samples_[position] = std::move(samples);
   }
 
   void add_times(std::uint32_t position, results::Run& run) const {
-    const std::vector<bool>& contact = first().contact_frames;
-    const std::vector<ProcessSamples>& own = samples_.at(position);
-    run.per_frame.frame_ms = cold_frame_ms(own.front(), run.frames);
-    for (const ProcessSamples& question : own) {
-      run.times.push_back(summarize_times(question, contact));
+    const TimedFrames frames = {scene_.judged.contact_frames, scene_.cold_frames};
+    const std::vector<QuestionSamples>& own = samples_.at(position);
+    run.per_frame.frame_ms = frame_ms(own.front());
+    for (const QuestionSamples& question : own) {
+      run.times.push_back(summarize_times(question, frames));
       for (const auto& [other, theirs] : samples_)
         if (is_reference(task().detectors[other])) add_speedup(other, theirs, question, run);
     }
   }
 
-  void add_speedup(std::uint32_t other, const std::vector<ProcessSamples>& theirs,
-                   const ProcessSamples& own, results::Run& run) const {
-    const Question question = own.front().question;
+  void add_speedup(std::uint32_t other, const std::vector<QuestionSamples>& theirs,
+                   const QuestionSamples& own, results::Run& run) const {
     const results::Run& reference = runs_.at(other);
-    if (question == Question::kContacts && !same_contacts(run.semantics, reference.semantics))
+    if (own.question == Question::kContacts && !same_contacts(run.semantics, reference.semantics))
       return;
-    for (const ProcessSamples& samples : theirs) {
-      if (samples.front().question != question) continue;
-      std::optional<results::Speedup> speedup =
-          compute_speedup(samples, own, first().contact_frames);
-      if (!speedup) continue;
-      speedup->reference_options = reference.options;
-      run.speedup[question][task().detectors[other]] = std::move(*speedup);
+    for (const QuestionSamples& samples : theirs) {
+      if (samples.question != own.question) continue;
+      results::Speedup speedup =
+          compute_speedup(samples, own, {scene_.judged.contact_frames, scene_.cold_frames});
+      speedup.reference_options = reference.options;
+      run.speedup[own.question][task().detectors[other]] = std::move(speedup);
     }
   }
 
@@ -110,30 +102,67 @@ class Rows {
     run.failed_frame = o.frame;
     run.message = place_of(task().id, o) +
                   (o.detector ? "" : " in the suite's own code, after this detector had run");
-    run.frames = first().scene.frames;
-    run.contact_frames = first().scene.contact_frames;
+    run.frames = scene_.judged.scene.frames;
+    run.contact_frames = scene_.judged.scene.contact_frames;
     return run;
   }
 
-  const SceneAnswer& first() const { return scene_.answers.front(); }
   const SceneTask& task() const { return scene_.task; }
 
   const SceneAnswers& scene_;
   std::map<std::uint32_t, results::Run> runs_;
-  std::map<std::uint32_t, std::vector<ProcessSamples>> samples_;
+  std::map<std::uint32_t, std::vector<QuestionSamples>> samples_;
 };
 
 }  // namespace
+
+void TakenTurns::add(const std::vector<TurnAnswer>& answers) {
+  for (const TurnAnswer& answer : answers) turns_[answer.turn.position].push_back(answer);
+}
+
+double TakenTurns::seconds(std::uint32_t position) const {
+  double nanoseconds = 0.0;
+  if (const auto found = turns_.find(position); found != turns_.end())
+    for (const TurnAnswer& answer : found->second)
+      for (const PhaseSample& frame : answer.samples)
+        if (!answer.turn.cold) nanoseconds += frame.total();
+  return 1e-9 * nanoseconds;
+}
+
+const TurnAnswer* TakenTurns::failure(std::uint32_t position) const {
+  if (const auto found = turns_.find(position); found != turns_.end())
+    for (const TurnAnswer& answer : found->second)
+      if (!answer.error.empty()) return &answer;
+  return nullptr;
+}
+
+std::vector<QuestionSamples> TakenTurns::samples(std::uint32_t position,
+                                                 const std::vector<Question>& questions) const {
+  std::vector<QuestionSamples> out;
+  const auto found = turns_.find(position);
+  if (found == turns_.end()) return out;
+  for (const Question question : questions) {
+    QuestionSamples& samples = out.emplace_back();
+    samples.question = question;
+    for (const TurnAnswer& answer : found->second) {
+      if (answer.turn.question != question) continue;
+      samples.lazy_map = answer.lazy_map;
+      (answer.turn.cold ? samples.cold : samples.playback).push_back(answer.samples);
+    }
+  }
+  return out;
+}
 
 std::string place_of(const std::string& scene, const WorkerOutcome& outcome) {
   return place_text(scene, outcome.frame, outcome.phase) + ": " + outcome.reason;
 }
 
 FinishedScene put_together(const SceneAnswers& scene, const SampleListener& tell) {
-  const SceneAnswer& first = scene.answers.front();
+  const SceneAnswer& first = scene.judged;
   const std::vector<std::string>& names = scene.task.detectors;
   FinishedScene finished;
   finished.scene = first.scene;
+  finished.scene.cold_frames = scene.cold_frames;
   finished.runs = Rows(scene).finish(tell);
   for (const results::Disagreement& d : first.disagreements) {
     const auto broke = [&](const auto& broken) { return names[broken.first] == d.detector; };

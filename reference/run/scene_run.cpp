@@ -1,5 +1,6 @@
 #include "reference/run/scene_run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include "reference/run/exit_codes.h"
 #include "reference/run/printable.h"
 #include "reference/run/scene_answers.h"
+#include "reference/run/schedule.h"
 #include "reference/run/worker.h"
 
 namespace contactcheck {
@@ -37,40 +39,103 @@ class SceneRun {
   FinishedScene finish() {
     const fs::path recording = request_.out / "recordings" / (task_.id + ".ccr");
     job_.recording_file = fs::absolute(recording);
-    std::vector<SceneAnswer> answers;
-    answers.push_back(run_process(0));
+    const SceneAnswer judged = run_process();
     job_.recording_file.clear();
-    job_.order = answers.front().order;
-    job_.prefixes = answers.front().prefixes;
     job_.answers.resize(task_.detectors.size());  // of those that broke the process: none
-    for (const DetectorAnswer& detector : answers.front().detectors)
+    for (const DetectorAnswer& detector : judged.detectors)
       job_.answers.at(detector.position) = detector.answers;
-    for (std::size_t p = 1; p < job_.settings.processes && job_.settings.timing; ++p)
-      answers.push_back(run_process(p));
-    const bool recorded = !answers.front().truth_contacts.empty() && fs::exists(recording);
-    return put_together({task_, answers, broken_, recorded}, listener_.samples);
+    if (job_.settings.timing) time(judged);
+    const bool recorded = !judged.truth_contacts.empty() && fs::exists(recording);
+    return put_together({task_, judged, turns_, job_.cold_frames, broken_, recorded},
+                        listener_.samples);
   }
 
  private:
+  void time(const SceneAnswer& judged) {
+    const RunSettings& s = job_.settings;
+    for (std::size_t pass = 0; pass < s.processes; ++pass) {
+      std::vector<std::vector<Turn>> processes = processes_of(judged, pass);
+      if (processes.empty()) return;
+      if (pass == 0) job_.cold_frames = draw_cold_frames(judged.contact_frames, s.seed);
+      for (std::size_t i = 0; i < processes.size(); ++i) {
+        done_ = (1.0 + static_cast<double>(pass) +
+                 static_cast<double>(i) / static_cast<double>(processes.size()));
+        part_ = 1.0 / static_cast<double>(processes.size());
+        job_.turns = std::move(processes[i]);
+        turns_.add(run_process().timed);
+      }
+    }
+  }
+
+  // The turns of one pass in an order drawn by seed, by the process that takes them: each turn of a
+  // detector from outside has one for itself, since what it keeps in memory is out of our hands.
+  std::vector<std::vector<Turn>> processes_of(const SceneAnswer& judged, std::size_t pass) const {
+    std::vector<Turn> turns;
+    for (const DetectorAnswer& detector : judged.detectors) {
+      if (!is_timed(detector, pass)) continue;
+      const std::vector<Question>& questions = detector.run.semantics.questions;
+      for (const Question question : questions)
+        turns.push_back({detector.position, question, false});
+      turns.push_back({detector.position, questions.front(), true});
+    }
+    std::vector<std::vector<Turn>> out;
+    std::optional<std::size_t> own;  // the process of our detectors
+    for (const std::size_t i : draw_order(turns.size(), job_.settings.seed, pass)) {
+      if (is_from_outside(turns[i].position)) {
+        out.push_back({turns[i]});
+        continue;
+      }
+      if (!own) {
+        own = out.size();
+        out.emplace_back();
+      }
+      out[*own].push_back(turns[i]);
+    }
+    return out;
+  }
+
+  bool is_timed(const DetectorAnswer& detector, std::size_t pass) const {
+    const double limit = job_.settings.one_pass_beyond;
+    return detector.run.ok() && !broken_.contains(detector.position) &&
+           turns_.failure(detector.position) == nullptr &&
+           (pass == 0 || limit == 0.0 ||
+            turns_.seconds(detector.position) / static_cast<double>(pass) <= limit);
+  }
+
+  bool is_from_outside(std::uint32_t position) const {
+    const std::string& name = task_.detectors[position];
+    return std::any_of(request_.plugins.begin(), request_.plugins.end(),
+                       [&](const results::Plugin& plugin) {
+                         return plugin.detector == name.substr(0, name.find(':'));
+                       });
+  }
+
   // Runs one process; whoever dies in a detector runs again without it.
-  SceneAnswer run_process(std::size_t process) {
-    job_.process = process;
-    job_.answer_file = scratch_ / (task_.id + "." + std::to_string(process) + ".answer");
-    const fs::path job_file = scratch_ / (task_.id + "." + std::to_string(process) + ".job");
+  SceneAnswer run_process() {
+    const std::string name = task_.id + "." + std::to_string(processes_++);
+    job_.answer_file = scratch_ / (name + ".answer");
+    const fs::path job_file = scratch_ / (name + ".job");
     while (true) {
+      std::erase_if(job_.turns, [&](const Turn& turn) { return broken_.contains(turn.position); });
+      if (job_.turns.empty() && processes_ > 1) return {};
+      job_.temporary = scratch_ / (name + ".tmp");
+      fs::create_directory(job_.temporary);
       write_job(job_file, job_);
       const WorkerOutcome outcome =
           run_supervised(request_.executable, job_file, job_.settings,
-                         [&](const WorkerProgress& worker) { report(process, worker); });
+                         [&](const WorkerProgress& worker) { report(worker); });
+      std::error_code ignored;
+      fs::remove_all(job_.temporary, ignored);
       if (outcome.done) return read_answer(job_.answer_file);
       book(outcome);
     }
   }
 
-  // All processes together are the scene's work.
-  void report(std::size_t process, WorkerProgress worker) const {
-    const std::size_t processes = job_.settings.timing ? job_.settings.processes : 1;
-    worker.share = (static_cast<double>(process) + worker.share) / static_cast<double>(processes);
+  // Judging and each pass count alike.
+  void report(WorkerProgress worker) const {
+    const double parts =
+        job_.settings.timing ? 1.0 + static_cast<double>(job_.settings.processes) : 1.0;
+    worker.share = (done_ + part_ * worker.share) / parts;
     on_progress_(worker);
   }
 
@@ -85,7 +150,7 @@ class SceneRun {
   // are made to be judged, and a process that only times does not judge.
   bool is_too_much_to_judge(const WorkerOutcome& outcome) const {
     return outcome.over_limit && outcome.phase == Phase::kTruth && !outcome.last_detector &&
-           job_.process == 0 && !job_.pairs && !job_.unjudged;
+           job_.turns.empty() && !job_.pairs && !job_.unjudged;
   }
 
   void book(const WorkerOutcome& outcome) {
@@ -133,6 +198,9 @@ class SceneRun {
   const SuiteListener& listener_;
   const ProgressCallback& on_progress_;
   Job job_;
+  std::size_t processes_ = 0;       ///< that were started
+  double done_ = 0.0, part_ = 1.0;  ///< parts of the work: done, and of the process that runs
+  TakenTurns turns_;
   BrokenDetectors broken_;
 };
 

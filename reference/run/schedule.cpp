@@ -1,56 +1,41 @@
 #include "reference/run/schedule.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
+#include <random>
 
 namespace contactcheck {
 namespace {
 
-// The van der Corput order of 0 .. n-1: positions sorted by their bit-reversed index.
-std::vector<std::size_t> spread(const std::vector<std::size_t>& items) {
-  std::vector<std::size_t> out;
-  std::size_t power = 1;
-  while (power < items.size()) power *= 2;
-  for (std::size_t i = 0; i < power; ++i) {
-    std::size_t reversed = 0;
-    for (std::size_t bit = 1; bit < power; bit *= 2)
-      if (i & bit) reversed |= power / (2 * bit);
-    if (reversed < items.size()) out.push_back(items[reversed]);
-  }
+// std::shuffle differs between standard libraries.
+std::vector<std::size_t> shuffled(std::size_t count, std::mt19937_64& random) {
+  std::vector<std::size_t> out(count);
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) std::swap(out[i - 1], out[random() % i]);
   return out;
 }
 
 }  // namespace
 
-std::vector<std::size_t> timing_order(const std::vector<bool>& contact_frames) {
-  std::vector<std::size_t> contact, free;
-  for (std::size_t f = 0; f < contact_frames.size(); ++f)
-    (contact_frames[f] ? contact : free).push_back(f);
-  contact = spread(contact);
-  free = spread(free);
-  std::vector<std::size_t> order;
-  std::size_t c = 0, n = 0;
-  while (order.size() < contact_frames.size()) {
-    // Take a contact frame whenever the contact share of the prefix lags behind (Bresenham).
-    const bool lags = c * contact_frames.size() <= order.size() * contact.size();
-    if ((lags && c < contact.size()) || n == free.size()) {
-      order.push_back(contact[c++]);
-    } else {
-      order.push_back(free[n++]);
-    }
-  }
-  return order;
+std::vector<std::size_t> draw_cold_frames(const std::vector<bool>& contact_frames,
+                                          std::uint64_t seed) {
+  constexpr std::size_t kColdFrames = 8;
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> out = shuffled(contact_frames.size(), random);
+  // A frame with contact to the front, if there is any.
+  std::stable_partition(out.begin(), out.end(), [&, found = false](std::size_t f) mutable {
+    const bool first = contact_frames[f] && !found;
+    found = found || contact_frames[f];
+    return first;
+  });
+  out.resize(std::min(out.size(), kColdFrames));
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
-std::size_t frames_within_budget(double budget_seconds, double seconds_per_repeat,
-                                 std::size_t repeats, std::size_t fewest, std::size_t frames) {
-  const double cost = std::max(seconds_per_repeat * static_cast<double>(repeats), 1e-9);
-  const double fit = std::floor(budget_seconds / cost);
-  constexpr double kFarTooSlow = 10.0;
-  if (static_cast<double>(fewest) * cost > kFarTooSlow * budget_seconds)
-    fewest = std::max<std::size_t>(fewest / 2, 1);
-  const auto wanted = static_cast<std::size_t>(std::min(fit, static_cast<double>(frames)));
-  return std::min(frames, std::max(fewest, wanted));
+std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed, std::size_t pass) {
+  std::mt19937_64 random(seed + 1 + pass);
+  return shuffled(count, random);
 }
 
 }  // namespace contactcheck

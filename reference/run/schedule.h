@@ -1,19 +1,18 @@
-// Which frames are timed when a detector is too slow for all of them.
+// What is timed when: drawn by seed, the same for the same seed on every machine.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace contactcheck {
 
-/// All frames in an order whose every prefix is spread over the scene and holds contact frames in
-/// about their share of the whole (the first one a contact frame, if there is any). Detectors are
-/// timed on prefixes, so that any two share the frames of the shorter.
-std::vector<std::size_t> timing_order(const std::vector<bool>& contact_frames);
+/// The frames of a scene that are timed cold, the same for all detectors: 8, or all where there are
+/// no more; ascending. Where some frames have contact, so has one of these.
+std::vector<std::size_t> draw_cold_frames(const std::vector<bool>& contact_frames,
+                                          std::uint64_t seed);
 
-/// How many frames fit: budget / (cost per repeat * repeats), within [fewest, frames]; half of the
-/// fewest where these would take ten times the budget.
-std::size_t frames_within_budget(double budget_seconds, double seconds_per_repeat,
-                                 std::size_t repeats, std::size_t fewest, std::size_t frames);
+/// The numbers below `count` in the order of a pass: another one in every pass.
+std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed, std::size_t pass);
 
 }  // namespace contactcheck

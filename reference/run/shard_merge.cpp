@@ -35,6 +35,7 @@ class Merger {
     whole.machine = first.machine;
     whole.libraries = first.libraries;
     whole.plugins = first.plugins;
+    whole.timing = first.timing;
     for (const ShardResults& shard : shards_) {
       whole.merged.push_back(shard.results.command);
       if (shard.results.resumed) whole.resumed.emplace();

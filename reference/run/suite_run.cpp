@@ -2,6 +2,7 @@
 
 #include "reference/adapters/register.h"
 #include "reference/results/results.h"
+#include "reference/run/cache_sweep.h"
 #include "reference/run/machine.h"
 #include "reference/run/out_folder.h"
 #include "reference/run/partial_results.h"
@@ -23,6 +24,8 @@ results::Results record_of(const SuiteRequest& request) {
   record.machine = describe_machine();
   for (const auto& library : library_versions()) record.libraries.push_back(library);
   record.plugins = request.plugins;
+  const RunSettings& s = request.settings;
+  if (s.timing) record.timing = {s.processes, s.one_pass_beyond, s.seed, sweep_bytes()};
   if (request.resume) record.resumed.emplace();
   if (request.shard) record.shard = shard_record(request);
   return record;

@@ -69,8 +69,8 @@ struct SuiteListener {
   std::function<void(const SuiteProgress&)> progress = [](const SuiteProgress&) {};
   std::function<void(const SceneEnd&)> scene_end = [](const SceneEnd&) {};
   /// What a scene's detector was timed with in one question, before it is summed up.
-  std::function<void(const std::string& scene, const std::string& detector, const ProcessSamples&)>
-      samples = [](const std::string&, const std::string&, const ProcessSamples&) {};
+  std::function<void(const std::string& scene, const std::string& detector, const QuestionSamples&)>
+      samples = [](const std::string&, const std::string&, const QuestionSamples&) {};
 };
 
 struct SuiteOutcome {

@@ -1,6 +1,8 @@
 #include "reference/run/worker.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
 
 #include "core/types/check.h"
 #include "reference/arrange/sweep_poses.h"
@@ -35,12 +37,11 @@ void arrange_scene(WorkerState& worker) {
   place_sweep(at, scene);
 }
 
-void judge_and_plan(WorkerState& worker) {
+void judge(WorkerState& worker) {
   record_scene(worker);
   worker.separations = separations(worker.judged, worker.progress);
   judge_detectors(worker);
   if (worker.job.settings.closed_loop && worker.scene.simulation) simulate_with_detectors(worker);
-  plan_timing(worker);
 }
 
 // Not even mapped: what passed a limit once would pass it again.
@@ -49,23 +50,21 @@ void leave_unjudged(WorkerState& worker) {
   end_all(worker, results::Status::kError, worker.job.unjudged->why, worker.job.unjudged->frame);
 }
 
-void judge_and_time(WorkerState& worker) {
+void judge_or_time(WorkerState& worker) {
   worker.judged = judge_scene(worker.scene, worker.judges(), worker.progress);
   if (!worker.judged.refused.empty()) {
     end_all(worker, results::Status::kRefused, worker.judged.refused);
   } else if (worker.judges()) {
-    judge_and_plan(worker);
+    judge(worker);
   } else {
-    prepare_detectors(worker);
+    take_turns(worker);
   }
-  if (worker.job.settings.timing) time_detectors(worker);
 }
 
 void work(WorkerState& worker) {
   arrange_scene(worker);
   add_entries(worker);
-  worker.job.unjudged ? leave_unjudged(worker) : judge_and_time(worker);
-  dismiss_all(worker);
+  worker.job.unjudged ? leave_unjudged(worker) : judge_or_time(worker);
   worker.surroundings.restore();
   write_answer(worker);
   worker.progress.enter(SharedProgress::kNoDetector, 0, Phase::kDone);
@@ -79,7 +78,9 @@ int run_worker(const std::filesystem::path& job_file, const DetectorCatalog& cat
   SharedProgress* shared = &own;
   if (progress_fd >= 0) shared = join_supervisor(progress_fd, &own);
   try {
-    WorkerState worker(read_job(job_file), catalog, shared, progress_fd >= 0);
+    Job job = read_job(job_file);
+    if (!job.temporary.empty()) setenv("TMPDIR", job.temporary.c_str(), 1);
+    WorkerState worker(std::move(job), catalog, shared, progress_fd >= 0);
     work(worker);
     return 0;
   } catch (const InputError& e) {

@@ -21,11 +21,10 @@ class AnswerWriter {
     answer_.scene = scene_summary(worker_.judged, worker_.separations);
     if (job.unjudged) answer_.scene.unjudged = job.unjudged->why;
     answer_.contact_frames = worker_.judged.contact_frames;
-    answer_.order = job.order;
-    answer_.prefixes = job.prefixes;
     if (lists_contacts()) answer_.truth_contacts = truth_contacts(worker_.judged);
     if (worker_.judged.pairs) add_cases("oracle", worker_.judged.pairs->disagreements);
     for (const WorkerEntry& entry : worker_.entries) add(entry);
+    answer_.timed = worker_.timed;
     write_answer(job.answer_file, std::move(answer_));
   }
 
@@ -34,7 +33,6 @@ class AnswerWriter {
     DetectorAnswer& out = answer_.detectors.emplace_back();
     out.position = entry.position;
     out.run = entry.run;
-    out.samples = entry.samples;
     if (hands_answers_over()) out.answers = entry.accuracy.answers;
     if (lists_contacts()) out.contacts = detector_contacts(entry.run, entry.accuracy.differences);
     add_cases(entry.spec.name, entry.accuracy.disagreements);
@@ -57,11 +55,8 @@ class AnswerWriter {
     return "../recordings/" + worker_.job.recording_file.filename().string();
   }
 
-  // To the processes that only time.
-  bool hands_answers_over() const {
-    const RunSettings& settings = worker_.job.settings;
-    return worker_.judges() && settings.timing && settings.processes > 1;
-  }
+  // To the processes that time.
+  bool hands_answers_over() const { return worker_.judges() && worker_.job.settings.timing; }
 
   // Random pairs are far too many for pictures; a scene that is refused or not judged has no truth.
   bool lists_contacts() const {

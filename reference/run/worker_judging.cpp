@@ -1,7 +1,6 @@
 #include "reference/run/worker_judging.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "reference/run/accuracy.h"
@@ -27,36 +26,23 @@ void add_entry(std::uint32_t position, WorkerState& worker) {
   worker.entries.push_back(std::move(entry));
 }
 
+void judge(JudgingTools& tools, WorkerState& worker, WorkerEntry& entry) {
+  make_detector(worker, entry);
+  entry.accuracy = run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.run);
+  measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.run);
+}
+
+}  // namespace
+
 void make_detector(WorkerState& worker, WorkerEntry& entry) {
   worker.progress.enter(entry.position, 0, Phase::kPrepare);
   entry.detector = worker.catalog.make(entry.spec);
 }
 
-// Nobody asks it again: what it holds shall not count against those after it.
 void dismiss(WorkerState& worker, WorkerEntry& entry) {
   worker.progress.enter(entry.position, worker.progress.frame(), Phase::kDestroy);
   entry.detector.reset();
 }
-
-void judge(JudgingTools& tools, WorkerState& worker, WorkerEntry& entry) {
-  make_detector(worker, entry);
-  entry.accuracy = run_accuracy(tools, entry.position, *entry.detector, worker.progress, entry.run);
-  measure_hover_gaps(tools, entry.position, *entry.detector, worker.progress, entry.run);
-  if (!worker.job.settings.timing) dismiss(worker, entry);
-}
-
-// What it is timed with here was judged in another process.
-void take_over_answers(const WorkerState& worker, WorkerEntry& entry) {
-  const JudgedAnswers& answers = worker.job.answers[entry.position];
-  entry.accuracy.answers = answers;
-  const bool same =
-      std::equal(answers.begin(), answers.end(), entry.run.semantics.questions.begin(),
-                 entry.run.semantics.questions.end(),
-                 [](const JudgedQuestion& judged, Question now) { return judged.question == now; });
-  if (!same) throw std::runtime_error("it answers other questions than when it was judged");
-}
-
-}  // namespace
 
 void add_entries(WorkerState& worker) {
   const std::vector<std::uint32_t>& skip = worker.job.skip;
@@ -79,27 +65,11 @@ void judge_detectors(WorkerState& worker) {
   const auto count = static_cast<double>(worker.entries.size());
   for (std::size_t i = 0; i < worker.entries.size(); ++i) {
     WorkerEntry& entry = worker.entries[i];
-    worker.progress.part(kShareOfTruth + 0.4 * static_cast<double>(i) / count);
+    worker.progress.part(kShareOfTruth + 0.9 * static_cast<double>(i) / count);
     if (!entry.usable()) continue;
     guarded(worker, entry, [&] { judge(tools, worker, entry); });
-  }
-}
-
-void prepare_detectors(WorkerState& worker) {
-  for (WorkerEntry& entry : worker.entries) {
-    if (!entry.usable() || worker.job.prefixes[entry.position] == 0) continue;
-    guarded(worker, entry, [&] {
-      make_detector(worker, entry);
-      entry.run.semantics = entry.detector->semantics();
-      entry.detector->prepare(worker.scene.bodies);
-      take_over_answers(worker, entry);
-    });
-  }
-}
-
-void dismiss_all(WorkerState& worker) {
-  for (WorkerEntry& entry : worker.entries)
     if (entry.detector) guarded(worker, entry, [&] { dismiss(worker, entry); });
+  }
 }
 
 }  // namespace contactcheck

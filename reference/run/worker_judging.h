@@ -1,4 +1,4 @@
-// The untimed part of a worker: its detectors made, judged, and dismissed.
+// A worker that judges: its detectors made, judged, and dismissed.
 #pragma once
 
 #include "reference/run/worker_state.h"
@@ -12,14 +12,12 @@ void add_entries(WorkerState& worker);
 void end_all(WorkerState& worker, results::Status status, const std::string& message,
              std::optional<std::size_t> failed_frame = {});
 
-/// Every usable detector is made, runs over all frames and is judged (accuracy.h, hover.h).
-/// Without timing nobody asks it again, and it is dismissed at once.
+/// Every usable detector is made, runs over all frames, is judged (accuracy.h, hover.h) and
+/// destroyed: one that crashes there is no detector to use.
 void judge_detectors(WorkerState& worker);
 
-/// For a process that only times: makes and prepares the detectors that the job times.
-void prepare_detectors(WorkerState& worker);
-
-/// Destroys what is left of them, one after another: one that crashes here is no detector to use.
-void dismiss_all(WorkerState& worker);
+/// In calls of the detector's own (guarded_call.h).
+void make_detector(WorkerState& worker, WorkerEntry& entry);
+void dismiss(WorkerState& worker, WorkerEntry& entry);
 
 }  // namespace contactcheck

@@ -1,5 +1,6 @@
 #include "reference/run/worker_simulation.h"
 
+#include "reference/run/cache_sweep.h"
 #include "reference/run/closed_loop.h"
 #include "reference/run/guarded_call.h"
 #include "reference/run/lockstep.h"
@@ -42,8 +43,8 @@ void time_whole_steps(WorkerState& worker) {
   std::vector<LockstepEntry> lockstep = lockstep_entries(worker);
   const DetectorSpec driver = worker.catalog.parse(worker.scene.simulation->driver);
   LockstepSettings settings;
-  settings.repeats = worker.job.settings.repeats;
-  settings.sweep_bytes = worker.job.settings.sweep_bytes;
+  settings.repeats = worker.job.settings.step_repeats;
+  settings.sweep_bytes = sweep_bytes();
   run_lockstep(worker.scene, *worker.catalog.make(driver), settings, lockstep, worker.progress);
   for (LockstepEntry& timed : lockstep)
     for (WorkerEntry& entry : worker.entries)

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/detect/registry.h"
-#include "reference/compare/speedup.h"
 #include "reference/results/results.h"
 #include "reference/run/accuracy.h"
 #include "reference/run/job.h"
@@ -26,8 +25,7 @@ struct WorkerEntry {
   DetectorSpec spec;
   std::unique_ptr<Detector> detector;  ///< none: not yet made, dismissed, or not usable
   results::Run run;
-  AccuracyOutcome accuracy;  ///< in a later process, its answers are the judging one's
-  std::vector<QuestionSamples> samples;
+  AccuracyOutcome accuracy;
 
   bool usable() const { return run.ok(); }
 };
@@ -40,8 +38,7 @@ struct WorkerState {
   WorkerState(const WorkerState&) = delete;
   WorkerState& operator=(const WorkerState&) = delete;
 
-  /// The job's first process judges; the others only time.
-  bool judges() const { return job.process == 0; }
+  bool judges() const { return job.turns.empty(); }
 
   Job job;
   const DetectorCatalog& catalog;
@@ -51,6 +48,7 @@ struct WorkerState {
   JudgedScene judged;
   std::vector<double> separations;  ///< per frame (separation.h)
   std::vector<WorkerEntry> entries;
+  std::vector<TurnAnswer> timed;
 };
 
 }  // namespace contactcheck

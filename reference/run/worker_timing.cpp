@@ -1,68 +1,89 @@
 #include "reference/run/worker_timing.h"
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
 #include "reference/run/guarded_call.h"
-#include "reference/run/schedule.h"
 #include "reference/run/timing.h"
+#include "reference/run/worker_judging.h"
 
 namespace contactcheck {
 namespace {
 
-TimedEntry timed_entry(const WorkerEntry& entry, const JudgedQuestion& judged, std::size_t frames) {
-  TimedEntry timed;
-  timed.position = entry.position;
-  timed.detector = entry.detector.get();
-  timed.question = judged.question;
-  timed.own = judged.question == entry.run.semantics.questions.front();
-  timed.judged = &judged.frames;
-  timed.frames = frames;
-  timed.samples.question = judged.question;
-  timed.samples.lazy_map = !entry.detector->needs_vertices();
-  return timed;
+// `--threads` is for detectors that can use them; an option of that name is the detector's own.
+std::size_t threads_of(const WorkerState& worker, const WorkerEntry& entry) {
+  const auto option = entry.spec.options.find("threads");
+  const std::size_t own = option == entry.spec.options.end() ? 0 : std::stoul(option->second);
+  return std::max<std::size_t>(own, worker.job.settings.threads);
 }
 
-std::vector<TimedEntry> timed_entries(const WorkerState& worker) {
-  std::vector<TimedEntry> timed;
-  for (const WorkerEntry& entry : worker.entries) {
-    if (!entry.usable() || !entry.detector) continue;
-    for (const JudgedQuestion& question : entry.accuracy.answers)
-      timed.push_back(timed_entry(entry, question, worker.job.prefixes[entry.position]));
-  }
-  return timed;
+// The detector says what it answers when it is made, here as when it was judged.
+const JudgedQuestion& judged_question(const WorkerState& worker, const Turn& turn,
+                                      const Semantics& semantics) {
+  const JudgedAnswers& answers = worker.job.answers.at(turn.position);
+  const bool same = std::equal(
+      answers.begin(), answers.end(), semantics.questions.begin(), semantics.questions.end(),
+      [](const JudgedQuestion& judged, Question now) { return judged.question == now; });
+  if (!same) throw std::runtime_error("it answers other questions than when it was judged");
+  for (const JudgedQuestion& judged : answers)
+    if (judged.question == turn.question) return judged;
+  throw std::logic_error("a turn of a question that was judged");
 }
 
-void take_samples(const WorkerState& worker, TimedEntry& timed, WorkerEntry& entry) {
-  if (!entry.usable()) return;  // another question of this detector threw
-  if (timed.error.empty()) {
-    entry.samples.push_back(std::move(timed.samples));
-    return;
+PassRequest request_of(const WorkerState& worker, const Turn& turn, const WorkerEntry& entry,
+                       CacheSweep* sweep) {
+  const Semantics semantics = entry.detector->semantics();
+  PassRequest request;
+  request.position = turn.position;
+  request.asked = {turn.question, turn.question == semantics.questions.front()};
+  request.judged = &judged_question(worker, turn, semantics).frames;
+  request.sweep = sweep;
+  request.threads = threads_of(worker, entry);
+  // One from outside has its process for itself (scene_run.cpp), and may have more.
+  request.children = worker.job.turns.size() == 1;
+  if (turn.cold) {
+    request.frames = worker.job.cold_frames;
+  } else {
+    request.frames.resize(worker.scene.frames);
+    std::iota(request.frames.begin(), request.frames.end(), std::size_t{0});
   }
-  book_error(worker, timed.error, entry);
-  entry.samples.clear();
+  return request;
+}
+
+void take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry, CacheSweep* sweep) {
+  TurnAnswer& answer = worker.timed.emplace_back();
+  answer.turn = turn;
+  if (entry.usable()) {
+    guarded(worker, entry, [&] {
+      make_detector(worker, entry);
+      entry.detector->prepare(worker.scene.bodies);
+      answer.lazy_map = !entry.detector->needs_vertices();
+      answer.samples = time_pass(worker.judged, request_of(worker, turn, entry, sweep),
+                                 *entry.detector, worker.progress);
+    });
+    if (entry.detector) guarded(worker, entry, [&] { dismiss(worker, entry); });
+  }
+  if (entry.usable()) return;
+  answer.error = entry.run.message + " (while timed)";
+  answer.failed_frame = entry.run.failed_frame;
+  answer.samples = {};
 }
 
 }  // namespace
 
-void plan_timing(WorkerState& worker) {
-  const RunSettings& s = worker.job.settings;
-  worker.job.order = timing_order(worker.judged.contact_frames);
-  worker.job.prefixes.assign(s.detectors.size(), 0);
-  for (const WorkerEntry& entry : worker.entries) {
-    if (!entry.usable()) continue;
-    // One repeat runs cold and hot.
-    worker.job.prefixes[entry.position] =
-        frames_within_budget(s.time_budget, 2.0 * entry.accuracy.seconds_per_frame, s.repeats,
-                             s.fewest_timed_frames, worker.scene.frames);
-  }
-}
-
-void time_detectors(WorkerState& worker) {
-  std::vector<TimedEntry> timed = timed_entries(worker);
-  if (timed.empty()) return;
-  const RunSettings& s = worker.job.settings;
-  run_timing(worker.judged, worker.job.order, s.repeats, s.sweep_bytes, timed, worker.progress);
-  for (TimedEntry& t : timed)
+void take_turns(WorkerState& worker) {
+  const std::vector<Turn>& turns = worker.job.turns;
+  std::optional<CacheSweep> sweep;
+  if (std::any_of(turns.begin(), turns.end(), [](const Turn& turn) { return turn.cold; }))
+    sweep.emplace(sweep_bytes());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    worker.progress.part(static_cast<double>(i) / static_cast<double>(turns.size()));
     for (WorkerEntry& entry : worker.entries)
-      if (entry.position == t.position) take_samples(worker, t, entry);
+      if (entry.position == turns[i].position)
+        take_turn(worker, turns[i], entry, turns[i].cold ? &*sweep : nullptr);
+  }
 }
 
 }  // namespace contactcheck

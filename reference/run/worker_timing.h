@@ -1,16 +1,12 @@
-// The timed part of a worker: which frames are timed, and the samples of each detector.
+// The turns of a worker that times.
 #pragma once
 
 #include "reference/run/worker_state.h"
 
 namespace contactcheck {
 
-/// Sets the job's order of frames and, per detector, how many of them its time budget holds: out of
-/// what the judging took, for this process and those that only time.
-void plan_timing(WorkerState& worker);
-
-/// Times every usable detector with each of its questions (timing.h). One that throws meanwhile
-/// or answers otherwise than when it was judged ends in an error, without samples.
-void time_detectors(WorkerState& worker);
+/// Takes the job's turns in order: each a fresh instance, prepared outside the clock. A detector
+/// that throws in one, or answers otherwise than when it was judged, has no later ones.
+void take_turns(WorkerState& worker);
 
 }  // namespace contactcheck

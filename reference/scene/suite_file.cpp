@@ -87,7 +87,7 @@ SuiteGoal parse_goal(const JsonField& field) {
     goal.kind = SuiteGoal::Kind::kPerPair;
     field.at("per").one_of({"pair"});
   }
-  goal.part = field.at("part").one_of({"cold", "hot", "contact_frames"});
+  goal.part = field.at("part").one_of({"playback", "cold", "contact_frames"});
   const std::string bound = field.exactly_one_of({"at_least", "at_most"});
   (bound == "at_least" ? goal.at_least : goal.at_most) = field.at(bound).number(kAboveZero);
   return goal;

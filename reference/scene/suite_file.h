@@ -27,7 +27,7 @@ struct SuiteGoal {
   std::string scene, detector;
   Kind kind = Kind::kOver;
   std::string other;  ///< detector or scene, by kind
-  std::string part;   ///< "cold", "hot", "contact_frames" (cold, frames with contact)
+  std::string part;   ///< "playback", "cold", "contact_frames" (of a playback)
   std::optional<double> at_least, at_most;  ///< one of them
 };
 

@@ -21,22 +21,28 @@ Ratio widened(double ratio, double below, double above) {
 }
 
 // Student's t of a 95 % interval: from a table, and beyond it the first terms of its expansion
-// about the normal distribution (1e-2 off at 5 degrees of freedom, less beyond).
+// about the normal distribution (2e-3 off at 9 degrees of freedom, less beyond).
 double student95(std::size_t freedom) {
-  constexpr double kTable[] = {12.706, 4.303, 3.182, 2.776};
+  constexpr double kTable[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
   if (freedom <= std::size(kTable)) return kTable[freedom - 1];
   const double n = static_cast<double>(freedom), z = kNormal95, cube = z * z * z;
   return z + (cube + z) / (4.0 * n) + (5.0 * cube * z * z + 16.0 * cube + 3.0 * z) / (96.0 * n * n);
 }
 
-// The standard deviation of the logarithms.
-double spread_of(const std::vector<Ratio>& measured) {
-  const double count = static_cast<double>(measured.size());
-  double mean = 0.0, squares = 0.0;
-  for (const Ratio& r : measured) mean += std::log(r.value) / count;
-  for (const Ratio& r : measured)
-    squares += (std::log(r.value) - mean) * (std::log(r.value) - mean);
-  return std::sqrt(squares / (count - 1.0));
+struct Logarithms {
+  double mean = 0.0;       ///< of the quotients by the first value: 0 exactly where all are equal
+  double deviation = 0.0;  ///< of n - 1; 0 of one
+};
+
+Logarithms logarithms_of(const std::vector<double>& values) {
+  const double count = static_cast<double>(values.size());
+  Logarithms out;
+  for (const double value : values) out.mean += std::log(value / values.front()) / count;
+  if (values.size() == 1) return out;
+  double squares = 0.0;
+  for (const double value : values) squares += std::pow(std::log(value / values.front()) - out.mean, 2);
+  out.deviation = std::sqrt(squares / (count - 1.0));
+  return out;
 }
 
 }  // namespace
@@ -55,6 +61,29 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
+double geometric_mean(const std::vector<double>& values) {
+  CONTACTCHECK_INVARIANT(!values.empty(), "a mean of something");
+  return values.front() * std::exp(logarithms_of(values).mean);
+}
+
+const char* interval_name(std::size_t measurements) {
+  return measurements >= kFewestForInterval ? "95 %" : "range";
+}
+
+Ratio mean_ratio(const std::vector<double>& measured) {
+  CONTACTCHECK_INVARIANT(!measured.empty(), "a mean of something");
+  const Logarithms logs = logarithms_of(measured);
+  const double mean = measured.front() * std::exp(logs.mean);
+  if (measured.size() < kFewestForInterval) {
+    const auto [least, greatest] = std::minmax_element(measured.begin(), measured.end());
+    // Of equal measurements the mean may be an ulp off.
+    return {mean, std::min(*least, mean), std::max(*greatest, mean)};
+  }
+  const double half_width = student95(measured.size() - 1) * logs.deviation /
+                            std::sqrt(static_cast<double>(measured.size()));
+  return widened(mean, half_width, half_width);
+}
+
 Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw) {
   constexpr std::size_t kOutside = kDraws / 40;  // 2.5 % on either side
   Resampler resampler;
@@ -63,18 +92,6 @@ Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw) 
   std::sort(draws.begin(), draws.end());
   return {estimate, std::min(estimate, draws[kOutside]),
           std::max(estimate, draws[kDraws - 1 - kOutside])};
-}
-
-Ratio paired_ratio(const std::vector<double>& base, const std::vector<double>& head) {
-  CONTACTCHECK_INVARIANT(!base.empty() && base.size() == head.size(), "times in pairs");
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < base.size(); ++i) ratios.push_back(head[i] / base[i]);
-  return bootstrap(median(ratios), [&](Resampler& resampler) {
-    std::vector<double> drawn;
-    for (std::size_t i = 0; i < ratios.size(); ++i)
-      drawn.push_back(ratios[resampler.below(ratios.size())]);
-    return median(std::move(drawn));
-  });
 }
 
 Ratio product(const Ratio& a, const Ratio& b) {
@@ -101,7 +118,7 @@ Ratio median_ratio(const std::vector<Ratio>& measured) {
     below += std::pow(reach(r.value, r.low), 2) / count;
     above += std::pow(reach(r.value, r.high), 2) / count;
   }
-  const double apart = student95(measured.size() - 1) * spread_of(measured);
+  const double apart = student95(measured.size() - 1) * logarithms_of(ratios).deviation;
   const auto half_width = [&](double squares) {
     return kMedian95 * std::max(apart, std::sqrt(squares)) / std::sqrt(count);
   };

@@ -17,10 +17,25 @@ double median(std::vector<double> values);
 /// @pre `sorted` is ascending and not empty; 0 <= share <= 1
 double quantile(const std::vector<double>& sorted, double share);
 
-/// A measured ratio with its 95 % interval.
+/// @pre not empty; all above 0
+double geometric_mean(const std::vector<double>& values);
+
+/// A measured ratio and what it lies between: a 95 % interval or a range (interval_name).
 struct Ratio {
   double value = 1.0, low = 1.0, high = 1.0;
 };
+
+/// So many measurements make an interval that covers; fewer show a range.
+constexpr std::size_t kFewestForInterval = 5;
+
+/// What the ends of a ratio of so many measurements are: "95 %" or "range".
+const char* interval_name(std::size_t measurements);
+
+/// One ratio out of several measurements, each in a process of its own: the geometric mean. From
+/// kFewestForInterval on the ends are Student's t interval of 95 % on the logarithms (n - 1 degrees
+/// of freedom), with fewer the smallest and the largest measurement.
+/// @pre not empty; all above 0
+Ratio mean_ratio(const std::vector<double>& measured);
 
 /// Draws with replacement, the same draws on every platform.
 class Resampler {
@@ -35,13 +50,8 @@ class Resampler {
 
 /// `estimate` with a percentile bootstrap interval: `draw` computes the estimate from what it draws
 /// again, 200 times. The interval ends at the 6th smallest and the 6th largest, and contains the
-/// estimate.
+/// estimate. It holds what one process shows: between processes times differ more (mean_ratio).
 Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw);
-
-/// The median of head / base over rounds. The two times of a round were measured one after the
-/// other: a slow machine slows both, and one slow round moves the median little.
-/// @pre as many of both, at least one; all above 0
-Ratio paired_ratio(const std::vector<double>& base, const std::vector<double>& head);
 
 /// Of two ratios that were measured apart, so that their errors are independent: the half-widths of
 /// their intervals, as logarithms, add up in squares, each end by itself.

@@ -17,7 +17,7 @@ struct Choice {
 /// Of a frame, or of a step of a simulation.
 struct Cost {
   double ms = 0.0;
-  double low_ms = 0.0, high_ms = 0.0;  ///< 95 % interval
+  double low_ms = 0.0, high_ms = 0.0;  ///< its interval (paired_cost.h)
 };
 
 /// (`Candidate` is what reference/reduce tries.)

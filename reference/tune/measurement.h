@@ -20,7 +20,7 @@ struct ModelCost {
 
 struct Measurement {
   std::string failure;  ///< not empty: it gave no answer or no time, and nothing else is set
-  /// Map, update and query with cold caches, in times what the anchor takes in the same model; 95 %
+  /// Map, update and query in playback, in times what the anchor takes in the same model, with its
   /// interval (paired_cost.h).
   Ratio beside_anchor;
   /// One object for all measurements in a model, which later runs correct. None: the anchor takes

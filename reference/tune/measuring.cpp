@@ -13,22 +13,22 @@
 namespace contactcheck {
 namespace {
 
-// The cold time per frame within a question; none where it was not timed.
+// The time per frame of a playback within a question; none where it was not timed.
 std::optional<double> time_of(const results::Run& run, Question question) {
   for (const results::QuestionTimes& times : run.times)
-    if (times.question == question) return times.cold.frame;
+    if (times.question == question) return times.playback.frame;
   return std::nullopt;
 }
 
-const ProcessSamples* found_in(
-    const std::map<std::pair<std::string, std::string>, ProcessSamples>& times,
+const QuestionSamples* found_in(
+    const std::map<std::pair<std::string, std::string>, QuestionSamples>& times,
     const std::string& scene, const std::string& detector) {
   const auto at = times.find({scene, detector});
   return at == times.end() ? nullptr : &at->second;
 }
 
 // What one side costs in units of the other; nothing where one of them was not timed.
-PairedRun paired(const ProcessSamples* own, const ProcessSamples* anchor) {
+PairedRun paired(const QuestionSamples* own, const QuestionSamples* anchor) {
   return own != nullptr && anchor != nullptr ? pair_up(*own, *anchor) : PairedRun{};
 }
 
@@ -140,8 +140,8 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
   suite.known_defects = request_.known_defects;
   SuiteListener listener = request_.listener;
   listener.samples = [&](const std::string& scene, const std::string& detector,
-                         const ProcessSamples& samples) {
-    if (samples.front().question == request_.question) times[{scene, detector}] = samples;
+                         const QuestionSamples& samples) {
+    if (samples.question == request_.question) times[{scene, detector}] = samples;
   };
   SuiteOutcome outcome;
   results::Results results = run_suite(suite, listener, &outcome);

@@ -1,5 +1,5 @@
-// Candidates measured by runs of the suite: judged on every frame, timed beside one another in one
-// worker.
+// Candidates measured by runs of the suite: judged on every frame, timed one after another in the
+// same passes.
 #pragma once
 
 #include <cstddef>
@@ -57,7 +57,7 @@ class Measuring {
   };
 
   /// What one run timed, by scene and detector.
-  using Times = std::map<std::pair<std::string, std::string>, ProcessSamples>;
+  using Times = std::map<std::pair<std::string, std::string>, QuestionSamples>;
 
   ModelKey key_of(const TuneCandidate& candidate) const;
   const Model& own_model() const { return models_.at({}); }

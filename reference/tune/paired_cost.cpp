@@ -77,19 +77,17 @@ bool is_one_pair(const std::vector<FramePairs>& frames) {
 
 }  // namespace
 
-PairedRun pair_up(const ProcessSamples& own, const ProcessSamples& anchor) {
+PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor) {
   PairedRun run;
-  for (std::size_t p = 0; p < std::min(own.size(), anchor.size()); ++p)
-    for (const auto& [frame, samples] : own[p].frames) {
-      const auto beside = anchor[p].frames.find(frame);
-      if (beside == anchor[p].frames.end()) continue;
-      const std::size_t repeats = std::min(samples.cold.size(), beside->second.cold.size());
-      // A clock that has not ticked has seen a nanosecond at most.
-      for (std::size_t r = 0; r < repeats; ++r) {
-        run[frame].own.push_back(std::max(samples.cold[r].total(), 1.0));
-        run[frame].anchor.push_back(std::max(beside->second.cold[r].total(), 1.0));
-      }
+  for (std::size_t p = 0; p < std::min(own.playback.size(), anchor.playback.size()); ++p) {
+    const Pass &mine = own.playback[p], &beside = anchor.playback[p];
+    const std::size_t frames = std::min(mine.size(), beside.size());
+    // A clock that has not ticked has seen a nanosecond at most.
+    for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) {
+      run[f].own.push_back(std::max(mine[f].total(), 1.0));
+      run[f].anchor.push_back(std::max(beside[f].total(), 1.0));
     }
+  }
   return run;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "reference/run/cache_sweep.h"
 #include "reference/scene/simulation_spec.h"
 #include "reference/simulate/simulate_scene.h"
 #include "reference/tune/deformer_variant.h"
@@ -60,8 +61,8 @@ class Models {
   void measure() {
     starts_("");
     StepCostSettings settings;
-    settings.repeats = request_.settings.repeats;
-    settings.sweep_bytes = request_.settings.sweep_bytes;
+    settings.repeats = request_.settings.step_repeats;
+    settings.sweep_bytes = sweep_bytes();
     const std::vector<Cost> costs = step_costs(scenes_, catalog_, settings, [](std::size_t) {});
     std::size_t next = 0;
     for (SimulatedModel& model : models_)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "reference/run/timing.h"
+#include "reference/run/cache_sweep.h"
 #include "reference/simulate/driven_simulation.h"
 #include "reference/statistics/statistics.h"
 #include "reference/tune/paired_cost.h"

@@ -29,12 +29,8 @@ bool varies_deformers(const std::vector<TuneCandidate>& candidates) {
 // With deformers a frame is a step of the simulation.
 Row header_of(const std::vector<TuneCandidate>& candidates) {
   const bool lattices = varies_lattices(candidates), deformers = varies_deformers(candidates);
-  Row row = {deformers ? "ms/step" : "ms/frame",
-             "95 % interval",
-             "missed",
-             "spurious",
-             "hover mm",
-             "late"};
+  Row row = {
+      deformers ? "ms/step" : "ms/frame", "interval", "missed", "spurious", "hover mm", "late"};
   if (deformers) row.insert(row.begin() + 2, "of it deforming");
   if (lattices || deformers) row.push_back("deviation mm");
   if (lattices) row.push_back("lattice");

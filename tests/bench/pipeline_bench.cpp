@@ -1,7 +1,7 @@
 // Whole detectors on a scene of the default suite, phase by phase, with fcl-aabb run in turn on the
-// same frame as the yardstick. As in the suite, a frame's time is the median of its repeats and the
-// scene's time the sum over its frames; figures here are hot, per frame.
-// The suite's own figures (contactcheck run) are the ones to publish; these are for profiling.
+// same frame as the yardstick. A frame's time is the median of its repeats, and the scene's time
+// the mean over its frames; nothing is flushed between them. The suite's own figures (contactcheck
+// run) are the ones to publish; these are for profiling.
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
-// What it costs a worker to be watched: the timed pass of a scene (run_timing, the suite's own)
-// with its progress in a shared page that a supervisor polls, against the same pass with a page of
-// its own that nobody looks at. The poller is a thread here, a process in the suite. One repeat of
-// each in turn; the ratio is that of the median sums of cold frame times, so 1 is "no cost".
+// What it costs a worker to be watched: a playback of a scene (time_pass, the suite's own) with its
+// progress in a shared page that a supervisor polls, against the same pass with a page that is not
+// polled. The poller is a thread here, a process in the suite. One pass of each in turn; the ratio
+// is that of the median sums of frame times, so 1 is "no cost".
 
 #include <benchmark/benchmark.h>
 #include <sys/mman.h>
@@ -76,41 +76,51 @@ class Poller {
   std::thread thread_;
 };
 
-/// A scene with one prepared detector, ready for run_timing.
+/// A scene with one prepared detector and what it answers, ready for time_pass.
 class TimedScene {
  public:
   TimedScene(const std::string& id, const std::string& detector)
-      : scene_(load_scene(find_scene(id, fixtures_directory()))), order_(scene_.frames) {
+      : scene_(load_scene(find_scene(id, fixtures_directory()))) {
     SharedProgress nobody;
     ProgressWriter progress(&nobody);
     judged_ = judge_scene(scene_, false, progress);
     const DetectorCatalog catalog = standard_catalog();
     detector_ = catalog.make(catalog.parse(detector));
     detector_->prepare(scene_.bodies);
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    request_.asked = {detector_->semantics().questions.front(), true};
+    request_.judged = &answers_;
+    request_.frames.resize(scene_.frames);
+    std::iota(request_.frames.begin(), request_.frames.end(), std::size_t{0});
+    answer_all();
   }
 
-  /// Nanoseconds: the sum over frames of one cold repeat each.
+  /// Nanoseconds: the sum over the frames of one pass.
   double run(SharedProgress* page) {
-    TimedEntry entry;
-    entry.detector = detector_.get();
-    entry.question = detector_->semantics().questions.front();
-    entry.frames = order_.size();
-    std::vector<TimedEntry> entries;
-    entries.push_back(std::move(entry));
     ProgressWriter progress(page);
-    run_timing(judged_, order_, 1, std::size_t{8} << 20, entries, progress);
     double sum = 0.0;
-    for (const auto& [frame, samples] : entries.front().samples.frames)
-      for (const PhaseSample& s : samples.cold) sum += s.map + s.update + s.query;
+    for (const PhaseSample& frame : time_pass(judged_, request_, *detector_, progress))
+      sum += frame.total();
     return sum;
   }
 
  private:
+  // time_pass compares every answer with these.
+  void answer_all() {
+    ContactSet contacts;
+    for (std::size_t f = 0; f < scene_.frames; ++f) {
+      contacts.clear();
+      detector_->update(judged_.frame(f));
+      detector_->query(request_.asked.question, contacts);
+      contacts.canonicalize();
+      answers_.push_back(print_of(contacts, request_.asked));
+    }
+  }
+
   Scene scene_;
   JudgedScene judged_;
   std::unique_ptr<Detector> detector_;
-  std::vector<std::size_t> order_;
+  std::vector<AnswerPrint> answers_;
+  PassRequest request_;
 };
 
 void run_both(benchmark::State& state, const std::string& scene, const std::string& detector) {

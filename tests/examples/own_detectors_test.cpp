@@ -81,15 +81,15 @@ TEST(OwnDetectors, OfALibraryTwiceAreTwoRows) {
 TEST(OwnDetectors, AreTimedInEveryProcessBesideTheirOwnClock) {
   PluginRun run(
       {"--detector", c_library(), "--detector-cmd", python_command(), "--detector", "fcl-aabb"},
-      {"--repeat", "2", "--processes", "2", "--threads", "2"});
+      {"--processes", "2", "--threads", "2"});
   EXPECT_EQ(run.outcome().exit_code, 0) << run.outcome().err;
   EXPECT_EQ(run.schema_errors(), "");
   for (const char* detector : {"c-sweep", "python-sweep"}) {
     const json row = run.row(detector);
-    EXPECT_EQ(row.at("time_ms").at("repeats"), 4) << detector;
+    EXPECT_EQ(row.at("time_ms").at("passes"), 2) << detector;
     EXPECT_TRUE(row.at("speedup").at("triangles").contains("fcl-aabb")) << detector;
   }
-  for (const char* part : {"cold", "hot"}) {
+  for (const char* part : {"playback", "cold"}) {
     for (const char* detector : {"c-sweep", "python-sweep"}) {
       const json times = run.row(detector).at("time_ms").at(part);
       EXPECT_GT(times.at("self_reported").get<double>(), 0.0) << detector;
@@ -142,7 +142,7 @@ TEST(OwnDetectors, DriveSimulations) {
   const std::string scene = scratch.write("fall.json", kFall).string();
   const std::string out = (scratch.folder() / "out").string();
   const Outcome outcome =
-      test::contactcheck_program({"run", scene, "--closed-loop", "--repeat", "1", "--detector",
+      test::contactcheck_program({"run", scene, "--closed-loop", "--processes", "1", "--detector",
                                   c_library(), "--detector-cmd", python_command(), "--out", out});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const json results = json::parse(test::text_of(out + "/results.json"));
@@ -155,8 +155,7 @@ TEST(OwnDetectors, DriveSimulations) {
 
 Outcome ab(const std::string& base, const std::string& head, const std::string& out) {
   return test::contactcheck_program({"ab", base, head, "hard-vertex-face", "--rounds", "3",
-                                     "--repeat", "1", "--floor-us", "1e9", "--quiet", "--out",
-                                     out});
+                                     "--floor-us", "1e9", "--quiet", "--out", out});
 }
 
 TEST(OwnDetectors, OfTwoBuildsOfALibraryAreComparedInTurns) {

@@ -39,22 +39,31 @@ class StrikingDetector : public TruthfulDetector {
   void update(const Frame& frame) override {
     TruthfulDetector::update(frame);
     frame_ = frame.index;
+    // A detector that is judged is asked all questions about a frame; one that is timed, a single
+    // one.
+    timed_ = asked_ == 1;
+    asked_ = 0;
     if (frame_ != target_) return;
     ++updates_;
-    if (phase_ == "update" || (phase_ == "update-again" && updates_ == 2)) strike_();
+    if (phase_ == "update" || (phase_ == "update-again" && updates_ == 2) ||
+        (phase_ == "update-timed" && timed_))
+      strike_();
   }
   void query(Question question, ContactSet& out) override {
     TruthfulDetector::query(question, out);
-    // The detector's own question comes first; the untimed pass asks it once a frame.
+    ++asked_;
+    // The detector's own question comes first, and is asked once a frame.
     if (frame_ != target_ || question != semantics().questions.front()) return;
     ++queries_;
-    if (phase_ == "query" || (phase_ == "again" && queries_ == 2)) strike_();
+    if (phase_ == "query" || (phase_ == "again" && queries_ == 2) || (phase_ == "timed" && timed_))
+      strike_();
   }
 
  private:
   Strike strike_;
   std::string phase_;
-  std::size_t target_, frame_ = 0, updates_ = 0, queries_ = 0;
+  std::size_t target_, frame_ = 0, updates_ = 0, queries_ = 0, asked_ = 0;
+  bool timed_ = false;
 };
 
 // By the signal itself, also where a sanitizer has taken its handler over.
@@ -211,10 +220,11 @@ void register_process_faults(DetectorCatalog& catalog) {
     DetectorInfo info;
     info.id = fault.id;
     info.summary = fault.summary;
-    info.options = {
-        choice_option("phase", "update", {"prepare", "update", "query", "again", "update-again"},
-                      "where it strikes"),
-        numeric_option("frame", "2", 0, 1000, true, "when it strikes")};
+    info.options = {choice_option("phase", "update",
+                                  {"prepare", "update", "query", "again", "update-again", "timed",
+                                   "update-timed"},
+                                  "where it strikes"),
+                    numeric_option("frame", "2", 0, 1000, true, "when it strikes")};
     info.make = [strike = fault.strike](const Options& options) {
       return std::make_unique<StrikingDetector>(strike, options);
     };

@@ -6,8 +6,10 @@
 
 namespace contactcheck::test {
 
-/// Adds the detectors `fault-...`. Each strikes in frame `frame`, in `phase` prepare, update, query
-/// or again (when that frame is asked for a second time: while it is timed).
+/// Adds the detectors `fault-...`. Each strikes in frame `frame`, in `phase` prepare, update,
+/// query, again (when a frame of that number is asked for a second time: between frames) or timed
+/// (in a pass that is timed; not in its first frame); update-again and update-timed strike in
+/// update.
 void register_process_faults(DetectorCatalog& catalog);
 
 }  // namespace contactcheck::test

@@ -8,35 +8,21 @@ namespace {
 
 constexpr double kNanosecondsPerMicrosecond = 1e3;
 
-/// One side of one process.
-class Side {
- public:
-  Side(const NoiseModel& model, double us, Noise& noise)
-      : model_(model),
-        noise_(noise),
-        nanoseconds_(us * kNanosecondsPerMicrosecond *
-                     std::exp(model.process_sigma * noise.normal())) {
-    samples_.lazy_map = true;  // one phase is as good as three
+// One side in a process of its own. `drift` goes on from where the side before has left it.
+Pass pass_of(const NoiseModel& model, std::size_t frames, double us, double& drift, Noise& noise) {
+  const double nanoseconds =
+      us * kNanosecondsPerMicrosecond * std::exp(model.process_sigma * noise.normal());
+  Pass out;
+  for (std::size_t f = 0; f < frames; ++f) {
+    drift += model.drift_sigma * noise.normal();
+    const bool spike = noise.uniform() < model.spike_share;
+    const double sample = nanoseconds * std::exp(drift) *
+                          std::exp(model.frame_sigma * noise.normal()) *
+                          (spike ? model.spike_factor : 1.0);
+    out.push_back({0.0, sample, 0.0});  // one phase is as good as three
   }
-
-  void take(std::size_t frame, double drift) {
-    for (auto mode : {&FrameSamples::cold, &FrameSamples::hot})
-      (samples_.frames[frame].*mode).push_back({0.0, sample(drift), 0.0});
-  }
-  const QuestionSamples& samples() const { return samples_; }
-
- private:
-  double sample(double drift) {
-    const bool spike = noise_.uniform() < model_.spike_share;
-    return nanoseconds_ * drift * std::exp(model_.sample_sigma * noise_.normal()) *
-           (spike ? model_.spike_factor : 1.0);
-  }
-
-  const NoiseModel& model_;
-  Noise& noise_;
-  double nanoseconds_;
-  QuestionSamples samples_;
-};
+  return out;
+}
 
 }  // namespace
 
@@ -48,17 +34,16 @@ double Noise::normal() {
 SimulatedRun simulate_run(const NoiseModel& model, const RunShape& shape, double detector_us,
                           double ratio, Noise& noise) {
   SimulatedRun run;
-  for (std::size_t p = 0; p < shape.processes; ++p) {
-    Side reference(model, detector_us * ratio, noise), detector(model, detector_us, noise);
+  run.reference.lazy_map = run.detector.lazy_map = true;
+  for (std::size_t p = 0; p < shape.passes; ++p) {
     double drift = 0.0;
-    for (std::size_t f = 0; f < shape.frames; ++f)
-      for (std::size_t r = 0; r < shape.repeats; ++r) {
-        drift += model.drift_sigma * noise.normal();
-        reference.take(f, std::exp(drift));
-        detector.take(f, std::exp(drift));
-      }
-    run.reference.push_back(reference.samples());
-    run.detector.push_back(detector.samples());
+    const auto take = [&](QuestionSamples& side, double us) {
+      side.playback.push_back(pass_of(model, shape.frames, us, drift, noise));
+    };
+    const bool reference_first = noise.uniform() < 0.5;
+    if (reference_first) take(run.reference, detector_us * ratio);
+    take(run.detector, detector_us);
+    if (!reference_first) take(run.reference, detector_us * ratio);
   }
   return run;
 }

@@ -8,22 +8,22 @@
 
 namespace contactcheck::test {
 
-/// Every part is a factor of the time of one sample; sigma: of its logarithm.
+/// Every part is a factor of the time of one frame; sigma: of its logarithm.
 struct NoiseModel {
   const char* name;
-  double sample_sigma;   ///< of each sample alone
-  double drift_sigma;    ///< per step of a random walk that both sides share, as they interleave
-  double process_sigma;  ///< of all samples of one side in one process: where its memory lies
-  double spike_share;    ///< of samples that an interrupt falls into
-  double spike_factor;   ///< how long such a sample takes
+  double frame_sigma;    ///< of each frame alone
+  double drift_sigma;    ///< per frame of a random walk; the two sides follow one another on it
+  double process_sigma;  ///< of all frames of one side in one process: where its memory lies
+  double spike_share;    ///< of frames that an interrupt falls into
+  double spike_factor;   ///< how long such a frame takes
 };
 
 struct RunShape {
-  std::size_t frames, repeats, processes;
+  std::size_t frames, passes;
 };
 
 struct SimulatedRun {
-  ProcessSamples reference, detector;
+  QuestionSamples reference, detector;
 };
 
 /// The raw output of mt19937_64, which the standard fixes, and logarithms: the same table for every

@@ -56,7 +56,7 @@ TEST(SceneExport, RefusesWhatIsNotFiniteAndIsNotWhole) {
 TEST(SceneExport, IsToldFromOtherFolders) {
   const test::Scratch scratch;
   EXPECT_FALSE(is_export(scratch.folder()));
-  for (const char* text : {"[1]", "{", R"({"schema": "contactcheck-results/1"})"}) {
+  for (const char* text : {"[1]", "{", R"({"schema": "contactcheck-results/2"})"}) {
     scratch.write("scene.json", text);
     EXPECT_FALSE(is_export(scratch.folder())) << text;
   }

@@ -42,7 +42,7 @@ using Change = std::function<void(std::size_t round, Json& results)>;
 
 void scale_times(double factor, Json& results) {
   Json& run = results["runs"][0];
-  for (const char* part : {"cold", "hot"})
+  for (const char* part : {"playback", "cold"})
     for (auto& [phase, ms] : run["time_ms"][part].items())
       if (!ms.is_null()) ms = 10.0 * factor * ms.get<double>();
 }
@@ -112,15 +112,14 @@ TEST_F(AbCommand, LimitAndFloorAreOptions) {
 }
 
 TEST_F(AbCommand, RunsInTurnsWithTheSameWords) {
-  EXPECT_EQ(ab(noisy_base(), noisy_head(1.0),
-               {"hello", "--detector", "ffd-lazy", "--frames", "4", "--repeat", "9"})
+  EXPECT_EQ(ab(noisy_base(), noisy_head(1.0), {"hello", "--detector", "ffd-lazy", "--frames", "4"})
                 .exit_code,
             0);
   std::istringstream lines(text_of(scratch_.folder() / "order"));
   std::string order;
   for (std::string line; std::getline(lines, line);) {
     order += line.substr(0, 4) + " ";
-    EXPECT_EQ(line.substr(4), " run --quiet --repeat 9 --frames 4 --detector ffd-lazy --out " +
+    EXPECT_EQ(line.substr(4), " run --quiet --processes 1 --frames 4 --detector ffd-lazy --out " +
                                   (out_ / line.substr(0, 4)).string() + " hello");
   }
   EXPECT_EQ(order, "base head head base base head head base base head head base base head ");
@@ -195,12 +194,26 @@ TEST_F(AbCommand, BadNumbersAreRefused) {
                                              {"--slower-than", "0.9"},
                                              {"--slower-than", "nan"},
                                              {"--floor-us", "-1"},
-                                             {"--floor-us", "nan"},
-                                             {"--repeat", "0"}}) {
+                                             {"--floor-us", "nan"}}) {
     const Outcome outcome = ab(base, base, bad);
     EXPECT_EQ(outcome.exit_code, 2) << bad[0] << " " << bad[1];
     EXPECT_THAT(outcome.err, HasSubstr(bad[0]));
   }
+}
+
+// A round is one pass of each build; more of them are more rounds.
+TEST_F(AbCommand, RepeatIsNoOption) {
+  const Outcome outcome = ab("old", "new", {"--repeat", "3"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--repeat"));
+}
+
+TEST_F(AbCommand, FewerThanFiveRoundsGiveARange) {
+  const Outcome outcome = ab(noisy_base(), noisy_head(1.3), {"--rounds", "4"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("4 rounds in turns"));
+  EXPECT_THAT(outcome.out, HasSubstr("range over rounds"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("95 %")));
 }
 
 TEST_F(AbCommand, GithubGetsAnnotationsAndASummaryBehindWhatIsThere) {

@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         suite("GoalOfAnUnknownDetector",
               R"({"id": "u", "scenes": ["bunny-touch"], "detectors": ["embree"], "goals": [
                   {"goal": "g", "scene": "bunny-touch", "detector": "embers", "per": "pair",
-                   "part": "hot", "at_most": 1}]})",
+                   "part": "playback", "at_most": 1}]})",
               {"unknown detector \"embers\""})),
     file_case);
 

@@ -24,6 +24,21 @@ TEST_P(BadGate, IsRefusedWithOneSentence) {
   results = test::sample_results();
   results["runs"][2]["levels"]["cell"]["missed"] = -1;
   scratch.write("negative.json", results.dump());
+  results = test::sample_results();
+  results["schema"] = "contactcheck-results/1";
+  scratch.write("earlier.json", results.dump());
+  results = test::sample_results();
+  results["runs"][0]["time_ms"]["timed_frames"] = 9;
+  scratch.write("frames.json", results.dump());
+  results = test::sample_results();
+  results["runs"][0]["time_ms"]["timed_contact_frames"] = 9;
+  scratch.write("contact-frames.json", results.dump());
+  results = test::sample_results();
+  results["runs"][0]["speedup"]["triangles"]["ref"]["passes"] = 8;
+  scratch.write("passes.json", results.dump());
+  results = test::sample_results();
+  results["runs"][0]["per_frame"]["frame_ms"].erase(0);
+  scratch.write("frame-ms.json", results.dump());
   test::expect_refused(GetParam(), scratch);
 }
 
@@ -52,10 +67,14 @@ INSTANTIATE_TEST_SUITE_P(
                   {"DIR/none.json"}),
         gate_with("BaselineThatIsAPolicy",
                   {"--policy", "DIR/policy.json", "--baseline", "DIR/policy.json"},
-                  {"DIR/policy.json", "field schema is not \"contactcheck-results/1\""}),
+                  {"DIR/policy.json", "field schema is not \"contactcheck-results/2\""}),
         gate_with("BaselineThatBreaksTheSchema",
                   {"--policy", "DIR/policy.json", "--baseline", "DIR/negative.json"},
                   {"DIR/negative.json", "runs[2].levels.cell.missed is -1", "at least 0"}),
+        gate_with("BaselineOfAnEarlierVersion",
+                  {"--policy", "DIR/policy.json", "--baseline", "DIR/earlier.json"},
+                  {"DIR/earlier.json", "field schema is \"contactcheck-results/1\"",
+                   "recorded anew with `contactcheck run`"}),
         gate_with("JunitBelowAFile",
                   {"--policy", "DIR/policy.json", "--baseline", "DIR/baseline.json", "--junit",
                    "DIR/text.txt/gate.xml"},
@@ -68,6 +87,23 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"ResultsThatBreakTheSchema",
                    {"gate", "DIR/negative.json", "--policy", "DIR/policy.json"},
                    {"DIR/negative.json", "runs[2].levels.cell.missed is -1"}},
+        BadCommand{"ResultsOfAnEarlierVersion",
+                   {"gate", "DIR/earlier.json", "--policy", "DIR/policy.json"},
+                   {"DIR/earlier.json", "results of an earlier version"}},
+        BadCommand{"MoreTimedFramesThanFrames",
+                   {"gate", "DIR/frames.json", "--policy", "DIR/policy.json"},
+                   {"DIR/frames.json", "runs[0].time_ms.timed_frames is 9", "at most 8"}},
+        BadCommand{
+            "MoreTimedContactFramesThanTimed",
+            {"gate", "DIR/contact-frames.json", "--policy", "DIR/policy.json"},
+            {"DIR/contact-frames.json", "runs[0].time_ms.timed_contact_frames is 9", "at most 8"}},
+        BadCommand{"MorePassesOfASpeedUpThanOfTheRow",
+                   {"gate", "DIR/passes.json", "--policy", "DIR/policy.json"},
+                   {"DIR/passes.json", "runs[0].speedup.triangles.ref.passes is 8", "at most 7"}},
+        BadCommand{
+            "TimesOfOtherFrames",
+            {"gate", "DIR/frame-ms.json", "--policy", "DIR/policy.json"},
+            {"DIR/frame-ms.json", "runs[0].per_frame.frame_ms has 7 entries", "must have 8"}},
         BadCommand{"NoResults", {"gate", "--policy", "DIR/policy.json"}, {"results"}}),
     gate_case);
 
@@ -80,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCommand{
                         "InPlaceOfAPolicy",
                         {"accept", "DIR/results.json", "--as", "DIR/policy.json"},
-                        {"DIR/policy.json", "field schema is not \"contactcheck-results/1\""}},
+                        {"DIR/policy.json", "field schema is not \"contactcheck-results/2\""}},
                     BadCommand{"FolderThatIsNotThere",
                                {"accept", "DIR/results.json", "--as", "DIR/none/base.json"},
                                {"DIR/none/base.json", "No such file"}},
@@ -250,7 +286,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"LimitOfZero", timing(R"("at_least": 0)"), {"rules[0].at_least is 0", "above 0"}},
         BadText{"UnknownPart",
                 timing(R"("at_least": 2, "part": "warm")"),
-                {"rules[0].part is \"warm\"", "cold, hot"}},
+                {"rules[0].part is \"warm\"", "playback, cold"}},
+        BadText{"RegimeOfEarlierVersions",
+                timing(R"("at_least": 2, "part": "hot")"),
+                {"rules[0].part is \"hot\"", "playback, cold, contact_frames, without_map"}},
         BadText{"NegativeFloor",
                 timing(R"("at_least": 2, "floor_us": -1)"),
                 {"rules[0].floor_us is -1"}},

@@ -133,8 +133,8 @@ TEST_F(BadInput, ZeroAndNegativeFrames) {
 TEST_F(BadInput, NumbersAreDecimal) {
   expect_run_refused({scene(), "--frames", "010"}, {"--frames", "010"});
   expect_run_refused({scene(), "--frames", "0x10"}, {"--frames", "0x10"});
-  expect_run_refused({scene(), "--repeat", "08"}, {"--repeat", "08"});
-  expect_run_refused({scene(), "--repeat", "3.0"}, {"--repeat", "3.0"});
+  expect_run_refused({scene(), "--processes", "08"}, {"--processes", "08"});
+  expect_run_refused({scene(), "--processes", "3.0"}, {"--processes", "3.0"});
 }
 
 TEST_F(BadInput, LimitsOutOfRange) {
@@ -144,8 +144,7 @@ TEST_F(BadInput, LimitsOutOfRange) {
   expect_run_refused({scene(), "--memory-limit", "-5"}, {"--memory-limit", "-5"});
 }
 
-TEST_F(BadInput, ZeroRepeatsAndProcesses) {
-  expect_run_refused({scene(), "--repeat", "0"}, {"--repeat"});
+TEST_F(BadInput, NoProcesses) {
   expect_run_refused({scene(), "--processes", "0"}, {"--processes"});
 }
 
@@ -218,7 +217,7 @@ TEST_F(BadInput, ReportOfNoResults) {
   const std::string other = scratch_.write("other.json", "{\"schema\": \"else/1\"}").string();
   const std::string list = scratch_.write("list.json", "[1, 2]").string();
   const std::string half =
-      scratch_.write("half.json", R"({"schema": "contactcheck-results/1"})").string();
+      scratch_.write("half.json", R"({"schema": "contactcheck-results/2"})").string();
   for (const std::string& file : {missing, broken, other, list, half})
     expect_refused({"report", file, "--out", out().string()}, {file});
   expect_refused({"report", scratch_.folder().string(), "--out", out().string()}, {"is a folder"});

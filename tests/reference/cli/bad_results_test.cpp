@@ -29,9 +29,9 @@ const Json& good_results() {
     const Scratch scratch;
     const fs::path out = scratch.folder() / "out";
     const test::Outcome outcome = test::contactcheck_program(
-        {"run", scratch.write("tiny.json", test::tiny_scene()).string(), "--quiet", "--repeat", "2",
-         "--detector", "fcl-aabb", "--detector", "ffd-aabb", "--detector", "ffd-aabb+tri", "--out",
-         out.string()});
+        {"run", scratch.write("tiny.json", test::tiny_scene()).string(), "--quiet", "--processes",
+         "2", "--detector", "fcl-aabb", "--detector", "ffd-aabb", "--detector", "ffd-aabb+tri",
+         "--out", out.string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return Json::parse(text_of(out / "results.json"));
   }();
@@ -57,34 +57,37 @@ TEST_P(BadResults, AreRefusedWithOneSentence) {
   expect_report_refused(GetParam().bytes, GetParam().named);
 }
 
-const Words kNotOurs = {"field schema is not \"contactcheck-results/1\""};
+const Words kNotOurs = {"field schema is not \"contactcheck-results/2\""};
 
 INSTANTIATE_TEST_SUITE_P(
     Bytes, BadResults,
     testing::Values(
         BadBytes{"Empty", "", {"is empty"}},
         BadBytes{"Binary", std::string("\0\1\2\xff", 4), {"not JSON at byte 1"}},
-        BadBytes{"CutShort", R"({"schema": "contactcheck-results/1", "runs": [)", {"not JSON at"}},
-        BadBytes{"NotANumber", R"({"schema": "contactcheck-results/1", "x": NaN})", {"byte 43"}},
+        BadBytes{"CutShort", R"({"schema": "contactcheck-results/2", "runs": [)", {"not JSON at"}},
+        BadBytes{"NotANumber", R"({"schema": "contactcheck-results/2", "x": NaN})", {"byte 43"}},
         BadBytes{"NumberOutOfRange",
-                 R"({"schema": "contactcheck-results/1", "x": 1e999})",
+                 R"({"schema": "contactcheck-results/2", "x": 1e999})",
                  {"number overflow parsing '1e999'"}},
         BadBytes{"Deep", std::string(100'000, '['), {"not JSON at byte 100001"}},
         BadBytes{"ClosedDeep", std::string(100'000, '[') + std::string(100'000, ']'), kNotOurs},
         BadBytes{"DeepInside",
-                 R"({"schema": "contactcheck-results/1", "scenes": )" + std::string(100'000, '[') +
+                 R"({"schema": "contactcheck-results/2", "scenes": )" + std::string(100'000, '[') +
                      std::string(100'000, ']') + "}",
                  {"nested 100001 deep; at most 64 is allowed"}},
         BadBytes{"DeepTextIsNotDeep",
-                 R"({"schema": "contactcheck-results/1", "command": ")" +
+                 R"({"schema": "contactcheck-results/2", "command": ")" +
                      std::string(100'000, '[') + R"(\"{"})",
                  {"version is missing"}},
         BadBytes{"Null", "null", kNotOurs}, BadBytes{"Text", "\"results\"", kNotOurs},
         BadBytes{"Number", "1", kNotOurs}, BadBytes{"EmptyObject", "{}", kNotOurs},
-        BadBytes{"NextSchema", R"({"schema": "contactcheck-results/2"})", kNotOurs},
+        BadBytes{"NextSchema", R"({"schema": "contactcheck-results/3"})", kNotOurs},
+        BadBytes{"LastSchema",
+                 R"({"schema": "contactcheck-results/1"})",
+                 {"results of an earlier version, to be recorded anew with `contactcheck run`"}},
         BadBytes{"SchemaAsNumber", R"({"schema": 1})", kNotOurs},
         BadBytes{"NothingButTheSchema",
-                 R"({"schema": "contactcheck-results/1"})",
+                 R"({"schema": "contactcheck-results/2"})",
                  {"version is missing"}}),
     [](const testing::TestParamInfo<BadBytes>& test) { return test.param.name; });
 

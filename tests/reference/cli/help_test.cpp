@@ -89,7 +89,7 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
 
 TEST(Help, OfRunNamesItsFlags) {
   const Outcome help = contactcheck_program({"run", "--help"});
-  for (const char* flag : {"--detector", "--frames", "--repeat", "--processes", "--out", "--quiet",
+  for (const char* flag : {"--detector", "--frames", "--processes", "--seed", "--out", "--quiet",
                            "--no-timing", "--closed-loop", "--call-limit SECONDS",
                            "--memory-limit MIB", "--json-lines", "--shard K/N"})
     EXPECT_THAT(help.out, HasSubstr(flag));

@@ -33,7 +33,7 @@ void drop_times(Json& node) {
   if (!node.is_structured()) return;
   if (node.is_object())
     for (const char* key : {"time_ms", "time_ms_other_questions", "speedup", "frame_ms",
-                            "memory_bytes", "measured", "low", "high", "met"})
+                            "memory_bytes", "prepared_bytes", "measured", "low", "high", "met"})
       node.erase(key);
   for (Json& member : node) drop_times(member);
 }
@@ -128,9 +128,9 @@ TEST_F(Shards, ReplayAndReduceWhatWasMerged) {
 }
 
 TEST_F(Shards, WithTimesAllElseIsTheSame) {
-  const Json whole = run("whole", {"--repeat", "1"});
-  run("part1", {"--repeat", "1", "--shard", "1/2"});
-  run("part2", {"--repeat", "1", "--shard=2/2"});
+  const Json whole = run("whole", {"--processes", "1"});
+  run("part1", {"--processes", "1", "--shard", "1/2"});
+  run("part2", {"--processes", "1", "--shard=2/2"});
   const Json merged = merge({"part1", "part2"}, "out");
   EXPECT_EQ(without_times(merged), without_times(whole));
   EXPECT_TRUE(merged.at("runs").at(0).at("time_ms").contains("cold"));
@@ -145,7 +145,7 @@ TEST_F(Shards, GoalsAreMeasuredWhenAllIsTogether) {
                "part": "cold", "over_scene": "bunny-touch", "at_most": 1e9}]})");
   for (const std::string k : {"1", "2"}) {
     const Json part = results_of(
-        contactcheck_program({"run", suite.string(), "--frames", "3", "--repeat", "1", "--quiet",
+        contactcheck_program({"run", suite.string(), "--frames", "3", "--processes", "1", "--quiet",
                               "--shard", k + "/2", "--out", dir("part" + k).string()}),
         "part" + k);
     EXPECT_FALSE(part.contains("goals"));
@@ -207,7 +207,7 @@ struct GoodShards {
       const Outcome outcome =
           contactcheck_program({"run", (scratch.folder() / "one.json").string(),
                                 (scratch.folder() / "two.json").string(), "--detector", "fcl-aabb",
-                                "--detector", "ffd-grid", "--quiet", "--repeat", "1", "--shard",
+                                "--detector", "ffd-grid", "--quiet", "--processes", "1", "--shard",
                                 std::string(k) + "/2", "--out", (scratch.folder() / k).string()});
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     }
@@ -274,8 +274,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"machine compiler", "\"other\""}),
         changed("Machine", [](Json& r) { r["machine"]["cpu"] = "other"; }, {"machine cpu"}),
         changed("Library", [](Json& r) { r["libraries"]["fcl"] = "9"; }, {"library fcl", "\"9\""}),
-        changed("Setting", [](Json& r) { r["shard"]["settings"]["repeats"] = 77; },
-                {"setting repeats is 77", "it is 1"}),
+        changed("Setting", [](Json& r) { r["shard"]["settings"]["processes"] = 77; },
+                {"setting processes is 77", "it is 1"}),
         changed("SettingThatTheOthersLack", [](Json& r) { r["shard"]["settings"]["more"] = 1; },
                 {"setting more is 1"}),
         changed("Scene", [](Json& r) { r["shard"]["scenes"][0]["id"] = "other"; },

@@ -38,7 +38,7 @@ TEST(ReportCommand, DrawsThePicturesOfTheRun) {
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
   ASSERT_EQ(contactcheck_program({"run", scene, "--detector", "ffd-grid", "--detector", "ffd-aabb",
-                                  "--quiet", "--repeat", "1", "--out", out})
+                                  "--quiet", "--processes", "1", "--out", out})
                 .exit_code,
             0);
   ASSERT_EQ(contactcheck_program({"report", out / "results.json", "--format", "md", "--out", again})
@@ -113,11 +113,13 @@ for row, run in zip(rows, results["runs"]):
             assert int(row[level + "_" + key]) == counts[key], (level, key)
         assert row[level + "_recall"] == ("" if counts["recall"] is None else repr(counts["recall"]))
     assert row["contact_hash"] == run.get("contact_hash", "")
-    if "cold" in run.get("time_ms", {}):
-        assert float(row["cold_frame_ms"]) == run["time_ms"]["cold"]["frame"]
-    for reference, ratios in run.get("speedup", {}).get(row["speedup_question"], {}).items():
+    for times in [run.get("time_ms", {}), *run.get("time_ms_other_questions", [])]:
+        if times.get("question") == row["question"] != "":
+            for regime in {"playback", "cold"} & set(times):
+                assert float(row[regime + "_frame_ms"]) == times[regime]["frame"]
+    for reference, ratios in run.get("speedup", {}).get(row["question"], {}).items():
         for key in ("ratio", "low", "high"):
-            assert float(row[f"vs_{reference}_cold_{key}"]) == ratios["cold"][key]
+            assert float(row[f"vs_{reference}_playback_{key}"]) == ratios["playback"][key]
 print("same")
 )";
 
@@ -125,7 +127,7 @@ TEST(ReportCommand, CsvIsWhatPythonReadsBack) {
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", file = out / "results.json";
-  ASSERT_EQ(contactcheck_program({"run", scene, "--quiet", "--repeat", "2", "--out", out,
+  ASSERT_EQ(contactcheck_program({"run", scene, "--quiet", "--processes", "1", "--out", out,
                                   "--detector", "fcl-aabb", "--detector", "ffd-lazy", "--detector",
                                   "ffd-grid", "--detector", "fcl-obbrss"})
                 .exit_code,

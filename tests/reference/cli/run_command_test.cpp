@@ -208,28 +208,40 @@ TEST_F(RunCommand, ExactDetectorsAreExactAndTheResultsSayWhatWasThere) {
 
 TEST_F(RunCommand, TimedRunHasTimesAndSpeedUps) {
   const json results = run("out", {scene_, "--detector", "fcl-aabb", "--detector",
-                                   "ffd-aabb-sphere2+tri", "--repeat", "3", "--quiet"});
+                                   "ffd-aabb-sphere2+tri", "--processes", "1", "--quiet"});
   EXPECT_EQ(last_.err, "");
   ASSERT_EQ(results.at("runs").size(), 2u);
   for (const json& run : results.at("runs")) {
     EXPECT_EQ(run.at("time_ms").at("question"), "triangles");
-    EXPECT_EQ(run.at("time_ms").at("repeats"), 3);
-    EXPECT_GT(run.at("time_ms").at("cold").at("frame"), 0.0);
+    EXPECT_EQ(run.at("time_ms").at("passes"), 1);
+    EXPECT_EQ(run.at("time_ms").at("timed_frames"), run.at("frames"));
+    for (const char* regime : {"playback", "cold"})
+      EXPECT_GT(run.at("time_ms").at(regime).at("frame"), 0.0);
     EXPECT_EQ(run.at("per_frame").at("frame_ms").size(), 5u);
   }
   const json& speedup = results.at("runs").at(1).at("speedup");
-  EXPECT_GT(speedup.at("triangles").at("fcl-aabb").at("cold").at("ratio"), 0.0);
+  EXPECT_GT(speedup.at("triangles").at("fcl-aabb").at("playback").at("ratio"), 0.0);
   EXPECT_TRUE(speedup.contains("body"));
   EXPECT_FALSE(speedup.at("triangles").contains("fcl-obbrss")) << "it was not run";
   const json& own = results.at("runs").at(0).at("speedup").at("triangles").at("fcl-aabb");
-  EXPECT_EQ(own.at("cold").at("low"), 1.0);
+  EXPECT_EQ(own.at("playback").at("low"), 1.0);
   EXPECT_EQ(own.at("cold").at("high"), 1.0);
+  EXPECT_EQ(own.at("interval"), "range");
+  EXPECT_EQ(results.at("timing").at("processes"), 1);
+  EXPECT_EQ(results.at("scenes").at(0).at("cold_frames").size(), 5u);
 }
 
-TEST_F(RunCommand, ProcessesPoolTheirRepeats) {
-  const json results = run(
-      "out", {scene_, "--detector", "fcl-aabb", "--repeat", "3", "--processes", "2", "--quiet"});
-  EXPECT_EQ(results.at("runs").at(0).at("time_ms").at("repeats"), 6);
+TEST_F(RunCommand, PassesAreAsManyAsProcesses) {
+  const json results = run("out", {scene_, "--detector", "fcl-aabb", "--detector", "embree",
+                                   "--processes", "5", "--seed", "7", "--quiet"});
+  for (const json& row : results.at("runs")) {
+    EXPECT_EQ(row.at("time_ms").at("passes"), 5);
+    const json& speedup = row.at("speedup").at("triangles").at("fcl-aabb");
+    EXPECT_EQ(speedup.at("passes"), 5);
+    EXPECT_EQ(speedup.at("interval"), "95 %");
+  }
+  EXPECT_EQ(results.at("timing").at("one_pass_beyond"), 0) << "as many as were asked for";
+  EXPECT_EQ(results.at("timing").at("seed"), 7);
 }
 
 TEST_F(RunCommand, RecordingReplaysToTheSameContacts) {

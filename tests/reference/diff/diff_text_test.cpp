@@ -11,6 +11,7 @@ namespace {
 
 using test::perfect_run;
 using test::results_of;
+using test::speedup_of;
 using testing::HasSubstr;
 
 std::string text_of(const results::Results& before, const results::Results& after) {
@@ -28,7 +29,7 @@ TEST(DiffText, HasASectionForEveryKindOfDifference) {
                                         perfect_run("s", "hash"), perfect_run("s", "gone"),
                                         perfect_run("old", "worse"), perfect_run("old", "better")});
   before.runs[1].levels[Level::kTriangle].spurious = 3;
-  before.runs[2].speedup[Question::kTriangles]["fcl-aabb"].cold = {2.0, 2.0, 2.0};
+  before.runs[2].speedup[Question::kTriangles]["fcl-aabb"] = speedup_of({2.0, 2.0, 2.0});
   before.scenes = {test::scene_of("s", "0x1"), test::scene_of("moved", "0x1")};
   results::Results after = before;
   after.runs.resize(3);
@@ -37,7 +38,7 @@ TEST(DiffText, HasASectionForEveryKindOfDifference) {
   after.runs[0].levels[Level::kTriangle].missed = 1;
   after.runs[1].levels[Level::kTriangle].spurious = 0;
   after.runs[2].contact_hash = "0x2";
-  after.runs[2].speedup[Question::kTriangles]["fcl-aabb"].cold = {1.0, 1.0, 1.0};
+  after.runs[2].speedup[Question::kTriangles]["fcl-aabb"] = speedup_of({1.0, 1.0, 1.0});
   after.runs.push_back(perfect_run("s", "new"));
   EXPECT_EQ(text_of(before, after),
             "Another machine: times compare ratios, but caches and instructions differ (1)\n"
@@ -60,15 +61,29 @@ TEST(DiffText, HasASectionForEveryKindOfDifference) {
             "0 of 3 common rows have the same answers; 1 differ clearly in time.\n");
 }
 
+TEST(DiffText, SaysWhatTheEndsOfARatioAre) {
+  const auto line = [](std::size_t passes, const Ratio& now) {
+    results::Results before = results_of({perfect_run("s", "d")}), after = before;
+    before.runs[0].speedup[Question::kTriangles]["fcl-aabb"] = speedup_of({1.0, 1.0, 1.0});
+    after.runs[0].speedup[Question::kTriangles]["fcl-aabb"] = speedup_of(now);
+    after.runs[0].speedup[Question::kTriangles]["fcl-aabb"].passes = passes;
+    return text_of(before, after);
+  };
+  EXPECT_THAT(line(5, {3.0, 2.0, 4.5}), HasSubstr("3.00x faster [2.00, 4.50], measured"));
+  EXPECT_THAT(line(3, {3.0, 2.0, 4.5}), HasSubstr("3.00x faster (range 2.00 to 4.50), measured"));
+  EXPECT_THAT(line(1, {3.0, 3.0, 3.0}), HasSubstr("3.00x faster (1 pass), measured"));
+}
+
 TEST(DiffText, FitsOnAScreenAndSaysWhatItLeavesOut) {
   results::Results before, after;
   for (int i = 0; i < 300; ++i) {
     results::Run row = perfect_run("s", "d" + std::to_string(i));
-    row.speedup[Question::kTriangles]["fcl-aabb"].cold = {1.0, 1.0, 1.0};
+    row.speedup[Question::kTriangles]["fcl-aabb"] = speedup_of({1.0, 1.0, 1.0});
     before.runs.push_back(row);
     if (i % 3 == 0) row.levels[Level::kTriangle].missed = 1;
     if (i % 3 == 1) row.contact_hash = "0x2";
-    row.speedup[Question::kTriangles]["fcl-aabb"].cold = {i % 2 + 0.5, i % 2 + 0.5, i % 2 + 0.5};
+    row.speedup[Question::kTriangles]["fcl-aabb"] =
+        speedup_of({i % 2 + 0.5, i % 2 + 0.5, i % 2 + 0.5});
     after.runs.push_back(row);
     before.runs.push_back(perfect_run("s", "gone" + std::to_string(i)));
     after.runs.push_back(perfect_run("new" + std::to_string(i), "d"));

@@ -19,12 +19,19 @@ inline results::Run perfect_run(const std::string& scene, const std::string& det
 }
 
 /// Timed at so many milliseconds a frame.
-inline results::Run timed_run(const std::string& scene, const std::string& detector,
-                              double cold_ms) {
+inline results::Run timed_run(const std::string& scene, const std::string& detector, double ms) {
   results::Run run = perfect_run(scene, detector);
   run.times.resize(1);
-  run.times[0].cold.frame = run.times[0].hot.frame = cold_ms;
+  run.times[0].playback.frame = ms;
   return run;
+}
+
+/// So many times as fast as a reference, by passes enough for an interval.
+inline results::Speedup speedup_of(const Ratio& ratio) {
+  results::Speedup out;
+  out.playback = ratio;
+  out.passes = kFewestForInterval;
+  return out;
 }
 
 inline results::Results results_of(std::vector<results::Run> runs) {

@@ -9,11 +9,12 @@ namespace {
 
 using test::perfect_run;
 using test::results_of;
+using test::speedup_of;
 using testing::IsEmpty;
 
 results::Run fast(const std::string& detector, const Ratio& over_fcl) {
   results::Run row = perfect_run("s", detector);
-  row.speedup[Question::kTriangles]["fcl-aabb"].cold = over_fcl;
+  row.speedup[Question::kTriangles]["fcl-aabb"] = speedup_of(over_fcl);
   return row;
 }
 
@@ -43,6 +44,19 @@ TEST(TimeChanges, SmallOnesAreNotWorthALine) {
   EXPECT_EQ(changes({4.0, 4.0, 4.0}, {4.3, 4.3, 4.3}).size(), 1u);
 }
 
+TEST(TimeChanges, OfFewPassesAreBeyondAFactorAlone) {
+  const auto of_range = [](const Ratio& now) {
+    results::Run after = fast("d", now);
+    after.speedup[Question::kTriangles]["fcl-aabb"].passes = 3;
+    return time_changes_between(results_of({fast("d", {1.0, 1.0, 1.0})}), results_of({after}));
+  };
+  EXPECT_THAT(of_range({1.6, 1.4, 1.9}), IsEmpty());
+  EXPECT_THAT(of_range({0.7, 0.68, 0.72}), IsEmpty());
+  ASSERT_EQ(of_range({1.7, 1.6, 1.8}).size(), 1u);
+  EXPECT_EQ(of_range({1.7, 1.6, 1.8})[0].passes, 3u);
+  EXPECT_EQ(of_range({0.5, 0.4, 0.6}).size(), 1u);
+}
+
 TEST(TimeChanges, DetectorIsNotComparedWithItself) {
   const results::Results table = results_of({fast("fcl-aabb", {1.0, 1.0, 1.0})});
   EXPECT_THAT(time_changes_between(table, table), IsEmpty());
@@ -50,8 +64,7 @@ TEST(TimeChanges, DetectorIsNotComparedWithItself) {
 
 TEST(TimeChanges, WithoutACommonReferenceThereIsNothingToCompare) {
   results::Run other = fast("d", {4.0, 4.0, 4.0});
-  other.speedup[Question::kTriangles] = {{"embree", {}}};
-  other.speedup[Question::kTriangles]["embree"].cold = {4.0, 4.0, 4.0};
+  other.speedup[Question::kTriangles] = {{"embree", speedup_of({4.0, 4.0, 4.0})}};
   EXPECT_THAT(time_changes_between(results_of({fast("d", {1.0, 1.0, 1.0})}), results_of({other})),
               IsEmpty());
 }

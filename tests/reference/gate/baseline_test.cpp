@@ -86,7 +86,7 @@ TEST(BaselineChanges, NameWhatIsNewGoneAndOther) {
 
 TEST(BaselineChanges, LeaveTimesOut) {
   results::Results now = sample();
-  row_in(now, "touch", "exact").times.at(0).cold.frame = 9.0;
+  row_in(now, "touch", "exact").times.at(0).playback.frame = 9.0;
   EXPECT_THAT(baseline_changes(sample(), now), IsEmpty());
 }
 

@@ -53,12 +53,12 @@ TEST(WorstFrame, IsNotGuessedFromAnotherLevel) {
 }
 
 std::string again(const Json& results, const std::string& scene, const std::string& detector,
-                  const char* measure = "missed") {
+                  const char* measure = "missed", Verdict verdict = Verdict::kFail) {
   const results::Results read = results::from_json(results);
   const results::Index index(read);
   Rule rule = rule_about(measure);
   rule.reference = "ref";
-  return rerun_command(rule, index, *index.run(scene, detector));
+  return rerun_command(rule, index, *index.run(scene, detector), verdict);
 }
 
 TEST(RerunCommand, NamesTheFileThatTheRunNamed) {
@@ -99,9 +99,18 @@ TEST(RerunCommand, QuotesWhatAShellWouldTakeApart) {
 }
 
 TEST(RerunCommand, OfATimingRuleRunsTheReferenceBesideIt) {
-  EXPECT_EQ(again(sample_results(), "touch", "exact", "speedup"),
-            "contactcheck run scenes/touch.json --frames 8 --detector exact --detector ref "
-            "--repeat 9 --processes=3");
+  const std::string command =
+      "contactcheck run scenes/touch.json --frames 8 --detector exact --detector ref";
+  Json results = sample_results();
+  EXPECT_EQ(again(results, "touch", "exact", "speedup"), command + " --processes 7");
+  EXPECT_EQ(again(results, "touch", "exact", "speedup", Verdict::kCannotJudge),
+            command + " --processes 7");
+  results["timing"]["processes"] = 3;
+  EXPECT_EQ(again(results, "touch", "exact", "speedup"), command + " --processes 3");
+  EXPECT_EQ(again(results, "touch", "exact", "speedup", Verdict::kCannotJudge),
+            command + " --processes 5");
+  results.erase("timing");
+  EXPECT_EQ(again(results, "touch", "exact", "speedup"), command);
 }
 
 }  // namespace

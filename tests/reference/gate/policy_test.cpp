@@ -12,7 +12,7 @@ TEST(Policy, OfEveryKeyIsRead) {
   const Rule rule = test::policy_of(
                         "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
                         "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
-                        "'part': 'hot', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
+                        "'part': 'cold', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
                         "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass'")
                         .rules.at(0);
   EXPECT_EQ(rule.name, "R");
@@ -23,7 +23,7 @@ TEST(Policy, OfEveryKeyIsRead) {
   EXPECT_STREQ(rule.measure->name, "slowdown");
   EXPECT_EQ(rule.question, "body");
   EXPECT_EQ(rule.reference, "fcl-aabb");
-  EXPECT_EQ(rule.part, "hot");
+  EXPECT_EQ(rule.part, "cold");
   EXPECT_EQ(rule.limit, 1.25);
   EXPECT_EQ(rule.floor_us, 3.5);
   EXPECT_EQ(rule.noise_width, 0.2);
@@ -41,6 +41,7 @@ TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsFail) {
   EXPECT_FALSE(rule.unjudged_fails);
   EXPECT_TRUE(rule.error_fails);
   EXPECT_EQ(rule.level, "");
+  EXPECT_EQ(rule.part, "playback");
   EXPECT_FALSE(needs_baseline(rule));
 }
 

@@ -23,7 +23,7 @@ std::string slowdown(const std::string& limit, const std::string& more = "") {
          more;
 }
 
-Json& ratio_of(Json& results, const char* part = "cold") {
+Json& ratio_of(Json& results, const char* part = "playback") {
   return row_of(results, "touch", "exact")["speedup"]["triangles"]["ref"][part];
 }
 
@@ -32,7 +32,7 @@ Json slower(double factor) {
   Json results = sample_results();
   Json& ratio = ratio_of(results);
   for (const char* key : {"ratio", "low", "high"}) ratio[key] = ratio[key].get<double>() / factor;
-  Json& frame = row_of(results, "touch", "exact")["time_ms"]["cold"]["frame"];
+  Json& frame = row_of(results, "touch", "exact")["time_ms"]["playback"]["frame"];
   frame = frame.get<double>() * factor;
   return results;
 }
@@ -40,7 +40,7 @@ Json slower(double factor) {
 TEST(Speedup, ReachedPasses) {
   const Check check = check_of("exact", speedup("3.8"), sample_results());
   EXPECT_EQ(check.verdict, Verdict::kPass);
-  EXPECT_EQ(check.measured, "speedup 4x [3.8, 4.2] over ref, triangles, cold");
+  EXPECT_EQ(check.measured, "speedup 4x [3.8, 4.2] over ref, triangles, playback");
   EXPECT_EQ(check.allowed, "at least 3.8x");
 }
 
@@ -51,7 +51,7 @@ TEST(Speedup, MissedByTheWholeIntervalFailsWithItsCommand) {
   EXPECT_EQ(check.reason, "200 us too long per frame of 1000 us");
   EXPECT_EQ(check.rerun,
             "contactcheck run scenes/touch.json --frames 8 --detector exact --detector ref "
-            "--repeat 9 --processes=3");
+            "--processes 7");
 }
 
 TEST(Speedup, MissedByLessThanTheFloorPasses) {
@@ -73,7 +73,7 @@ TEST(Speedup, WithTheLimitInItsIntervalIsTooNoisyAsTheRuleHasIt) {
 }
 
 TEST(Speedup, IsOfThePartThatTheRuleNames) {
-  for (const auto& [part, good, bad, us] : {std::tuple{"hot", "7.8", "8.3", "500"},
+  for (const auto& [part, good, bad, us] : {std::tuple{"cold", "1.8", "2.3", "4000"},
                                             {"contact_frames", "2.9", "3.2", "2000"},
                                             {"without_map", "4.9", "5.2", "900"}}) {
     const std::string named = std::string(", 'part': '") + part + "'";
@@ -93,7 +93,7 @@ TEST(Speedup, OfAnotherQuestionTakesItsOwnTimes) {
   EXPECT_EQ(check_of("exact", rule, results).reason, "no times per frame of the question body");
   Json times = row["time_ms"];
   times["question"] = "body";
-  times["cold"]["frame"] = 0.01;
+  times["playback"]["frame"] = 0.01;
   row["time_ms_other_questions"] = {times};
   EXPECT_EQ(check_of("exact", rule, results).reason,
             "beyond the limit by 2 us per frame, less than 2 us");
@@ -110,6 +110,9 @@ TEST(Speedup, ThatIsNotThereCannotBeJudged) {
             "no speed-up over embree in the question triangles");
   ratio_of(results, "without_map") = nullptr;
   ratio_of(results, "contact_frames") = nullptr;
+  ratio_of(results, "cold") = nullptr;
+  EXPECT_EQ(check_of("exact", speedup("1", ", 'part': 'cold'"), results).reason,
+            "no cold times: triangles is not the own question of both detectors");
   EXPECT_THAT(check_of("exact", speedup("1", ", 'part': 'without_map'"), results).reason,
               HasSubstr("maps lazily"));
   EXPECT_EQ(check_of("exact", speedup("1", ", 'part': 'contact_frames'"), results).reason,
@@ -123,7 +126,7 @@ TEST(Slowdown, OfThirtyPercentFails) {
   EXPECT_TRUE(check.red);
   EXPECT_EQ(check.measured,
             "slowdown 1.3x [1.211, 1.395] (speed-up 3.077x, in the baseline 4x, over ref, "
-            "triangles, cold)");
+            "triangles, playback)");
   EXPECT_EQ(check.allowed, "at most 1.1x");
   EXPECT_EQ(check.reason, "200 us too long per frame of 1300 us");
 }
@@ -184,7 +187,7 @@ TEST(Slowdown, OfAnotherMeasurementCannotBeJudged) {
         {"/runs/0/speedup/triangles/ref/reference_options",
          {{"bounds", "safe"}},
          "the reference has other options in the baseline"},
-        {"/runs/0/speedup/triangles/ref/cold/low", 0, "a speed-up of 0 has no logarithm"},
+        {"/runs/0/speedup/triangles/ref/playback/low", 0, "a speed-up of 0 has no logarithm"},
         {"/runs/0/speedup/triangles", Json::object(),
          "in the baseline: no speed-up over ref in the question triangles"}}) {
     Json baseline = sample_results();
@@ -195,20 +198,85 @@ TEST(Slowdown, OfAnotherMeasurementCannotBeJudged) {
   }
 }
 
-// The reference, which is slow, had time for fewer frames in one of the two runs.
-TEST(Slowdown, OverOtherFramesOfTheReferenceCannotBeJudged) {
-  const auto with_reference_timed = [](Json results, int frames) {
-    row_of(results, "touch", "ref")["time_ms"]["timed_frames"] = frames;
-    return results;
-  };
-  const Json baseline = with_reference_timed(sample_results(), 6);
-  const Check check =
-      check_of("exact", slowdown("1.1"), with_reference_timed(slower(1.3), 7), &baseline);
-  EXPECT_EQ(check.verdict, Verdict::kCannotJudge);
-  EXPECT_EQ(check.reason, "7 frames of ref are timed here and 6 in the baseline");
+TEST(Slowdown, OfOtherColdFramesCannotBeJudged) {
+  Json baseline = sample_results();
   EXPECT_EQ(
-      check_of("exact", slowdown("1.1"), with_reference_timed(slower(1.3), 6), &baseline).verdict,
-      Verdict::kFail);
+      check_of("exact", slowdown("1.5", ", 'part': 'cold'"), sample_results(), &baseline).verdict,
+      Verdict::kPass);
+  baseline["scenes"][0]["cold_frames"] = {1, 3, 4, 7};
+  const Check check =
+      check_of("exact", slowdown("1.5", ", 'part': 'cold'"), sample_results(), &baseline);
+  EXPECT_EQ(check.verdict, Verdict::kCannotJudge);
+  EXPECT_EQ(check.reason, "other frames are timed cold in the baseline");
+  EXPECT_EQ(check_of("exact", slowdown("1.5"), sample_results(), &baseline).verdict, Verdict::kPass)
+      << "a playback has all frames";
+}
+
+// As if so many passes had been timed.
+Json with_passes(Json results, int passes) {
+  Json& row = row_of(results, "touch", "exact");
+  row["time_ms"]["passes"] = row["speedup"]["triangles"]["ref"]["passes"] = passes;
+  results["timing"]["processes"] = passes;
+  return results;
+}
+
+TEST(FewPasses, DecideASpeedupBeyondAFactorAlone) {
+  const Json results = with_passes(sample_results(), 3);  // 3.8 to 4.2
+  const auto verdict = [&](const char* limit) {
+    return check_of("exact", speedup(limit), results).verdict;
+  };
+  EXPECT_EQ(verdict("2.5"), Verdict::kPass);
+  EXPECT_EQ(verdict("2.6"), Verdict::kCannotJudge);
+  EXPECT_EQ(verdict("6.2"), Verdict::kCannotJudge);
+  EXPECT_EQ(verdict("6.4"), Verdict::kFail);
+}
+
+TEST(FewPasses, ThatDecideNothingSayWhatWould) {
+  const Check check = check_of("exact", speedup("3"), with_passes(sample_results(), 3));
+  EXPECT_EQ(check.measured, "speedup 4x (range 3.8 to 4.2) over ref, triangles, playback");
+  EXPECT_EQ(check.reason,
+            "8 frames, 3 passes: the limit lies within a factor 1.5 of the range 3.8x to 4.2x; "
+            "--processes 5 gives an interval");
+  EXPECT_THAT(check.rerun, testing::EndsWith(" --detector exact --detector ref --processes 5"));
+  EXPECT_FALSE(check.red);
+  EXPECT_TRUE(
+      check_of("exact", speedup("3", ", 'unjudged': 'fail'"), with_passes(sample_results(), 3))
+          .red);
+}
+
+TEST(FewPasses, AreOfTheFramesOfTheRulesPart) {
+  const Json results = with_passes(sample_results(), 3);
+  EXPECT_THAT(check_of("exact", speedup("2", ", 'part': 'cold'"), results).reason,
+              testing::StartsWith("4 frames, 3 passes: "));
+  EXPECT_THAT(check_of("exact", speedup("3", ", 'part': 'contact_frames'"), results).reason,
+              testing::StartsWith("3 frames, 3 passes: "));
+}
+
+TEST(OnePass, HasNoRange) {
+  Json results = with_passes(sample_results(), 1);
+  ratio_of(results) = {{"ratio", 4}, {"low", 4}, {"high", 4}};
+  const Check check = check_of("exact", speedup("3"), results);
+  EXPECT_EQ(check.measured, "speedup 4x (1 pass) over ref, triangles, playback");
+  EXPECT_EQ(check.reason,
+            "8 frames, 1 pass: the limit lies within a factor 1.5 of 4x; --processes 5 gives an "
+            "interval");
+}
+
+TEST(FewPasses, OfEitherSideMakeASlowdownARange) {
+  const Json many = sample_results(), few = with_passes(sample_results(), 3);
+  const Check then = check_of("exact", slowdown("1.1"), slower(1.3), &few);
+  EXPECT_EQ(then.verdict, Verdict::kCannotJudge);
+  EXPECT_EQ(
+      then.reason,
+      "8 frames, 7 passes, 3 in the baseline: the limit lies within a factor 1.5 of the range "
+      "1.21x to 1.4x; --processes 5 in the baseline gives an interval");
+  const Check now = check_of("exact", slowdown("1.1"), with_passes(slower(1.3), 3), &many);
+  EXPECT_THAT(now.reason, testing::EndsWith("; --processes 5 gives an interval"));
+  const Check both = check_of("exact", slowdown("1.1"), with_passes(slower(1.3), 3), &few);
+  EXPECT_THAT(both.reason,
+              testing::EndsWith("; --processes 5 here and in the baseline gives an interval"));
+  EXPECT_EQ(check_of("exact", slowdown("1.1"), with_passes(slower(2.0), 3), &few).verdict,
+            Verdict::kFail);
 }
 
 }  // namespace

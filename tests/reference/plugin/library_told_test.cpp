@@ -49,9 +49,9 @@ TEST(LibraryThatTells, OfCellsIsReadThroughOwnersAndLabels) {
 
 TEST(LibraryThatTells, HasAClockOfItsOwnBesideOurs) {
   PluginRun run({"--detector", CONTACTCHECK_STAGED_LIBRARY, "--detector", staged("no-clock")},
-                {"--repeat", "1"});
+                {"--processes", "1"});
   EXPECT_EQ(run.schema_errors(), "");
-  for (const char* part : {"cold", "hot"}) {
+  for (const char* part : {"playback", "cold"}) {
     EXPECT_EQ(run.row("staged").at("time_ms").at(part).at("self_reported"), 0.5);
     EXPECT_FALSE(run.row("staged:told=no-clock").at("time_ms").at(part).contains("self_reported"))
         << "it did not measure every frame";
@@ -65,7 +65,7 @@ struct Told {
 };
 
 TEST(LibraryThatTells, WhatCannotBeSoIsItsError) {
-  const std::vector<std::string> timed = {"--repeat", "1"};
+  const std::vector<std::string> timed = {"--processes", "1"};
   for (const Told& t : std::vector<Told>{
            {"trace-fails", "frame 2, phase trace: trace failed: lost the stages"},
            {"no-name", "a stage's name and units must be one line of ASCII"},
@@ -103,7 +103,7 @@ TEST(LibraryThatTells, InStructuresOfAnotherSizeIsRefused) {
 }
 
 TEST(LibraryOfVersion1, RunsAsItDid) {
-  PluginRun run({"--detector", CONTACTCHECK_VERSION_1_LIBRARY}, {"--repeat", "1"});
+  PluginRun run({"--detector", CONTACTCHECK_VERSION_1_LIBRARY}, {"--processes", "1"});
   const json row = run.row("version-1");
   ASSERT_EQ(row.at("status"), "ok") << row.at("message");
   EXPECT_EQ(row.at("levels").at("triangle").at("reported"), 0);

@@ -109,37 +109,45 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"null-items", {"frame 2"}}),
     test::name_of_test);
 
-// With times its detector lives on to the end of the worker.
-TEST(LibraryAtWork, CrashWhenDestroyedIsAnErrorWithTimesToo) {
-  PluginRun run(
-      {"--detector", misbehaving_library("crash-when-destroyed"), "--detector", "fcl-aabb"},
-      {"--repeat", "1"});
-  test::expect_row_and_nobody_disturbed(run, "misbehaving:fault=crash-when-destroyed",
-                                        {"crash-when-destroyed", {"phase destroy", "signal 11"}});
+// Its times would be those of another answer.
+TEST(LibraryAtWork, AnswersThatItDoesNotGiveWhileItIsTimedAreAnError) {
+  const test::Scratch scratch;
+  const test::Environment folder("CONTACTCHECK_PLUGIN_FOLDER", scratch.folder().string());
+  const std::string fault = "lies-in-the-first-process";
+  PluginRun run({"--detector", misbehaving_library(fault), "--detector", "fcl-aabb"},
+                {"--processes", "1"});
+  test::expect_row_and_nobody_disturbed(
+      run, "misbehaving:fault=" + fault,
+      {fault,
+       {"frame 0",
+        "it answered 0 pairs of triangles and not the 1 that were judged (while timed)"}});
+  EXPECT_FALSE(run.row("misbehaving:fault=" + fault).contains("time_ms"));
   EXPECT_TRUE(run.row("fcl-aabb").contains("time_ms"));
 }
 
-// Its times would be those of another answer.
-TEST(LibraryAtWork, AnswersThatItDoesNotGiveWhileItIsTimedAreAnError) {
-  PluginRun run({"--detector", misbehaving_library("lies-once"), "--detector", "fcl-aabb"},
-                {"--repeat", "2"});
-  test::expect_row_and_nobody_disturbed(
-      run, "misbehaving:fault=lies-once",
-      {"lies-once",
-       {"while timed: it answered 0 pairs of triangles and not the 1 that were judged"}});
-  EXPECT_FALSE(run.row("misbehaving:fault=lies-once").contains("time_ms"));
+// 2 ms of work for every frame that it does not remember: in a pass it remembers none.
+TEST(LibraryAtWork, GainsNothingByRemembering) {
+  for (const std::string fault :
+       {"works", "remembers-frames", "remembers-nodes", "remembers-in-a-file"}) {
+    PluginRun run({"--detector", misbehaving_library(fault), "--detector", "fcl-aabb"},
+                  {"--processes", "2"});
+    const auto row = run.row("misbehaving:fault=" + fault);
+    ASSERT_EQ(row.at("status"), "ok") << fault << row.at("message");
+    EXPECT_EQ(row.at("time_ms").at("passes"), 2) << fault;
+    for (const char* regime : {"playback", "cold"})
+      for (const char* time : {"frame", "cpu"})
+        EXPECT_GE(row.at("time_ms").at(regime).at(time).get<double>(), 2.0)
+            << fault << " " << regime << " " << time;
+    EXPECT_GE(row.at("time_ms").at("playback").at("first_frame").get<double>(), 2.0) << fault;
+  }
 }
 
-// Only the first process sees the frames in their order.
-TEST(LibraryAtWork, AnswersThatItGivesInTheFirstProcessAloneAreAnError) {
-  for (const char* processes : {"1", "2"}) {
-    PluginRun run({"--detector", misbehaving_library("lies-in-order")},
-                  {"--repeat", "1", "--processes", processes});
-    const auto row = run.row("misbehaving:fault=lies-in-order");
-    EXPECT_EQ(row.at("status"), *processes == '1' ? "ok" : "error") << row.at("message");
-    EXPECT_EQ(row.value("message", "").find("it answered 0 pairs") != std::string::npos,
-              *processes == '2');
-  }
+TEST(LibraryAtWork, WorkInABackgroundThreadIsAnError) {
+  const std::string fault = "works-in-a-thread";
+  PluginRun run({"--detector", misbehaving_library(fault), "--detector", "fcl-aabb"},
+                {"--processes", "1"});
+  test::expect_row_and_nobody_disturbed(run, "misbehaving:fault=" + fault,
+                                        {fault, {"it has used ", " ms of CPU time ", " of calls"}});
 }
 
 TEST(LibraryAtWork, MayTakeItsScaleFromTheBodies) {

@@ -4,10 +4,12 @@
  * contacts, which is its claim. */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "contactcheck_plugin.h"
@@ -15,8 +17,8 @@
 
 typedef struct {
   Word fault;
-  uint64_t frame, first_frame, asked; /* asked: a bit per frame */
-  int updated, declared;
+  uint64_t frame, hash; /* hash: of each body's first node */
+  int first, declared;  /* first: of the first process that is asked */
 } State;
 
 static const char* at_load(void) {
@@ -33,6 +35,42 @@ static void hang(void) {
   for (;;) pause();
 }
 
+/* 2 ms of work, which a detector that misbehaves would rather not be seen doing. */
+static void work(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  const double end = 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec + 2.0;
+  do clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  while (1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec < end);
+}
+
+static void* work_in_thread(void* nothing) {
+  work();
+  return nothing;
+}
+
+/* Whether it has been asked for this before. */
+static int remembers(uint64_t what) {
+  static uint64_t known[1024];
+  static int count;
+  for (int i = 0; i < count; ++i)
+    if (known[i] == what) return 1;
+  if (count < 1024) known[count++] = what;
+  return 0;
+}
+
+/* The same through files that outlive it, in the folder that a variable names. */
+static int is_in_a_file(const char* variable, uint64_t what, int remember) {
+  char path[4096];
+  const char* const folder = getenv(variable);
+  snprintf(path, sizeof path, "%s/misbehaving-%llu", folder == NULL ? "/tmp" : folder,
+           (unsigned long long)what);
+  if (access(path, F_OK) == 0) return 1;
+  FILE* const file = remember ? fopen(path, "w") : NULL;
+  if (file != NULL) fclose(file);
+  return 0;
+}
+
 static int32_t create(const contactcheck_setting* settings, uint32_t count, void** detector,
                       char* message) {
   State* const state = calloc(1, sizeof *state);
@@ -42,6 +80,8 @@ static int32_t create(const contactcheck_setting* settings, uint32_t count, void
     snprintf(message, CONTACTCHECK_MESSAGE_SIZE, "no licence for this machine");
     return CONTACTCHECK_ERROR;
   }
+  state->first = is(state, "lies-in-the-first-process") &&
+                 !is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", 0, 0);
   *detector = state;
   return CONTACTCHECK_OK;
 }
@@ -95,8 +135,17 @@ static void leak(void) {
 static int32_t update(void* detector, const contactcheck_frame* frame, char* message) {
   State* const state = detector;
   state->frame = frame->index;
-  if (!state->updated) state->first_frame = frame->index;
-  state->updated = 1;
+  state->hash = 0;
+  for (uint32_t b = 0; b < frame->body_count; ++b)
+    for (uint32_t i = 0; i < 3; ++i) {
+      uint64_t bits;
+      memcpy(&bits, &frame->bodies[b].nodes[i], sizeof bits);
+      state->hash = 31 * state->hash + bits;
+    }
+  if (is(state, "works-in-a-thread")) {
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, work_in_thread, NULL) == 0) pthread_detach(thread);
+  }
   if (is(state, "leaks")) leak();
   if (frame->index != 2) return CONTACTCHECK_OK;
   if (is(state, "crash")) die(SIGSEGV);
@@ -121,13 +170,14 @@ static void add_triangles(const contactcheck_answer* answer, uint32_t body, uint
 static int32_t query(void* detector, uint32_t question, const contactcheck_answer* answer,
                      char* message) {
   State* const state = detector;
-  const uint64_t bit = UINT64_C(1) << (state->frame % 64);
-  const int asked = (state->asked & bit) != 0;
   (void)message;
-  state->asked |= bit;
-  if (is(state, "always-lies")) add_triangles(answer, 1, 0, 1);
-  if (is(state, "lies-once") && !asked) add_triangles(answer, 1, 0, 1);
-  if (is(state, "lies-in-order") && state->first_frame == 0) add_triangles(answer, 1, 0, 1);
+  if (is(state, "always-lies") || state->first) add_triangles(answer, 1, 0, 1);
+  if (state->first) is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", 0, 1);
+  if (is(state, "works") || (is(state, "remembers-frames") && !remembers(state->frame)) ||
+      (is(state, "remembers-nodes") && !remembers(state->hash)) ||
+      (is(state, "remembers-in-a-file") &&
+       !is_in_a_file("TMPDIR", state->frame, 1)))
+    work();
   if (state->frame != 2) return CONTACTCHECK_OK;
   if (is(state, "no-such-body")) add_triangles(answer, 7, 0, 1);
   if (is(state, "no-such-triangle")) add_triangles(answer, 1, 1000000, 1);
@@ -146,11 +196,15 @@ static int32_t query(void* detector, uint32_t question, const contactcheck_answe
 
 static const char* const kFaults[] = {"none",
                                       "always-lies",
-                                      "lies-once",
+                                      "lies-in-the-first-process",
+                                      "works",
+                                      "remembers-frames",
+                                      "remembers-nodes",
+                                      "remembers-in-a-file",
+                                      "works-in-a-thread",
                                       "exact-later",
                                       "nodes-later",
                                       "scale-later",
-                                      "lies-in-order",
                                       "create-fails",
                                       "unknown-level",
                                       "no-question",

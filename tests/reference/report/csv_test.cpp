@@ -69,21 +69,25 @@ TEST(Csv, RowHasWhatWasMeasuredAndEmptyCellsForTheRest) {
       {"late_frames", "-1"},
       {"question", "triangles"},
       {"timed_frames", "60"},
-      {"repeats", "5"},
+      {"passes", "5"},
       {"prepare_ms", "8.0"},
-      {"cold_update_ms", "0.125"},
-      {"cold_query_ms", "0.375"},
-      {"cold_frame_ms", "0.5"},
-      {"hot_update_ms", "0.125"},
-      {"hot_query_ms", "0.125"},
-      {"hot_frame_ms", "0.25"},
-      {"speedup_question", "triangles"},
+      {"playback_update_ms", "0.125"},
+      {"playback_query_ms", "0.375"},
+      {"playback_frame_ms", "0.5"},
+      {"playback_first_frame_ms", "1.0"},
+      {"playback_cpu_ms", "0.5"},
+      {"cold_update_ms", "0.25"},
+      {"cold_query_ms", "0.5"},
+      {"cold_frame_ms", "0.75"},
+      {"cold_cpu_ms", "0.75"},
+      {"vs_fcl-aabb_playback_ratio", "4.0"},
+      {"vs_fcl-aabb_playback_low", "3.5"},
+      {"vs_fcl-aabb_playback_high", "4.25"},
       {"vs_fcl-aabb_cold_ratio", "4.0"},
-      {"vs_fcl-aabb_cold_low", "3.5"},
-      {"vs_fcl-aabb_cold_high", "4.25"},
-      {"vs_fcl-aabb_hot_ratio", "6.0"},
-      {"vs_fcl-aabb_hot_low", "5.5"},
-      {"vs_fcl-aabb_hot_high", "6.5"},
+      {"vs_fcl-aabb_cold_low", "3.0"},
+      {"vs_fcl-aabb_cold_high", "5.0"},
+      {"vs_fcl-aabb_passes", "5"},
+      {"prepared_bytes", "262144"},
       {"memory_bytes", "524288"},
       {"contact_hash", "0x2"}};
   EXPECT_EQ(row(csv_report(from_json(sample_results())), 1), expected);
@@ -91,9 +95,30 @@ TEST(Csv, RowHasWhatWasMeasuredAndEmptyCellsForTheRest) {
 
 TEST(Csv, HasADetectorsOwnClock) {
   auto results = sample_results();
-  results["runs"][1]["time_ms"]["hot"]["self_reported"] = 0.125;
+  results["runs"][1]["time_ms"]["playback"]["self_reported"] = 0.125;
   const auto cells = row(csv_report(from_json(results)), 1);
-  EXPECT_EQ(cells.at("hot_self_reported_ms"), "0.125");
+  EXPECT_EQ(cells.at("playback_self_reported_ms"), "0.125");
+}
+
+// A time and the speed-ups beside it are of one question.
+TEST(Csv, TimesAreOfTheQuestionOfTheSpeedups) {
+  auto results = sample_results();
+  auto& run = results["runs"][1];
+  run["semantics"]["questions"] = {"cells", "body"};
+  run["time_ms"]["question"] = "cells";
+  auto body = run["time_ms"];
+  body["question"] = "body";
+  body["playback"]["frame"] = 0.625;
+  body.erase("cold");
+  run["time_ms_other_questions"] = {body};
+  auto cells = row(csv_report(from_json(results)), 1);
+  EXPECT_EQ(cells.at("question"), "body");
+  EXPECT_EQ(cells.at("playback_frame_ms"), "0.625");
+  EXPECT_FALSE(cells.contains("cold_frame_ms")) << "of its own question alone";
+  run.erase("time_ms_other_questions");
+  cells = row(csv_report(from_json(results)), 1);
+  EXPECT_EQ(cells.at("question"), "cells");
+  EXPECT_EQ(cells.at("playback_frame_ms"), "0.5");
 }
 
 TEST(Csv, RowThatIsNotOkHasStatusAndMessage) {
@@ -124,7 +149,8 @@ TEST(Csv, LinesEndInCrLfAndStartWithTheTitles) {
   const std::string titles = csv_report(from_json(results));
   EXPECT_THAT(titles, StartsWith("scene,detector,status,message,options,frames,contact_frames,"
                                  "finest_level,body_truth,body_reported,"));
-  EXPECT_THAT(titles, EndsWith(",speedup_question,memory_bytes,contact_hash,recording\r\n"));
+  EXPECT_THAT(titles,
+              EndsWith(",cold_cpu_ms,prepared_bytes,memory_bytes,contact_hash,recording\r\n"));
   EXPECT_EQ(std::count(titles.begin(), titles.end(), '\n'), 1);
 }
 

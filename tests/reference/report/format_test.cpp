@@ -70,11 +70,35 @@ TEST(FormatMillimetres, TurnsMetresIntoMillimetres) {
   EXPECT_EQ(format_millimetres(std::nullopt), "-");
 }
 
-TEST(FormatRatio, ShowsTheIntervalWhereWanted) {
+TEST(FormatCounts, ShowsOneNumberWhereAllAreTheSame) {
+  Range counts;
+  EXPECT_EQ(format_counts(counts), "-");
+  counts.add(3.0);
+  EXPECT_EQ(format_counts(counts), "3");
+  counts.add(1.0);
+  EXPECT_EQ(format_counts(counts), "1 to 3");
+}
+
+TEST(FormatRatio, ShowsWhatItsEndsAre) {
   const Ratio ratio = {12.34, 11.8, 12.9};
-  EXPECT_EQ(format_ratio(ratio, true), "12.3x [11.8, 12.9]");
-  EXPECT_EQ(format_ratio(ratio, false), "12.3x");
-  EXPECT_EQ(format_ratio(std::nullopt, true), "-");
+  EXPECT_EQ(format_ratio(ratio), "12.3x");
+  EXPECT_EQ(format_ratio(ratio, 5), "12.3x [11.8, 12.9]");
+  EXPECT_EQ(format_ratio(ratio, 4), "12.3x (11.8 to 12.9)");
+  EXPECT_EQ(format_ratio(ratio, 2), "12.3x (11.8 to 12.9)");
+  EXPECT_EQ(format_ratio(ratio, 1), "12.3x (1 pass)");
+  EXPECT_EQ(format_ratio_range(ratio), "12.3x (11.8 to 12.9)");
+  EXPECT_EQ(format_ratio(std::nullopt), "-");
+  EXPECT_EQ(format_ratio(std::nullopt, 5), "-");
+}
+
+TEST(EndsSentence, SaysIntervalFromFivePassesOnAlone) {
+  EXPECT_EQ(ends_sentence({5}), "[low, high] is the 95 % interval over 5 passes.");
+  EXPECT_EQ(ends_sentence({1, 2, 3}), "(low to high) is the range of 2 or 3 passes.");
+  EXPECT_EQ(ends_sentence({3, 7}),
+            "[low, high] is the 95 % interval over 7 passes; (low to high) is the range of 3 "
+            "passes.");
+  EXPECT_EQ(ends_sentence({1}), "");
+  EXPECT_EQ(ends_sentence({}), "");
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ results::Results timed_results() {
   run.scene = scene.id;
   run.detector = "ffd-lazy";
   run.times.emplace_back();
-  run.times[0].cold.frame = 4.0;
-  run.times[0].hot.frame = 3.0;
+  run.times[0].playback.frame = 3.0;
+  run.times[0].cold.emplace().frame = 4.0;
   run.per_frame.truth = {0, 0, 0, 0, 2, 3};
   run.per_frame.missed = {0, 0, 0, 0, 1, 0};
   run.per_frame.spurious = {0, 7, 0, 0, 0, 2};
@@ -39,7 +39,7 @@ TEST(FrameCosts, TellSizeSeriesAndErrorsOfFrames) {
   EXPECT_EQ(costs.triangles, 42u);
   ASSERT_EQ(costs.detectors.size(), 1u);
   EXPECT_EQ(costs.detectors[0].cold, 4.0);
-  EXPECT_EQ(costs.detectors[0].hot, 3.0);
+  EXPECT_EQ(costs.detectors[0].playback, 3.0);
   EXPECT_EQ(costs.detectors[0].missed, (Counts{{4, 1}}));
   EXPECT_EQ(costs.detectors[0].spurious, (Counts{{1, 7}, {5, 2}}));
 }
@@ -85,9 +85,12 @@ TEST(FrameCosts, WithoutTimesOrDistancesThereAreErrorsAlone) {
   results::Results results = timed_results();
   results.scenes[0].separation.clear();
   EXPECT_TRUE(costs_of_first(results).detectors[0].by_distance.empty());
+  results.runs[0].times[0].cold.reset();
+  EXPECT_FALSE(costs_of_first(results).detectors[0].cold);
+  EXPECT_EQ(costs_of_first(results).detectors[0].playback, 3.0);
   results.runs[0].times.clear();
   const SceneCosts untimed = costs_of_first(results);
-  EXPECT_FALSE(untimed.detectors[0].cold);
+  EXPECT_FALSE(untimed.detectors[0].playback);
   EXPECT_TRUE(untimed.detectors[0].frame_ms.empty());
   EXPECT_EQ(untimed.detectors[0].missed, (Counts{{4, 1}}));
   results.runs[0].status = results::Status::kError;

@@ -42,7 +42,8 @@ TEST(PageData, ScenesHaveTablesAndCosts) {
                                    testing::StartsWith("Speed-ups")));
   EXPECT_EQ(scene.at("disagreements").at(0).at("case"), "cases/0001.json");
   const Json& costs = scene.at("cost").at("detectors");
-  EXPECT_EQ(costs.at(1).at("cold"), 0.5);
+  EXPECT_EQ(costs.at(1).at("playback"), 0.5);
+  EXPECT_EQ(costs.at(1).at("cold"), 0.75);
   EXPECT_TRUE(costs.at(2).is_null());  // ended in an error
 }
 
@@ -116,7 +117,7 @@ TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {
   ASSERT_EQ(claims.size(), 1u);
   EXPECT_EQ(claims.at(0).at("title"),
             "ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`");
-  EXPECT_EQ(claims.at(0).at("columns").size(), 8u);
+  EXPECT_EQ(claims.at(0).at("columns").size(), 9u);
   EXPECT_EQ(claims.at(0).at("rows").at(0).at(3), "4.00x [3.50, 4.25]");
 }
 
@@ -136,17 +137,17 @@ TEST(PageData, EveryChoiceOfTheChartHasItsPoints) {
   EXPECT_EQ(report.at("choices"), Json({"scene hello"}));
   const Json& charts = report.at("speed_error");
   const Json& finest = charts.at("charts").at(0).at("finest");
-  for (const char* choice :
-       {"worse cold", "worse hot", "missed cold", "missed hot", "spurious cold", "spurious hot"})
+  for (const char* choice : {"worse playback", "worse cold", "missed playback", "missed cold",
+                             "spurious playback", "spurious cold"})
     EXPECT_EQ(finest.at(choice).at("points").size(), 2u) << choice;
   // Place of the detector, milliseconds, error, is it on the front?
-  EXPECT_EQ(finest.at("missed hot").at("points").at(1),
-            Json({1, 0.25, 1.0 / 200'000, true, "0.250", "0.00001"}));
-  EXPECT_EQ(finest.at("cells").at(1).at(6), "200001");
+  EXPECT_EQ(finest.at("missed cold").at("points").at(1),
+            Json({1, 0.75, 1.0 / 200'000, true, "0.750", "0.00001"}));
+  EXPECT_EQ(finest.at("cells").at(1).at(7), "200001");
   EXPECT_TRUE(finest.at("cells").at(2).is_null());
-  EXPECT_THAT(finest.at("worse cold").at("left_out").get<std::string>(),
+  EXPECT_THAT(finest.at("worse playback").at("left_out").get<std::string>(),
               testing::StartsWith("Not in the chart: fcl-obbrss"));
-  const Json& body = charts.at("charts").at(0).at("body").at("worse cold");
+  const Json& body = charts.at("charts").at(0).at("body").at("worse playback");
   EXPECT_EQ(body.at("points").at(1), Json({1, 0.5, 2.0 / 15, true, "0.500", "0.13334"}));
 }
 
@@ -170,10 +171,10 @@ TEST(PageData, StagesTimesAndErrorsStandThereForEveryChoice) {
   EXPECT_EQ(stages.at("without_loss"), "");
   EXPECT_EQ(stages.at("table").at("rows").size(), 1u);
   const Json& times = report.at("times").at(0);
-  EXPECT_EQ(times.at("cold").at("bars").at(0),
+  EXPECT_EQ(times.at("playback").at("bars").at(0),
             Json({"ffd-aabb-sphere2+tri", nullptr, 0.125, 0.375, 0.5, 0.5}));
-  EXPECT_EQ(times.at("hot").at("bars").at(1), Json({"fcl-aabb", 0.25, 0.5, 0.75, 1.5, 1.25}));
-  EXPECT_EQ(times.at("hot").at("table").at("rows").size(), 2u);
+  EXPECT_EQ(times.at("cold").at("bars").at(1), Json({"fcl-aabb", 0.25, 0.75, 2.0, 3.0, 2.75}));
+  EXPECT_EQ(times.at("cold").at("table").at("rows").size(), 2u);
   const Json& depth = report.at("graded").at(0).at(0);
   EXPECT_EQ(depth.at("title"), "Depth, convex-pair");
   EXPECT_EQ(

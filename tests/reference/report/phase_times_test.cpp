@@ -15,12 +15,13 @@ results::Run timed_run(const std::string& scene, const std::string& detector,
   run.detector = detector;
   run.times.resize(1);
   run.times[0].question = map ? Question::kTriangles : Question::kCells;
-  results::PhaseTimes &cold = run.times[0].cold, &hot = run.times[0].hot;
-  cold.map = map;
-  cold.update = update;
-  cold.query = query;
-  hot = cold;
-  hot.query = query / 2.0;
+  run.times[0].passes = 3;
+  results::PhaseTimes& playback = run.times[0].playback;
+  playback.map = map;
+  playback.update = update;
+  playback.query = query;
+  run.times[0].cold = playback;
+  run.times[0].cold->query = query * 2.0;
   return run;
 }
 
@@ -35,8 +36,8 @@ results::Results timed_results() {
   return results;
 }
 
-std::vector<PhaseMeans> means_in(const results::Results& results, bool hot) {
-  return phase_times(results::Index(results), scene_choices(results).at(0), hot);
+std::vector<PhaseMeans> means_in(const results::Results& results, bool cold) {
+  return phase_times(results::Index(results), scene_choices(results).at(0), cold);
 }
 
 TEST(PhaseTimes, AreMeansOverScenesTheFastestFirst) {
@@ -60,10 +61,13 @@ TEST(PhaseTimes, LazyDetectorHasNoTimeOfMapping) {
   EXPECT_EQ(lazy.without_map(), 6.0);
 }
 
-TEST(PhaseTimes, HotCachesHaveTheirOwn) {
-  const std::vector<PhaseMeans> all = means_in(timed_results(), true);
-  EXPECT_EQ(all[0].query, 2.0);
-  EXPECT_EQ(all[1].query, 0.75);
+TEST(PhaseTimes, ColdCachesHaveTheirOwn) {
+  results::Results results = timed_results();
+  const std::vector<PhaseMeans> all = means_in(results, true);
+  EXPECT_EQ(all[0].query, 3.0);
+  EXPECT_EQ(all[1].query, 8.0);
+  for (results::Run& run : results.runs) run.times[0].cold.reset();
+  EXPECT_THAT(means_in(results, true), IsEmpty());
 }
 
 TEST(PhaseTimes, OnlyScenesInWhichADetectorWasTimedCount) {
@@ -82,10 +86,21 @@ TEST(PhaseTimes, OnlyScenesInWhichADetectorWasTimedCount) {
 
 TEST(PhaseTimes, AreATableToo) {
   const TitledTable table = phase_times_table(means_in(timed_results(), false));
-  EXPECT_EQ(table.columns.size(), 7u);
-  EXPECT_THAT(table.rows,
-              ElementsAre(ElementsAre("lazy", "cells", "2", "-", "2.00", "4.00", "6.00"),
-                          ElementsAre("mapped", "triangles", "2", "4.00", "1.50", "1.50", "7.00")));
+  EXPECT_EQ(table.columns.size(), 8u);
+  EXPECT_THAT(
+      table.rows,
+      ElementsAre(ElementsAre("lazy", "cells", "2", "-", "2.00", "4.00", "6.00", "3"),
+                  ElementsAre("mapped", "triangles", "2", "4.00", "1.50", "1.50", "7.00", "3")));
+}
+
+TEST(PhaseTimes, TableSaysWhereFramesWereLeftOut) {
+  results::Results results = timed_results();
+  for (results::Run& run : results.runs) run.frames = run.times[0].timed_frames = 60;
+  results.runs[1].times[0].timed_frames = 4;
+  results.runs[1].times[0].passes = 1;
+  EXPECT_THAT(
+      phase_times_table(means_in(results, false)).rows[0],
+      ElementsAre("lazy", "cells", "2", "-", "2.00", "4.00", "6.00 (64 of 120 frames)", "1 to 3"));
 }
 
 }  // namespace

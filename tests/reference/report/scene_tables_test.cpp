@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "reference/report/claims.h"
@@ -33,8 +34,8 @@ Json near_run() {
                  "normal_error_deg_p95": 179.5},
     "stages": [{"name": "tree", "unit": "triangle pairs", "in": 900, "out": 30, "missed": 1, "visited": 77, "visited_unit": "node pairs"}],
     "time_ms": {"prepare": 1.0},
-    "speedup": {"body": {"fcl-aabb": {"cold": {"ratio": 2.0, "low": 1.5, "high": 2.5}, "hot": {"ratio": 3.0, "low": 2.5, "high": 3.5},
-                "contact_frames": null, "without_map": null, "reference_options": {"depth": "deep"}}}}
+    "speedup": {"body": {"fcl-aabb": {"playback": {"ratio": 2.0, "low": 1.5, "high": 2.5}, "cold": null,
+                "contact_frames": null, "without_map": null, "passes": 3, "reference_options": {"depth": "deep"}}}}
   })json");
 }
 
@@ -72,19 +73,161 @@ TEST(LevelsTable, TellsDoublesFromValuesFedAndClaimsFromWhatIsInformative) {
 
 TEST(TimesTable, HasTheDetectorsOwnClockWhereItHasOne) {
   Json with_clock = near_run(), without = renamed(near_run(), "other");
-  const Json phases = {
-      {"map", 0.5}, {"update", 1.0}, {"query", 2.0}, {"frame", 3.5}, {"contact_frame", 4.0}};
+  const Json phases = {{"map", 0.5},           {"update", 1.0},      {"query", 2.0}, {"frame", 3.5},
+                       {"contact_frame", 4.0}, {"first_frame", 5.0}, {"cpu", 6.0}};
   for (Json* run : {&with_clock, &without}) {
     (*run)["time_ms"] = {{"prepare", 1.0}, {"question", "body"}, {"timed_frames", 7},
-                         {"repeats", 5},   {"cold", phases},     {"hot", phases}};
+                         {"passes", 5},    {"playback", phases}, {"cold", phases}};
     (*run)["memory_bytes"] = 1048576;
   }
-  with_clock["time_ms"]["cold"]["self_reported"] = 2.25;
+  with_clock["time_ms"]["playback"]["self_reported"] = 2.25;
   const std::string table = detail_of("Times", {with_clock, without});
-  EXPECT_THAT(table, HasSubstr("| contact frame | own clock | frame, hot |"));
+  EXPECT_THAT(table, HasSubstr("| contact frame | first frame | own clock | CPU time |"));
+  EXPECT_THAT(
+      table,
+      HasSubstr(
+          "| bullet-vf | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 5.00 | 2.25 | 6.00 |"));
   EXPECT_THAT(table,
-              HasSubstr("| bullet-vf | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 2.25 |"));
-  EXPECT_THAT(table, HasSubstr("| other | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | - |"));
+              HasSubstr("| other | body | 1.00 | 0.500 | 1.00 | 2.00 | 3.50 | 4.00 | 5.00 | - |"));
+}
+
+TEST(TimesTable, SaysWhereFramesWereNotTimed) {
+  Json run = near_run();
+  run["frames"] = 60;
+  run["time_ms"] = {{"question", "body"}, {"timed_frames", 4}, {"passes", 3}};
+  EXPECT_THAT(detail_of("Times", {run}), HasSubstr("| 4 of 60 frames | 3 |"));
+  EXPECT_THAT(detail_of("Speed-ups", {run}), HasSubstr("| 3 (4 of 60 frames) |"));
+  EXPECT_THAT(result_cells(results_of({run}).runs[0])[10], "0 (4 of 60 frames)");
+}
+
+// A number as it is printed lies within half a unit of its last digit.
+struct Printed {
+  double value = 0.0, half_unit = 0.0;
+
+  explicit Printed(const std::string& text) : value(std::stod(text)) {
+    const std::string digits = text.substr(0, text.find_first_not_of("0123456789."));
+    const std::size_t point = digits.find('.');
+    const auto decimals =
+        point == std::string::npos ? 0.0 : static_cast<double>(digits.size() - point - 1);
+    half_unit = 0.5 * std::pow(10.0, -decimals);
+  }
+  double low() const { return value - half_unit; }
+  double high() const { return value + half_unit; }
+};
+
+void expect_quotient(const std::string& reference, const std::string& detector,
+                     const std::string& ratio) {
+  const Printed over(reference), under(detector), printed(ratio);
+  EXPECT_LE(over.low() / under.high(), printed.high()) << reference << " / " << detector;
+  EXPECT_GE(over.high() / under.low(), printed.low()) << reference << " / " << detector;
+}
+
+Json times_of(const char* question, double frame) {
+  return {{"question", question},
+          {"timed_frames", 60},
+          {"passes", 5},
+          {"playback", {{"query", frame}, {"frame", frame}, {"first_frame", 2.0 * frame}}}};
+}
+
+Json timed_run(const char* detector, std::vector<std::pair<const char*, double>> times) {
+  Json run = {{"scene", "hello"}, {"detector", detector}, {"status", "ok"}, {"frames", 60}};
+  for (const auto& [question, frame] : times) {
+    run["semantics"]["questions"].push_back(question);
+    if (!run.contains("time_ms")) {
+      run["time_ms"] = times_of(question, frame);
+    } else {
+      run["time_ms_other_questions"].push_back(times_of(question, frame));
+    }
+  }
+  return run;
+}
+
+Json speedup_of_times(double reference, double detector) {
+  const double ratio = reference / detector;
+  return {{"playback", {{"ratio", ratio}, {"low", 0.9 * ratio}, {"high", 1.1 * ratio}}},
+          {"passes", 5}};
+}
+
+// The cell detector's own question is another one than that of its speed-ups.
+std::vector<Json> timed_runs() {
+  Json reference = timed_run("fcl-aabb", {{"triangles", 7.654}, {"body", 1.2345}}),
+       exact = timed_run("exact", {{"triangles", 0.6789}, {"body", 0.5}}),
+       cells = timed_run("cells", {{"cells", 0.0777}, {"body", 0.3217}});
+  exact["speedup"]["triangles"]["fcl-aabb"] = speedup_of_times(7.654, 0.6789);
+  exact["speedup"]["body"]["fcl-aabb"] = speedup_of_times(1.2345, 0.5);
+  cells["speedup"]["body"]["fcl-aabb"] = speedup_of_times(1.2345, 0.3217);
+  return {reference, exact, cells};
+}
+
+class PrintedTable {
+ public:
+  explicit PrintedTable(const TitledTable& table) : table_(table) {}
+  std::size_t rows() const { return table_.rows.size(); }
+  std::string cell(std::size_t row, const std::string& title) const {
+    for (std::size_t c = 0; c < table_.columns.size(); ++c)
+      if (table_.columns[c].title == title) return table_.rows.at(row).at(c);
+    ADD_FAILURE() << "no column " << title;
+    return "";
+  }
+  /// Of the row of a detector and question.
+  std::string cell(const std::string& detector, const std::string& question,
+                   const std::string& title) const {
+    for (std::size_t row = 0; row < rows(); ++row)
+      if (cell(row, "detector") == detector && cell(row, "question") == question)
+        return cell(row, title);
+    ADD_FAILURE() << "no row of " << detector << ", " << question;
+    return "";
+  }
+
+ private:
+  TitledTable table_;
+};
+
+PrintedTable printed_detail(const SceneReport& report, const std::string& title) {
+  for (const TitledTable& table : report.details)
+    if (table.title.starts_with(title)) return PrintedTable(table);
+  return PrintedTable(TitledTable{});
+}
+
+TEST(PrintedTimes, QuotientsAreThePrintedSpeedups) {
+  const results::Results results = results_of(timed_runs());
+  const results::Index index(results);
+  const SceneReport report = scene_report(index, results.scenes[0]);
+  const PrintedTable result(report.result), times = printed_detail(report, "Times"),
+                                            speedups = printed_detail(report, "Speed-ups");
+  ASSERT_EQ(speedups.rows(), 3u);
+  for (std::size_t row = 0; row < speedups.rows(); ++row) {
+    const std::string question = speedups.cell(row, "question");
+    expect_quotient(times.cell(speedups.cell(row, "reference"), question, "frame"),
+                    times.cell(speedups.cell(row, "detector"), question, "frame"),
+                    speedups.cell(row, "playback"));
+  }
+  ASSERT_EQ(result.rows(), 3u);
+  expect_quotient(result.cell("fcl-aabb", "triangles", "ms/frame"),
+                  result.cell("exact", "triangles", "ms/frame"),
+                  result.cell("exact", "triangles", "vs fcl-aabb"));
+  expect_quotient(times.cell("fcl-aabb", "body", "frame"), result.cell("cells", "body", "ms/frame"),
+                  result.cell("cells", "body", "vs fcl-aabb"));
+}
+
+TEST(ResultTable, ShowsItsOwnQuestionWhereItWasNotTimedInTheOneCompared) {
+  Json run = timed_runs()[2];
+  run.erase("time_ms_other_questions");
+  const results::Results results = results_of({run});
+  const results::Index index(results);
+  const PrintedTable result(scene_report(index, results.scenes[0]).result);
+  EXPECT_EQ(result.cell("cells", "cells", "ms/frame"), "0.0777");
+  EXPECT_EQ(result.cell("cells", "cells", "vs fcl-aabb"), "-");
+}
+
+TEST(ResultTable, SaysWhereAReferenceHasFewerPasses) {
+  std::vector<Json> runs = timed_runs();
+  runs[1]["speedup"]["triangles"]["fcl-aabb"]["passes"] = 1;
+  const results::Results results = results_of(runs);
+  const results::Index index(results);
+  const PrintedTable result(scene_report(index, results.scenes[0]).result);
+  EXPECT_EQ(result.cell("exact", "triangles", "passes"), "5");
+  EXPECT_EQ(result.cell("exact", "triangles", "vs fcl-aabb"), "11.3x (1 pass)");
 }
 
 TEST(GradedTable, ShowsKindAndSpreadOfDepthsAndNormals) {
@@ -118,7 +261,21 @@ TEST(SpeedupsTable, HasTheOptionsOfBothSides) {
   EXPECT_THAT(
       detail_of("Speed-ups", {near_run()}),
       HasSubstr("| bullet-vf | margin=0.001, scale=0 | body | fcl-aabb | depth=deep | 2.00x "
-                "[1.50, 2.50] | 3.00x [2.50, 3.50] | - | - |"));
+                "(1.50 to 2.50) | - | - | - | 3 |"));
+}
+
+TEST(SpeedupsTable, CallsTheEndsOfFewPassesARange) {
+  const auto table_over = [](std::size_t passes) {
+    Json run = near_run();
+    run["speedup"]["body"]["fcl-aabb"]["passes"] = passes;
+    return detail_of("Speed-ups", {run});
+  };
+  EXPECT_THAT(table_over(3), HasSubstr("(low to high) is the range of 3 passes."));
+  EXPECT_THAT(table_over(3), Not(HasSubstr("95 %")));
+  EXPECT_THAT(table_over(5), HasSubstr("[low, high] is the 95 % interval over 5 passes."));
+  EXPECT_THAT(table_over(5), HasSubstr("| 2.00x [1.50, 2.50] | - | - | - | 5 |"));
+  EXPECT_THAT(table_over(1), HasSubstr("| 2.00x (1 pass) | - | - | - | 1 |"));
+  EXPECT_THAT(table_over(1), Not(HasSubstr("range")));
 }
 
 TEST(SpeedupsTable, LeavesOutTheReferenceAgainstItself) {

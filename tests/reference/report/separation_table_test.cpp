@@ -19,6 +19,7 @@ const Json kScene = {{"size", 2.0},
 Json run_of(const char* detector) {
   return {{"detector", detector},
           {"status", "ok"},
+          {"time_ms", {{"question", "triangles"}, {"passes", 3}}},
           {"per_frame",
            {{"missed", {1, 2, 3, 0, 4, 0, 0, 0, 0}},
             {"spurious", {0, 0, 0, 0, 0, 0, 5, 0, 6}},
@@ -38,8 +39,8 @@ std::string sweep_tables(const Json& scene, std::vector<Json> runs) {
 TEST(SeparationTables, HaveMediansOfTimesAndSumsOfErrorsBySeparation) {
   const std::string tables = sweep_tables(kScene, {run_of("fcl-aabb")});
   EXPECT_THAT(tables, HasSubstr("3 orientations at each separation, given in % of the size (2"));
-  EXPECT_THAT(tables, HasSubstr("| detector | -5 % | 0 % | 50 % |"));
-  EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 2.00 | 0.500 | - |"));
+  EXPECT_THAT(tables, HasSubstr("| detector | -5 % | 0 % | 50 % | passes |"));
+  EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 2.00 | 0.500 | - | 3 |"));
   EXPECT_THAT(tables, HasSubstr("| fcl-aabb | 6 / 0 | 4 / 0 | 0 / 11 |"));
 }
 

@@ -63,7 +63,7 @@ TEST(SpeedError, SaysWhoIsLeftOutAndWhy) {
 TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
   Json results = two_scenes();
   results["runs"][5]["frames"] = 20;
-  results["runs"][5]["time_ms"]["cold"]["frame"] = 10.0;
+  results["runs"][5]["time_ms"]["playback"]["frame"] = 10.0;
   const SpeedError chart = speed_chart(results);
   EXPECT_EQ(chart.scenes, "all 2 scenes");
   EXPECT_DOUBLE_EQ(chart.points[0].ms, (60 * 2.0 + 20 * 10.0) / 80);
@@ -142,8 +142,18 @@ TEST(SpeedError, WithoutTimesThereIsNothingToCompare) {
 
 TEST(SpeedError, TimesThatNoAxisHasAreNone) {
   Json results = sample_results();
-  results["runs"][0]["time_ms"]["cold"]["frame"] = 0.0;
+  results["runs"][0]["time_ms"]["playback"]["frame"] = 0.0;
   EXPECT_EQ(speed_chart(results).left_out[0].why, "not timed");
+}
+
+TEST(SpeedError, RunsThatWereNotTimedColdAreLeftOutThere) {
+  Json json = sample_results();
+  json["runs"][0]["time_ms"].erase("cold");
+  const results::Results results = results::from_json(json);
+  const SpeedError chart = SpeedErrorCharts(results::Index(results)).chart({.cold = true});
+  ASSERT_EQ(chart.points.size(), 1u);
+  EXPECT_EQ(chart.points[0].ms, 0.75);
+  EXPECT_EQ(chart.left_out[0].why, "not timed cold");
 }
 
 TEST(SpeedError, FrontIsWhatNoOtherBeats) {

@@ -20,12 +20,14 @@ TEST(Terminal, IsThisText) {
   EXPECT_EQ(terminal_of(sample_results(), false),
             R"(hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact
-  detector              level      truth   recall  missed  spurious  body m/s  hover mm  late  ms/frame  question   vs fcl-aabb  vs fcl-obbrss  vs embree
-  fcl-aabb              triangle  200000        1       0         0       0/0         0     0      2.00  triangles        1.00x              -          -
-  ffd-aabb-sphere2+tri  triangle  200000  0.99999       1         2       0/2      2.10    -1     0.500  triangles        4.00x              -          -
+  detector              level      truth   recall  missed  spurious  body m/s  hover mm  late  question   ms/frame  passes  vs fcl-aabb  vs fcl-obbrss  vs embree
+  fcl-aabb              triangle  200000        1       0         0       0/0         0     0  triangles      2.00       5        1.00x              -          -
+  ffd-aabb-sphere2+tri  triangle  200000  0.99999       1         2       0/2      2.10    -1  triangles     0.500       5        4.00x              -          -
   fcl-obbrss            error  scene hello, frame 7, phase query: signal 11 (Segmentation fault) | core
   embree                absent  not built
   ffd-grid              refused  body "left" has no lattice
+
+  timing: 5 passes, each in a fresh process that has judged nothing; a detector whose pass takes over 2 s has 1; order drawn by seed 1; cold: 8 frames of each scene after a sweep of 64 MiB
 
   level          finest level judged
   truth          true contacts at that level, over all frames
@@ -35,20 +37,21 @@ TEST(Terminal, IsThisText) {
   body m/s       pairs of bodies missed / spurious, over all frames
   hover mm       largest true distance at the moment contact is first reported
   late           frames reported after (+) or before (-) the truth, worst episode
-  ms/frame       map + update + query, cold median, own question; (own ...): update + query by its own clock
-  question       question in which the next columns compare
-  vs fcl-aabb    time of fcl-aabb / time of this detector, cold
-  vs fcl-obbrss  time of fcl-obbrss / time of this detector, cold
-  vs embree      time of embree / time of this detector, cold
+  question       question of the next columns
+  ms/frame       map + update + query in playback, without the first frame; (own ...): update + query by its own clock
+  passes         timed passes through the frames, each in a fresh process
+  vs fcl-aabb    time of fcl-aabb / time of this detector, playback
+  vs fcl-obbrss  time of fcl-obbrss / time of this detector, playback
+  vs embree      time of embree / time of this detector, playback
 )");
 }
 
 TEST(Terminal, ShowsADetectorsOwnClockBesideOurs) {
   auto results = sample_results();
-  results["runs"][1]["time_ms"]["cold"]["self_reported"] = 0.375;
+  results["runs"][1]["time_ms"]["playback"]["self_reported"] = 0.375;
   const std::string text = terminal_of(results, false);
-  EXPECT_THAT(text, HasSubstr("  0.500 (own 0.375)  triangles"));
-  EXPECT_THAT(text, HasSubstr("  2.00  triangles")) << "one without a clock has none";
+  EXPECT_THAT(text, HasSubstr("  triangles  0.500 (own 0.375)       5  "));
+  EXPECT_THAT(text, HasSubstr("  2.00       5  ")) << "one without a clock has none";
 }
 
 TEST(Terminal, PaintsMissesSpuriousAndFailuresAlone) {

@@ -95,10 +95,12 @@ TEST(ReproductionMarkdown, HasTheRatiosWithTheirRanges) {
   const std::string text = markdown_of(sample_reproduction_results());
   const std::string row = "| ffd-aabb-sphere | ffd-aabb-sphere2 | ";
   EXPECT_THAT(text, HasSubstr(row + "paper, Table 3 | 2.00x | 1.500x | - | - |\n"));
-  EXPECT_THAT(text, HasSubstr(row + "ours, safe | 1.50x [1.25, 1.75] | 1.25x [1.12, 1.38] | yes | "
-                                    "0, 0 |\n"));
-  EXPECT_THAT(text, HasSubstr(row + "ours, paper | 3.00x [2.50, 3.50] | 1.67x [1.50, 1.83] | no | "
-                                    "3, 5 |\n"));
+  EXPECT_THAT(text,
+              HasSubstr(row + "ours, safe | 1.50x (1.25 to 1.75) | 1.25x (1.12 to 1.38) | yes | "
+                              "0, 0 |\n"));
+  EXPECT_THAT(text,
+              HasSubstr(row + "ours, paper | 3.00x (2.50 to 3.50) | 1.67x (1.50 to 1.83) | no | "
+                              "3, 5 |\n"));
 }
 
 TEST(ReproductionMarkdown, HasTheSentencesTheFrameRateAndTheMeans) {
@@ -159,9 +161,9 @@ TEST(PaperPartOfThePage, OverviewHasARowPerSceneWithThePapersRatiosBesideOurs) {
   ASSERT_EQ(overview.columns.size(), 9u);
   EXPECT_EQ(overview.columns[1].title, "collision test: paper");
   EXPECT_EQ(overview.columns[6].title, "ours, safe");
-  EXPECT_THAT(overview.rows,
-              ElementsAre(ElementsAre("s", "2.00x", "1.50x [1.25, 1.75]", "3.00x [2.50, 3.50]", "-",
-                                      "1.500x", "1.25x [1.12, 1.38]", "1.67x [1.50, 1.83]", "-")));
+  EXPECT_THAT(overview.rows, ElementsAre(ElementsAre(
+                                 "s", "2.00x", "1.50x (1.25 to 1.75)", "3.00x (2.50 to 3.50)", "-",
+                                 "1.500x", "1.25x (1.12 to 1.38)", "1.67x (1.50 to 1.83)", "-")));
 }
 
 // What the page says of the sample's one scene, and of all scenes.
@@ -231,10 +233,10 @@ TEST(ReproductionTerminal, HasTwoLinesPerScene) {
   EXPECT_EQ(terminal_of(sample_reproduction_results()),
             "  scene      two levels over one        paper               ours, safe              "
             "ours, paper  same contacts at safe\n"
-            "  s          collision test            2.000x       1.50x [1.25, 1.75]       3.00x "
-            "[2.50, 3.50]  yes\n"
-            "  s          frames per second         1.500x       1.25x [1.12, 1.38]       1.67x "
-            "[1.50, 1.83]  yes\n");
+            "  s          collision test            2.000x     1.50x (1.25 to 1.75)     3.00x "
+            "(2.50 to 3.50)  yes\n"
+            "  s          frames per second         1.500x     1.25x (1.12 to 1.38)     1.67x "
+            "(1.50 to 1.83)  yes\n");
 }
 
 TEST(ReproductionTerminal, SaysNoWhereContactsDiffer) {
@@ -246,7 +248,8 @@ TEST(ReproductionTerminal, SaysNoWhereContactsDiffer) {
 TEST(ReproductionTerminal, MissingReadingIsADashAndAMissingHeadlineNoLine) {
   Json results = sample_reproduction_results();
   results["runs"].erase(3);
-  EXPECT_THAT(terminal_of(results), HasSubstr("1.50x [1.25, 1.75]                        -  yes"));
+  EXPECT_THAT(terminal_of(results),
+              HasSubstr("1.50x (1.25 to 1.75)                        -  yes"));
   results["runs"].erase(1);
   const std::string text = terminal_of(results);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;

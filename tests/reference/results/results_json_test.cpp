@@ -53,7 +53,7 @@ TEST(FromJson, KeepsWhatARowSays) {
   ASSERT_NE(run, nullptr);
   EXPECT_EQ(run->levels.at(Level::kTriangle).missed, 0u);
   EXPECT_EQ(run->times.front().question, Question::kTriangles);
-  EXPECT_GT(run->speedup.at(Question::kTriangles).at("fcl-aabb").cold.value, 1.0);
+  EXPECT_GT(run->speedup.at(Question::kTriangles).at("fcl-aabb").playback.value, 1.0);
 }
 
 TEST(FromJson, RefusesWhatIsOfAnotherTypeOrUnknown) {

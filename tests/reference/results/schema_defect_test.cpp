@@ -49,7 +49,7 @@ TEST(SchemaDefect, NamesPlaceAndValue) {
             "runs[0].status is \"fine\"; it must be one of ok, error, absent, refused");
   EXPECT_EQ(defect_with("/libraries/fcl", 7), "libraries.fcl is 7; it must be of type string");
   EXPECT_EQ(defect_with("/schema", "else"),
-            "schema is \"else\"; it must be \"contactcheck-results/1\"");
+            "schema is \"else\"; it must be \"contactcheck-results/2\"");
 }
 
 TEST(SchemaDefect, NamesOfMembersAreCheckedToo) {

@@ -19,25 +19,24 @@ Job full_job() {
   job.text = SceneText{"{\"id\": \"x\"}", "the scene \"x\"", "/a folder"};
   job.settings.detectors = {"fcl-aabb", "ffd-aabb:bounds=safe"};
   job.settings.frames = 7;
-  job.settings.repeats = 9;
-  job.settings.processes = 3;
-  job.settings.time_budget = 0.1;
-  job.settings.fewest_timed_frames = 2;
+  job.settings.processes = 9;
+  job.settings.one_pass_beyond = 0.1;
+  job.settings.seed = kLargestPairSeed;
+  job.settings.step_repeats = 4;
   job.settings.closed_loop = true;
   job.settings.threads = 2;
-  job.settings.sweep_bytes = 12345;
   job.settings.timing = false;
   job.settings.call_limit = 1.0 / 3.0;
   job.settings.memory_limit = std::uint64_t{1} << 40;
   job.skip = {1, 4};
-  job.process = 2;
   job.unjudged = Unjudged{"the oracle, frame 3", 3};
-  job.order = {3, 0, 2};
-  job.prefixes = {3, 0};
+  job.turns = {{1, Question::kBody, false}, {0, Question::kTriangles, true}};
+  job.cold_frames = {0, 2, 3};
   job.answers = {{{Question::kBody, {AnswerPrint{}}}}, {}};
   job.answers[0][0].frames[0].sizes[6] = 5;
   job.answer_file = "/tmp/answer";
   job.recording_file = "/tmp/x.ccr";
+  job.temporary = "/tmp/own";
   return job;
 }
 
@@ -56,26 +55,29 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.unjudged->why, out.unjudged->why);
   EXPECT_EQ(in.unjudged->frame, 3u);
   EXPECT_EQ(in.settings.frames, 7u);
-  EXPECT_EQ(in.settings.repeats, 9u);
-  EXPECT_EQ(in.settings.processes, 3u);
-  EXPECT_EQ(in.settings.time_budget, 0.1);
-  EXPECT_EQ(in.settings.fewest_timed_frames, 2u);
+  EXPECT_EQ(in.settings.processes, 9u);
+  EXPECT_EQ(in.settings.one_pass_beyond, 0.1);
+  EXPECT_EQ(in.settings.seed, kLargestPairSeed);
+  EXPECT_EQ(in.settings.step_repeats, 4u);
   EXPECT_TRUE(in.settings.closed_loop);
   EXPECT_EQ(in.settings.threads, 2u);
-  EXPECT_EQ(in.settings.sweep_bytes, 12345u);
   EXPECT_FALSE(in.settings.timing);
   EXPECT_EQ(in.settings.call_limit, 1.0 / 3.0);
   EXPECT_EQ(in.settings.memory_limit, std::uint64_t{1} << 40);
   EXPECT_THAT(in.skip, ElementsAre(1, 4));
-  EXPECT_EQ(in.process, 2u);
-  EXPECT_THAT(in.order, ElementsAre(3, 0, 2));
-  EXPECT_THAT(in.prefixes, ElementsAre(3, 0));
+  ASSERT_EQ(in.turns.size(), 2u);
+  EXPECT_EQ(in.turns[0].position, 1u);
+  EXPECT_EQ(in.turns[0].question, Question::kBody);
+  EXPECT_FALSE(in.turns[0].cold);
+  EXPECT_TRUE(in.turns[1].cold);
+  EXPECT_THAT(in.cold_frames, ElementsAre(0, 2, 3));
   ASSERT_EQ(in.answers.size(), 2u);
   ASSERT_EQ(in.answers[0].size(), 1u);
   EXPECT_EQ(in.answers[0][0].question, Question::kBody);
   EXPECT_EQ(in.answers[0][0].frames.at(0).sizes[6], 5u);
   EXPECT_EQ(in.answer_file, "/tmp/answer");
   EXPECT_EQ(in.recording_file, "/tmp/x.ccr");
+  EXPECT_EQ(in.temporary, "/tmp/own");
 }
 
 TEST(Job, RandomPairsReadBackInPlaceOfAFile) {
@@ -119,8 +121,6 @@ SceneAnswer full_answer() {
   answer.scene.id = "s";
   answer.scene.truth[Level::kCell] = "not judged: a body has no lattice";
   answer.contact_frames = {false, true};
-  answer.order = {1, 0};
-  answer.prefixes = {0, 0, 2};
   answer.truth_contacts = R"([{"frame":1}])";
   answer.disagreements = {{"s", "fcl-aabb", "triangle", "missed", "/tmp/case", 1}};
   DetectorAnswer& detector = answer.detectors.emplace_back();
@@ -138,8 +138,6 @@ TEST(Answer, ReadsBackAsItWasWritten) {
   EXPECT_EQ(std::get<std::string>(in.scene.truth.at(Level::kCell)),
             "not judged: a body has no lattice");
   EXPECT_THAT(in.contact_frames, ElementsAre(false, true));
-  EXPECT_THAT(in.order, ElementsAre(1, 0));
-  EXPECT_THAT(in.prefixes, ElementsAre(0, 0, 2));
   EXPECT_EQ(in.truth_contacts, R"([{"frame":1}])");
   ASSERT_EQ(in.disagreements.size(), 1u);
   EXPECT_EQ(in.disagreements[0].case_file, "/tmp/case");
@@ -150,29 +148,32 @@ TEST(Answer, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.detectors[0].contacts, R"({"detector":"fcl-aabb"})");
 }
 
-TEST(Answer, SamplesReadBackBitForBit) {
+TEST(Answer, TurnsReadBackBitForBit) {
   SceneAnswer answer = full_answer();
-  QuestionSamples& out = answer.detectors[0].samples.emplace_back();
-  out.question = Question::kBody;
+  TurnAnswer out;
+  out.turn = {2, Question::kBody, true};
   out.lazy_map = true;
-  out.frames[4].cold = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0, 4.0}};
-  out.frames[4].hot = {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}};
-  out.frames[17].cold = out.frames[17].hot = {{1.5, 2.5, 3.5}, {0.0, 0.0, 0.0}};
-  const QuestionSamples in = reread(answer).detectors.at(0).samples.at(0);
-  EXPECT_EQ(in.question, Question::kBody);
-  EXPECT_TRUE(in.lazy_map);
-  ASSERT_EQ(in.frames.size(), 2u);
-  for (const auto& [frame, samples] : out.frames)
-    for (const auto mode : {&FrameSamples::cold, &FrameSamples::hot}) {
-      const auto& read = in.frames.at(frame).*mode;
-      ASSERT_EQ(read.size(), 2u);
-      for (std::size_t r = 0; r < 2; ++r) {
-        EXPECT_EQ(read[r].map, (samples.*mode)[r].map);
-        EXPECT_EQ(read[r].update, (samples.*mode)[r].update);
-        EXPECT_EQ(read[r].query, (samples.*mode)[r].query);
-        EXPECT_EQ(read[r].reported, (samples.*mode)[r].reported);
-      }
-    }
+  out.samples = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0, 4.0, 1.0 / 7.0}};
+  answer.timed.push_back(out);
+  answer.timed.push_back({{0, Question::kTriangles, false}, "it threw", 3, false, {}});
+  const std::vector<TurnAnswer> in = reread(answer).timed;
+  ASSERT_EQ(in.size(), 2u);
+  EXPECT_EQ(in[0].turn.position, 2u);
+  EXPECT_EQ(in[0].turn.question, Question::kBody);
+  EXPECT_TRUE(in[0].turn.cold);
+  EXPECT_TRUE(in[0].lazy_map);
+  EXPECT_EQ(in[0].failed_frame, std::nullopt);
+  ASSERT_EQ(in[0].samples.size(), 2u);
+  for (std::size_t f = 0; f < 2; ++f) {
+    const PhaseSample &read = in[0].samples[f], &written = out.samples[f];
+    EXPECT_EQ(read.map, written.map);
+    EXPECT_EQ(read.update, written.update);
+    EXPECT_EQ(read.query, written.query);
+    EXPECT_EQ(read.reported, written.reported);
+    EXPECT_EQ(read.cpu, written.cpu);
+  }
+  EXPECT_EQ(in[1].error, "it threw");
+  EXPECT_EQ(in[1].failed_frame, 3u);
 }
 
 TEST(Answer, JudgedAnswersReadBackEvenWhereTheyAreEmpty) {

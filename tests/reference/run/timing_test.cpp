@@ -1,10 +1,14 @@
 #include "reference/run/timing.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
+#include "reference/run/cpu_time.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
@@ -13,63 +17,50 @@ namespace {
 
 using testing::ElementsAre;
 
-struct Call {
-  char detector;
-  std::size_t frame;
-  bool operator==(const Call&) const = default;
-};
+constexpr Asked kBody = {Question::kBody, true};
 
-void PrintTo(const Call& c, std::ostream* out) { *out << c.detector << c.frame; }
-
-// Writes down when it is called.
+// Writes down the frames that it is updated with; in frame 1 it throws where its word is "throws",
+// and answers otherwise where it is "less" or "other".
 class Diary : public Detector {
  public:
-  Diary(char name, bool vertices, std::vector<Call>& calls)
-      : name_(name), needs_vertices_(vertices), calls_(calls) {
+  explicit Diary(bool vertices = true, std::string word = "")
+      : needs_vertices_(vertices), word_(std::move(word)) {
     semantics_.questions = {Question::kBody};
   }
   const Semantics& semantics() const override { return semantics_; }
   bool needs_vertices() const override { return needs_vertices_; }
   void prepare(const std::vector<Body>&) override {}
   void update(const Frame& frame) override {
-    calls_.push_back({name_, frame.index});
-    if (name_ == 'X') throw std::runtime_error("out of order");
+    frames.push_back(frame.index);
+    if (word_ == "throws" && frame.index == 1) throw std::runtime_error("out of order");
   }
   void query(Question, ContactSet& out) override {
     EXPECT_TRUE(out.bodies.empty()) << "an answer begins empty";
-    out.bodies.push_back({0, 1});
+    if (word_ == "less" && frames.back() == 1) return;
+    out.bodies = {{1, 0}, {0, 1}};  // of a repeat nobody is told
+    if (word_ == "other" && frames.back() == 1) out.bodies = {{0, 2}};
   }
 
- protected:
-  char name_;
-  bool needs_vertices_;
-  std::vector<Call>& calls_;
-  Semantics semantics_;
-};
-
-// Answers with the bodies named twice, and with nothing where its word says so: C in every cold
-// call, H in every hot one, L from the third query on; O names others.
-class Forgetful : public Diary {
- public:
-  Forgetful(char word, std::vector<Call>& calls) : Diary(word, true, calls) {}
-  void query(Question, ContactSet& out) override {
-    const bool hot = queries_++ % 2 == 1;
-    if ((name_ == 'C' && !hot) || (name_ == 'H' && hot) || (name_ == 'L' && queries_ > 2)) return;
-    out.bodies = {{1, 0}, {0, 1}};
-    if (name_ == 'O') out.bodies = {{0, 2}};
-  }
+  std::vector<std::size_t> frames;
 
  private:
-  int queries_ = 0;
+  bool needs_vertices_;
+  std::string word_;
+  Semantics semantics_;
 };
 
 // Writes down what a supervisor sees while it is called.
 class Watched : public Diary {
  public:
-  Watched(const SharedProgress& page, bool vertices, std::vector<Call>& calls)
-      : Diary('W', vertices, calls), page_(page) {}
-  void update(const Frame&) override { look(); }
-  void query(Question, ContactSet&) override { look(); }
+  Watched(const SharedProgress& page, bool vertices) : Diary(vertices), page_(page) {}
+  void update(const Frame& frame) override {
+    Diary::update(frame);
+    look();
+  }
+  void query(Question question, ContactSet& out) override {
+    Diary::query(question, out);
+    look();
+  }
 
   std::vector<Phase> phases;
   std::vector<std::uint64_t> ticks;
@@ -88,64 +79,56 @@ class Timing : public testing::Test {
       : scene_(test::approach_scene(test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
                                     test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
                                     {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody})),
-        judged_(judge_scene(scene_, false, progress_)) {}
-
-  TimedEntry entry(Detector& detector, std::size_t frames) {
-    TimedEntry e;
-    e.detector = &detector;
-    e.frames = frames;
-    return e;
-  }
-
-  // What is wrong with one that was judged by the answer "bodies 0 and 1" to every frame.
-  std::string error_of(char word) {
+        judged_(judge_scene(scene_, false, progress_)) {
     ContactSet judged;
     judged.bodies = {{0, 1}};
-    const std::vector<AnswerPrint> prints(3, print_of(judged, {Question::kBody, true}));
-    Forgetful detector(word, calls_);
-    std::vector<TimedEntry> entries = {entry(detector, 2)};
-    entries[0].question = Question::kBody;
-    entries[0].judged = &prints;
-    run_timing(judged_, {1, 0}, 2, 1 << 12, entries, progress_);
-    return entries[0].error;
+    prints_.assign(3, print_of(judged, kBody));
   }
 
-  std::vector<Call> calls_;
+  Pass pass(Detector& detector, std::vector<std::size_t> frames = {0, 1, 2}) {
+    return time_pass(judged_, {0, kBody, std::move(frames), &prints_}, detector, progress_);
+  }
+
+  // What is wrong with it.
+  std::string error_of(const std::string& word) {
+    Diary detector(true, word);
+    try {
+      pass(detector);
+    } catch (const std::runtime_error& e) {
+      EXPECT_THAT(detector.frames, ElementsAre(0, 1)) << "it is not called again";
+      return e.what();
+    }
+    return "";
+  }
+
   SharedProgress page_;
   ProgressWriter progress_{&page_};
   Scene scene_;
   JudgedScene judged_;
+  std::vector<AnswerPrint> prints_;
 };
 
-TEST_F(Timing, RotatesTheDetectorsFromRepeatToRepeatColdThenHot) {
-  Diary a('A', true, calls_), b('B', true, calls_), c('C', true, calls_);
-  std::vector<TimedEntry> entries = {entry(a, 1), entry(b, 1), entry(c, 1)};
-  run_timing(judged_, {2, 0, 1}, 2, 1 << 12, entries, progress_);
-  EXPECT_THAT(calls_, ElementsAre(Call{'A', 2}, Call{'A', 2}, Call{'B', 2}, Call{'B', 2},
-                                  Call{'C', 2}, Call{'C', 2},  //
-                                  Call{'B', 2}, Call{'B', 2}, Call{'C', 2}, Call{'C', 2},
-                                  Call{'A', 2}, Call{'A', 2}));
+TEST_F(Timing, AsksEveryFrameOnceInOrder) {
+  Diary detector;
+  const Pass samples = pass(detector);
+  EXPECT_THAT(detector.frames, ElementsAre(0, 1, 2));
+  EXPECT_EQ(samples.size(), 3u);
+  EXPECT_GT(samples[1].cpu, 0.0);
 }
 
-TEST_F(Timing, TimesEachEntryOnItsPrefixOfTheOrder) {
-  Diary a('A', true, calls_), b('B', true, calls_);
-  std::vector<TimedEntry> entries = {entry(a, 3), entry(b, 1)};
-  run_timing(judged_, {2, 0, 1}, 5, 1 << 12, entries, progress_);
-  ASSERT_EQ(entries[0].samples.frames.size(), 3u);
-  ASSERT_EQ(entries[1].samples.frames.size(), 1u);
-  EXPECT_EQ(entries[1].samples.frames.begin()->first, 2u);
-  for (const TimedEntry& e : entries)
-    for (const auto& [frame, samples] : e.samples.frames) {
-      EXPECT_EQ(samples.cold.size(), 5u);
-      EXPECT_EQ(samples.hot.size(), 5u);
-    }
+TEST_F(Timing, OfColdFramesThoseAlone) {
+  Diary detector;
+  CacheSweep sweep(1 << 12);
+  const Pass samples =
+      time_pass(judged_, {0, kBody, {0, 2}, &prints_, &sweep}, detector, progress_);
+  EXPECT_THAT(detector.frames, ElementsAre(0, 2));
+  EXPECT_EQ(samples.size(), 2u);
 }
 
 TEST_F(Timing, SupervisorSeesThePhaseOfEveryCallAndThatItIsANewOne) {
   for (const bool vertices : {true, false}) {
-    Watched detector(page_, vertices, calls_);
-    std::vector<TimedEntry> entries = {entry(detector, 1)};
-    run_timing(judged_, {0}, 1, 1 << 12, entries, progress_);
+    Watched detector(page_, vertices);
+    pass(detector, {0, 1});
     EXPECT_THAT(detector.phases,
                 ElementsAre(Phase::kUpdate, Phase::kQuery, Phase::kUpdate, Phase::kQuery));
     for (std::size_t i = 1; i < detector.ticks.size(); ++i)
@@ -153,7 +136,8 @@ TEST_F(Timing, SupervisorSeesThePhaseOfEveryCallAndThatItIsANewOne) {
   }
 }
 
-// No call of the detector happens meanwhile, so that another thread looks.
+// No call of the detector happens meanwhile, so that another thread looks; the detector may use
+// it, then.
 TEST_F(Timing, SupervisorSeesMapping) {
   const auto fine = test::make_body("", test::unit_box_mesh(40), {1, 1, 1}).shape;
   const Scene scene =
@@ -161,49 +145,105 @@ TEST_F(Timing, SupervisorSeesMapping) {
   const JudgedScene judged = judge_scene(scene, false, progress_);
   std::atomic<bool> seen = false, done = false;
   std::thread supervisor([&] {
-    while (!seen && !done) seen = page_.phase == Phase::kMap;
+    while (!done) {
+      seen = seen || page_.phase == Phase::kMap;
+      std::this_thread::yield();
+    }
   });
-  Diary eager('A', true, calls_);
-  std::vector<TimedEntry> entries = {entry(eager, 1)};
-  for (int i = 0; i < 10'000 && !seen; ++i) run_timing(judged, {0}, 1, 1 << 12, entries, progress_);
+  Diary detector;
+  for (int i = 0; i < 10'000 && !seen; ++i) {
+    try {
+      time_pass(judged, {0, kBody, {0}, &prints_}, detector, progress_);
+    } catch (const std::runtime_error&) {  // this thread's work is taken for the detector's
+    }
+  }
   done = true;
   supervisor.join();
   EXPECT_TRUE(seen);
 }
 
 TEST_F(Timing, MapsForThoseWhoNeedVerticesAlone) {
-  Diary eager('A', true, calls_), lazy('B', false, calls_);
-  std::vector<TimedEntry> entries = {entry(eager, 1), entry(lazy, 1)};
-  run_timing(judged_, {0}, 1, 1 << 12, entries, progress_);
-  EXPECT_GT(entries[0].samples.frames.at(0).cold.at(0).map, 0.0);
-  EXPECT_EQ(entries[1].samples.frames.at(0).cold.at(0).map, 0.0);
+  Diary eager(true), lazy(false);
+  EXPECT_GT(pass(eager).at(0).map, 0.0);
+  EXPECT_EQ(pass(lazy).at(0).map, 0.0);
 }
 
-TEST_F(Timing, DetectorThatThrowsIsNotCalledAgainAndStopsNobodyElse) {
-  Diary a('A', true, calls_), broken('X', true, calls_);
-  std::vector<TimedEntry> entries = {entry(a, 2), entry(broken, 2)};
-  run_timing(judged_, {1, 0}, 3, 1 << 12, entries, progress_);
-  EXPECT_EQ(
-      std::count_if(calls_.begin(), calls_.end(), [](const Call& c) { return c.detector == 'X'; }),
-      1);
-  EXPECT_THAT(entries[1].error, testing::HasSubstr("frame 1"));
-  EXPECT_THAT(entries[1].error, testing::HasSubstr("out of order"));
-  EXPECT_EQ(entries[0].error, "");
-  EXPECT_EQ(entries[0].samples.frames.at(0).cold.size(), 3u);
+TEST_F(Timing, AnswerThatWasJudgedMayRepeatItself) { EXPECT_EQ(error_of(""), ""); }
+
+TEST_F(Timing, WhatItThrowsEndsThePass) { EXPECT_EQ(error_of("throws"), "out of order"); }
+
+TEST_F(Timing, AnswerThatWasNotJudgedEndsThePass) {
+  EXPECT_EQ(error_of("less"), "it answered 0 pairs of bodies and not the 1 that were judged");
+  EXPECT_EQ(error_of("other"),
+            "it answered 1 pairs of bodies, and others than those that were judged");
 }
 
-TEST_F(Timing, AnswerThatWasJudgedMayRepeatItself) { EXPECT_EQ(error_of('-'), ""); }
+// ---- CPU time ----------------------------------------------------------------------------------
 
-TEST_F(Timing, AnswerThatWasNotJudgedEndsInAnError) {
-  const std::string missing = "it answered 0 pairs of bodies and not the 1 that were judged";
-  EXPECT_EQ(error_of('C'), "frame 1, while timed: " + missing) << "cold alone";
-  EXPECT_EQ(error_of('H'), "frame 1, while timed: " + missing) << "hot alone";
-  EXPECT_EQ(error_of('O'),
-            "frame 1, while timed: it answered 1 pairs of bodies, and others than "
-            "those that were judged");
-  calls_.clear();
-  EXPECT_EQ(error_of('L'), "frame 1, while timed: " + missing) << "later repeats";
-  EXPECT_EQ(calls_.size(), 4u) << "and it is not called again";
+constexpr double kMilliseconds = 1e6;
+
+void work(double milliseconds) {
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
+TEST(CpuBook, OfCallsThatWorkIsTheirTime) {
+  CpuBook book(1, false);
+  double in_calls = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    book.before_call();
+    const auto start = std::chrono::steady_clock::now();
+    work(5.0);
+    in_calls += book.after_call(
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
+    work(5.0);  // the caller's own
+  }
+  book.settle();
+  EXPECT_EQ(book.complaint(), "");
+  EXPECT_LT(in_calls, 16.0 * kMilliseconds);
+}
+
+TEST(CpuBook, ComplainsOfMoreThreadsThanItMayUse) {
+  for (const std::size_t threads : {1, 4}) {
+    CpuBook book(threads, false);
+    book.before_call();
+    std::thread other([] { work(20.0); });
+    other.join();
+    book.after_call(5.0 * kMilliseconds);  // as if it had waited no longer
+    book.settle();
+    if (threads == 1) {
+      EXPECT_THAT(book.complaint(), testing::HasSubstr("it may use 1 thread (--threads)"));
+    } else {
+      EXPECT_EQ(book.complaint(), "");
+    }
+  }
+}
+
+TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
+  CpuBook book(1, false);
+  book.before_call();
+  book.after_call(1.0 * kMilliseconds);
+  std::thread other([] { work(20.0); });
+  book.settle();
+  other.join();
+  EXPECT_THAT(book.complaint(), testing::HasSubstr("while it was not called"));
+}
+
+TEST(CpuBook, CountsProcessesThatWereStarted) {
+  CpuBook book(1, true);
+  book.before_call();
+  book.after_call(1.0 * kMilliseconds);
+  const pid_t child = fork();
+  if (child == 0) {
+    work(40.0);
+    _exit(0);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  book.settle();
+  waitpid(child, nullptr, 0);
+  EXPECT_THAT(book.complaint(), testing::HasSubstr("while it was not called"));
 }
 
 }  // namespace

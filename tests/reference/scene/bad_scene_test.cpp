@@ -292,16 +292,16 @@ TEST(SuiteFile, DefectsOfGoalsAreRefusedWithOneSentence) {
   EXPECT_EQ(refusal(""), "goals is an array of 0; it must be an array of at least 1.");
   EXPECT_EQ(
       refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e", "per": "pair",
-                        "part": "cold", "at_least": 1})"),
+                        "part": "playback", "at_least": 1})"),
       "goals[0] has both \"over\" and \"per\"; exactly one of over, over_scene, per is allowed.");
   EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "per": "vertex",
-                        "part": "cold", "at_least": 1})"),
+                        "part": "playback", "at_least": 1})"),
             "goals[0].per is \"vertex\"; it must be one of pair.");
   EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e",
                         "part": "tepid", "at_least": 1})"),
-            "goals[0].part is \"tepid\"; it must be one of cold, hot, contact_frames.");
+            "goals[0].part is \"tepid\"; it must be one of playback, cold, contact_frames.");
   EXPECT_EQ(refusal(R"({"goal": "g", "scene": "a", "detector": "d", "over": "e",
-                        "part": "cold", "at_most": 0})"),
+                        "part": "playback", "at_most": 0})"),
             "goals[0].at_most is 0; it must be a number above 0.");
 }
 
@@ -310,8 +310,8 @@ TEST(SuiteFile, HoldsScenesWithDetectorsOfTheirOwnAndGoals) {
   const Suite suite = load_suite(scratch.write("u.json", R"({
     "id": "u", "scenes": ["a", {"scene": "b", "detectors": ["e", "f"]}], "detectors": ["d"],
     "goals": [
-      {"goal": "faster", "scene": "a", "detector": "d", "over": "e", "part": "hot", "at_least": 2},
-      {"goal": "flat", "scene": "b", "detector": "d", "over_scene": "a", "part": "cold",
+      {"goal": "faster", "scene": "a", "detector": "d", "over": "e", "part": "cold", "at_least": 2},
+      {"goal": "flat", "scene": "b", "detector": "d", "over_scene": "a", "part": "playback",
        "at_most": 1.1},
       {"goal": "cheap", "scene": "a", "detector": "d", "per": "pair", "part": "contact_frames",
        "at_most": 0.5}]})"));

@@ -146,6 +146,15 @@ def time_errors(place, run):
         if times.get("question") in seen:
             yield f"{place}/{name}/question", f"{times['question']} is timed twice"
         seen.add(times.get("question"))
+        for regime in ("playback", "cold"):
+            if regime in times:
+                yield from phase_errors(f"{place}/{name}/{regime}", times[regime])
+
+
+def phase_errors(place, phases):
+    parts = (phases["map"] or 0) + phases["update"] + phases["query"]
+    if abs(parts - phases["frame"]) > SUM_TOLERANCE * parts:
+        yield f"{place}/frame", f"is {phases['frame']}, but its phases add up to {parts}"
 
 
 def histogram_errors(place, run):
@@ -178,13 +187,18 @@ def informative_errors(place, run):
                 yield f"{place}/{levels}/{name}", "must be informative exactly when not claimed"
 
 
-def speedup_errors(place, speedup):
-    for question, references in speedup.items():
+def speedup_errors(place, run):
+    timed = {times.get("question"): times.get("passes", 0)
+             for times in [run["time_ms"], *run.get("time_ms_other_questions", [])]}
+    for question, references in run.get("speedup", {}).items():
         for reference, ratios in references.items():
-            for name in ("cold", "hot", "contact_frames", "without_map"):
+            here = f"{place}/{question}/{reference}"
+            for name in ("playback", "cold", "contact_frames", "without_map"):
                 ratio = ratios[name]
                 if ratio and not ratio["low"] <= ratio["ratio"] <= ratio["high"]:
-                    yield f"{place}/{question}/{reference}/{name}", "lies outside its interval"
+                    yield f"{here}/{name}", "lies outside its interval"
+            if ratios["passes"] > timed.get(question, 0):
+                yield f"{here}/passes", f"exceeds the row's {timed.get(question, 0)} passes"
 
 
 def step_errors(place, step):
@@ -229,7 +243,7 @@ def run_errors(place, run):
     yield from geometry_errors(f"{place}/geometry", run["geometry"])
     yield from histogram_errors(f"{place}/geometry", run)
     yield from per_frame_errors(f"{place}/per_frame", run)
-    yield from speedup_errors(f"{place}/speedup", run.get("speedup", {}))
+    yield from speedup_errors(f"{place}/speedup", run)
     if "closed_loop" in run:
         yield from closed_loop_errors(f"{place}/closed_loop", run["closed_loop"])
     if "step_ms" in run:
@@ -294,8 +308,11 @@ def separation_errors(place, scene):
 
 
 def frames_errors(place, scene):
-    """A sweep has a frame per pose, a fit an error per frame."""
+    """A sweep has a frame per pose, a fit an error per frame; cold frames are frames."""
     frames, sweep = scene["frames"], scene.get("sweep")
+    cold = scene.get("cold_frames", [])
+    if cold != sorted(set(cold)) or any(frame >= frames for frame in cold):
+        yield f"{place}/cold_frames", f"are not ascending numbers of {frames} frames"
     if sweep and len(sweep["separations"]) * sweep["orientations"] != frames:
         yield f"{place}/sweep", f"has other poses than the scene's {frames} frames"
     for number, fit in enumerate(scene.get("fits", [])):

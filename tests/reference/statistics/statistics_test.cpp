@@ -62,39 +62,81 @@ TEST(Bootstrap, DrawsTheSameEveryTimeAndAllThereIs) {
   EXPECT_GT(*std::min_element(counts.begin(), counts.end()), 10u);
 }
 
-TEST(PairedRatio, OfConstantTimesIsExact) {
-  const Ratio ratio = paired_ratio({2.0, 2.0, 2.0}, {3.0, 3.0, 3.0});
-  EXPECT_EQ(ratio.value, 1.5);
-  EXPECT_EQ(ratio.low, 1.5);
-  EXPECT_EQ(ratio.high, 1.5);
+TEST(GeometricMean, IsTheMeanOfTheLogarithms) {
+  EXPECT_NEAR(geometric_mean({2.0, 8.0}), 4.0, 1e-12);
+  EXPECT_NEAR(geometric_mean({1.0, 10.0, 100.0}), 10.0, 1e-12);
+  EXPECT_NEAR(geometric_mean({7.0}), 7.0, 1e-12);
 }
 
-// A machine that throttles slows both builds of a round.
-TEST(PairedRatio, DriftOfBothIsNoChange) {
-  const std::vector<double> drifting = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
-  const Ratio ratio = paired_ratio(drifting, drifting);
+TEST(IntervalName, IsARangeBelowFiveMeasurements) {
+  for (const std::size_t few : {1u, 2u, 4u}) EXPECT_STREQ(interval_name(few), "range");
+  for (const std::size_t enough : {5u, 6u, 100u}) EXPECT_STREQ(interval_name(enough), "95 %");
+}
+
+TEST(MeanRatio, OfOneMeasurementIsThatMeasurement) {
+  const Ratio ratio = mean_ratio({1.7});
+  EXPECT_NEAR(ratio.value, 1.7, 1e-12);
+  EXPECT_NEAR(ratio.low, 1.7, 1e-12);
+  EXPECT_NEAR(ratio.high, 1.7, 1e-12);
+}
+
+TEST(MeanRatio, OfFewMeasurementsHasTheirRange) {
+  const Ratio ratio = mean_ratio({4.0, 1.0, 2.0, 2.0});
+  EXPECT_NEAR(ratio.value, 2.0, 1e-12);
   EXPECT_EQ(ratio.low, 1.0);
-  EXPECT_EQ(ratio.high, 1.0);
+  EXPECT_EQ(ratio.high, 4.0);
 }
 
-TEST(PairedRatio, OneSlowRoundDoesNotMoveTheMedian) {
-  const Ratio ratio =
-      paired_ratio({1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, {1.0, 1.0, 1.0, 9.0, 1.0, 1.0, 1.0});
-  EXPECT_EQ(ratio.value, 1.0);
-  EXPECT_EQ(ratio.high, 1.0);
+// Logarithms -2, -1, 0, 1, 2, ...: to either side of the mean t * deviation / sqrt(n), with t from
+// a table of Student's distribution.
+TEST(MeanRatio, OfFiveAndMoreHasStudentsInterval) {
+  struct Known {
+    std::size_t measurements;
+    double t, within;  ///< `within`: how far the program's t may be off
+  };
+  for (const Known& known : {Known{5, 2.776, 1e-3}, Known{6, 2.571, 0.03}, Known{7, 2.447, 0.02},
+                             Known{10, 2.262, 5e-3}, Known{31, 2.042, 1e-3}}) {
+    const auto n = static_cast<double>(known.measurements);
+    std::vector<double> measured;
+    for (std::size_t i = 0; i < known.measurements; ++i)
+      measured.push_back(std::exp(static_cast<double>(i)));
+    const Ratio ratio = mean_ratio(measured);
+    EXPECT_NEAR(std::log(ratio.value), (n - 1.0) / 2.0, 1e-12);
+    // The variance of 0, 1, ..., n - 1, divided by n - 1, is n (n + 1) / 12.
+    const double standard_error = std::sqrt((n + 1.0) / 12.0);
+    EXPECT_NEAR(std::log(ratio.high / ratio.value) / standard_error, known.t, known.within) << n;
+    EXPECT_NEAR(std::log(ratio.value / ratio.low) / standard_error, known.t, known.within) << n;
+  }
 }
 
-TEST(PairedRatio, IntervalHoldsTheRatioAndWidensWithTheSpread) {
-  const Ratio ratio = paired_ratio({1.0, 1.0, 1.0, 1.0, 1.0}, {0.8, 0.9, 1.0, 1.1, 1.2});
-  EXPECT_EQ(ratio.value, 1.0);
-  EXPECT_GE(ratio.low, 0.8);
-  EXPECT_LT(ratio.low, 1.0);
-  EXPECT_LE(ratio.high, 1.2);
-  EXPECT_GT(ratio.high, 1.0);
+TEST(MeanRatio, ContainsItsValueWhereAllAreEqual) {
+  for (const std::size_t n : {1u, 2u, 3u, 4u, 5u, 6u, 17u}) {
+    const Ratio ratio = mean_ratio(std::vector<double>(n, 1.3));
+    EXPECT_NEAR(ratio.value, 1.3, 1e-12);
+    EXPECT_LE(ratio.low, ratio.value);
+    EXPECT_GE(ratio.high, ratio.value);
+    EXPECT_NEAR(ratio.high / ratio.low, 1.0, 1e-12);
+  }
 }
 
-TEST(PairedRatio, OfAnEvenNumberOfRoundsIsTheMiddle) {
-  EXPECT_EQ(paired_ratio({1.0, 1.0, 1.0, 1.0}, {1.0, 2.0, 3.0, 9.0}).value, 2.5);
+// Which side is above the bar, which unit times have and in which order passes ran say nothing.
+TEST(MeanRatio, IsInvariant) {
+  for (const std::vector<double>& measured :
+       {std::vector<double>{1.0, 3.0, 2.0}, std::vector<double>{1.0, 3.0, 2.0, 5.0, 4.0, 2.5}}) {
+    const Ratio ratio = mean_ratio(measured);
+    std::vector<double> inverse, larger, reversed(measured.rbegin(), measured.rend());
+    for (const double m : measured) {
+      inverse.push_back(1.0 / m);
+      larger.push_back(1000.0 * m);
+    }
+    EXPECT_NEAR(mean_ratio(inverse).value * ratio.value, 1.0, 1e-12);
+    EXPECT_NEAR(mean_ratio(inverse).low * ratio.high, 1.0, 1e-12);
+    EXPECT_NEAR(mean_ratio(inverse).high * ratio.low, 1.0, 1e-12);
+    EXPECT_NEAR(mean_ratio(larger).low / ratio.low, 1000.0, 1e-9);
+    EXPECT_NEAR(mean_ratio(larger).high / ratio.high, 1000.0, 1e-9);
+    EXPECT_NEAR(mean_ratio(reversed).low, ratio.low, 1e-12);
+    EXPECT_NEAR(mean_ratio(reversed).high, ratio.high, 1e-12);
+  }
 }
 
 TEST(Quotient, CombinesTheIntervalsAsIndependentErrors) {

@@ -12,7 +12,7 @@ using ::testing::DoubleNear;
 
 const ModelKey kOwn, kCoarse{0.5, ""}, kSoft{1.0, "shape-matching"};
 
-// Two frames of five repeats whose quotients differ by up to `spread` to either side.
+// Two frames of five passes whose quotients differ by up to `spread` to either side.
 PairedRun times(double ratio, double spread = 0.0) {
   PairedRun run;
   for (std::size_t f = 0; f < 2; ++f)

@@ -44,36 +44,39 @@ class SimulatedClock {
   double now_ms_ = 0.0, log_speed_ = 0.0;
 };
 
-/// Times the candidates of a grid as the suite's timed pass does: frame by frame and repeat by
-/// repeat, in turns. Every third frame holds contacts, and costs some detectors more than others.
+/// Times the candidates of a grid as the suite does: pass by pass, and in each pass one after
+/// another, all frames in order. Every third frame holds contacts, and costs some detectors more
+/// than others.
 class NoisyMachine {
  public:
-  static constexpr std::size_t kFrames = 12;
+  static constexpr std::size_t kFrames = 13;  ///< the first one does not count
 
-  NoisyMachine(const Grid& grid, const Noise& noise, std::size_t repeats, std::uint64_t seed)
-      : grid_(grid), repeats_(repeats), clock_(noise, seed) {}
+  NoisyMachine(const Grid& grid, const Noise& noise, std::size_t passes, std::uint64_t seed)
+      : grid_(grid), passes_(passes), clock_(noise, seed) {}
 
   /// One run: samples of each that is named.
-  std::map<std::size_t, ProcessSamples> run(const std::vector<std::size_t>& entries) {
+  std::map<std::size_t, QuestionSamples> run(const std::vector<std::size_t>& entries) {
     clock_.new_run();
-    std::map<std::size_t, ProcessSamples> samples;
-    for (const std::size_t entry : entries) samples[entry].resize(1);
-    for (std::size_t frame = 0; frame < kFrames; ++frame)
-      for (std::size_t repeat = 0; repeat < repeats_; ++repeat)
-        for (std::size_t i = 0; i < entries.size(); ++i) {
-          const std::size_t entry = entries[(i + repeat) % entries.size()];
-          const double start = clock_.now_ms();
-          clock_.work(true_ms(entry, frame));
-          PhaseSample sample;
-          sample.query = 1e6 * (clock_.now_ms() - start);
-          samples[entry].front().frames[frame].cold.push_back(sample);
-          samples[entry].front().frames[frame].hot.push_back(sample);
-        }
+    std::map<std::size_t, QuestionSamples> samples;
+    for (std::size_t pass = 0; pass < passes_; ++pass)
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        const std::size_t entry = entries[(i + pass) % entries.size()];
+        samples[entry].playback.push_back(playback(entry));
+      }
     return samples;
   }
 
  private:
-  // In the mean over frames what the grid says.
+  Pass playback(std::size_t entry) {
+    Pass pass;
+    for (std::size_t frame = 0; frame < kFrames; ++frame) {
+      const double start = clock_.now_ms();
+      clock_.work(true_ms(entry, frame));
+      pass.push_back({0.0, 0.0, 1e6 * (clock_.now_ms() - start)});
+    }
+    return pass;
+  }
+  // In the mean over all frames but the first what the grid says.
   double true_ms(std::size_t candidate, std::size_t frame) const {
     const double in_contact = 1.0 + static_cast<double>(candidate % 4);
     const double share = (frame % 3 == 0 ? in_contact : 1.0) / ((2.0 + in_contact) / 3.0);
@@ -81,7 +84,7 @@ class NoisyMachine {
   }
 
   const Grid& grid_;
-  std::size_t repeats_;
+  std::size_t passes_;
   SimulatedClock clock_;
 };
 

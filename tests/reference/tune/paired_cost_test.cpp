@@ -8,7 +8,7 @@
 namespace contactcheck {
 namespace {
 
-// Three frames of five repeats: the detector costs twice the anchor, which takes 10, 20 and 30.
+// Three frames of five passes: the detector costs twice the anchor, which takes 10, 20 and 30.
 PairedRun twice() {
   PairedRun run;
   for (std::size_t f = 0; f < 3; ++f)
@@ -54,7 +54,7 @@ TEST(PairedCost, KnowsNothingOfAMachineThatSlowsDown) {
   EXPECT_NEAR(relative_cost({run}).value, 2.0, 1e-12);
 }
 
-TEST(PairedCost, OfOneRepeatHasAnIntervalStill) {
+TEST(PairedCost, OfOnePassHasAnIntervalStill) {
   PairedRun run;
   for (std::size_t f = 0; f < 9; ++f) run[f] = {{f % 3 == 0 ? 30.0 : 10.0}, {10.0}};
   const Ratio cost = relative_cost({run});
@@ -90,15 +90,36 @@ TEST(PairedCost, OfRunsThatTimedDifferentFramesIsThatOfTheSharedOnes) {
   EXPECT_NEAR(relative_cost({more, less}).value, 2.0, 1e-12);
 }
 
-TEST(PairUp, TakesTheFramesAndRepeatsThatBothHave) {
-  QuestionSamples own, anchor;
-  own.frames[3].cold = {{1.0, 2.0, 3.0}, {1.0, 1.0, 1.0}};
-  own.frames[4].cold = {{1.0, 1.0, 1.0}};
-  anchor.frames[3].cold = {{0.0, 0.0, 0.0}};  // the clock did not tick
-  const PairedRun run = pair_up({own}, {anchor});
+QuestionSamples played(const std::vector<std::vector<double>>& nanoseconds) {
+  QuestionSamples samples;
+  for (const std::vector<double>& pass : nanoseconds) {
+    samples.playback.emplace_back();
+    for (const double ns : pass) samples.playback.back().push_back({0.0, 0.0, ns});
+  }
+  return samples;
+}
+
+TEST(PairUp, TakesThePassesThatBothHaveWithoutTheirFirstFrames) {
+  const PairedRun run =
+      pair_up(played({{100.0, 6.0, 8.0}, {100.0, 7.0, 9.0}}), played({{50.0, 0.0, 4.0}}));
+  ASSERT_EQ(run.size(), 2u);
+  EXPECT_EQ(run.at(1).own, std::vector<double>{6.0});
+  EXPECT_EQ(run.at(1).anchor, std::vector<double>{1.0}) << "the clock did not tick";
+  EXPECT_EQ(run.at(2).own, std::vector<double>{8.0});
+  EXPECT_EQ(run.at(2).anchor, std::vector<double>{4.0});
+}
+
+TEST(PairUp, PairsPassByPass) {
+  const PairedRun run = pair_up(played({{1.0, 6.0}, {1.0, 8.0}}), played({{1.0, 3.0}, {1.0, 4.0}}));
+  EXPECT_EQ(run.at(1).own, (std::vector<double>{6.0, 8.0}));
+  EXPECT_EQ(run.at(1).anchor, (std::vector<double>{3.0, 4.0}));
+  EXPECT_NEAR(relative_cost({run}).value, 2.0, 1e-12);
+}
+
+TEST(PairUp, OfASceneOfOneFrameIsThatFrame) {
+  const PairedRun run = pair_up(played({{6.0}}), played({{3.0}}));
   ASSERT_EQ(run.size(), 1u);
-  EXPECT_EQ(run.at(3).own, std::vector<double>{6.0});
-  EXPECT_EQ(run.at(3).anchor, std::vector<double>{1.0});
+  EXPECT_EQ(run.at(0).own, std::vector<double>{6.0});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class TuneProgram : public ::testing::Test {
       : scene_(scratch_.write(file, scene).string()) {}
 
   Outcome tune(const std::vector<std::string>& more) const {
-    std::vector<std::string> words = {"tune", scene_, "--out", out_, "--repeat", "1"};
+    std::vector<std::string> words = {"tune", scene_, "--out", out_, "--processes", "1"};
     words.insert(words.end(), more.begin(), more.end());
     return contactcheck_program(words);
   }

@@ -22,7 +22,7 @@ const labels = (page) =>
 const front = (lines) =>
   lines
     .slice(1)
-    .filter((line) => line[10] === "yes")
+    .filter((line) => line[11] === "yes")
     .map((line) => line[0]);
 
 async function choose(page, label, option) {
@@ -72,6 +72,7 @@ test("the front holds who is not beaten in the same question", async () => {
     "-",
     "triangles",
     "0.0300",
+    "5",
     "triangle",
     "16",
     "0",
@@ -85,6 +86,7 @@ test("the front holds who is not beaten in the same question", async () => {
     "bounds=paper",
     "cells",
     "0.100",
+    "5",
     "cell",
     "16",
     "4",
@@ -121,12 +123,12 @@ test("counts of different levels are not added up: the finest in all scenes coun
   assert.equal(point[1], "missed 0 of 3, spurious 0 of 3 (level body)");
 });
 
-test("one scene and hot caches have times of their own", async () => {
+test("one scene and cold caches have times of their own", async () => {
   const {page} = await report.open();
   await choose(page, "Scenes", {label: "scene <script>alert(1)</script>"});
-  await section(page).getByLabel("hot").check();
+  await section(page).getByLabel("cold").check();
   await settled(page);
-  assert.equal((await labels(page))[0][0], "fcl-aabb: 1.20 ms per frame (question triangles)");
+  assert.equal((await labels(page))[0][0], "fcl-aabb: 3.00 ms per frame (question triangles)");
 });
 
 test("points stand where their time and error say", async () => {
@@ -210,6 +212,29 @@ test("cost is drawn against triangles and frames for the detectors chosen", asyn
   await page.locator("#cost").getByRole("checkbox", {name: "ffd-lazy"}).uncheck();
   await settled(page);
   assert.equal(await dots.count(), 0);
+});
+
+const untimedCold = useReport("two_scenes.json", {
+  change(results) {
+    for (const run of results.runs) delete run.time_ms?.cold;
+  },
+});
+
+test("where nothing was timed cold, the charts say so", async () => {
+  const {page} = await untimedCold.open();
+  assert.equal((await labels(page)).length, 5, "playback is there");
+  await section(page).getByLabel("cold").check();
+  await page.locator("#times").getByLabel("cold").check();
+  await page.locator("#cost").getByLabel("cold").check();
+  await settled(page);
+  assert.match(await section(page).textContent(), /No detector was timed and judged so\./);
+  assert.match(await section(page).locator(".note").textContent(), /\(not timed cold\)/);
+  assert.match(await page.locator("#times").textContent(), /No detector was timed here\./);
+  assert.match(
+    await page.locator("#cost figure").first().textContent(),
+    /None of these detectors was timed so\./,
+  );
+  assert.deepEqual(untimedCold.errors(), []);
 });
 
 test("a size that is the only one is told on the axis", async () => {

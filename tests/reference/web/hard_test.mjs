@@ -102,8 +102,9 @@ test("hard cases are summed per detector", async () => {
     "1",
     "0",
     "0",
-    "0.600",
-    "0.600 hello",
+    "0.500",
+    "5",
+    "0.500 hello",
   ]);
 });
 
@@ -205,7 +206,17 @@ test("the paper's tables stand beside ours", async () => {
   const {page} = await report.open();
   assert.deepEqual(
     (await tableTexts(page, "Two levels of spheres over one: the paper's ratios beside ours"))[1],
-    ["teapot", "2.19x", "1.50x [1.25, 1.75]", "-", "-", "1.274x", "1.10x [1.00, 1.20]", "-", "-"],
+    [
+      "teapot",
+      "2.19x",
+      "1.50x (1.25 to 1.75)",
+      "-",
+      "-",
+      "1.274x",
+      "1.10x (1.00 to 1.20)",
+      "-",
+      "-",
+    ],
   );
   await unfoldAll(page);
   assert.deepEqual(

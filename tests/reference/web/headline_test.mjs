@@ -29,7 +29,7 @@ test("the findings name who is exact, fastest, wrong and failed", async () => {
   assert.deepEqual(await findings(page), {
     "No missed or spurious contacts": "At level triangle: fcl-aabb and ffd-lazy.",
     "Fastest of these":
-      "ffd-lazy in all 2 scenes: 0.0300 ms per frame there for all pairs of triangles, caches cold. " +
+      "ffd-lazy in all 2 scenes: 0.0300 ms per frame there for all pairs of triangles, in playback. " +
       "fcl-aabb takes 25.0 to 37.5 times as long and fcl-obbrss takes 500 to 750 times as long.",
     Missed:
       "2 detectors did not report all true contacts: ffd-aabb 25.0 % (4 of 16, level cell) and " +
@@ -76,6 +76,10 @@ test("command, machine and libraries are told", async () => {
   assert.match(await facts.textContent(), /contactcheck run "<i>mine<\/i>"\.json/);
   assert.match(await facts.textContent(), /example, 2 cores, AVX2, Debian 12/);
   assert.match(await facts.textContent(), /fcl 0\.7\.0/);
+  assert.match(
+    await facts.textContent(),
+    /timing: 5 passes, each in a fresh process that has judged nothing; .*cold: 2 frames of each scene after a sweep of 64 MiB/,
+  );
 });
 
 const shard = useReport("two_scenes.json", {

@@ -51,9 +51,18 @@ export const kGlossary: Word[] = [
       "with depth and normal. Only times of one question compare.",
   },
   {
-    id: "cold",
-    word: "cold, hot",
-    meaning: "Cold: the processor's caches were swept before. Hot: the same frame once more.",
+    id: "playback",
+    word: "playback, cold",
+    meaning:
+      "Playback: a detector goes through all frames in order, as in a simulator; times leave the first frame out. " +
+      "Cold: some frames, drawn at random, each after the processor's caches were swept.",
+  },
+  {
+    id: "passes",
+    word: "passes",
+    meaning:
+      "Times that a detector went through the frames, each in a fresh process. From 5 passes on a ratio has a 95 % interval, " +
+      "[low, high]; with fewer it has the range of the passes, (low to high).",
   },
   {
     id: "depth",

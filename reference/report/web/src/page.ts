@@ -38,7 +38,7 @@ export interface Page {
   /** Of scenes, in words; each of the next has an entry per choice. */
   choices: string[];
   stages: StageLosses[];
-  times: Record<Caches, PhaseTimes>[];
+  times: Record<Regime, PhaseTimes>[];
   graded: ErrorChart[][];
   speed_error: SpeedError;
   /** Motions (and random pairs). */
@@ -94,10 +94,10 @@ export interface FrameCosts {
   /** [frame, how many] */
   missed: [number, number][];
   spurious: [number, number][];
-  /** Milliseconds per frame; these and what follows where it was timed. */
+  /** Milliseconds per frame; this and what follows where it was timed. */
+  playback?: number;
   cold?: number;
-  hot?: number;
-  /** By frame, cold; null where it was not timed. */
+  /** By frame, playback; null where it was not timed. */
   frame_ms?: (number | null)[];
   /** [distance, milliseconds]: medians of frames about equally far. */
   by_distance?: [number, number][];
@@ -214,13 +214,14 @@ export interface SpeedError {
   charts: Record<string, LevelCharts>[];
 }
 
-export type Caches = "cold" | "hot";
+/** Playback: all frames in order. Cold: some frames, each after a sweep through the caches. */
+export type Regime = "playback" | "cold";
 export type Measure = "worse" | "missed" | "spurious";
 
 export type LevelCharts = {
   /** Per detector its line of the table; of each chart are the third, the last but one and the last cell. */
   cells: (string[] | null)[];
-} & Record<`${Measure} ${Caches}`, PointsChart>;
+} & Record<`${Measure} ${Regime}`, PointsChart>;
 
 export interface PointsChart {
   /** Place in `detectors`, milliseconds, error, is on the front; the first two numbers in words. */

@@ -5,7 +5,7 @@ import {checkboxes, controlBar, radios, select} from "../controls";
 import {h, p, type Child} from "../dom";
 import {compact, grouped, number} from "../format";
 import {term} from "../glossary";
-import type {Page, Scene} from "../page";
+import type {Page, Regime, Scene} from "../page";
 import type {Section} from "../section";
 import {
   costsOf,
@@ -21,12 +21,10 @@ import {
 } from "./cost_lines";
 import {drawSeparation, hasSeparation} from "./cost_separation";
 
-type Part = "cold" | "hot";
-
 /** What the controls of the section choose. */
 interface State {
   lines: Lines;
-  part: Part;
+  regime: Regime;
   scene: Scene;
 }
 
@@ -42,12 +40,12 @@ interface Cost {
   ms: number;
 }
 
-function costs(page: Page, chosen: string[], part: Part): Cost[] {
+function costs(page: Page, chosen: string[], regime: Regime): Cost[] {
   return page.scenes
     .flatMap((scene) =>
       costsOf(page, scene, chosen).flatMap(([detector, own]) => {
         const {series, triangles} = scene.cost,
-          ms = own[part];
+          ms = own[regime];
         return ms ? [{detector, scene: scene.id, series, triangles, ms}] : [];
       }),
     )
@@ -81,6 +79,7 @@ function sizeTicks(
 }
 
 function drawCosts(width: number, all: Cost[], lines: Lines): Node {
+  if (all.length === 0) return p("None of these detectors was timed so.");
   const xy = {x: "triangles", y: "ms"} as const,
     sizes = all.map((cost) => cost.triangles);
   const span: [number, number] = [Math.min(...sizes) / 1.2, Math.max(...sizes) * 1.2];
@@ -233,7 +232,7 @@ function charts(page: Page, state: State): Chart[] {
   const withDistances = page.scenes.some(hasSeparation);
   return [
     chart("Milliseconds per frame against the number of triangles", (width) =>
-      drawCosts(width, costs(page, state.lines.detectors, state.part), state.lines),
+      drawCosts(width, costs(page, state.lines.detectors, state.regime), state.lines),
     ),
     chart("Milliseconds of each frame", (width) =>
       drawFrames(
@@ -268,7 +267,7 @@ function separationPart(separation: Chart | undefined): Child[] {
   return [
     h("h4", {}, "Against the distance of the bodies"),
     p(
-      "Each point is a frame, cold; the smallest distance between the surfaces of any two bodies is the oracle's. Lines go through " +
+      "Each point is a frame in playback, the median over passes; the smallest distance between the surfaces of any two bodies is the oracle's. Lines go through " +
         "medians of frames that are about equally far. Frames in which surfaces touch stand to the left: median, and the range.",
     ),
     separation.element,
@@ -284,7 +283,7 @@ export const cost: Section = {
     if (all.length === 0) return [];
     const state: State = {
       lines: linesOf(firstChoice(page, all)),
-      part: "cold",
+      regime: "playback",
       scene: page.scenes[0],
     };
     const legends = h("div"),
@@ -297,19 +296,19 @@ export const cost: Section = {
     redraw({});
     return [
       p(
-        `Up to ${kMost} detectors, each with its own colour, dashes and shape. Caches are `,
-        term("cold"),
+        `Up to ${kMost} detectors, each with its own colour, dashes and shape. Times are of `,
+        term("playback"),
         " unless said.",
       ),
       controlBar(
         radios(
-          "Caches (by triangles)",
+          "Timed (by triangles)",
           [
+            ["playback", "playback"],
             ["cold", "cold"],
-            ["hot", "hot"],
           ],
-          state.part,
-          (value) => redraw({part: value as Part}),
+          state.regime,
+          (value) => redraw({regime: value as Regime}),
         ),
         checkboxes("Choose detectors", all, state.lines.detectors, kMost, (names) =>
           redraw({lines: linesOf(names)}),
@@ -333,7 +332,7 @@ export const cost: Section = {
       ...separationPart(separation),
       h("h4", {}, "Frame by frame"),
       p(
-        "Cold; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs.",
+        "Playback, medians over passes; frames that were not timed are left out. Below, what each of these frames holds, and where each detector chosen errs.",
       ),
       frames.element,
       contacts.element,

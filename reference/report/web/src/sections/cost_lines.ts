@@ -23,7 +23,7 @@ export const lineLegend = ({detectors, style}: Lines): HTMLElement =>
   );
 
 export function timedDetectors({detectors, scenes}: Page): string[] {
-  return detectors.filter((_, i) => scenes.some(({cost}) => cost.detectors[i]?.cold));
+  return detectors.filter((_, i) => scenes.some(({cost}) => cost.detectors[i]?.playback));
 }
 
 /** The fastest that were right, the usual references, then others in file order. */
@@ -49,7 +49,7 @@ export interface FrameCost {
   ms: number;
 }
 
-/** Cold; frames that were not timed are left out. */
+/** Playback; frames that were not timed are left out. */
 export function frameCosts(page: Page, scene: Scene, chosen: string[]): FrameCost[] {
   return costsOf(page, scene, chosen).flatMap(([detector, {frame_ms = []}]) =>
     frame_ms.flatMap((ms, frame) => (ms === null ? [] : [{detector, frame, ms}])),

@@ -5,7 +5,7 @@ import {controlBar, radios, select, selectPlace, type Option} from "../controls"
 import {h, p, unfolding} from "../dom";
 import {term} from "../glossary";
 import {groupColour, groupsOf} from "../groups";
-import type {Caches, Measure, Page, PointsChart} from "../page";
+import type {Measure, Page, PointsChart, Regime} from "../page";
 import type {Section} from "../section";
 import {square, symbol} from "../swatch";
 import {left, table} from "../table";
@@ -25,7 +25,7 @@ interface Choice {
   scenes: number;
   level: string;
   measure: Measure;
-  caches: Caches;
+  regime: Regime;
 }
 
 interface Chart {
@@ -62,7 +62,7 @@ const shapeOf = (question: string) =>
   (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
 
 function sentenceOf({cells, options}: Point): string {
-  const [detector, question, ms, level, truth, missed, reported, spurious] = cells;
+  const [detector, question, ms, , level, truth, missed, reported, spurious] = cells;
   return [
     `${detector}: ${ms} ms per frame (question ${question})`,
     `missed ${missed} of ${truth}, spurious ${spurious} of ${reported} (level ${level})`,
@@ -143,7 +143,7 @@ function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
     x: {
       type: "log",
       domain: span,
-      label: `time per frame, ms, ${choice.caches} caches →`,
+      label: `time per frame, ms, ${choice.regime} →`,
       grid: true,
       ticks: width < 600 ? 4 : 8,
       tickFormat: (ms: number) => String(ms),
@@ -231,7 +231,7 @@ const kNothing: PointsChart = {points: [], left_out: ""};
 
 function chartOf({options, speed_error: {charts}}: Page, choice: Choice): Chart {
   const level = charts[choice.scenes]?.[choice.level];
-  const {points, left_out} = level?.[`${choice.measure} ${choice.caches}`] ?? kNothing;
+  const {points, left_out} = level?.[`${choice.measure} ${choice.regime}`] ?? kNothing;
   return {
     points: points.map(([at, ms, error, onFront, time, share]) => {
       const [detector, question, , ...counts] = level.cells[at]!;
@@ -266,7 +266,7 @@ export const speedError: Section = {
       scenes: computed.first,
       level: kFinest,
       measure: "worse",
-      caches: "cold",
+      regime: "playback",
     };
     let shown = chartOf(page, choice);
     const below = h("div");
@@ -301,13 +301,13 @@ export const speedError: Section = {
           update({measure: value as Measure}),
         ),
         radios(
-          "Caches",
+          "Timed",
           [
+            ["playback", "playback"],
             ["cold", "cold"],
-            ["hot", "hot"],
           ],
-          choice.caches,
-          (value) => update({caches: value as Caches}),
+          choice.regime,
+          (value) => update({regime: value as Regime}),
         ),
       ),
       picture.element,

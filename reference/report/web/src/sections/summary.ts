@@ -16,8 +16,8 @@ export const summary: Section = {
           "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the " +
           "detector named divided by the time of this one in the same ",
         term("question"),
-        ", ",
-        term("cold"),
+        ", in ",
+        term("playback"),
         ", the smallest and the largest of any scene. " + "A click on a heading sorts.",
       ),
       table(columns, rows, "Summary of all detectors"),

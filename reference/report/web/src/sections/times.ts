@@ -4,7 +4,8 @@ import {chart, legend} from "../chart";
 import {controlBar, radios, selectPlace} from "../controls";
 import {h, p, unfolding} from "../dom";
 import {number} from "../format";
-import type {Caches, PhaseTimes} from "../page";
+import {term} from "../glossary";
+import type {PhaseTimes, Regime} from "../page";
 import type {Section} from "../section";
 import {square} from "../swatch";
 import {textTable} from "../table";
@@ -31,7 +32,7 @@ interface Piece {
 
 interface Choice {
   scenes: number;
-  caches: Caches;
+  regime: Regime;
   mapping: boolean;
   whole: boolean;
 }
@@ -129,8 +130,8 @@ export const times: Section = {
   short: "Time per phase",
   build({timed, choices, times: computed}) {
     if (!timed) return [];
-    const choice: Choice = {scenes: 0, caches: "cold", mapping: true, whole: false};
-    const chosen = (): PhaseTimes => computed[choice.scenes][choice.caches];
+    const choice: Choice = {scenes: 0, regime: "playback", mapping: true, whole: false};
+    const chosen = (): PhaseTimes => computed[choice.scenes][choice.regime];
     let bars = barsOf(chosen(), choice.mapping);
     const below = h("div");
     const picture = chart("Milliseconds per frame and phase of every detector", (width) =>
@@ -157,20 +158,22 @@ export const times: Section = {
     update({});
     return [
       p(
-        "Milliseconds per frame, medians over repeats, means over the scenes in which a detector was timed. A detector without a piece “map” ",
+        "Milliseconds per frame, means over ",
+        term("passes"),
+        " and over the scenes in which a detector was timed. A detector without a piece “map” ",
         "maps only the vertices that it needs, within its query. Each is timed in its own question, so that two bars of different questions ",
         "do not compare. A bar with ▸ is cut.",
       ),
       controlBar(
         selectPlace("Scenes", choices, choice.scenes, (scenes) => update({scenes})),
         radios(
-          "Caches",
+          "Timed",
           [
+            ["playback", "playback"],
             ["cold", "cold"],
-            ["hot", "hot"],
           ],
-          choice.caches,
-          (value) => update({caches: value as Caches}),
+          choice.regime,
+          (value) => update({regime: value as Regime}),
         ),
         radios(
           "Mapping",

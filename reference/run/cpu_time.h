@@ -1,0 +1,42 @@
+// What a detector's calls cost in CPU time, whoever works for it: its threads and its processes
+// too.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace contactcheck {
+
+/// Adds up one pass: the CPU time of the process in calls of the detector, and what others than
+/// the calling thread use while it is not called. Nanoseconds.
+class CpuBook {
+ public:
+  /// `threads`: that the detector may use. `children`: count the processes that this one has
+  /// started too, at some 100 us a call.
+  CpuBook(std::size_t threads, bool children) : threads_(threads), children_(children) {}
+
+  void before_call();
+  /// `wall`: nanoseconds that the call took. Gives its CPU time.
+  double after_call(double wall);
+  /// After the last call: waits until nobody works on, at most 2 s.
+  void settle();
+
+  /// "" where all is well. A sentence where the detector has used more CPU time in its calls than
+  /// its threads can in that time, or has worked on between them: then the time of its calls is not
+  /// what it costs.
+  std::string complaint() const;
+
+ private:
+  struct Reading {
+    double process = 0.0, thread = 0.0, children = 0.0;
+    double others() const { return process + children - thread; }
+  };
+  Reading read(bool calls_next) const;
+
+  std::size_t threads_, calls_ = 0;
+  bool children_;
+  Reading last_;
+  double in_calls_ = 0.0, of_children_ = 0.0, between_calls_ = 0.0, wall_ = 0.0;
+};
+
+}  // namespace contactcheck

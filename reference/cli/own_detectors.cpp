@@ -76,6 +76,12 @@ std::vector<std::string> OwnDetectors::records() const {
   return out;
 }
 
+std::vector<std::string> OwnDetectors::ids() const {
+  std::vector<std::string> out;
+  for (const Plugin& plugin : plugins) out.push_back(plugin.declaration.id);
+  return out;
+}
+
 bool names_library(const std::string& text) {
   const std::string file = text.substr(0, text.find(':'));
   return file.find('/') != std::string::npos || file.ends_with(".so");

@@ -18,6 +18,7 @@ struct OwnDetectors {
 
   /// The plug-ins as workers are handed them.
   std::vector<std::string> records() const;
+  std::vector<std::string> ids() const;  ///< theirs
 };
 
 /// True when `text` ("./libmine.so:leaf=8") names a library's file and no detector's id: before the

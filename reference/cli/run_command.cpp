@@ -171,6 +171,7 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   const OwnDetectors own =
       bring_in(arguments.detectors, arguments.commands, request.settings, catalog);
   request.settings.plugins = own.records();
+  request.settings.plugin_ids = own.ids();
   request.plugins = plugins_in_results(own.plugins);
   RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);

@@ -85,6 +85,7 @@ TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& o
   request.frames = arguments.frames;
   request.settings = settings_of(arguments);
   request.settings.plugins = own.records();
+  request.settings.plugin_ids = own.ids();
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.known_defects = read_known_defects(known_defects_file());

@@ -88,10 +88,7 @@ results::PhaseTimes phase_times(const std::vector<Pass>& passes, bool lazy_map,
   if (!contact.empty()) out.contact_frame = mean_ms(passes, contact, whole);
   if (all_reported(passes))
     out.self_reported = mean_ms(passes, places, [](const PhaseSample& s) { return *s.reported; });
-  double cpu = 0.0;
-  for (const Pass& pass : passes)
-    for (const std::size_t place : places) cpu += pass.at(place).cpu;
-  out.cpu = cpu / static_cast<double>(passes.size() * places.size()) * kMillisecondsPerNanosecond;
+  out.cpu = mean_ms(passes, places, [](const PhaseSample& s) { return s.cpu; });
   return out;
 }
 

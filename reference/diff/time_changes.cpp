@@ -27,10 +27,11 @@ std::optional<TimeChange> change_of(const results::Run& was, const results::Run&
   for (const auto& [reference, now] : *after) {
     if (reference == is.detector) continue;
     const auto then = before->find(reference);
-    if (then != before->end() && usable(now.playback) && usable(then->second.playback))
-      return TimeChange{is.scene, is.detector, reference,
-                        quotient(now.playback, then->second.playback),
-                        std::min(now.passes, then->second.passes)};
+    if (then == before->end() || !usable(now.playback) || !usable(then->second.playback)) continue;
+    const std::size_t passes = std::min(now.passes, then->second.passes);
+    const auto divided = passes < kFewestForInterval ? range_quotient : quotient;
+    return TimeChange{is.scene, is.detector, reference,
+                      divided(now.playback, then->second.playback), passes};
   }
   return std::nullopt;
 }

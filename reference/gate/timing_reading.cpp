@@ -187,9 +187,9 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
   if (!reason.empty()) return cannot_judge(rule, reason);
   if (!is_above_zero(*ratio) || !is_above_zero(*known))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
-  const Ratio slow = quotient(*known, *ratio);
   const std::size_t here = speedup_in(rule, row, reason)->passes,
                     there = speedup_in(rule, *old, reason)->passes, passes = std::min(here, there);
+  const Ratio slow = (passes < kFewestForInterval ? range_quotient : quotient)(*known, *ratio);
   return judged(rule, over_limit(slow, rule.limit), passes,
                 fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                             ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),

@@ -2,7 +2,9 @@
 // too.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace contactcheck {
@@ -18,8 +20,9 @@ class CpuBook {
   void before_call();
   /// `wall`: nanoseconds that the call took. Gives its CPU time.
   double after_call(double wall);
-  /// After the last call: waits until nobody works on, at most 2 s.
-  void settle();
+  /// After the last call: waits until nobody works on, at most 2 s, and says now and then that it
+  /// does.
+  void settle(const std::function<void()>& still_here);
 
   /// "" where all is well. A sentence where the detector has used more CPU time in its calls than
   /// its threads can in that time, or has worked on between them: then the time of its calls is not
@@ -31,12 +34,16 @@ class CpuBook {
     double process = 0.0, thread = 0.0, children = 0.0;
     double others() const { return process + children - thread; }
   };
+  using Clock = std::chrono::steady_clock;
   Reading read(bool calls_next) const;
+  double nanoseconds_since_call();
 
   std::size_t threads_, calls_ = 0;
   bool children_;
   Reading last_;
-  double in_calls_ = 0.0, of_children_ = 0.0, between_calls_ = 0.0, wall_ = 0.0;
+  Clock::time_point last_end_;
+  double time_between_ = 0.0, in_calls_ = 0.0, of_children_ = 0.0, between_calls_ = 0.0,
+         wall_ = 0.0;
 };
 
 }  // namespace contactcheck

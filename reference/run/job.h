@@ -22,8 +22,9 @@ struct RunSettings {
   std::vector<std::string> detectors;  ///< canonical names
   /// Records of the detectors from outside this program that are among them (plugin/plugin.h).
   std::vector<std::string> plugins;
-  std::size_t frames = 0;        ///< 0: as the scene says
-  std::size_t processes = 3;     ///< passes, each in a fresh process
+  std::vector<std::string> plugin_ids;  ///< theirs; a worker need not know
+  std::size_t frames = 0;               ///< 0: as the scene says
+  std::size_t processes = 3;            ///< passes, each in a fresh process
   double one_pass_beyond = 2.0;  ///< seconds for all its questions: a slower detector has one pass;
                                  ///< 0: no limit
   std::uint64_t seed = 1;        ///< of the order of detectors and of the cold frames

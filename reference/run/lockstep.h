@@ -32,7 +32,7 @@ struct LockstepEntry {
 struct LockstepSettings {
   std::size_t steps = 40;  ///< of the motion, spread evenly over it
   std::size_t repeats = 5;
-  std::size_t sweep_bytes = 0;  ///< read and written before each step
+  std::size_t sweep_bytes = 0;  ///< read before each step
 };
 
 /// The motion is that of the scene's own driver. Within a repeat the entries take turns at every

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/types/check.h"
+#include "core/types/hash.h"
+#include "reference/run/cache_sweep.h"
 #include "reference/run/exit_codes.h"
 #include "reference/run/printable.h"
 #include "reference/run/scene_answers.h"
@@ -64,6 +67,7 @@ class SceneRun {
         job_.turns = std::move(processes[i]);
         turns_.add(run_process().timed);
       }
+      if (pass == 0) find_slow_ones(judged);
     }
   }
 
@@ -80,7 +84,7 @@ class SceneRun {
     }
     std::vector<std::vector<Turn>> out;
     std::optional<std::size_t> own;  // the process of our detectors
-    for (const std::size_t i : draw_order(turns.size(), job_.settings.seed, pass)) {
+    for (const std::size_t i : draw_order(turns.size(), order_seed(pass))) {
       if (is_from_outside(turns[i].position)) {
         out.push_back({turns[i]});
         continue;
@@ -94,20 +98,33 @@ class SceneRun {
     return out;
   }
 
-  bool is_timed(const DetectorAnswer& detector, std::size_t pass) const {
+  // By the first pass alone: pass p of one detector is set beside pass p of another.
+  void find_slow_ones(const SceneAnswer& judged) {
     const double limit = job_.settings.one_pass_beyond;
-    return detector.run.ok() && !broken_.contains(detector.position) &&
-           turns_.failure(detector.position) == nullptr &&
-           (pass == 0 || limit == 0.0 ||
-            turns_.seconds(detector.position) / static_cast<double>(pass) <= limit);
+    if (limit == 0.0) return;
+    for (const DetectorAnswer& detector : judged.detectors)
+      if (turns_.seconds(detector.position) > limit) slow_.insert(detector.position);
+  }
+
+  bool is_timed(const DetectorAnswer& detector, std::size_t pass) const {
+    const std::uint32_t position = detector.position;
+    return detector.run.ok() && !broken_.contains(position) &&
+           turns_.failure(position) == nullptr && (pass == 0 || !slow_.contains(position));
+  }
+
+  // Another one in every scene, or one detector would always follow the same other.
+  std::uint64_t order_seed(std::size_t pass) const {
+    Fnv1a hash;
+    hash.bytes(task_.id.data(), task_.id.size());
+    const std::uint64_t numbers[] = {job_.settings.seed, pass};
+    hash.bytes(numbers, sizeof numbers);
+    return hash.digest();
   }
 
   bool is_from_outside(std::uint32_t position) const {
+    const std::vector<std::string>& ids = job_.settings.plugin_ids;
     const std::string& name = task_.detectors[position];
-    return std::any_of(request_.plugins.begin(), request_.plugins.end(),
-                       [&](const results::Plugin& plugin) {
-                         return plugin.detector == name.substr(0, name.find(':'));
-                       });
+    return std::find(ids.begin(), ids.end(), name.substr(0, name.find(':'))) != ids.end();
   }
 
   // Runs one process; whoever dies in a detector runs again without it.
@@ -121,8 +138,10 @@ class SceneRun {
       job_.temporary = scratch_ / (name + ".tmp");
       fs::create_directory(job_.temporary);
       write_job(job_file, job_);
+      RunSettings limits = job_.settings;
+      if (limits.timing) limits.memory_limit += sweep_bytes();  // which is ours
       const WorkerOutcome outcome =
-          run_supervised(request_.executable, job_file, job_.settings,
+          run_supervised(request_.executable, job_file, limits,
                          [&](const WorkerProgress& worker) { report(worker); });
       std::error_code ignored;
       fs::remove_all(job_.temporary, ignored);
@@ -201,6 +220,7 @@ class SceneRun {
   std::size_t processes_ = 0;       ///< that were started
   double done_ = 0.0, part_ = 1.0;  ///< parts of the work: done, and of the process that runs
   TakenTurns turns_;
+  std::set<std::uint32_t> slow_;  ///< detectors that have one pass
   BrokenDetectors broken_;
 };
 

@@ -33,8 +33,8 @@ std::vector<std::size_t> draw_cold_frames(const std::vector<bool>& contact_frame
   return out;
 }
 
-std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed, std::size_t pass) {
-  std::mt19937_64 random(seed + 1 + pass);
+std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
   return shuffled(count, random);
 }
 

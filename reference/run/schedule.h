@@ -12,7 +12,7 @@ namespace contactcheck {
 std::vector<std::size_t> draw_cold_frames(const std::vector<bool>& contact_frames,
                                           std::uint64_t seed);
 
-/// The numbers below `count` in the order of a pass: another one in every pass.
-std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed, std::size_t pass);
+/// The numbers below `count` in an order that the seed decides.
+std::vector<std::size_t> draw_order(std::size_t count, std::uint64_t seed);
 
 }  // namespace contactcheck

@@ -16,16 +16,17 @@ double nanoseconds(Clock::time_point from, Clock::time_point to) {
 }
 
 struct MappedFrame {
-  std::vector<std::vector<Vec3>> vertices;
+  std::vector<std::vector<Vec3>> nodes, vertices;
   Frame frame;
 };
 
 void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& mapped) {
   mapped.frame.index = index;
   mapped.frame.time = judged.scene->time_of(index);
+  mapped.nodes = judged.scene->nodes_of_frame(index);  // nothing is mapped outside the clock
   mapped.frame.bodies.clear();
   for (std::size_t b = 0; b < judged.scene->bodies.size(); ++b)
-    mapped.frame.bodies.push_back({judged.positions[index].nodes[b], mapped.vertices[b]});
+    mapped.frame.bodies.push_back({mapped.nodes[b], mapped.vertices[b]});
 }
 
 // The phase is marked outside of what the clock takes, which the mark must not lengthen.
@@ -83,7 +84,7 @@ Pass time_pass(const JudgedScene& judged, const PassRequest& request, Detector& 
         answer_difference(print_of(contacts, request.asked), request.judged->at(index));
     if (!difference.empty()) throw std::runtime_error(difference);
   }
-  cpu.settle();
+  cpu.settle([&] { progress.go_on(Phase::kQuery); });
   if (const std::string complaint = cpu.complaint(); !complaint.empty())
     throw std::runtime_error(complaint);
   return out;

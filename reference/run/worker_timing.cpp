@@ -1,6 +1,7 @@
 #include "reference/run/worker_timing.h"
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -14,8 +15,11 @@ namespace {
 
 // `--threads` is for detectors that can use them; an option of that name is the detector's own.
 std::size_t threads_of(const WorkerState& worker, const WorkerEntry& entry) {
-  const auto option = entry.spec.options.find("threads");
-  const std::size_t own = option == entry.spec.options.end() ? 0 : std::stoul(option->second);
+  std::size_t own = 0;
+  if (const auto option = entry.spec.options.find("threads"); option != entry.spec.options.end()) {
+    const std::string& text = option->second;  // of one from outside it may be any word
+    std::from_chars(text.data(), text.data() + text.size(), own);
+  }
   return std::max<std::size_t>(own, worker.job.settings.threads);
 }
 

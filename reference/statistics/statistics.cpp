@@ -40,7 +40,8 @@ Logarithms logarithms_of(const std::vector<double>& values) {
   for (const double value : values) out.mean += std::log(value / values.front()) / count;
   if (values.size() == 1) return out;
   double squares = 0.0;
-  for (const double value : values) squares += std::pow(std::log(value / values.front()) - out.mean, 2);
+  for (const double value : values)
+    squares += std::pow(std::log(value / values.front()) - out.mean, 2);
   out.deviation = std::sqrt(squares / (count - 1.0));
   return out;
 }
@@ -105,6 +106,11 @@ Ratio quotient(const Ratio& numerator, const Ratio& denominator) {
       std::hypot(reach(numerator.value, numerator.low), reach(denominator.value, denominator.high)),
       std::hypot(reach(numerator.value, numerator.high),
                  reach(denominator.value, denominator.low)));
+}
+
+Ratio range_quotient(const Ratio& numerator, const Ratio& denominator) {
+  return {numerator.value / denominator.value, numerator.low / denominator.high,
+          numerator.high / denominator.low};
 }
 
 Ratio median_ratio(const std::vector<Ratio>& measured) {

@@ -58,6 +58,8 @@ Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw);
 /// @pre all values and ends above 0; an interval may be open (0 to infinity)
 Ratio product(const Ratio& a, const Ratio& b);
 Ratio quotient(const Ratio& numerator, const Ratio& denominator);
+/// The same of two ranges: from the smallest to the largest that it can be.
+Ratio range_quotient(const Ratio& numerator, const Ratio& denominator);
 
 /// The median of one ratio measured several times apart; of one measurement that itself. The
 /// interval is that of a median: by the spread of the measurements (Student's t), and to either

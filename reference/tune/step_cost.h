@@ -18,7 +18,7 @@ double steady_now_ms();
 struct StepCostSettings {
   std::size_t steps = 24;  ///< of the motion, spread evenly over it
   std::size_t repeats = 5;
-  std::size_t sweep_bytes = 0;  ///< read and written before each step
+  std::size_t sweep_bytes = 0;  ///< read before each step
   std::function<double()> now_ms = steady_now_ms;
 };
 

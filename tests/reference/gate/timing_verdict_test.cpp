@@ -269,7 +269,7 @@ TEST(FewPasses, OfEitherSideMakeASlowdownARange) {
   EXPECT_EQ(
       then.reason,
       "8 frames, 7 passes, 3 in the baseline: the limit lies within a factor 1.5 of the range "
-      "1.21x to 1.4x; --processes 5 in the baseline gives an interval");
+      "1.18x to 1.44x; --processes 5 in the baseline gives an interval");
   const Check now = check_of("exact", slowdown("1.1"), with_passes(slower(1.3), 3), &many);
   EXPECT_THAT(now.reason, testing::EndsWith("; --processes 5 gives an interval"));
   const Check both = check_of("exact", slowdown("1.1"), with_passes(slower(1.3), 3), &few);

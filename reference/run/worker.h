@@ -1,5 +1,6 @@
-// A worker: one process, one scene, all detectors. It is started fresh (exec) before any thread
-// exists; its parent watches it through SharedProgress (supervisor.h).
+// A worker: one process and one scene, which it judges with all detectors, or in which it times the
+// turns of one pass. It is started fresh (exec) before any thread exists; its parent watches it
+// through SharedProgress (supervisor.h).
 #pragma once
 
 #include <filesystem>

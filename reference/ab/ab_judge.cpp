@@ -94,7 +94,7 @@ bool AbJudgement::slower() const {
 }
 
 AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits) {
-  CONTACTCHECK_INVARIANT(!rounds.empty(), "something was run");
+  CONTACTCHECK_INVARIANT(rounds.size() >= kFewestForInterval, "enough rounds for an interval");
   std::vector<Round> indexed;
   for (const AbRound& round : rounds)
     indexed.push_back({results::Index(round.base), results::Index(round.head)});

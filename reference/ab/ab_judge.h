@@ -16,7 +16,7 @@ struct AbLimits {
   double floor_us = 20.0;    ///< microseconds a frame that do not matter, whatever the ratio
 };
 
-/// An interval or range wider than this (high / low) that contains the limit says nothing.
+/// An interval wider than this (high / low) that contains the limit says nothing.
 inline constexpr double kNoisyWidth = 1.25;
 
 enum class AbVerdict {
@@ -49,7 +49,7 @@ struct AbJudgement {
   bool answers_differ() const { return !answers.empty() || !unsteady.empty(); }
 };
 
-/// @pre at least one round
+/// @pre at least kFewestForInterval rounds
 AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits);
 
 }  // namespace contactcheck

@@ -12,13 +12,9 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::string ratio_text(const Ratio& r) {
-  return fmt::format("{:.2f}x [{:.2f}, {:.2f}]", r.value, r.low, r.high);
-}
-
 std::string time_line(const AbTime& t) {
   return fmt::format("{}  {}  {}, {:.3g} -> {:.3g} ms a frame", t.scene, t.detector,
-                     ratio_text(t.ratio), t.base_ms, t.head_ms);
+                     ratio_text(t.ratio, kFewestForInterval), t.base_ms, t.head_ms);
 }
 
 Lines lines_of(const AbJudgement& judgement, AbVerdict verdict) {
@@ -62,10 +58,9 @@ std::vector<Section> sections_of(const AbJudgement& judgement, const AbSetting& 
 
 std::string limits_text(const AbSetting& setting) {
   return fmt::format(
-      "{} rounds in turns; time(head) / time(base), geometric mean and {} over rounds; allowed "
-      "{:.2f}x, or {:g} us a frame",
-      setting.rounds, setting.rounds < kFewestForInterval ? "range" : "95 % interval",
-      setting.limits.slower_than, setting.limits.floor_us);
+      "{} rounds in turns; time(head) / time(base), geometric mean and 95 % interval over rounds; "
+      "allowed {:.2f}x, or {:g} us a frame",
+      setting.rounds, setting.limits.slower_than, setting.limits.floor_us);
 }
 
 std::string verdict_text(const AbJudgement& judgement, const AbSetting& setting) {
@@ -126,10 +121,9 @@ std::string ab_markdown(const AbJudgement& judgement, const AbSetting& setting) 
     text += fmt::format("\n### {} ({})\n\n", escaped(section.title), section.lines.size());
     for (const std::string& line : section.lines) text += "- " + escaped(line) + "\n";
   }
-  text += fmt::format(
-      "\n| scene | detector | head / base | {} | base ms | head ms | |\n"
-      "|---|---|--:|--:|--:|--:|---|\n",
-      interval_name(setting.rounds));
+  text +=
+      "\n| scene | detector | head / base | 95 % | base ms | head ms | |\n"
+      "|---|---|--:|--:|--:|--:|---|\n";
   for (const AbTime& t : judgement.times)
     text += fmt::format("| {} | {} | {:.2f} | {:.2f} to {:.2f} | {:.3g} | {:.3g} | {} |\n",
                         escaped(t.scene), escaped(t.detector), t.ratio.value, t.ratio.low,

@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 namespace {
@@ -43,7 +44,7 @@ void add_ab(CommandLine& line) {
   ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
       ->allow_extra_args(false);
   ab->add_option("--rounds", arguments->rounds, "how often each of them runs (default 7)")
-      ->check(whole_in(3, 1000));
+      ->check(whole_in(kFewestForInterval, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
   add_ab_limits(*ab, *arguments);
@@ -51,8 +52,8 @@ void add_ab(CommandLine& line) {
   ab->add_flag("--quiet", arguments->quiet, "no progress");
   ab->footer(
       "Rounds are base head, head base, ..., each in fresh processes. A ratio is the geometric\n"
-      "mean over rounds, with its 95 % interval; with fewer than 5 rounds, with their range. A\n"
-      "detector fails only when all of that is beyond the limit and the excess beyond the floor.\n"
+      "mean over rounds, with its 95 % interval. A detector fails only when all of that is beyond\n"
+      "the limit and the excess beyond the floor.\n"
       "Its own question counts, in playback: all frames in order, nothing flushed.\n"
       "Exit code 1 when a detector is slower, or when answers differ.\n"
       "Examples:\n"

@@ -17,13 +17,6 @@ using Places = std::vector<std::size_t>;  // in a pass
 double whole(const PhaseSample& s) { return s.total(); }
 double unmapped(const PhaseSample& s) { return s.update + s.query; }
 
-// The first frame of a playback is another matter: memory is not there yet.
-Places played_places(std::size_t frames) {
-  Places out;
-  for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);
-  return out;
-}
-
 Places cold_places(const TimedFrames& frames) {
   Places out(frames.cold.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = i;
@@ -31,7 +24,7 @@ Places cold_places(const TimedFrames& frames) {
 }
 
 Places played_contact(const TimedFrames& frames) {
-  Places out = played_places(frames.contact.size());
+  Places out = played_frames(frames.contact.size());
   std::erase_if(out, [&](std::size_t f) { return !frames.contact[f]; });
   return out;
 }
@@ -89,6 +82,11 @@ results::PhaseTimes phase_times(const std::vector<Pass>& passes, bool lazy_map,
   if (all_reported(passes))
     out.self_reported = mean_ms(passes, places, [](const PhaseSample& s) { return *s.reported; });
   out.cpu = mean_ms(passes, places, [](const PhaseSample& s) { return s.cpu; });
+  double taken = 0.0;  // mostly none: there is no geometric mean of it
+  for (const Pass& pass : passes)
+    for (const std::size_t place : places) taken += pass.at(place).taken;
+  out.taken =
+      taken * kMillisecondsPerNanosecond / static_cast<double>(passes.size() * places.size());
   return out;
 }
 
@@ -102,6 +100,12 @@ Ratio ratio_of(const std::vector<Pass>& reference, const std::vector<Pass>& dete
 
 }  // namespace
 
+std::vector<std::size_t> played_frames(std::size_t frames) {
+  Places out;
+  for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);
+  return out;
+}
+
 results::QuestionTimes summarize_times(const QuestionSamples& samples, const TimedFrames& frames) {
   CONTACTCHECK_INVARIANT(!samples.playback.empty() && !frames.contact.empty(),
                          "times of at least one pass through at least one frame");
@@ -114,7 +118,9 @@ results::QuestionTimes summarize_times(const QuestionSamples& samples, const Tim
   out.timed_contact_frames = contact.size();
   out.passes = samples.playback.size();
   out.playback = phase_times(samples.playback, samples.lazy_map,
-                             played_places(frames.contact.size()), contact);
+                             played_frames(frames.contact.size()), contact);
+  for (const Pass& pass : samples.playback)
+    out.pass_ms.push_back(mean_ms({pass}, played_frames(pass.size()), whole));
   out.playback.first_frame = mean_ms(samples.playback, {0}, whole);
   if (!samples.cold.empty())
     out.cold =
@@ -137,7 +143,7 @@ results::Speedup compute_speedup(const QuestionSamples& reference, const Questio
   const auto played = [&](const Places& places, const Value& value) {
     return ratio_of(reference.playback, detector.playback, places, value);
   };
-  const Places all = played_places(frames.contact.size()), contact = played_contact(frames);
+  const Places all = played_frames(frames.contact.size()), contact = played_contact(frames);
   results::Speedup out;
   out.playback = played(all, whole);
   if (!contact.empty()) out.contact_frames = played(contact, whole);

@@ -9,16 +9,22 @@
 
 namespace contactcheck {
 
-/// Nanoseconds of one frame.
+/// Nanoseconds of one frame, by the wall clock, without what the machine has taken away from a
+/// detector that was ready to run (run/cpu_time.h).
 struct PhaseSample {
   double map = 0.0, update = 0.0, query = 0.0;
   std::optional<double> reported = std::nullopt;  ///< of update and query, by the detector itself
   double cpu = 0.0;                               ///< CPU time of the whole process tree
+  double taken = 0.0;  ///< that the machine gave to others meanwhile; not in the other times
   double total() const { return map + update + query; }
 };
 
 /// What one detector took in one pass in one question, frame after frame, in a fresh process.
 using Pass = std::vector<PhaseSample>;
+
+/// The frames that the means of a playback are over: all but the first, where memory is not there
+/// yet, unless there is no other. @pre frames > 0
+std::vector<std::size_t> played_frames(std::size_t frames);
 
 /// The samples of one detector and one question.
 struct QuestionSamples {
@@ -41,8 +47,7 @@ results::QuestionTimes summarize_times(const QuestionSamples& samples, const Tim
 /// Per frame the median over passes, milliseconds, in playback.
 std::vector<std::optional<double>> frame_ms(const QuestionSamples& samples);
 
-/// time(reference) / time(detector), pass by pass, over as many passes of both. The first frame of
-/// a playback counts only where there is no other.
+/// time(reference) / time(detector), pass by pass, over as many passes of both.
 /// @pre both of the same question and of all frames
 results::Speedup compute_speedup(const QuestionSamples& reference, const QuestionSamples& detector,
                                  const TimedFrames& frames);

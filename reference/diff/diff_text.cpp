@@ -29,21 +29,13 @@ Lines lines_of(const std::vector<RowChange>& changes, Direction direction) {
   return lines;
 }
 
-std::string ends_text(const Ratio& r, std::size_t passes) {
-  if (passes == 1) return "(1 pass)";
-  if (passes < kFewestForInterval)
-    return fmt::format("({} {:.2f} to {:.2f})", interval_name(passes), r.low, r.high);
-  return fmt::format("[{:.2f}, {:.2f}]", r.low, r.high);
-}
-
-// "1.32x slower [1.28, 1.36], measured against fcl-aabb".
+// "1.32x [1.28, 1.36] slower, measured against fcl-aabb".
 std::string time_line(const TimeChange& change) {
   Ratio f = change.factor;
   const bool slower = f.value < 1.0;
   if (slower) f = {1.0 / f.value, 1.0 / f.high, 1.0 / f.low};
-  return fmt::format("{}  {}  {:.2f}x {} {}, measured against {}", change.scene, change.detector,
-                     f.value, slower ? "slower" : "faster", ends_text(f, change.passes),
-                     change.reference);
+  return fmt::format("{}  {}  {} {}, measured against {}", change.scene, change.detector,
+                     ratio_text(f, change.passes), slower ? "slower" : "faster", change.reference);
 }
 
 Lines time_lines(const std::vector<TimeChange>& times, bool slower) {

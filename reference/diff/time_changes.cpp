@@ -29,19 +29,16 @@ std::optional<TimeChange> change_of(const results::Run& was, const results::Run&
     const auto then = before->find(reference);
     if (then == before->end() || !usable(now.playback) || !usable(then->second.playback)) continue;
     const std::size_t passes = std::min(now.passes, then->second.passes);
-    const auto divided = passes < kFewestForInterval ? range_quotient : quotient;
     return TimeChange{is.scene, is.detector, reference,
-                      divided(now.playback, then->second.playback), passes};
+                      quotient(now.playback, then->second.playback, passes), passes};
   }
   return std::nullopt;
 }
 
 bool is_clear(const TimeChange& change) {
   const Ratio& factor = change.factor;
-  if (change.passes < kFewestForInterval) {
-    constexpr double kBeyond = 1.0 + kSmallestChangeOfRange;
-    return factor.low > kBeyond || factor.high < 1.0 / kBeyond;
-  }
+  if (change.passes < kFewestForInterval)
+    return factor.low > kRangeFactor || factor.high < 1.0 / kRangeFactor;
   const bool one_sided = factor.low > 1.0 || factor.high < 1.0;
   return one_sided && log_size(change) > std::log1p(kSmallestTimeChange);
 }

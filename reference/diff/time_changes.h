@@ -11,9 +11,6 @@ namespace contactcheck {
 /// Smaller changes are not worth a line.
 inline constexpr double kSmallestTimeChange = 0.05;
 
-/// Few passes show a range, and another pass may lie outside it: all of it must be this far from 1.
-inline constexpr double kSmallestChangeOfRange = 0.5;
-
 /// The speed-up over `reference` now divided by the one then: above 1 is faster than before.
 struct TimeChange {
   std::string scene, detector, reference;
@@ -23,7 +20,7 @@ struct TimeChange {
 
 /// Of rows with a speed-up over the same reference in both (the first of the row that is not the
 /// detector itself), in playback: those whose whole interval is on one side of 1, and whose factor
-/// is further than kSmallestTimeChange from it; of a range, kSmallestChangeOfRange counts. The
+/// is further than kSmallestTimeChange from it; a range must lie outside 1 by kRangeFactor. The
 /// largest first.
 std::vector<TimeChange> time_changes(const results::Index& before, const results::Results& after);
 

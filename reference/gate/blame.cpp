@@ -74,11 +74,15 @@ std::string target_of(const results::Results& results, const std::string& scene)
   return scene;
 }
 
-// " --processes 3"; nothing where the results do not say how they were timed.
-std::string processes_flag(const results::Results& results, Verdict verdict) {
-  std::size_t processes = results.timing ? results.timing->processes : 0;
+// " --processes 3"; nothing where the results do not say how they were timed. A seed that was not
+// asked for is every run's.
+std::string timing_flags(const results::Results& results, Verdict verdict) {
+  const results::Timing timing = results.timing.value_or(results::Timing{0, 0.0, 1, 0});
+  std::size_t processes = timing.processes;
   if (verdict == Verdict::kCannotJudge) processes = std::max(processes, kFewestForInterval);
-  return processes == 0 ? "" : " --processes " + std::to_string(processes);
+  std::string out = processes == 0 ? "" : " --processes " + std::to_string(processes);
+  if (timing.seed != 1) out += " --seed " + std::to_string(timing.seed);
+  return out;
 }
 
 // Frames of families, recordings and random pairs are what they are.
@@ -111,7 +115,7 @@ std::string rerun_command(const Rule& rule, const results::Index& index, const r
       "contactcheck run " + in_shell(target) + frames_flag(row, scene, target) + detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
   return command + " --detector " + in_shell(rule.reference) +
-         processes_flag(index.results(), verdict);
+         timing_flags(index.results(), verdict);
 }
 
 std::string pairs_command(const results::Scene& scene) {

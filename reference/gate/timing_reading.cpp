@@ -79,14 +79,6 @@ std::size_t frames_of(const Rule& rule, const results::Index& results, const res
   return rule.part == "contact_frames" ? times->timed_contact_frames : times->timed_frames;
 }
 
-std::string ratio_text(const Ratio& r, std::size_t passes) {
-  if (passes == 1) return fmt::format("{:.4g}x (1 pass)", r.value);
-  if (passes < kFewestForInterval)
-    return fmt::format("{:.4g}x ({} {:.4g} to {:.4g})", r.value, interval_name(passes), r.low,
-                       r.high);
-  return fmt::format("{:.4g}x [{:.4g}, {:.4g}]", r.value, r.low, r.high);
-}
-
 // Why a range does not decide, and what would. `passes`: "3 passes".
 std::string too_few_passes(const std::string& passes, std::size_t frames, const Ratio& range,
                            const std::string& remedy) {
@@ -189,7 +181,7 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
   const std::size_t here = speedup_in(rule, row, reason)->passes,
                     there = speedup_in(rule, *old, reason)->passes, passes = std::min(here, there);
-  const Ratio slow = (passes < kFewestForInterval ? range_quotient : quotient)(*known, *ratio);
+  const Ratio slow = quotient(*known, *ratio, passes);
   return judged(rule, over_limit(slow, rule.limit), passes,
                 fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                             ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),

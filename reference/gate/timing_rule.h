@@ -16,10 +16,6 @@ struct Slowness {
   std::size_t passes = 0;  ///< behind the ratio: they tell what its ends are (interval_name)
 };
 
-/// Few passes show a range and no interval: another pass may lie outside it. The limit must lie
-/// outside the range by this factor.
-inline constexpr double kRangeFactor = 1.5;
-
 /// How the rule may judge it; as in a policy.
 struct TimingTolerance {
   double floor_us = 0.0, noise_width = 0.0;

@@ -62,7 +62,7 @@ class ProbeWorker {
   void run() {
     while (const std::optional<std::string> request = channel_.receive()) {
       const Scene scene = scene_of(*request);
-      const JudgedScene judged = judge_scene(scene, true, progress_);
+      const JudgedScene judged = judge_scene(scene, progress_);
       JudgingTools tools(judged);
       if (!channel_.send("")) return;
       if (!channel_.send(to_text(judge(tools)))) return;

@@ -12,16 +12,6 @@ namespace {
 // number (0.29 gives 28999.999...): a few steps of 2^-53 are forgiven, far below any count's reach.
 constexpr double kRateSteps = 1e5, kSlack = 0x1p-50;
 
-// Three significant digits without exponent in the range people read.
-std::string significant(double value) {
-  if (value == 0.0) return "0";
-  if (std::isnan(value)) return "-";  // a quotient of nothing by nothing
-  const double size = std::fabs(value);
-  if (size >= 1e6 || size < 1e-4) return fmt::format("{:.2e}", value);
-  const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
-  return fmt::format("{:.{}f}", value, digits);
-}
-
 }  // namespace
 
 std::string format_rate(std::optional<double> value) {
@@ -40,14 +30,16 @@ std::string format_error_rate(std::optional<double> value) {
   return fmt::format("{:.5f}", raised / kRateSteps);
 }
 
-std::string format_number(std::optional<double> value) { return value ? significant(*value) : "-"; }
+std::string format_number(std::optional<double> value) {
+  return value ? three_digits(*value) : "-";
+}
 
 std::string format_count(std::optional<std::int64_t> value) {
   return value ? std::to_string(*value) : "-";
 }
 
 std::string format_millimetres(std::optional<double> value) {
-  return value ? significant(1e3 * *value) : "-";
+  return value ? three_digits(1e3 * *value) : "-";
 }
 
 void Range::add(double value) {
@@ -105,21 +97,21 @@ std::string counted_passes(std::size_t n) {
 }
 
 std::string format_ratio(const std::optional<Ratio>& ratio) {
-  return ratio ? significant(ratio->value) + "x" : "-";
+  return ratio ? three_digits(ratio->value) + "x" : "-";
 }
 
 std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes) {
   if (!ratio) return "-";
   if (passes == 1) return format_ratio(ratio) + " (1 pass)";
   if (passes < kFewestForInterval) return format_ratio_range(ratio);
-  return fmt::format("{} [{}, {}]", format_ratio(ratio), significant(ratio->low),
-                     significant(ratio->high));
+  return fmt::format("{} [{}, {}]", format_ratio(ratio), three_digits(ratio->low),
+                     three_digits(ratio->high));
 }
 
 std::string format_ratio_range(const std::optional<Ratio>& ratio) {
   if (!ratio) return "-";
-  return fmt::format("{} ({} to {})", format_ratio(ratio), significant(ratio->low),
-                     significant(ratio->high));
+  return fmt::format("{} ({} to {})", format_ratio(ratio), three_digits(ratio->low),
+                     three_digits(ratio->high));
 }
 
 std::string ends_sentence(const std::set<std::size_t>& passes) {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "reference/report/run_row.h"
+#include "reference/statistics/statistics.h"
 
 namespace contactcheck {
 
@@ -18,7 +20,8 @@ std::vector<std::string> machine_lines(const results::Results& results) {
       fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, m.isa, m.os),
       fmt::format("built with {}, {}", m.compiler, m.build), "libraries: " + libraries,
       fmt::format("contactcheck {}, schema {}", results.version, results::kSchema)};
-  if (const std::string line = timing_line(results); !line.empty()) out.push_back(line);
+  for (const std::string& line : {timing_line(results), steadiness_line(results)})
+    if (!line.empty()) out.push_back(line);
   return out;
 }
 
@@ -37,7 +40,39 @@ std::string timing_line(const results::Results& results) {
     out += fmt::format("; cold: {} {} of each scene after a sweep of {:g} MiB", format_counts(cold),
                        *cold.high > 1.0 ? "frames" : "frame",
                        static_cast<double>(t.sweep_bytes) / 1048576.0);
+  double taken = 0.0, wall = 0.0;
+  for (const results::Run& run : results.runs)
+    for (const results::QuestionTimes& times : run.times) {
+      const double away = times.playback.taken.value_or(0.0);
+      taken += away;
+      wall += times.playback.frame + away;
+    }
+  if (taken > 0.0)
+    out +=
+        fmt::format("; {:.1f} % of the time was given to others by the machine, and is taken off",
+                    100.0 * taken / wall);
   return out;
+}
+
+std::string steadiness_line(const results::Results& results) {
+  std::size_t inside = 0, fewest = 0;
+  std::vector<double> half_widths;
+  for (const results::Run& run : results.runs)
+    for (const results::QuestionTimes& times : run.times) {
+      std::vector<double> ratios;
+      for (std::size_t p = 0; p + 1 < times.pass_ms.size(); p += 2)
+        ratios.push_back(times.pass_ms[p] / times.pass_ms[p + 1]);
+      if (ratios.size() < kFewestForInterval) continue;
+      const Ratio beside_itself = mean_ratio(ratios);
+      inside += beside_itself.low <= 1.0 && 1.0 <= beside_itself.high;
+      half_widths.push_back(std::sqrt(beside_itself.high / beside_itself.low) - 1.0);
+      if (fewest == 0 || ratios.size() < fewest) fewest = ratios.size();
+    }
+  if (half_widths.empty()) return "";
+  return fmt::format(
+      "each detector beside itself, over {} pairs of passes: 1.00 lies inside {} of {} "
+      "intervals of 95 %; their median half-width is {:.1f} %",
+      fewest, inside, half_widths.size(), 100.0 * median(half_widths));
 }
 
 std::vector<std::string> part_sentences(const results::Results& results) {

@@ -114,8 +114,8 @@ std::string terminal_tables(const results::Results& results, bool color) {
            "\n";
   if (const TitledTable goals = goals_table(results); !goals.rows.empty())
     out += paint("goals", kBold, color) + "\n" + table(goals, color);
-  if (const std::string timing = timing_line(results); !timing.empty())
-    out += "  " + timing + "\n\n";
+  for (const std::string& line : {timing_line(results), steadiness_line(results)})
+    if (!line.empty()) out += "  " + line + "\n\n";
   return out + legend();
 }
 

@@ -109,6 +109,9 @@ struct PhaseTimes {
   std::optional<double> first_frame;    ///< of a playback, whose other times leave it out
   std::optional<double> self_reported;  ///< update and query, by the detector's own clock
   double cpu = 0.0;                     ///< CPU time of the whole process tree
+  /// That the machine gave to others while the detector was ready to run; in none of the others.
+  /// None in files of a program that did not take it off.
+  std::optional<double> taken;
 };
 
 /// A detector's times in one question.
@@ -117,6 +120,8 @@ struct QuestionTimes {
   std::size_t timed_frames = 0, timed_contact_frames = 0;
   std::size_t passes = 0;  ///< through these frames, each in a fresh process
   PhaseTimes playback;     ///< all frames in order, nothing flushed between them
+  /// `playback.frame` of each pass; empty in files of a program that did not keep it.
+  std::vector<double> pass_ms;
   /// The scene's cold_frames, each after a sweep through the caches; only of its own question.
   std::optional<PhaseTimes> cold;
 };

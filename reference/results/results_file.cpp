@@ -86,6 +86,9 @@ std::string time_defect(const results::Run& run) {
     if (times.timed_contact_frames > times.timed_frames)
       return fmt::format("{}.timed_contact_frames is {}; it must be at most {}, the timed frames",
                          times_place(i), times.timed_contact_frames, times.timed_frames);
+    if (!times.pass_ms.empty() && times.pass_ms.size() != times.passes)
+      return fmt::format("{}.pass_ms has {} entries; it must have {}, the row's passes",
+                         times_place(i), times.pass_ms.size(), times.passes);
     const std::string found = speedup_defect(run, times);
     if (!found.empty()) return found;
   }

@@ -219,6 +219,7 @@ void fields(Io& io, PhaseTimes& t) {
   io.unless_empty("first_frame", t.first_frame);
   io.unless_empty("self_reported", t.self_reported);
   io("cpu", t.cpu);
+  io.unless_empty("taken", t.taken);
 }
 
 template <typename Io>
@@ -228,6 +229,7 @@ void fields(Io& io, QuestionTimes& t) {
   io("timed_contact_frames", t.timed_contact_frames);
   io("passes", t.passes);
   io("playback", t.playback);
+  io.unless_empty("pass_ms", t.pass_ms);
   io.unless_empty("cold", t.cold);
 }
 

@@ -108,7 +108,7 @@ results::ClosedLoop run_closed_loop(const Scene& scene, std::uint32_t position,
   }
   Scene own = scene;
   own.recorded = motion.frames;
-  const JudgedScene judged = judge_scene(own, true, progress);
+  const JudgedScene judged = judge_scene(own, progress);
   JudgingTools tools(judged);
   measure_energy(motion, out);
   measure_hover(tools, motion, out);

@@ -1,6 +1,7 @@
 #include "reference/run/cpu_time.h"
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -49,6 +50,7 @@ double of_children() {
   rusage ended = {};
   getrusage(RUSAGE_CHILDREN, &ended);
   double sum = nanoseconds(ended.ru_utime) + nanoseconds(ended.ru_stime);
+  if (!has_children()) return sum;
   for (const pid_t process : process_tree(getpid())) {
     clockid_t clock = 0;
     if (process == getpid() || clock_getcpuclockid(process, &clock) != 0) continue;
@@ -65,6 +67,13 @@ bool alone(bool children) {
          (!children || process_tree(getpid()).size() == 1);
 }
 
+// How often a thread of this process has given up its CPU by itself.
+long waits() {
+  rusage own = {};
+  getrusage(RUSAGE_SELF, &own);
+  return own.ru_nvcsw;
+}
+
 std::string milliseconds(double nanoseconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g ms", nanoseconds / kNanosecondsPerMillisecond);
@@ -72,6 +81,25 @@ std::string milliseconds(double nanoseconds) {
 }
 
 }  // namespace
+
+bool has_children() {
+  siginfo_t state = {};
+  return waitid(P_ALL, 0, &state, WEXITED | WNOHANG | WNOWAIT) == 0;
+}
+
+void CallClock::start() {
+  waits_ = waits();
+  cpu_ = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  from_ = Clock::now();
+}
+
+double CallClock::stop() {
+  const double wall = std::chrono::duration<double, std::nano>(Clock::now() - from_).count();
+  const double cpu = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_;
+  if (cpu >= wall || waits() != waits_ || has_children()) return wall;
+  taken_ += wall - cpu;
+  return cpu;
+}
 
 // Own clocks are read next to the call: looking for children takes time of its own.
 CpuBook::Reading CpuBook::read(bool calls_next) const {

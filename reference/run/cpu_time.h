@@ -1,5 +1,5 @@
-// What a detector's calls cost in CPU time, whoever works for it: its threads and its processes
-// too.
+// What a detector's calls take by the wall clock, and what they cost in CPU time, whoever works for
+// it: its threads and its processes too.
 #pragma once
 
 #include <chrono>
@@ -9,12 +9,35 @@
 
 namespace contactcheck {
 
+/// Whether this process has any that it has started and not waited for.
+bool has_children();
+
+/// Times a call by the wall clock, without what the machine has taken away: on one that others use
+/// too, a call of a millisecond may be held up for seven. A process that has not waited for
+/// anything (no thread of it has given up its CPU by itself) and has started no other would have
+/// run all the time; what its CPU time is short of the wall clock has been given to others. Of
+/// calls that wait, for a thread or a pipe, nothing is taken off.
+class CallClock {
+ public:
+  void start();
+  /// Nanoseconds since start().
+  double stop();
+  /// Nanoseconds that have been taken off, of all calls.
+  double taken() const { return taken_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point from_;
+  double cpu_ = 0.0, taken_ = 0.0;
+  long waits_ = 0;
+};
+
 /// Adds up one pass: the CPU time of the process in calls of the detector, and what others than
 /// the calling thread use while it is not called. Nanoseconds.
 class CpuBook {
  public:
   /// `threads`: that the detector may use. `children`: count the processes that this one has
-  /// started too, at some 100 us a call.
+  /// started too, at some 100 us a call where there are any.
   CpuBook(std::size_t threads, bool children) : threads_(threads), children_(children) {}
 
   void before_call();

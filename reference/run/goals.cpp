@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "reference/compare/speedup.h"
+
 namespace contactcheck {
 namespace {
 
@@ -71,14 +73,11 @@ void measure_over_scene(const Index& results, MeasuredGoal& goal) {
   goal.unit = "x";
 }
 
-// The frames that the times of this part are of: a playback leaves out the first, if it has others.
+// The frames that the times of this part are of.
 std::vector<std::size_t> frames_of(const Index& results, const Run& run, const std::string& part) {
   const results::Scene* const scene = results.scene(run.scene);
   if (part == "cold") return scene == nullptr ? std::vector<std::size_t>{} : scene->cold_frames;
-  std::vector<std::size_t> out;
-  const std::size_t frames = run.per_frame.truth.size();
-  for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) out.push_back(f);
-  return out;
+  return played_frames(run.per_frame.truth.size());
 }
 
 // Time and pairs are means over the same frames with contact.

@@ -91,12 +91,13 @@ Turn turn_from(const json& turn) {
 json to_json(const TurnAnswer& answer) {
   json frames = json::array();
   for (const PhaseSample& s : answer.samples) {
-    frames.push_back({s.map, s.update, s.query, s.cpu});
+    frames.push_back({s.map, s.update, s.query, s.cpu, s.taken});
     if (s.reported) frames.back().push_back(*s.reported);
   }
   json out = {{"turn", to_json(answer.turn)},
               {"error", answer.error},
               {"lazy_map", answer.lazy_map},
+              {"notes", answer.notes},
               {"frames", std::move(frames)}};
   if (answer.failed_frame) out["failed_frame"] = *answer.failed_frame;
   return out;
@@ -107,12 +108,14 @@ TurnAnswer turn_answer_from(const json& j) {
   answer.turn = turn_from(j.at("turn"));
   j.at("error").get_to(answer.error);
   j.at("lazy_map").get_to(answer.lazy_map);
+  j.at("notes").get_to(answer.notes);
   if (j.contains("failed_frame")) answer.failed_frame = j.at("failed_frame").get<std::size_t>();
   for (const json& s : j.at("frames")) {
     PhaseSample& frame = answer.samples.emplace_back();
     frame = {s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()};
     frame.cpu = s.at(3).get<double>();
-    if (s.size() > 4) frame.reported = s.at(4).get<double>();
+    frame.taken = s.at(4).get<double>();
+    if (s.size() > 5) frame.reported = s.at(5).get<double>();
   }
   return answer;
 }

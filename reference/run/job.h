@@ -66,9 +66,11 @@ struct Job {
   std::optional<Unjudged> unjudged;
   std::vector<Turn> turns;               ///< empty: judge
   std::vector<std::size_t> cold_frames;  ///< with turns
-  std::vector<JudgedAnswers> answers;    ///< with turns: per detector, what was judged
-  std::filesystem::path answer_file;     ///< where the worker writes
-  std::filesystem::path recording_file;  ///< where the judging one writes it; empty: nowhere
+  /// With turns: per detector, what was judged; empty of those that have no turn.
+  std::vector<JudgedAnswers> answers;
+  std::filesystem::path answer_file;  ///< where the worker writes
+  /// Where the one that judges writes it, and those that time find it; empty: nowhere.
+  std::filesystem::path recording_file;
   /// The temporary folder of whom it starts (TMPDIR); empty: everybody's.
   std::filesystem::path temporary;
 };
@@ -91,6 +93,7 @@ struct TurnAnswer {
   std::optional<std::size_t> failed_frame;
   bool lazy_map = false;  ///< see QuestionSamples
   Pass samples;
+  std::vector<std::string> notes;  ///< what it printed or changed for the whole process
 };
 
 /// A worker's answer to its job: with turns, `timed` alone.

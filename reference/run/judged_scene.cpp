@@ -45,7 +45,7 @@ Frame JudgedScene::frame(std::size_t index) const {
   return make_frame(index, scene->time_of(index), position.nodes, position.vertices);
 }
 
-JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& progress) {
+JudgedScene judge_scene(const Scene& scene, ProgressWriter& progress) {
   JudgedScene judged;
   judged.scene = &scene;
   judged.positions = FramePositions(scene);
@@ -57,7 +57,6 @@ JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& p
     progress.enter(SharedProgress::kNoDetector, f, Phase::kTruth);
     judged.refused = first_non_finite(scene, f, judged.positions[f].nodes);
     if (!judged.refused.empty()) return judged;
-    if (!truth_wanted) continue;
     judged.truth.push_back(oracle.judge(judged.frame(f), wanted_truth(scene)));
     judged.contact_frames.push_back(!judged.truth.back().surface.bodies.empty());
     if (check) {
@@ -68,7 +67,7 @@ JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& p
     geometry.set_frame(judged.frame(f));
     judged.contour.push_back(contour_of(judged.truth.back(), geometry));
   }
-  if (check && truth_wanted) judged.pairs = check->tally();
+  if (check) judged.pairs = check->tally();
   return judged;
 }
 

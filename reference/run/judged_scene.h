@@ -31,9 +31,8 @@ struct JudgedScene {
 /// Of a worker's work, for the progress bar; random pairs are long enough for it to move.
 constexpr double kShareOfTruth = 0.1;
 
-/// Maps and judges all frames. `truth_wanted` false leaves the truth empty (timing processes).
-/// Non-finite nodes end it: `refused` says where.
-JudgedScene judge_scene(const Scene& scene, bool truth_wanted, ProgressWriter& progress);
+/// Maps and judges all frames. Non-finite nodes end it: `refused` says where.
+JudgedScene judge_scene(const Scene& scene, ProgressWriter& progress);
 
 /// What the scene asks the oracle for.
 WantedTruth wanted_truth(const Scene& scene);

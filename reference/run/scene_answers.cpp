@@ -9,6 +9,10 @@
 namespace contactcheck {
 namespace {
 
+bool contains(const std::vector<std::string>& notes, const std::string& note) {
+  return std::find(notes.begin(), notes.end(), note) != notes.end();
+}
+
 // Contacts are the same question only where they are of one kind: depth of vertices, of triangles
 // or of boxes.
 bool same_contacts(const Semantics& semantics, const Semantics& other) {
@@ -49,6 +53,8 @@ class Rows {
     const std::uint32_t position = detector.position;
     results::Run& run = runs_[position] = detector.run;
     if (scene_.recorded) run.recording = "recordings/" + task().id + ".ccr";
+    for (const std::string& note : scene_.turns.notes(position))
+      if (!contains(detector.run.notes, note)) run.notes.push_back(note + " (while timed)");
     if (!run.ok()) return;
     if (const TurnAnswer* failed = scene_.turns.failure(position)) {
       // It was judged well and fails now: that is its result.
@@ -134,6 +140,15 @@ const TurnAnswer* TakenTurns::failure(std::uint32_t position) const {
     for (const TurnAnswer& answer : found->second)
       if (!answer.error.empty()) return &answer;
   return nullptr;
+}
+
+std::vector<std::string> TakenTurns::notes(std::uint32_t position) const {
+  std::vector<std::string> out;
+  if (const auto found = turns_.find(position); found != turns_.end())
+    for (const TurnAnswer& answer : found->second)
+      for (const std::string& note : answer.notes)
+        if (!contains(out, note)) out.push_back(note);
+  return out;
 }
 
 std::vector<QuestionSamples> TakenTurns::samples(std::uint32_t position,

@@ -25,6 +25,8 @@ class TakenTurns {
   double seconds(std::uint32_t position) const;
   /// The first turn that failed; null: none did.
   const TurnAnswer* failure(std::uint32_t position) const;
+  /// Of all turns, each once.
+  std::vector<std::string> notes(std::uint32_t position) const;
   /// One per question, in the order of `questions`. @pre none of its turns failed
   std::vector<QuestionSamples> samples(std::uint32_t position,
                                        const std::vector<Question>& questions) const;

@@ -43,12 +43,9 @@ class SceneRun {
     const fs::path recording = request_.out / "recordings" / (task_.id + ".ccr");
     job_.recording_file = fs::absolute(recording);
     const SceneAnswer judged = run_process();
-    job_.recording_file.clear();
-    job_.answers.resize(task_.detectors.size());  // of those that broke the process: none
-    for (const DetectorAnswer& detector : judged.detectors)
-      job_.answers.at(detector.position) = detector.answers;
-    if (job_.settings.timing) time(judged);
     const bool recorded = !judged.truth_contacts.empty() && fs::exists(recording);
+    if (!recorded) job_.recording_file.clear();  // there may be one of an earlier run
+    if (job_.settings.timing) time(judged);
     return put_together({task_, judged, turns_, job_.cold_frames, broken_, recorded},
                         listener_.samples);
   }
@@ -65,10 +62,20 @@ class SceneRun {
                  static_cast<double>(i) / static_cast<double>(processes.size()));
         part_ = 1.0 / static_cast<double>(processes.size());
         job_.turns = std::move(processes[i]);
+        hand_answers_over(judged);
         turns_.add(run_process().timed);
       }
       if (pass == 0) find_slow_ones(judged);
     }
+  }
+
+  // What was judged, of the detectors that have a turn: of all together it is long.
+  void hand_answers_over(const SceneAnswer& judged) {
+    job_.answers.assign(task_.detectors.size(), {});
+    for (const DetectorAnswer& detector : judged.detectors)
+      if (std::any_of(job_.turns.begin(), job_.turns.end(),
+                      [&](const Turn& turn) { return turn.position == detector.position; }))
+        job_.answers.at(detector.position) = detector.answers;
   }
 
   // The turns of one pass in an order drawn by seed, by the process that takes them: each turn of a

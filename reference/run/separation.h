@@ -10,7 +10,7 @@ namespace contactcheck {
 /// The smallest distance between the surfaces of any two bodies in each frame, metres: the upper
 /// end of the oracle's certified interval; 0 exactly in contact frames, which cost nothing here.
 /// Empty with fewer than two bodies, and of families and random pairs, whose gaps are their own.
-/// @pre the truth of `judged` was wanted, and the scene was not refused
+/// @pre the scene was not refused
 std::vector<double> separations(const JudgedScene& judged, ProgressWriter& progress);
 
 }  // namespace contactcheck

@@ -1,6 +1,5 @@
 #include "reference/run/timing.h"
 
-#include <chrono>
 #include <stdexcept>
 
 #include "reference/run/cpu_time.h"
@@ -9,23 +8,17 @@
 namespace contactcheck {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double nanoseconds(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double, std::nano>(to - from).count();
-}
-
 struct MappedFrame {
   std::vector<std::vector<Vec3>> nodes, vertices;
   Frame frame;
 };
 
-void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& mapped) {
+void point_to_frame(const Scene& scene, std::size_t index, MappedFrame& mapped) {
   mapped.frame.index = index;
-  mapped.frame.time = judged.scene->time_of(index);
-  mapped.nodes = judged.scene->nodes_of_frame(index);  // nothing is mapped outside the clock
+  mapped.frame.time = scene.time_of(index);
+  mapped.nodes = scene.nodes_of_frame(index);  // nothing is mapped outside the clock
   mapped.frame.bodies.clear();
-  for (std::size_t b = 0; b < judged.scene->bodies.size(); ++b)
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     mapped.frame.bodies.push_back({mapped.nodes[b], mapped.vertices[b]});
 }
 
@@ -33,25 +26,23 @@ void point_to_frame(const JudgedScene& judged, std::size_t index, MappedFrame& m
 PhaseSample time_frame(const Scene& scene, Question question, Detector& detector,
                        MappedFrame& mapped, ContactSet& contacts, ProgressWriter& progress) {
   PhaseSample sample;
-  const bool needs_vertices = detector.needs_vertices();
-  const auto before_map = Clock::now();
-  if (needs_vertices) {
+  CallClock clock;
+  if (detector.needs_vertices()) {
+    clock.start();
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       map_body(*scene.bodies[b].shape, mapped.frame.bodies[b].nodes, mapped.vertices[b]);
+    sample.map = clock.stop();
   }
-  const auto after_map = Clock::now();
   progress.go_on(Phase::kUpdate);
-  const auto before_update = Clock::now();
+  clock.start();
   detector.update(mapped.frame);
-  const auto after_update = Clock::now();
+  sample.update = clock.stop();
   const std::optional<double> update_reported = detector.reported_ns();
   progress.go_on(Phase::kQuery);
-  const auto before_query = Clock::now();
+  clock.start();
   detector.query(question, contacts);
-  const auto after_query = Clock::now();
-  sample.map = needs_vertices ? nanoseconds(before_map, after_map) : 0.0;
-  sample.update = nanoseconds(before_update, after_update);
-  sample.query = nanoseconds(before_query, after_query);
+  sample.query = clock.stop();
+  sample.taken = clock.taken();
   const std::optional<double> query_reported = detector.reported_ns();
   if (update_reported && query_reported) sample.reported = *update_reported + *query_reported;
   return sample;
@@ -59,9 +50,8 @@ PhaseSample time_frame(const Scene& scene, Question question, Detector& detector
 
 }  // namespace
 
-Pass time_pass(const JudgedScene& judged, const PassRequest& request, Detector& detector,
+Pass time_pass(const Scene& scene, const PassRequest& request, Detector& detector,
                ProgressWriter& progress) {
-  const Scene& scene = *judged.scene;
   MappedFrame mapped;
   for (const Body& body : scene.bodies)
     mapped.vertices.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());
@@ -70,7 +60,7 @@ Pass time_pass(const JudgedScene& judged, const PassRequest& request, Detector& 
   CpuBook cpu(request.threads, request.children);
   const FloatEnvironmentGuard guard;
   for (const std::size_t index : request.frames) {
-    point_to_frame(judged, index, mapped);
+    point_to_frame(scene, index, mapped);
     progress.enter(request.position, index, Phase::kMap);
     contacts.clear();
     if (request.sweep != nullptr) request.sweep->run();

@@ -9,8 +9,8 @@
 #include "reference/compare/speedup.h"
 #include "reference/run/answer_print.h"
 #include "reference/run/cache_sweep.h"
-#include "reference/run/judged_scene.h"
 #include "reference/run/shared_progress.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck {
 
@@ -28,7 +28,7 @@ struct PassRequest {
 /// those that were judged.
 /// @throws std::runtime_error when an answer is another one than was judged, or the CPU time says
 /// that the time of its calls is not what it costs (cpu_time.h); whatever the detector throws
-Pass time_pass(const JudgedScene& judged, const PassRequest& request, Detector& detector,
+Pass time_pass(const Scene& scene, const PassRequest& request, Detector& detector,
                ProgressWriter& progress);
 
 }  // namespace contactcheck

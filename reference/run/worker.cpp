@@ -25,7 +25,9 @@ Scene load(const Job& job) {
   return load_any_scene(job.scene_file, job.settings.frames);
 }
 
-// Simulated motions and swept poses become frames here, as the scene's own work.
+// Simulated motions and swept poses become frames here, as the scene's own work. A worker that
+// times takes those that were judged: to make them again takes longer, and shows them to the
+// scene's driver before it is timed.
 void arrange_scene(WorkerState& worker) {
   Scene& scene = worker.scene;
   const auto at = [&worker](std::size_t number) {
@@ -33,15 +35,12 @@ void arrange_scene(WorkerState& worker) {
   };
   scene = load(worker.job);
   if (scene.simulation) scene.simulation->settings.threads = worker.job.settings.threads;
+  if (!worker.judges() && !worker.job.recording_file.empty()) {
+    replay_recording(worker.job.recording_file, scene);
+    return;
+  }
   record_simulation(worker.catalog, at, scene);
   place_sweep(at, scene);
-}
-
-void judge(WorkerState& worker) {
-  record_scene(worker);
-  worker.separations = separations(worker.judged, worker.progress);
-  judge_detectors(worker);
-  if (worker.job.settings.closed_loop && worker.scene.simulation) simulate_with_detectors(worker);
 }
 
 // Not even mapped: what passed a limit once would pass it again.
@@ -50,21 +49,33 @@ void leave_unjudged(WorkerState& worker) {
   end_all(worker, results::Status::kError, worker.job.unjudged->why, worker.job.unjudged->frame);
 }
 
-void judge_or_time(WorkerState& worker) {
-  worker.judged = judge_scene(worker.scene, worker.judges(), worker.progress);
+void judge(WorkerState& worker) {
+  worker.judged = judge_scene(worker.scene, worker.progress);
   if (!worker.judged.refused.empty()) {
     end_all(worker, results::Status::kRefused, worker.judged.refused);
-  } else if (worker.judges()) {
-    judge(worker);
-  } else {
+    return;
+  }
+  record_scene(worker);
+  worker.separations = separations(worker.judged, worker.progress);
+  judge_detectors(worker);
+  if (worker.job.settings.closed_loop && worker.scene.simulation) simulate_with_detectors(worker);
+}
+
+// Only a scene that was judged is timed.
+void judge_or_time(WorkerState& worker) {
+  if (!worker.judges()) {
     take_turns(worker);
+  } else if (worker.job.unjudged) {
+    leave_unjudged(worker);
+  } else {
+    judge(worker);
   }
 }
 
 void work(WorkerState& worker) {
   arrange_scene(worker);
   add_entries(worker);
-  worker.job.unjudged ? leave_unjudged(worker) : judge_or_time(worker);
+  judge_or_time(worker);
   worker.surroundings.restore();
   write_answer(worker);
   worker.progress.enter(SharedProgress::kNoDetector, 0, Phase::kDone);

@@ -1,9 +1,11 @@
 #include "reference/run/worker_answer.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "core/deform/recording.h"
+#include "core/types/check.h"
 #include "reference/run/case_file.h"
 #include "reference/run/contacts_json.h"
 #include "reference/run/scene_summary.h"
@@ -11,7 +13,7 @@
 namespace contactcheck {
 namespace {
 
-// Numbers the cases of one answer.
+// Of a worker that judges. Numbers the cases of one answer.
 class AnswerWriter {
  public:
   explicit AnswerWriter(const WorkerState& worker) : worker_(worker) {}
@@ -24,7 +26,6 @@ class AnswerWriter {
     if (lists_contacts()) answer_.truth_contacts = truth_contacts(worker_.judged);
     if (worker_.judged.pairs) add_cases("oracle", worker_.judged.pairs->disagreements);
     for (const WorkerEntry& entry : worker_.entries) add(entry);
-    answer_.timed = worker_.timed;
     write_answer(job.answer_file, std::move(answer_));
   }
 
@@ -33,7 +34,8 @@ class AnswerWriter {
     DetectorAnswer& out = answer_.detectors.emplace_back();
     out.position = entry.position;
     out.run = entry.run;
-    if (hands_answers_over()) out.answers = entry.accuracy.answers;
+    // To the processes that time.
+    if (worker_.job.settings.timing) out.answers = entry.accuracy.answers;
     if (lists_contacts()) out.contacts = detector_contacts(entry.run, entry.accuracy.differences);
     add_cases(entry.spec.name, entry.accuracy.disagreements);
   }
@@ -55,13 +57,9 @@ class AnswerWriter {
     return "../recordings/" + worker_.job.recording_file.filename().string();
   }
 
-  // To the processes that time.
-  bool hands_answers_over() const { return worker_.judges() && worker_.job.settings.timing; }
-
   // Random pairs are far too many for pictures; a scene that is refused or not judged has no truth.
   bool lists_contacts() const {
-    return worker_.judges() && !worker_.scene.pairs && worker_.judged.refused.empty() &&
-           !worker_.job.unjudged;
+    return !worker_.scene.pairs && worker_.judged.refused.empty() && !worker_.job.unjudged;
   }
 
   const WorkerState& worker_;
@@ -82,9 +80,29 @@ void record_scene(const WorkerState& worker) {
   write_recording(worker.job.recording_file, recording);
 }
 
+void replay_recording(const std::filesystem::path& file, Scene& scene) {
+  if (!scene.simulation && !scene.sweep) return;
+  Recording recording = read_recording(file);
+  const bool same_nodes =
+      std::equal(recording.bodies.begin(), recording.bodies.end(), scene.bodies.begin(),
+                 scene.bodies.end(), [](const Body& recorded, const Body& body) {
+                   return recorded.shape->node_count() == body.shape->node_count();
+                 });
+  if (recording.frames.size() != scene.frames || !same_nodes)
+    throw InputError("recording \"" + file.string() + "\" has other frames or nodes than scene \"" +
+                     scene.id + "\": one of them has changed since it was judged");
+  scene.recorded = std::move(recording.frames);
+}
+
 void write_answer(WorkerState& worker) {
   worker.progress.enter(SharedProgress::kNoDetector, 0, Phase::kScene);
-  AnswerWriter(worker).write();
+  if (worker.judges()) {
+    AnswerWriter(worker).write();
+    return;
+  }
+  SceneAnswer answer;
+  answer.timed = std::move(worker.timed);
+  write_answer(worker.job.answer_file, std::move(answer));
 }
 
 }  // namespace contactcheck

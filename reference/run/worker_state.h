@@ -1,5 +1,5 @@
-// What a worker holds while it works: the job, its scene as judged, and each detector with what is
-// known of it so far.
+// What a worker holds while it works: the job, its scene, as judged or to be timed, and each
+// detector with what is known of it so far.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ struct WorkerState {
   ProgressWriter progress;
   Surroundings surroundings;
   Scene scene;
-  JudgedScene judged;
+  JudgedScene judged;               ///< of a worker that judges
   std::vector<double> separations;  ///< per frame (separation.h)
   std::vector<WorkerEntry> entries;
   std::vector<TurnAnswer> timed;

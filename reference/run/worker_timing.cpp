@@ -5,6 +5,8 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include "reference/run/guarded_call.h"
 #include "reference/run/timing.h"
@@ -13,12 +15,14 @@
 namespace contactcheck {
 namespace {
 
-// `--threads` is for detectors that can use them; an option of that name is the detector's own.
+// `--threads` is for detectors that can use them; an option of that name is the detector's own, in
+// which 0 is read as all that this machine has.
 std::size_t threads_of(const WorkerState& worker, const WorkerEntry& entry) {
-  std::size_t own = 0;
+  std::size_t own = 1;
   if (const auto option = entry.spec.options.find("threads"); option != entry.spec.options.end()) {
     const std::string& text = option->second;  // of one from outside it may be any word
     std::from_chars(text.data(), text.data() + text.size(), own);
+    if (own == 0) own = std::thread::hardware_concurrency();
   }
   return std::max<std::size_t>(own, worker.job.settings.threads);
 }
@@ -64,11 +68,12 @@ void take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry, CacheS
       make_detector(worker, entry);
       entry.detector->prepare(worker.scene.bodies);
       answer.lazy_map = !entry.detector->needs_vertices();
-      answer.samples = time_pass(worker.judged, request_of(worker, turn, entry, sweep),
+      answer.samples = time_pass(worker.scene, request_of(worker, turn, entry, sweep),
                                  *entry.detector, worker.progress);
     });
     if (entry.detector) guarded(worker, entry, [&] { dismiss(worker, entry); });
   }
+  answer.notes = std::exchange(entry.run.notes, {});
   if (entry.usable()) return;
   answer.error = entry.run.message + " (while timed)";
   answer.failed_frame = entry.run.failed_frame;

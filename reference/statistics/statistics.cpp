@@ -1,5 +1,7 @@
 #include "reference/statistics/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -85,6 +87,23 @@ Ratio mean_ratio(const std::vector<double>& measured) {
   return widened(mean, half_width, half_width);
 }
 
+std::string three_digits(double value) {
+  if (value == 0.0) return "0";
+  if (std::isnan(value)) return "-";  // a quotient of nothing by nothing
+  const double size = std::fabs(value);
+  if (size >= 1e6 || size < 1e-4) return fmt::format("{:.2e}", value);
+  const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
+  return fmt::format("{:.{}f}", value, digits);
+}
+
+std::string ratio_text(const Ratio& ratio, std::size_t passes) {
+  const std::string value = three_digits(ratio.value) + "x";
+  if (passes == 1) return value + " (1 pass)";
+  const bool interval = passes >= kFewestForInterval;
+  return fmt::format(fmt::runtime(interval ? "{} [{}, {}]" : "{} (range {} to {})"), value,
+                     three_digits(ratio.low), three_digits(ratio.high));
+}
+
 Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw) {
   constexpr std::size_t kOutside = kDraws / 40;  // 2.5 % on either side
   Resampler resampler;
@@ -100,17 +119,15 @@ Ratio product(const Ratio& a, const Ratio& b) {
                  std::hypot(reach(a.value, a.high), reach(b.value, b.high)));
 }
 
-Ratio quotient(const Ratio& numerator, const Ratio& denominator) {
+Ratio quotient(const Ratio& numerator, const Ratio& denominator, std::size_t measurements) {
+  if (measurements < kFewestForInterval)
+    return {numerator.value / denominator.value, numerator.low / denominator.high,
+            numerator.high / denominator.low};
   return widened(
       numerator.value / denominator.value,
       std::hypot(reach(numerator.value, numerator.low), reach(denominator.value, denominator.high)),
       std::hypot(reach(numerator.value, numerator.high),
                  reach(denominator.value, denominator.low)));
-}
-
-Ratio range_quotient(const Ratio& numerator, const Ratio& denominator) {
-  return {numerator.value / denominator.value, numerator.low / denominator.high,
-          numerator.high / denominator.low};
 }
 
 Ratio median_ratio(const std::vector<Ratio>& measured) {

@@ -1,10 +1,11 @@
 // Medians, and ratios of times with their intervals. Every interval of the program is computed
-// here.
+// and worded here.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace contactcheck {
@@ -28,6 +29,10 @@ struct Ratio {
 /// So many measurements make an interval that covers; fewer show a range.
 constexpr std::size_t kFewestForInterval = 5;
 
+/// Another measurement may lie outside a range: what a range is to show must lie outside it by this
+/// factor.
+constexpr double kRangeFactor = 1.5;
+
 /// What the ends of a ratio of so many measurements are: "95 %" or "range".
 const char* interval_name(std::size_t measurements);
 
@@ -36,6 +41,12 @@ const char* interval_name(std::size_t measurements);
 /// of freedom), with fewer the smallest and the largest measurement.
 /// @pre not empty; all above 0
 Ratio mean_ratio(const std::vector<double>& measured);
+
+/// Three significant digits, without exponent in the range that people read.
+std::string three_digits(double value);
+
+/// "1.32x [1.28, 1.36]"; of a range "1.32x (range 1.1 to 1.5)", of one pass "1.32x (1 pass)".
+std::string ratio_text(const Ratio& ratio, std::size_t passes);
 
 /// Draws with replacement, the same draws on every platform.
 class Resampler {
@@ -57,9 +68,9 @@ Ratio bootstrap(double estimate, const std::function<double(Resampler&)>& draw);
 /// their intervals, as logarithms, add up in squares, each end by itself.
 /// @pre all values and ends above 0; an interval may be open (0 to infinity)
 Ratio product(const Ratio& a, const Ratio& b);
-Ratio quotient(const Ratio& numerator, const Ratio& denominator);
-/// The same of two ranges: from the smallest to the largest that it can be.
-Ratio range_quotient(const Ratio& numerator, const Ratio& denominator);
+/// `measurements`: of the one that has fewer. Where these make a range, from the smallest to the
+/// largest that the quotient can be.
+Ratio quotient(const Ratio& numerator, const Ratio& denominator, std::size_t measurements);
 
 /// The median of one ratio measured several times apart; of one measurement that itself. The
 /// interval is that of a median: by the spread of the measurements (Student's t), and to either

@@ -81,9 +81,8 @@ PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor) {
   PairedRun run;
   for (std::size_t p = 0; p < std::min(own.playback.size(), anchor.playback.size()); ++p) {
     const Pass &mine = own.playback[p], &beside = anchor.playback[p];
-    const std::size_t frames = std::min(mine.size(), beside.size());
     // A clock that has not ticked has seen a nanosecond at most.
-    for (std::size_t f = frames > 1 ? 1 : 0; f < frames; ++f) {
+    for (const std::size_t f : played_frames(std::min(mine.size(), beside.size()))) {
       run[f].own.push_back(std::max(mine[f].total(), 1.0));
       run[f].anchor.push_back(std::max(beside[f].total(), 1.0));
     }

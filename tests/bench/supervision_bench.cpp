@@ -19,6 +19,8 @@
 
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
+#include "reference/run/frame_positions.h"
+#include "reference/run/judged_scene.h"
 #include "reference/run/timing.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
@@ -81,9 +83,6 @@ class TimedScene {
  public:
   TimedScene(const std::string& id, const std::string& detector)
       : scene_(load_scene(find_scene(id, fixtures_directory()))) {
-    SharedProgress nobody;
-    ProgressWriter progress(&nobody);
-    judged_ = judge_scene(scene_, false, progress);
     const DetectorCatalog catalog = standard_catalog();
     detector_ = catalog.make(catalog.parse(detector));
     detector_->prepare(scene_.bodies);
@@ -98,7 +97,7 @@ class TimedScene {
   double run(SharedProgress* page) {
     ProgressWriter progress(page);
     double sum = 0.0;
-    for (const PhaseSample& frame : time_pass(judged_, request_, *detector_, progress))
+    for (const PhaseSample& frame : time_pass(scene_, request_, *detector_, progress))
       sum += frame.total();
     return sum;
   }
@@ -107,9 +106,11 @@ class TimedScene {
   // time_pass compares every answer with these.
   void answer_all() {
     ContactSet contacts;
+    const FramePositions positions(scene_);
     for (std::size_t f = 0; f < scene_.frames; ++f) {
       contacts.clear();
-      detector_->update(judged_.frame(f));
+      const FramePosition& at = positions[f];
+      detector_->update(make_frame(f, scene_.time_of(f), at.nodes, at.vertices));
       detector_->query(request_.asked.question, contacts);
       contacts.canonicalize();
       answers_.push_back(print_of(contacts, request_.asked));
@@ -117,7 +118,6 @@ class TimedScene {
   }
 
   Scene scene_;
-  JudgedScene judged_;
   std::unique_ptr<Detector> detector_;
   std::vector<AnswerPrint> answers_;
   PassRequest request_;

@@ -154,7 +154,7 @@ TEST(OwnDetectors, DriveSimulations) {
 }
 
 Outcome ab(const std::string& base, const std::string& head, const std::string& out) {
-  return test::contactcheck_program({"ab", base, head, "hard-vertex-face", "--rounds", "3",
+  return test::contactcheck_program({"ab", base, head, "hard-vertex-face", "--rounds", "5",
                                      "--floor-us", "1e9", "--quiet", "--out", out});
 }
 

@@ -30,7 +30,7 @@ results::Run accuracy_of(const FfdConfig& config) {
   FfdDetector detector(config);
   SharedProgress page;
   ProgressWriter progress(&page);
-  const JudgedScene judged = judge_scene(scene, true, progress);
+  const JudgedScene judged = judge_scene(scene, progress);
   results::Run result;
   JudgingTools tools(judged);
   run_accuracy(tools, 0, detector, progress, result);

@@ -263,6 +263,18 @@ TEST(Isolation, WorkingDirectoryIsNotedAndRestored) {
   EXPECT_THAT(result.notes("fault-directory"), ElementsAre("changed the working directory"));
 }
 
+TEST(Isolation, WhatChangesWhileItIsTimedAloneIsNotedOnceAsThat) {
+  const std::string fault = "fault-directory:phase=timed";
+  const WholeRun result = run_with(fault, {"--processes", "2"});
+  EXPECT_EQ(result.row(fault).at("status"), "ok") << result.message(fault);
+  EXPECT_THAT(result.notes(fault), ElementsAre("changed the working directory (while timed)"));
+}
+
+TEST(Isolation, WhatChangedWhileItWasJudgedIsNotNotedAgainWhileItIsTimed) {
+  const WholeRun result = run_with("fault-directory", {"--processes", "2"});
+  EXPECT_THAT(result.notes("fault-directory"), ElementsAre("changed the working directory"));
+}
+
 TEST(Isolation, SignalHandlersAndAlarmsAreTakenBack) {
   const WholeRun result = expect_harmless("fault-signals");
   const std::string numbers = std::to_string(SIGUSR1) + ", " + std::to_string(SIGALRM);

@@ -36,7 +36,7 @@ struct Pass {
   Pass(Scene s, Detector& detector, bool hover = false) : scene(std::move(s)) {
     SharedProgress page;
     ProgressWriter progress(&page);
-    judged = judge_scene(scene, true, progress);
+    judged = judge_scene(scene, progress);
     JudgingTools tools(judged);
     outcome = run_accuracy(tools, 0, detector, progress, result);
     if (!hover) return;

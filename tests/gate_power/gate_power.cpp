@@ -61,7 +61,8 @@ void one_trial(const NoiseModel& model, const RunShape& shape, Noise& noise, Tal
   for (std::size_t i = 0; i < kSlowdowns.size(); ++i) {
     const Ratio slower = divided(now, kSlowdowns[i]);
     against_limit[i].add(slowness_of(slower, kRatio / kLimit), shape.passes);
-    against_baseline[i].add(over_limit(quotient(before, slower), kLimit), shape.passes);
+    against_baseline[i].add(over_limit(quotient(before, slower, shape.passes), kLimit),
+                            shape.passes);
   }
 }
 

@@ -55,12 +55,14 @@ TEST(AbJudge, WideIntervalAboutTheLimitIsTooNoisy) {
 }
 
 TEST(AbJudge, RatioIsTheGeometricMeanOverRounds) {
-  const AbTime time = judge_ab(rounds_of({1.0, 2.0, 4.0}, {1.0, 4.0, 16.0}), {}).times.at(0);
-  EXPECT_NEAR(time.ratio.value, 2.0, 1e-12);
-  EXPECT_NEAR(time.ratio.low, 1.0, 1e-12) << "of three rounds the range";
-  EXPECT_NEAR(time.ratio.high, 4.0, 1e-12);
-  EXPECT_NEAR(time.base_ms, 2.0, 1e-12);
-  EXPECT_NEAR(time.head_ms, 4.0, 1e-12);
+  const AbTime time =
+      judge_ab(rounds_of({1.0, 2.0, 4.0, 8.0, 1.0}, {1.0, 4.0, 16.0, 16.0, 4.0}), {}).times.at(0);
+  const Ratio expected = mean_ratio({1.0, 2.0, 4.0, 2.0, 4.0});
+  EXPECT_EQ(time.ratio.value, expected.value);
+  EXPECT_EQ(time.ratio.low, expected.low);
+  EXPECT_EQ(time.ratio.high, expected.high);
+  EXPECT_NEAR(time.base_ms, std::pow(2.0, 6.0 / 5.0), 1e-12);
+  EXPECT_NEAR(time.head_ms, std::pow(2.0, 12.0 / 5.0), 1e-12);
 }
 
 // Noise of one run is lognormal; every round has a drift that both builds share, and some runs are

@@ -39,6 +39,13 @@ TEST_P(BadGate, IsRefusedWithOneSentence) {
   results = test::sample_results();
   results["runs"][0]["per_frame"]["frame_ms"].erase(0);
   scratch.write("frame-ms.json", results.dump());
+  results = test::sample_results();
+  results["runs"][0]["time_ms"]["pass_ms"] = {1.0, 1.5};
+  scratch.write("pass-ms.json", results.dump());
+  results["runs"][0]["time_ms"]["pass_ms"] = {1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0};
+  scratch.write("no-time.json", results.dump());
+  results["runs"][0]["time_ms"]["pass_ms"] = nlohmann::ordered_json::array();
+  scratch.write("no-pass-ms.json", results.dump());
   test::expect_refused(GetParam(), scratch);
 }
 
@@ -104,6 +111,15 @@ INSTANTIATE_TEST_SUITE_P(
             "TimesOfOtherFrames",
             {"gate", "DIR/frame-ms.json", "--policy", "DIR/policy.json"},
             {"DIR/frame-ms.json", "runs[0].per_frame.frame_ms has 7 entries", "must have 8"}},
+        BadCommand{"TimesOfOtherPasses",
+                   {"gate", "DIR/pass-ms.json", "--policy", "DIR/policy.json"},
+                   {"DIR/pass-ms.json", "runs[0].time_ms.pass_ms has 2 entries", "must have 7"}},
+        BadCommand{"PassThatTookNoTime",
+                   {"gate", "DIR/no-time.json", "--policy", "DIR/policy.json"},
+                   {"DIR/no-time.json", "runs[0].time_ms.pass_ms[3] is 0", "above 0"}},
+        BadCommand{"TimesOfNoPass",
+                   {"gate", "DIR/no-pass-ms.json", "--policy", "DIR/policy.json"},
+                   {"DIR/no-pass-ms.json", "runs[0].time_ms.pass_ms"}},
         BadCommand{"NoResults", {"gate", "--policy", "DIR/policy.json"}, {"results"}}),
     gate_case);
 

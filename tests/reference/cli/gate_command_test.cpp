@@ -83,7 +83,7 @@ TEST_F(GateCommand, ThirtyPercentSlowerIsRed) {
   }
   const Outcome outcome = gate_of(results);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("FAIL  as fast as it was\n  touch  exact: slowdown 1.3x ["));
+  EXPECT_THAT(outcome.out, HasSubstr("FAIL  as fast as it was\n  touch  exact: slowdown 1.30x ["));
 }
 
 TEST_F(GateCommand, MissingSceneIsRed) {

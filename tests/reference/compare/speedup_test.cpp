@@ -4,9 +4,12 @@
 
 #include <cmath>
 
+#include "reference/statistics/statistics.h"
+
 namespace contactcheck {
 namespace {
 
+using testing::ElementsAre;
 using testing::Optional;
 
 constexpr double kMillisecond = 1e6;  // nanoseconds
@@ -50,11 +53,25 @@ double sum_of_phases(const results::PhaseTimes& t) {
   return t.map.value_or(0.0) + t.update + t.query;
 }
 
+TEST(PlayedFrames, AreAllButTheFirstUnlessThereIsNoOther) {
+  EXPECT_THAT(played_frames(1), ElementsAre(0));
+  EXPECT_THAT(played_frames(2), ElementsAre(1));
+  EXPECT_THAT(played_frames(5), ElementsAre(1, 2, 3, 4));
+}
+
 TEST(SummarizeTimes, FrameIsTheGeometricMeanOverPassesOfTheirMeans) {
   const auto t = summarize_times(played({updates({100, 2, 4}), updates({50, 8, 16})}), kThree);
   EXPECT_EQ(t.timed_frames, 3u);
   EXPECT_EQ(t.passes, 2u);
   EXPECT_THAT(t.playback.frame, Is(6.0)) << "of 3 and 12";
+}
+
+TEST(SummarizeTimes, TimeOfEachPassIsKept) {
+  const auto t = summarize_times(played({updates({100, 2, 4}), updates({50, 8, 16})}), kThree);
+  EXPECT_THAT(t.pass_ms, ElementsAre(Is(3.0), Is(12.0)));
+  EXPECT_THAT(geometric_mean(t.pass_ms), Is(t.playback.frame));
+  const auto one = summarize_times(played({updates({7}), updates({5})}), {{true}, {}});
+  EXPECT_THAT(one.pass_ms, ElementsAre(Is(7.0), Is(5.0))) << "there is no other frame";
 }
 
 TEST(SummarizeTimes, FirstFrameIsGivenApart) {
@@ -121,6 +138,22 @@ TEST(SummarizeTimes, CpuTimeIsOfTheSameFrames) {
     for (std::size_t f = 0; f < 3; ++f)
       q.playback[p][f].cpu = static_cast<double>(1 + 3 * p + f) * kMillisecond;
   EXPECT_THAT(summarize_times(q, kThree).playback.cpu, Is(std::sqrt(2.5 * 5.5)));
+}
+
+// A geometric mean would be 0 as soon as nothing was taken in one pass.
+TEST(SummarizeTimes, WhatWasTakenIsTheMeanOverTheSameFramesOfAllPasses) {
+  QuestionSamples q = played({updates({5, 2, 4}), updates({5, 2, 4})});
+  q.playback[0][0].taken = 100.0 * kMillisecond;  // of the first frame
+  q.playback[0][1].taken = 6.0 * kMillisecond;
+  q.playback[0][2].taken = 2.0 * kMillisecond;
+  q.cold = {updates({1, 1}), updates({1, 1})};
+  q.cold[1][0].taken = 1.0 * kMillisecond;
+  const auto t = summarize_times(q, kThree);
+  EXPECT_THAT(t.playback.taken, Optional(Is(2.0)));
+  EXPECT_THAT(t.playback.frame, Is(3.0)) << "it is in none of the times";
+  ASSERT_TRUE(t.cold);
+  EXPECT_THAT(t.cold->taken, Optional(Is(0.25)));
+  EXPECT_EQ(summarize_times(three_frames(), kThree).playback.taken, 0.0) << "none, and looked for";
 }
 
 TEST(SummarizeTimes, OwnClockCountsWhereItSpeaksOfEveryFrame) {

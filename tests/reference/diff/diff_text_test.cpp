@@ -52,7 +52,7 @@ TEST(DiffText, HasASectionForEveryKindOfDifference) {
             "Other answers, neither better nor worse (1)\n"
             "  s  hash  contact hash 0x1 -> 0x2\n"
             "Slower (1)\n"
-            "  s  hash  2.00x slower [2.00, 2.00], measured against fcl-aabb\n"
+            "  s  hash  2.00x [2.00, 2.00] slower, measured against fcl-aabb\n"
             "New (1)\n"
             "  detector new (in 1 scene)\n"
             "Gone (2)\n"
@@ -69,9 +69,9 @@ TEST(DiffText, SaysWhatTheEndsOfARatioAre) {
     after.runs[0].speedup[Question::kTriangles]["fcl-aabb"].passes = passes;
     return text_of(before, after);
   };
-  EXPECT_THAT(line(5, {3.0, 2.0, 4.5}), HasSubstr("3.00x faster [2.00, 4.50], measured"));
-  EXPECT_THAT(line(3, {3.0, 2.0, 4.5}), HasSubstr("3.00x faster (range 2.00 to 4.50), measured"));
-  EXPECT_THAT(line(1, {3.0, 3.0, 3.0}), HasSubstr("3.00x faster (1 pass), measured"));
+  EXPECT_THAT(line(5, {3.0, 2.0, 4.5}), HasSubstr("3.00x [2.00, 4.50] faster, measured"));
+  EXPECT_THAT(line(3, {3.0, 2.0, 4.5}), HasSubstr("3.00x (range 2.00 to 4.50) faster, measured"));
+  EXPECT_THAT(line(1, {3.0, 3.0, 3.0}), HasSubstr("3.00x (1 pass) faster, measured"));
 }
 
 TEST(DiffText, FitsOnAScreenAndSaysWhatItLeavesOut) {

@@ -109,6 +109,8 @@ TEST(RerunCommand, OfATimingRuleRunsTheReferenceBesideIt) {
   EXPECT_EQ(again(results, "touch", "exact", "speedup"), command + " --processes 3");
   EXPECT_EQ(again(results, "touch", "exact", "speedup", Verdict::kCannotJudge),
             command + " --processes 5");
+  results["timing"]["seed"] = 7;
+  EXPECT_EQ(again(results, "touch", "exact", "speedup"), command + " --processes 3 --seed 7");
   results.erase("timing");
   EXPECT_EQ(again(results, "touch", "exact", "speedup"), command);
 }

@@ -40,7 +40,7 @@ Json slower(double factor) {
 TEST(Speedup, ReachedPasses) {
   const Check check = check_of("exact", speedup("3.8"), sample_results());
   EXPECT_EQ(check.verdict, Verdict::kPass);
-  EXPECT_EQ(check.measured, "speedup 4x [3.8, 4.2] over ref, triangles, playback");
+  EXPECT_EQ(check.measured, "speedup 4.00x [3.80, 4.20] over ref, triangles, playback");
   EXPECT_EQ(check.allowed, "at least 3.8x");
 }
 
@@ -125,7 +125,7 @@ TEST(Slowdown, OfThirtyPercentFails) {
   EXPECT_EQ(check.verdict, Verdict::kFail);
   EXPECT_TRUE(check.red);
   EXPECT_EQ(check.measured,
-            "slowdown 1.3x [1.211, 1.395] (speed-up 3.077x, in the baseline 4x, over ref, "
+            "slowdown 1.30x [1.21, 1.40] (speed-up 3.077x, in the baseline 4x, over ref, "
             "triangles, playback)");
   EXPECT_EQ(check.allowed, "at most 1.1x");
   EXPECT_EQ(check.reason, "200 us too long per frame of 1300 us");
@@ -233,7 +233,7 @@ TEST(FewPasses, DecideASpeedupBeyondAFactorAlone) {
 
 TEST(FewPasses, ThatDecideNothingSayWhatWould) {
   const Check check = check_of("exact", speedup("3"), with_passes(sample_results(), 3));
-  EXPECT_EQ(check.measured, "speedup 4x (range 3.8 to 4.2) over ref, triangles, playback");
+  EXPECT_EQ(check.measured, "speedup 4.00x (range 3.80 to 4.20) over ref, triangles, playback");
   EXPECT_EQ(check.reason,
             "8 frames, 3 passes: the limit lies within a factor 1.5 of the range 3.8x to 4.2x; "
             "--processes 5 gives an interval");
@@ -256,7 +256,7 @@ TEST(OnePass, HasNoRange) {
   Json results = with_passes(sample_results(), 1);
   ratio_of(results) = {{"ratio", 4}, {"low", 4}, {"high", 4}};
   const Check check = check_of("exact", speedup("3"), results);
-  EXPECT_EQ(check.measured, "speedup 4x (1 pass) over ref, triangles, playback");
+  EXPECT_EQ(check.measured, "speedup 4.00x (1 pass) over ref, triangles, playback");
   EXPECT_EQ(check.reason,
             "8 frames, 1 pass: the limit lies within a factor 1.5 of 4x; --processes 5 gives an "
             "interval");

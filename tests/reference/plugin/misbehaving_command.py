@@ -49,6 +49,15 @@ def eat_memory_in_a_child():
     subprocess.run([sys.executable, __file__, "only-eat"])
 
 
+def work_in_a_child():
+    child = os.fork()
+    if child == 0:
+        while time.process_time() < 0.04:
+            pass
+        os._exit(0)
+    os.waitpid(child, 0)
+
+
 def hello():
     line = dict(HELLO)
     if FAULT == "no-answer":
@@ -180,6 +189,8 @@ def main():
             index = line["index"]
             if FAULT == "leaks":
                 LEAKED.append(b"x" * (1 << 24))
+            if FAULT == "works-in-a-child":
+                work_in_a_child()
             frame() if index == 2 else write({"message": "done"})
         elif FAULT == "always-lies":
             write({"message": "contacts", "triangles": 1}, PAIR)

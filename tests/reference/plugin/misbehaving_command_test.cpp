@@ -105,6 +105,20 @@ TEST(CommandAtWork, LiesAreSpuriousAndSilenceIsMissed) {
   EXPECT_EQ(level.at("hit").get<int>() + level.at("missed").get<int>(), level.at("truth"));
 }
 
+// 40 ms of CPU time a frame. A child that has ended is counted in whole ticks of user and of system
+// time, of 10 ms each over all frames.
+TEST(CommandAtWork, WorkOfAChildDuringACallIsCpuTime) {
+  PluginRun run({"--detector-cmd", misbehaving_command("works-in-a-child")}, {"--processes", "1"});
+  const auto row = run.row("misbehaving");
+  ASSERT_EQ(row.at("status"), "ok") << row.at("message");
+  for (const char* regime : {"playback", "cold"}) {
+    const auto& times = row.at("time_ms").at(regime);
+    EXPECT_GE(times.at("frame").get<double>(), 39.0) << regime;
+    EXPECT_GE(times.at("cpu").get<double>(), 30.0) << regime;
+    EXPECT_EQ(times.at("taken"), 0.0) << regime << ": it has waited for the command";
+  }
+}
+
 TEST(CommandAtWork, MayTakeItsScaleFromTheBodies) {
   PluginRun run({"--detector-cmd", misbehaving_command("scale-later")});
   const auto row = run.row("misbehaving");

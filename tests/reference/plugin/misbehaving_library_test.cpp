@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "tests/reference/plugin/plugin_fault.h"
+#include "tests/support/files.h"
 
 namespace contactcheck {
 namespace {
@@ -123,6 +124,25 @@ TEST(LibraryAtWork, AnswersThatItDoesNotGiveWhileItIsTimedAreAnError) {
         "it answered 0 pairs of triangles and not the 1 that were judged (while timed)"}});
   EXPECT_FALSE(run.row("misbehaving:fault=" + fault).contains("time_ms"));
   EXPECT_TRUE(run.row("fcl-aabb").contains("time_ms"));
+}
+
+TEST(LibraryAtWork, DiesInItsSecondPassAndTheOthersKeepTheirTimes) {
+  for (const Fault& fault :
+       {Fault{"aborts-in-its-second-pass",
+              {"scene tiny, frame 2, phase update: signal 6 (Aborted)"}},
+        Fault{"leaves-in-its-second-pass", {"scene tiny, frame 2, phase update: exit code 0"}}}) {
+    const test::Scratch scratch;
+    const test::Environment folder("CONTACTCHECK_PLUGIN_FOLDER", scratch.folder().string());
+    const std::string name = "misbehaving:fault=" + fault.name;
+    PluginRun run({"--detector", misbehaving_library(fault.name), "--detector", "fcl-aabb"},
+                  {"--processes", "3"});
+    test::expect_row_and_nobody_disturbed(run, name, fault);
+    EXPECT_FALSE(run.row(name).contains("time_ms")) << fault.name;
+    EXPECT_EQ(run.row("fcl-aabb").at("time_ms").at("passes"), 3) << fault.name;
+    EXPECT_EQ(test::names_in(scratch.folder()).size(), 4u)
+        << fault.name << ": processes of judging, of the first pass and of half the second";
+    EXPECT_EQ(run.schema_errors(), "");
+  }
 }
 
 // 2 ms of work for every frame that it does not remember: in a pass it remembers none.

@@ -71,6 +71,17 @@ static int is_in_a_file(const char* variable, uint64_t what, int remember) {
   return 0;
 }
 
+/* How many processes have been asked about frames before this one. */
+static int processes_before(void) {
+  static int count = -1;
+  if (count < 0)
+    for (count = 0; is_in_a_file("CONTACTCHECK_PLUGIN_FOLDER", (uint64_t)count, 1);) ++count;
+  return count;
+}
+
+/* One has judged, and of each pass there are two: its question's, and that of the cold frames. */
+static int is_second_pass(void) { return processes_before() >= 3; }
+
 static int32_t create(const contactcheck_setting* settings, uint32_t count, void** detector,
                       char* message) {
   State* const state = calloc(1, sizeof *state);
@@ -150,6 +161,8 @@ static int32_t update(void* detector, const contactcheck_frame* frame, char* mes
   if (frame->index != 2) return CONTACTCHECK_OK;
   if (is(state, "crash")) die(SIGSEGV);
   if (is(state, "exit")) exit(0);
+  if (is(state, "aborts-in-its-second-pass") && is_second_pass()) die(SIGABRT);
+  if (is(state, "leaves-in-its-second-pass") && is_second_pass()) _exit(0);
   if (is(state, "hang")) hang();
   if (is(state, "fails")) {
     memset(message, 'x', CONTACTCHECK_MESSAGE_SIZE); /* not ended by a zero byte */
@@ -211,6 +224,8 @@ static const char* const kFaults[] = {"none",
                                       "refuses",
                                       "crash",
                                       "exit",
+                                      "aborts-in-its-second-pass",
+                                      "leaves-in-its-second-pass",
                                       "hang",
                                       "fails",
                                       "strange-status",

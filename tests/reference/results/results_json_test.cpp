@@ -56,6 +56,17 @@ TEST(FromJson, KeepsWhatARowSays) {
   EXPECT_GT(run->speedup.at(Question::kTriangles).at("fcl-aabb").playback.value, 1.0);
 }
 
+TEST(FromJson, KeepsTheTimeOfEachPassAndWhatWasTaken) {
+  const Results results = from_json(read(CONTACTCHECK_EXAMPLE_RESULTS));
+  const std::vector<QuestionTimes>& times = results.runs.at(0).times;
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_THAT(times[0].pass_ms, testing::ElementsAre(0.5, 0.25, 1.0, 0.4, 0.625));
+  EXPECT_EQ(times[0].playback.taken, 0.125);
+  // Of a program that did not keep them.
+  EXPECT_TRUE(times[1].pass_ms.empty());
+  EXPECT_EQ(times[1].playback.taken, std::nullopt);
+}
+
 TEST(FromJson, RefusesWhatIsOfAnotherTypeOrUnknown) {
   for (const char* text : {R"({"runs": [1]})", R"({"runs": [{"status": "fine"}]})",
                            R"({"runs": [{"status": "ok", "levels": {"edge": {}}}]})",

@@ -30,7 +30,7 @@ Judged accuracy_of(const Scene& scene, const std::string& name) {
   const auto detector = catalog.make(catalog.parse(name));
   SharedProgress page;
   ProgressWriter progress(&page);
-  const JudgedScene judged = judge_scene(scene, true, progress);
+  const JudgedScene judged = judge_scene(scene, progress);
   Judged result;
   JudgingTools tools(judged);
   result.disagreements = run_accuracy(tools, 0, *detector, progress, result).disagreements;
@@ -91,7 +91,7 @@ TEST(JudgeScene, StopsAtANonFiniteNodeAndSaysWhere) {
   scene.recorded[4][1][9].y() = std::numeric_limits<double>::quiet_NaN();
   SharedProgress page;
   ProgressWriter progress(&page);
-  const JudgedScene judged = judge_scene(scene, true, progress);
+  const JudgedScene judged = judge_scene(scene, progress);
   EXPECT_EQ(judged.refused, "frame 4, body \"moving\": node 9 is not finite");
   EXPECT_EQ(judged.truth.size(), 4u);
 }
@@ -102,10 +102,9 @@ TEST(JudgeScene, ComputesOnlyTheTruthThatTheSceneWants) {
   Scene scene = test::approach_scene(shell, ball, {{0.0, 0.0}}, 0, 0, 1, 1.0, {Level::kTriangle});
   SharedProgress page;
   ProgressWriter progress(&page);
-  EXPECT_TRUE(judge_scene(scene, true, progress).truth.at(0).containment.empty());
+  EXPECT_TRUE(judge_scene(scene, progress).truth.at(0).containment.empty());
   scene.levels = {Level::kContainment};
-  EXPECT_EQ(judge_scene(scene, true, progress).truth.at(0).containment.size(), 1u);
-  EXPECT_TRUE(judge_scene(scene, false, progress).truth.empty());
+  EXPECT_EQ(judge_scene(scene, progress).truth.at(0).containment.size(), 1u);
 }
 
 }  // namespace

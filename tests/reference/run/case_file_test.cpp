@@ -36,7 +36,7 @@ class CaseFile : public testing::Test {
             test::make_body("", test::unit_box_mesh(1), {2, 2, 2}).shape,
             test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 1), {3, 3, 3}).shape,
             {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kTriangle, Level::kCell})),
-        judged_(judge_scene(scene_, true, progress_)) {}
+        judged_(judge_scene(scene_, progress_)) {}
 
   json write(const char* level, const char* kind, ElementPair pair) {
     Disagreement d;

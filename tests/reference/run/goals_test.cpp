@@ -19,7 +19,7 @@ Run run(const std::string& scene, const std::string& detector, double playback, 
   out.detector = detector;
   out.per_frame.level = Level::kTriangle;
   out.per_frame.truth = {1000, 300, 0, 500};
-  out.times = {{Question::kTriangles, 4, 2, 3, phases(playback), phases(cold)}};
+  out.times = {{Question::kTriangles, 4, 2, 3, phases(playback), {}, phases(cold)}};
   return out;
 }
 

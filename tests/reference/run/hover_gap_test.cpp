@@ -33,7 +33,7 @@ results::Run measured_hover(const Scene& scene, const std::string& name) {
   const auto detector = catalog.make(catalog.parse(name));
   SharedProgress page;
   ProgressWriter progress(&page);
-  const JudgedScene judged = judge_scene(scene, true, progress);
+  const JudgedScene judged = judge_scene(scene, progress);
   results::Run result;
   JudgingTools tools(judged);
   run_accuracy(tools, 0, *detector, progress, result);

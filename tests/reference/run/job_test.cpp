@@ -153,15 +153,18 @@ TEST(Answer, TurnsReadBackBitForBit) {
   TurnAnswer out;
   out.turn = {2, Question::kBody, true};
   out.lazy_map = true;
-  out.samples = {{0.1, 1.0 / 3.0, 1e-300}, {1.0, 2.0, 3.0, 4.0, 1.0 / 7.0}};
+  out.notes = {"changed the locale"};
+  out.samples = {{0.1, 1.0 / 3.0, 1e-300, std::nullopt, 0.2, 1.0 / 9.0},
+                 {1.0, 2.0, 3.0, 4.0, 1.0 / 7.0, 5.0}};
   answer.timed.push_back(out);
-  answer.timed.push_back({{0, Question::kTriangles, false}, "it threw", 3, false, {}});
+  answer.timed.push_back({{0, Question::kTriangles, false}, "it threw", 3, false, {}, {}});
   const std::vector<TurnAnswer> in = reread(answer).timed;
   ASSERT_EQ(in.size(), 2u);
   EXPECT_EQ(in[0].turn.position, 2u);
   EXPECT_EQ(in[0].turn.question, Question::kBody);
   EXPECT_TRUE(in[0].turn.cold);
   EXPECT_TRUE(in[0].lazy_map);
+  EXPECT_THAT(in[0].notes, ElementsAre("changed the locale"));
   EXPECT_EQ(in[0].failed_frame, std::nullopt);
   ASSERT_EQ(in[0].samples.size(), 2u);
   for (std::size_t f = 0; f < 2; ++f) {
@@ -171,9 +174,11 @@ TEST(Answer, TurnsReadBackBitForBit) {
     EXPECT_EQ(read.query, written.query);
     EXPECT_EQ(read.reported, written.reported);
     EXPECT_EQ(read.cpu, written.cpu);
+    EXPECT_EQ(read.taken, written.taken);
   }
   EXPECT_EQ(in[1].error, "it threw");
   EXPECT_EQ(in[1].failed_frame, 3u);
+  EXPECT_TRUE(in[1].notes.empty());
 }
 
 TEST(Answer, JudgedAnswersReadBackEvenWhereTheyAreEmpty) {

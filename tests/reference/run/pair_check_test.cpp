@@ -20,7 +20,7 @@ class RandomPairsJudged : public testing::Test {
   RandomPairsJudged()
       : scene_(make_pairs_scene({kFrames * RandomPairs::kSlots, 3})),
         progress_(&page_),
-        judged_(judge_scene(scene_, true, progress_)) {}
+        judged_(judge_scene(scene_, progress_)) {}
 
   /// The verdict on a truth that may have been spoiled.
   PairTally tally_with(const std::vector<Truth>& truth, unsigned threads = 0) const {

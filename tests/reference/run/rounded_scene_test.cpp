@@ -24,7 +24,7 @@ Scene plates() {
 JudgedScene judged(const Scene& scene) {
   SharedProgress page;
   ProgressWriter progress(&page);
-  return judge_scene(scene, true, progress);
+  return judge_scene(scene, progress);
 }
 
 TEST(RoundedScene, HasTheTruthOfTheFloatsItIsFed) {

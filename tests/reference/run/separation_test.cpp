@@ -26,7 +26,7 @@ Scene boxes() {
 std::vector<double> separations_of(const Scene& scene) {
   SharedProgress page;
   ProgressWriter progress(&page);
-  return separations(judge_scene(scene, true, progress), progress);
+  return separations(judge_scene(scene, progress), progress);
 }
 
 TEST(Separations, AreTheGapsAndZeroInContactFrames) {
@@ -50,7 +50,7 @@ TEST(Separations, StandInTheSummaryWhereThereAreAny) {
   const Scene scene = boxes();
   SharedProgress page;
   ProgressWriter progress(&page);
-  const JudgedScene judged = judge_scene(scene, true, progress);
+  const JudgedScene judged = judge_scene(scene, progress);
   EXPECT_EQ(scene_summary(judged, {0.5, 0.0}).separation.size(), 2u);
   EXPECT_TRUE(scene_summary(judged, {}).separation.empty());
 }

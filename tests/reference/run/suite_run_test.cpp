@@ -12,7 +12,9 @@ namespace {
 
 using test::Scratch;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Pair;
 
 SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
   SuiteRequest request;
@@ -63,6 +65,69 @@ TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
             R"("detectors":[{"detector":"one","level":"triangle","frames":[{"frame":3,)"
             R"("missed":{"count":1,"pairs":[0,2,1,5]},"spurious":{"count":0,"pairs":[]}}]}]})"
             "\n");
+}
+
+// Detector "two" is from outside: each of its turns has a process of its own.
+TEST(SuiteRun, ProcessThatTimesIsGivenTheAnswersOfItsOwnTurnsAlone) {
+  const Scratch scratch;
+  SuiteRequest request = request_for(scratch, "answers");
+  request.tasks.front().detectors.pop_back();
+  request.settings.timing = true;
+  request.settings.processes = 2;
+  request.settings.plugin_ids = {"two"};
+  SuiteOutcome outcome;
+  const auto results = run(request, &outcome);
+  ASSERT_EQ(results.runs.size(), 2u);
+  for (const results::Run& row : results.runs) {
+    EXPECT_TRUE(row.ok()) << row.message;
+    EXPECT_EQ(row.times.size(), 1u) << row.detector;
+  }
+}
+
+// Of each row, and of its speed-up over the first; of three that were asked for.
+std::vector<std::pair<std::size_t, std::size_t>> passes_with(double one_pass_beyond) {
+  const Scratch scratch;
+  SuiteRequest request = request_for(scratch, "well");
+  request.tasks.front().detectors = {"fcl-aabb", "two"};
+  request.settings.timing = true;
+  request.settings.processes = 3;
+  request.settings.one_pass_beyond = one_pass_beyond;
+  SuiteOutcome outcome;
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  const auto results = run(request, &outcome);
+  for (const results::Run& row : results.runs)
+    out.emplace_back(row.times.at(0).passes,
+                     row.speedup.at(Question::kTriangles).at("fcl-aabb").passes);
+  return out;
+}
+
+// The fake's first detector takes 18 ms for a pass, the second 27 ns.
+TEST(SuiteRun, DetectorWhosePassTakesLongerThanTheLimitHasOne) {
+  EXPECT_THAT(passes_with(1e-9), ElementsAre(Pair(1, 1), Pair(1, 1)));
+  EXPECT_THAT(passes_with(1e-3), ElementsAre(Pair(1, 1), Pair(3, 1)));
+  EXPECT_THAT(passes_with(1.0), ElementsAre(Pair(3, 3), Pair(3, 3)));
+  EXPECT_THAT(passes_with(0.0), ElementsAre(Pair(3, 3), Pair(3, 3))) << "no limit";
+}
+
+// Both have their turns in the same process, which is repeated without the one that died.
+TEST(SuiteRun, DetectorThatDiesInItsSecondPassHasNoTimesAndTheOthersKeepTheirs) {
+  const Scratch scratch;
+  SuiteRequest request = request_for(scratch, "second-pass");
+  request.tasks.front().detectors.pop_back();
+  request.settings.timing = true;
+  request.settings.processes = 3;
+  SuiteOutcome outcome;
+  const auto results = run(request, &outcome);
+  EXPECT_TRUE(outcome.unlisted_error);
+  ASSERT_EQ(results.runs.size(), 2u);
+  ASSERT_TRUE(results.runs[0].ok());
+  EXPECT_EQ(results.runs[0].times.at(0).passes, 3u);
+  const results::Run& broken = results.runs[1];
+  EXPECT_EQ(broken.status, results::Status::kError);
+  EXPECT_EQ(broken.message, "scene fake, frame 7, phase update: signal 6 (Aborted)");
+  EXPECT_EQ(broken.failed_frame, 7u);
+  EXPECT_TRUE(broken.times.empty());
+  EXPECT_TRUE(broken.speedup.empty());
 }
 
 TEST(SuiteRun, DeathThatGoesOnWithoutItsDetectorEndsTheRunWithASentence) {

@@ -78,15 +78,14 @@ class Timing : public testing::Test {
   Timing()
       : scene_(test::approach_scene(test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
                                     test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
-                                    {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody})),
-        judged_(judge_scene(scene_, false, progress_)) {
+                                    {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody})) {
     ContactSet judged;
     judged.bodies = {{0, 1}};
     prints_.assign(3, print_of(judged, kBody));
   }
 
   Pass pass(Detector& detector, std::vector<std::size_t> frames = {0, 1, 2}) {
-    return time_pass(judged_, {0, kBody, std::move(frames), &prints_}, detector, progress_);
+    return time_pass(scene_, {0, kBody, std::move(frames), &prints_}, detector, progress_);
   }
 
   // What is wrong with it.
@@ -104,7 +103,6 @@ class Timing : public testing::Test {
   SharedProgress page_;
   ProgressWriter progress_{&page_};
   Scene scene_;
-  JudgedScene judged_;
   std::vector<AnswerPrint> prints_;
 };
 
@@ -119,8 +117,7 @@ TEST_F(Timing, AsksEveryFrameOnceInOrder) {
 TEST_F(Timing, OfColdFramesThoseAlone) {
   Diary detector;
   CacheSweep sweep(1 << 12);
-  const Pass samples =
-      time_pass(judged_, {0, kBody, {0, 2}, &prints_, &sweep}, detector, progress_);
+  const Pass samples = time_pass(scene_, {0, kBody, {0, 2}, &prints_, &sweep}, detector, progress_);
   EXPECT_THAT(detector.frames, ElementsAre(0, 2));
   EXPECT_EQ(samples.size(), 2u);
 }
@@ -142,7 +139,6 @@ TEST_F(Timing, SupervisorSeesMapping) {
   const auto fine = test::make_body("", test::unit_box_mesh(40), {1, 1, 1}).shape;
   const Scene scene =
       test::approach_scene(fine, fine, {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody});
-  const JudgedScene judged = judge_scene(scene, false, progress_);
   std::atomic<bool> seen = false, done = false;
   std::thread supervisor([&] {
     while (!done) {
@@ -153,7 +149,7 @@ TEST_F(Timing, SupervisorSeesMapping) {
   Diary detector;
   for (int i = 0; i < 10'000 && !seen; ++i) {
     // The other thread's work is taken for the detector's, which may have two.
-    time_pass(judged, {0, kBody, {0}, &prints_, nullptr, 2}, detector, progress_);
+    time_pass(scene, {0, kBody, {0}, &prints_, nullptr, 2}, detector, progress_);
   }
   done = true;
   supervisor.join();

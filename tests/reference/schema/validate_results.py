@@ -8,6 +8,7 @@ error, 2 bad usage or a file that cannot be read as JSON.
 """
 
 import json
+import math
 import pathlib
 import sys
 
@@ -146,9 +147,21 @@ def time_errors(place, run):
         if times.get("question") in seen:
             yield f"{place}/{name}/question", f"{times['question']} is timed twice"
         seen.add(times.get("question"))
+        if "pass_ms" in times:
+            yield from pass_errors(f"{place}/{name}/pass_ms", times)
         for regime in ("playback", "cold"):
             if regime in times:
                 yield from phase_errors(f"{place}/{name}/{regime}", times[regime])
+
+
+def pass_errors(place, times):
+    passes, frame = times["pass_ms"], times["playback"]["frame"]
+    if len(passes) != times["passes"]:
+        yield place, f"has {len(passes)} entries for {times['passes']} passes"
+        return
+    mean = math.exp(sum(map(math.log, passes)) / len(passes))
+    if abs(mean - frame) > RATE_TOLERANCE * mean:
+        yield place, f"have the geometric mean {mean}, but playback/frame is {frame}"
 
 
 def phase_errors(place, phases):

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "reference/compare/speedup.h"
 
@@ -35,6 +34,7 @@ class Draws {
 struct Side {
   double milliseconds = 1.0;    ///< of a frame without contact
   double process_effect = 0.0;  ///< standard deviation of the logarithm
+  bool noise = true;            ///< and contamination
 };
 
 bool in_contact(std::size_t frame) { return frame >= 40; }
@@ -43,9 +43,11 @@ Pass pass_of(const Side& side, Draws& draws) {
   Pass pass;
   const double process = std::exp(side.process_effect * draws.normal());
   for (std::size_t f = 0; f < kFrames; ++f) {
-    double ms = side.milliseconds * process * (in_contact(f) ? 3.0 : 1.0) *
-                std::exp(kFrameNoise * draws.normal());
-    if (draws.uniform() < kContaminated) ms *= 1.5 + 8.5 * draws.uniform();
+    double ms = side.milliseconds * process * (in_contact(f) ? 3.0 : 1.0);
+    if (side.noise) {
+      ms *= std::exp(kFrameNoise * draws.normal());
+      if (draws.uniform() < kContaminated) ms *= 1.5 + 8.5 * draws.uniform();
+    }
     pass.push_back({0.0, 0.0, 1e6 * ms});
   }
   return pass;
@@ -59,26 +61,32 @@ QuestionSamples samples_of(const Side& side, Draws& draws) {
 
 struct Coverage {
   double all = 0.0, contact = 0.0;  ///< shares of the intervals that contain the true ratio
-  double typical_width = 0.0;       ///< high / low of all frames, in the geometric mean
+  double half_width = 0.0;          ///< of all frames, as a logarithm, in the mean
 };
 
-Coverage coverage(double reference_effect, double detector_effect) {
+Coverage coverage(double reference_effect, double detector_effect, bool noise = true) {
   TimedFrames frames;
   for (std::size_t f = 0; f < kFrames; ++f) frames.contact.push_back(in_contact(f));
   Draws draws(2013);
   const auto covers = [](const Ratio& r) { return r.low <= kTrueRatio && kTrueRatio <= r.high; };
   int all = 0, contact = 0;
-  std::vector<double> widths;
+  double half_widths = 0.0;
   for (int i = 0; i < kSimulations; ++i) {
-    const QuestionSamples reference = samples_of({kTrueRatio, reference_effect}, draws),
-                          detector = samples_of({1.0, detector_effect}, draws);
+    const QuestionSamples reference = samples_of({kTrueRatio, reference_effect, noise}, draws),
+                          detector = samples_of({1.0, detector_effect, noise}, draws);
     const results::Speedup speedup = compute_speedup(reference, detector, frames);
     all += covers(speedup.playback);
     contact += covers(*speedup.contact_frames);
-    widths.push_back(speedup.playback.high / speedup.playback.low);
+    half_widths += 0.5 * std::log(speedup.playback.high / speedup.playback.low);
   }
   return {static_cast<double>(all) / kSimulations, static_cast<double>(contact) / kSimulations,
-          geometric_mean(widths)};
+          half_widths / kSimulations};
+}
+
+// Of a t interval over five normal logarithms, in the mean: Student's t of 4 degrees of freedom,
+// and c4(5), by which the deviation of five falls short of the true one.
+double expected_half_width(double deviation) {
+  return 2.776 * 0.940 * deviation / std::sqrt(static_cast<double>(kPasses));
 }
 
 // The true ratio is that of the milliseconds of a frame, 3. Contamination lengthens a pass of
@@ -98,7 +106,18 @@ TEST(Calibration, IntervalOfFivePassesCoversTheTrueRatioAsOftenAsItSays) {
       EXPECT_GE(share, 0.92) << e.reference << " beside " << e.detector;
       EXPECT_LE(share, 0.98) << e.reference << " beside " << e.detector;
     }
-    EXPECT_LT(found.typical_width, 2.0) << "an interval that says nothing always covers";
+    // An interval that says nothing always covers. By contamination a frame deviates by 0.95 of its
+    // mean, and a pass of 59 frames, of which 20 take three times as long, by 0.14.
+    const double expected =
+        expected_half_width(std::hypot(std::sqrt(2.0) * 0.14, e.reference, e.detector));
+    EXPECT_NEAR(found.half_width, expected, 0.1 * expected) << e.reference << " " << e.detector;
+  }
+}
+
+TEST(Calibration, HalfWidthOfFivePassesFollowsTheProcessEffect) {
+  for (const double effect : {0.005, 0.02, 0.04}) {
+    const double expected = expected_half_width(std::sqrt(2.0) * effect);
+    EXPECT_NEAR(coverage(effect, effect, false).half_width, expected, 0.05 * expected) << effect;
   }
 }
 

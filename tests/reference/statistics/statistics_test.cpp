@@ -143,17 +143,17 @@ TEST(Quotient, CombinesTheIntervalsAsIndependentErrors) {
   // Of exp(3) and exp(4) to either side: sqrt(9 + 16) = 5 in the log domain.
   const Ratio now = {2.0, 2.0 * std::exp(-3.0), 2.0 * std::exp(3.0)},
               then = {4.0, 4.0 * std::exp(-4.0), 4.0 * std::exp(4.0)};
-  const Ratio factor = quotient(now, then);
+  const Ratio factor = quotient(now, then, kFewestForInterval);
   EXPECT_DOUBLE_EQ(factor.value, 0.5);
   EXPECT_NEAR(factor.low, 0.5 * std::exp(-5.0), 1e-12);
   EXPECT_NEAR(factor.high, 0.5 * std::exp(5.0), 1e-9);
 }
 
 TEST(Quotient, LowerEndComesFromTheLowEndNowAndTheHighEndThen) {
-  const Ratio factor = quotient({1.0, 0.5, 1.0}, {1.0, 1.0, 1.0});
+  const Ratio factor = quotient({1.0, 0.5, 1.0}, {1.0, 1.0, 1.0}, kFewestForInterval);
   EXPECT_DOUBLE_EQ(factor.low, 0.5);
   EXPECT_DOUBLE_EQ(factor.high, 1.0);
-  EXPECT_DOUBLE_EQ(quotient({1.0, 1.0, 1.0}, {1.0, 1.0, 2.0}).low, 0.5);
+  EXPECT_DOUBLE_EQ(quotient({1.0, 1.0, 1.0}, {1.0, 1.0, 2.0}, kFewestForInterval).low, 0.5);
 }
 
 TEST(Quotient, OfSmallIntervalsIsTheSame) {
@@ -161,7 +161,7 @@ TEST(Quotient, OfSmallIntervalsIsTheSame) {
   // Half-widths of 3 % and 4 %, as logarithms: 5 % together.
   const Ratio before{8.0, 8.0 / std::pow(e, 3), 8.0 * std::pow(e, 3)};
   const Ratio now{4.0, 4.0 / std::pow(e, 4), 4.0 * std::pow(e, 4)};
-  const Ratio r = quotient(before, now);
+  const Ratio r = quotient(before, now, kFewestForInterval);
   EXPECT_DOUBLE_EQ(r.value, 2.0);
   EXPECT_NEAR(r.low, 2.0 / std::pow(e, 5), 1e-12);
   EXPECT_NEAR(r.high, 2.0 * std::pow(e, 5), 1e-12);
@@ -170,9 +170,24 @@ TEST(Quotient, OfSmallIntervalsIsTheSame) {
 TEST(Quotient, TakesEitherEndFromTheEndsThatMoveItThere) {
   const double e = std::exp(0.01);
   // It was perhaps less fast, it may be faster now: both make the slow-down smaller.
-  const Ratio r = quotient({8.0, 8.0 / std::pow(e, 3), 8.0}, {4.0, 4.0, 4.0 * std::pow(e, 4)});
+  const Ratio r = quotient({8.0, 8.0 / std::pow(e, 3), 8.0}, {4.0, 4.0, 4.0 * std::pow(e, 4)},
+                           kFewestForInterval);
   EXPECT_NEAR(r.low, 2.0 / std::pow(e, 5), 1e-12);
   EXPECT_DOUBLE_EQ(r.high, 2.0);
+}
+
+TEST(Quotient, OfRangesReachesFromTheSmallestToTheLargest) {
+  const Ratio r = quotient({6.0, 4.0, 8.0}, {2.0, 1.0, 4.0}, kFewestForInterval - 1);
+  EXPECT_DOUBLE_EQ(r.value, 3.0);
+  EXPECT_DOUBLE_EQ(r.low, 1.0);
+  EXPECT_DOUBLE_EQ(r.high, 8.0);
+}
+
+TEST(RatioText, SaysWhatItsEndsAre) {
+  const Ratio r = {1.3249, 1.0, 1520.0};
+  EXPECT_EQ(ratio_text(r, kFewestForInterval), "1.32x [1.00, 1520]");
+  EXPECT_EQ(ratio_text(r, kFewestForInterval - 1), "1.32x (range 1.00 to 1520)");
+  EXPECT_EQ(ratio_text(r, 1), "1.32x (1 pass)");
 }
 
 TEST(MedianRatio, IsTheMedianAndGetsNarrowerWithRuns) {

@@ -120,7 +120,8 @@ results::QuestionTimes summarize_times(const QuestionSamples& samples, const Tim
   out.playback = phase_times(samples.playback, samples.lazy_map,
                              played_frames(frames.contact.size()), contact);
   for (const Pass& pass : samples.playback)
-    out.pass_ms.push_back(mean_ms({pass}, played_frames(pass.size()), whole));
+    out.pass_ms.push_back(mean_of(pass, played_frames(pass.size()), whole) *
+                          kMillisecondsPerNanosecond);
   out.playback.first_frame = mean_ms(samples.playback, {0}, whole);
   if (!samples.cold.empty())
     out.cold =

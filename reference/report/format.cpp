@@ -102,10 +102,9 @@ std::string format_ratio(const std::optional<Ratio>& ratio) {
 
 std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes) {
   if (!ratio) return "-";
-  if (passes == 1) return format_ratio(ratio) + " (1 pass)";
-  if (passes < kFewestForInterval) return format_ratio_range(ratio);
-  return fmt::format("{} [{}, {}]", format_ratio(ratio), three_digits(ratio->low),
-                     three_digits(ratio->high));
+  // A table says once what its brackets are (ends_sentence).
+  const bool range = passes != 1 && passes < kFewestForInterval;
+  return range ? format_ratio_range(ratio) : ratio_text(*ratio, passes);
 }
 
 std::string format_ratio_range(const std::optional<Ratio>& ratio) {

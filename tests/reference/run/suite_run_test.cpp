@@ -25,6 +25,16 @@ SuiteRequest request_for(const Scratch& scratch, const std::string& scene) {
   return request;
 }
 
+// Of the detectors "one" and "two".
+SuiteRequest timed_request(const Scratch& scratch, const std::string& scene,
+                           std::size_t processes) {
+  SuiteRequest request = request_for(scratch, scene);
+  request.tasks.front().detectors.pop_back();
+  request.settings.timing = true;
+  request.settings.processes = processes;
+  return request;
+}
+
 results::Results run(const SuiteRequest& request, SuiteOutcome* outcome) {
   return run_suite(request, {}, outcome);
 }
@@ -49,10 +59,7 @@ TEST(SuiteRun, DeathInOwnCodeIsBookedOnTheDetectorThatRanLast) {
 
 TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
   const Scratch scratch;
-  SuiteRequest request = request_for(scratch, "later");
-  request.tasks.front().detectors.pop_back();
-  request.settings.timing = true;
-  request.settings.processes = 2;
+  const SuiteRequest request = timed_request(scratch, "later", 2);
   SuiteOutcome outcome;
   const auto results = run(request, &outcome);
   ASSERT_EQ(results.runs.size(), 2u);
@@ -70,10 +77,7 @@ TEST(SuiteRun, DetectorThatDiesInALaterProcessHasNoContacts) {
 // Detector "two" is from outside: each of its turns has a process of its own.
 TEST(SuiteRun, ProcessThatTimesIsGivenTheAnswersOfItsOwnTurnsAlone) {
   const Scratch scratch;
-  SuiteRequest request = request_for(scratch, "answers");
-  request.tasks.front().detectors.pop_back();
-  request.settings.timing = true;
-  request.settings.processes = 2;
+  SuiteRequest request = timed_request(scratch, "answers", 2);
   request.settings.plugin_ids = {"two"};
   SuiteOutcome outcome;
   const auto results = run(request, &outcome);
@@ -87,10 +91,8 @@ TEST(SuiteRun, ProcessThatTimesIsGivenTheAnswersOfItsOwnTurnsAlone) {
 // Of each row, and of its speed-up over the first; of three that were asked for.
 std::vector<std::pair<std::size_t, std::size_t>> passes_with(double one_pass_beyond) {
   const Scratch scratch;
-  SuiteRequest request = request_for(scratch, "well");
-  request.tasks.front().detectors = {"fcl-aabb", "two"};
-  request.settings.timing = true;
-  request.settings.processes = 3;
+  SuiteRequest request = timed_request(scratch, "well", 3);
+  request.tasks.front().detectors.front() = "fcl-aabb";
   request.settings.one_pass_beyond = one_pass_beyond;
   SuiteOutcome outcome;
   std::vector<std::pair<std::size_t, std::size_t>> out;
@@ -112,10 +114,7 @@ TEST(SuiteRun, DetectorWhosePassTakesLongerThanTheLimitHasOne) {
 // Both have their turns in the same process, which is repeated without the one that died.
 TEST(SuiteRun, DetectorThatDiesInItsSecondPassHasNoTimesAndTheOthersKeepTheirs) {
   const Scratch scratch;
-  SuiteRequest request = request_for(scratch, "second-pass");
-  request.tasks.front().detectors.pop_back();
-  request.settings.timing = true;
-  request.settings.processes = 3;
+  const SuiteRequest request = timed_request(scratch, "second-pass", 3);
   SuiteOutcome outcome;
   const auto results = run(request, &outcome);
   EXPECT_TRUE(outcome.unlisted_error);

@@ -3,16 +3,6 @@
 namespace contactcheck {
 namespace {
 
-template <typename T>
-AabbOf<T> shrunk(const AabbOf<T>& box, double scale) {
-  if (scale == 1.0) return box;
-  const Vec3Of<T> center = box.center();
-  AabbOf<T> out;
-  out.lo = center + (box.lo - center) * static_cast<T>(scale);
-  out.hi = center + (box.hi - center) * static_cast<T>(scale);
-  return out;
-}
-
 double buckets_met(const GridKey& lo, const GridKey& hi) {
   // In double: the product of three spans of up to 2^63 must not overflow.
   const auto span = [](std::int64_t a, std::int64_t b) {
@@ -39,7 +29,7 @@ void BoxPairFinderOf<T>::hash_boxes(const Boxes& boxes, const BoxPairSettings& s
   oversize_.clear();
   is_oversize_.assign(boxes.size(), 0);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    const AabbOf<T> box = shrunk(boxes[i].box, settings.fault_bucket_scale);
+    const AabbOf<T>& box = boxes[i].box;
     const GridKey lo = grid_key<T>(box.lo, cell_size);
     const GridKey hi = grid_key<T>(box.hi, cell_size);
     if (buckets_met(lo, hi) > settings.largest_buckets_per_box) {

@@ -22,9 +22,6 @@ struct BoxPairSettings {
   double cell_size = 1.0;               ///< metres, of the hash grid
   std::uint32_t table_size = 0;         ///< see SpatialHash
   double largest_buckets_per_box = 64;  ///< a box that meets more goes to the oversize list
-  /// Seeded fault for the tests: boxes are shrunk to this share about their centre before they are
-  /// hashed. 1 in every real run.
-  double fault_bucket_scale = 1.0;
 };
 
 /// In double or in single precision, whose grid keys are those of floats. Complete and without

@@ -144,7 +144,7 @@ class Builder {
     const Vec3 extent = centers.extent();
     extent.maxCoeff(&axis);
     const std::uint32_t middle = range.begin + range.size() / 2;
-    // Sorted, and not only parted: then no freedom of the library shows in the tree.
+    // Sorted, and not only partitioned: then no freedom of the library shows in the tree.
     std::sort(order_.begin() + range.begin, order_.begin() + range.end,
               [&](std::uint32_t s, std::uint32_t t) {
                 if (centers_[s][axis] != centers_[t][axis])

@@ -1,4 +1,4 @@
-#include "core/detect/bd_tree_register.h"
+#include "core/detect/families.h"
 
 #include <memory>
 

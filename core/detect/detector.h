@@ -10,11 +10,16 @@
 
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
-#include "core/types/count.h"
 #include "core/types/frame.h"
 #include "core/types/semantics.h"
 
 namespace contactcheck {
+
+/// Work that a detector has done, by name: "leaves_mapped".
+struct Count {
+  std::string name;
+  std::uint64_t value = 0;
+};
 
 /// What one pipeline stage still covers for the frame of the last update. Exactly one of the
 /// coverage lists is meaningful, by `kind`; pairs are canonical sets.

@@ -15,14 +15,6 @@ enum class ElementTest { kNodePlane, kTriangle };
 /// The two readings of what the paper leaves open (design, "Detector names").
 enum class BoundsReading { kPaper, kSafe };
 
-/// Faults seeded by tests, to prove that each bound of the safe reading is needed and that the
-/// suite sees it fail: the bound is multiplied by its share. 1 in every real run.
-/// (Spheres have FfdConfig::sphere_radius.)
-struct SeededFaults {
-  double cell_box = 1.0;
-  double buckets = 1.0;
-};
-
 /// One member of the FFD-AABB family.
 struct FfdConfig {
   CellVolume volume = CellVolume::kFfdAabb;
@@ -35,7 +27,6 @@ struct FfdConfig {
   BoundsReading bounds = BoundsReading::kPaper;
   double hash_cell = 1.0;        ///< hash grid cell / mean edge of the boxes at rest
   std::uint32_t table_size = 0;  ///< buckets; 0: from the number of entries
-  SeededFaults faults;
 };
 
 }  // namespace contactcheck

@@ -1,4 +1,4 @@
-#include "core/detect/ffd_register.h"
+#include "core/detect/families.h"
 #include "core/detect/ffd_detector.h"
 #include "core/detect/option_info.h"
 

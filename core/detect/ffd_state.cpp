@@ -17,14 +17,6 @@ T largest_coordinate(std::span<const Vec3Of<T>> points) {
 }
 
 template <typename T>
-AabbOf<T> scaled(const AabbOf<T>& box, double share) {
-  if (share == 1.0) return box;
-  const Vec3Of<T> c = box.center();
-  const T factor = static_cast<T>(share);
-  return {c + (box.lo - c) * factor, c + (box.hi - c) * factor};
-}
-
-template <typename T>
 void find_hulls(const FfdModelOf<T>& model, FfdStateOf<T>& state) {
   state.hull.resize(model.piece_begin.size() - 1);
   for (std::size_t cell = 0; cell < state.hull.size(); ++cell) {
@@ -38,14 +30,13 @@ void find_hulls(const FfdModelOf<T>& model, FfdStateOf<T>& state) {
 // Derivation: header of ffd_model.h. The final addition and subtraction round once more: 1 ulp of
 // the coordinate, covered by the third error unit.
 template <typename T>
-void bound_cells(const FfdModelOf<T>& model, const FfdConfig& config, T error,
-                 FfdStateOf<T>& state) {
+void bound_cells(const FfdModelOf<T>& model, T error, FfdStateOf<T>& state) {
   state.cell_box.assign(state.hull.size(), AabbOf<T>{});
   for (std::uint32_t cell : model.cells) {
-    AabbOf<T> box = state.hull[cell];
+    AabbOf<T>& box = state.cell_box[cell];
+    box = state.hull[cell];
     box.lo.array() -= 3 * error;
     box.hi.array() += 3 * error;
-    state.cell_box[cell] = scaled(box, config.faults.cell_box);
   }
 }
 
@@ -109,7 +100,7 @@ void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
   map_boxes(*model.shape->lattice, std::span(model.piece_boxes), nodes, std::span(state.corners));
   const T error = mapping_error_bound(largest_coordinate(nodes));
   find_hulls(model, state);
-  if (config.bounds == BoundsReading::kSafe) bound_cells(model, config, error, state);
+  if (config.bounds == BoundsReading::kSafe) bound_cells(model, error, state);
   place_spheres(model, config, error, state);
 }
 

@@ -245,7 +245,6 @@ void BoxHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& stat
   BoxPairSettings settings;
   settings.cell_size = cell_size;
   settings.table_size = config.table_size;
-  settings.fault_bucket_scale = config.faults.buckets;
   finder_.find(boxes_, settings, pairs_);
   for (const auto& [i, j] : pairs_) {
     const OwnedBoxOf<T>&a = boxes_[i], &b = boxes_[j];

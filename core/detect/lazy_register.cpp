@@ -1,4 +1,4 @@
-#include "core/detect/lazy_register.h"
+#include "core/detect/families.h"
 
 #include <algorithm>
 #include <memory>

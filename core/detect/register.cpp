@@ -1,8 +1,5 @@
-#include "core/detect/bd_tree_register.h"
-#include "core/detect/ffd_register.h"
-#include "core/detect/lazy_register.h"
+#include "core/detect/families.h"
 #include "core/detect/registry.h"
-#include "core/detect/triangle_register.h"
 
 namespace contactcheck {
 

@@ -4,7 +4,7 @@
 //   2 (spheres: 2.5) times as fast, from 8 on queries in near-contact get slower.
 // - cell: 2 mean edges cost a half to two thirds of what 1 does and a ninth of what 1/2 does, where
 //   a triangle meets dozens of buckets; 4 is no better but for deep overlaps.
-#include "core/detect/triangle_register.h"
+#include "core/detect/families.h"
 
 #include <memory>
 #include <utility>

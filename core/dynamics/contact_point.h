@@ -1,8 +1,9 @@
-// Where and how two bodies (or a body and the ground) are to be parted, at material points of their
-// lattices.
+// Where and how two bodies (or a body and the ground) are to be separated, at material points of
+// their lattices.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,8 @@ enum class ContactVolume { kCell, kFfdAabb };
 /// Turns the answers of a detector to one frame into points to respond at, in the order of the
 /// canonical set: from pairs of triangles where there are any, else from pairs of cells. The
 /// geometry is this class's own, the same for every detector: a detector decides where there is
-/// contact, not how it is answered. Two bodies are parted one way (common_direction.h): the sum of
-/// the normals of two solids' triangles, else of the ways between the centres of the cells that
+/// contact, not how it is answered. Two bodies are separated one way (agree_on_directions): the sum
+/// of the normals of two solids' triangles, else of the ways between the centres of the cells that
 /// are, or hold, what is in contact.
 class ContactPoints {
  public:
@@ -61,5 +62,17 @@ class ContactPoints {
 NodeBlend blend_of_vertex(const BodyShape& shape, std::uint32_t vertex);
 /// The blend that is a point of a kept cell, by local coordinates in [0, 1].
 NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3& local);
+
+// One way out for two bodies. A point of contact names the way out of one box or triangle, which
+// deep inside a body is any way: through a face between two cells, or along the surface. So the
+// points of two bodies hear what all of them say together, and those that would push across it or
+// against it push that way.
+
+/// Per pair of bodies a vector from a to b, of any length.
+using Directions = std::map<BodyPair, Vec3>;
+
+/// Gives every point whose normal is more than 60 degrees off its bodies' common direction that
+/// direction instead. Points keep their depths and places. A direction of zero says nothing.
+void agree_on_directions(const Directions& common, std::vector<ContactPoint>& points);
 
 }  // namespace contactcheck

@@ -1,4 +1,4 @@
-// How two triangles in contact are to be parted: one direction, one depth, one point on each.
+// How two triangles in contact are to be separated: one direction, one depth, one point on each.
 // Guarantee: swapping the triangles turns the normal and changes nothing else, up to rounding; no
 // verdict hangs on any of it.
 #pragma once

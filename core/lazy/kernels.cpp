@@ -21,7 +21,7 @@ void collide(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
   PairTraversal(bodies, first_only, scratch, out).run();
 }
 
-void spread(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, PairFront& front) {
+void spread(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, BvttFront& front) {
   std::vector<ElementPair> none;
   PairTraversal(bodies, false, scratch, none).spread(slots, front);
 }

@@ -24,7 +24,7 @@ struct LeafPair {
 
 /// What is left of the test of two bodies: slots whose bounds meet and are still to be opened, and
 /// leaves whose triangles are still to be tested.
-struct PairFront {
+struct BvttFront {
   std::vector<SlotPair> slots;
   std::vector<LeafPair> leaves;
 };
@@ -38,7 +38,7 @@ struct FrontPart {
 /// What one thread works with. Lives as long as the states that point into its arena.
 struct LazyScratch {
   FrameArena arena;
-  PairFront open;
+  BvttFront open;
   std::vector<SlotPair> level;
   TriangleBatch batch{};
   SingleTriangleBatch single_batch{};              ///< used instead in single precision
@@ -59,7 +59,7 @@ struct LazyKernels {
   void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                   std::vector<ElementPair>& out);
   /// Opens what meets, level by level, until so many slots are open or none is left to be opened.
-  void (*spread)(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, PairFront& front);
+  void (*spread)(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, BvttFront& front);
   /// collide() of a part of what spread() has left; the parts together find what collide() finds.
   void (*collide_part)(BodiesToTest bodies, FrontPart part, bool first_only, LazyScratch& scratch,
                        std::vector<ElementPair>& out);

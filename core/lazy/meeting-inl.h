@@ -103,7 +103,7 @@ HWY_INLINE Shift shift_between(const LazyState& from, const LazyState& to) {
 // the normal n of the one, the other lies within a n' . x of its own slab, for any a, and the rest
 // (n - a n') . x of its box.
 template <class Bounds>
-HWY_INLINE std::uint32_t unparted(const Bounds& one, const BlockBounds& lanes) {
+HWY_INLINE std::uint32_t not_separated(const Bounds& one, const BlockBounds& lanes) {
   const FloatLanes d;
   const auto point5 = hn::Set(d, 0.5f);
   const auto middle1 = hn::Set(d, one.middle()), half1 = hn::Set(d, one.half());
@@ -131,11 +131,11 @@ HWY_INLINE std::uint32_t unparted(const Bounds& one, const BlockBounds& lanes) {
       ours = hn::MulAdd(rest1, hn::Mul(point5, hn::Add(lo1, hi1)), ours);
       our_half = hn::MulAdd(hn::Abs(rest1), hn::Mul(point5, hn::Sub(hi1, lo1)), our_half);
     }
-    const auto parted =
+    const auto separated =
         hn::Or(hn::Gt(hn::Abs(hn::Sub(middle1, theirs)), hn::Add(half1, their_half)),
                hn::Gt(hn::Abs(hn::Sub(middle, ours)), hn::Add(half, our_half)));
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(parted), bits);
+    hn::StoreMaskBits(d, hn::Not(separated), bits);
     out |= static_cast<std::uint32_t>(bits[0]) << i;
   }
   return out;
@@ -163,7 +163,7 @@ HWY_INLINE std::uint32_t overlapping(const Bounds& one, const LaneBoxes& lanes) 
 template <class Bounds>
 HWY_INLINE std::uint32_t meeting_lanes(const Bounds& one, bool slabs, const BlockBounds& lanes) {
   const std::uint32_t hits = overlapping(one, lanes.box);
-  return hits != 0 && slabs ? hits & unparted(one, lanes) : hits;
+  return hits != 0 && slabs ? hits & not_separated(one, lanes) : hits;
 }
 
 }  // namespace HWY_NAMESPACE

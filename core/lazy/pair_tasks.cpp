@@ -50,7 +50,7 @@ void PairTasks::run_whole(std::span<LazyState> states, bool first_only) {
 }
 
 void PairTasks::cut(std::size_t pair) {
-  const PairFront& front = fronts_[pair];
+  const BvttFront& front = fronts_[pair];
   for (std::size_t i = 0; i < front.slots.size(); i += kSlotsPerTask)
     tasks_.push_back({pair, {part_of(front.slots, i, kSlotsPerTask), {}}});
   for (std::size_t i = 0; i < front.leaves.size(); i += kLeavesPerTask)

@@ -34,7 +34,7 @@ class PairTasks {
   const LazyKernels& kernels_;
   ThreadTeam& team_;
   std::span<const BodyPair> pairs_;
-  std::vector<PairFront> fronts_;  // per pair
+  std::vector<BvttFront> fronts_;  // per pair
   std::vector<Task> tasks_;
   std::vector<std::vector<ElementPair>> found_;  // per task
 };

@@ -48,7 +48,7 @@ class PairTraversal {
     finish();
   }
 
-  HWY_INLINE void spread(std::size_t slots, PairFront& front) {
+  HWY_INLINE void spread(std::size_t slots, BvttFront& front) {
     cross_roots();
     while (!scratch_.open.slots.empty() && scratch_.open.slots.size() < slots) {
       scratch_.level.swap(scratch_.open.slots);

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace contactcheck {
+namespace contactcheck::adapters {
 namespace {
 
 /// What EPA may need before its first round, rounded up.
@@ -203,4 +203,4 @@ std::vector<std::string> CcdCaller::notes() const {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::adapters

@@ -19,7 +19,7 @@
 
 #include "core/types/vec3.h"
 
-namespace contactcheck {
+namespace contactcheck::adapters {
 
 enum class CcdAlgorithm { kGjk, kMpr };
 
@@ -75,4 +75,4 @@ class CcdCaller {
   std::uint64_t verdict_limits_ = 0, depth_limits_ = 0, without_direction_ = 0;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::adapters

@@ -2,28 +2,26 @@
 
 #include <Eigen/Core>
 
-#include "reference/adapters/bullet_soft_adapter.h"
-#include "reference/adapters/embree_adapter.h"
-#include "reference/adapters/fcl_adapter.h"
-#include "reference/adapters/gimpact_adapter.h"
-#include "reference/adapters/libccd_adapter.h"
+#include "reference/adapters/adapters.h"
 
-namespace contactcheck {
+namespace contactcheck::adapters {
 namespace {
 
-std::string eigen_version() {
-  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
-         std::to_string(EIGEN_MINOR_VERSION);
+std::vector<Adapter> adapters() {
+  return {
+      fcl_adapter(),             //
+      embree_adapter(),          //
+      bullet_soft_adapter(),     //
+      bullet_gimpact_adapter(),  //
+      libccd_adapter(),          //
+  };
 }
 
 }  // namespace
 
 void register_reference_detectors(DetectorCatalog& catalog) {
-  register_fcl_detectors(catalog);
-  register_embree_detector(catalog);
-  register_bullet_soft_detectors(catalog);
-  register_gimpact_detector(catalog);
-  register_libccd_detectors(catalog);
+  for (const Adapter& adapter : adapters())
+    for (const DetectorInfo& detector : adapter.detectors) catalog.add(detector);
 }
 
 DetectorCatalog standard_catalog() {
@@ -34,17 +32,18 @@ DetectorCatalog standard_catalog() {
 }
 
 std::map<std::string, std::string> library_versions() {
-  return {{"bullet", bullet_version()},
-          {"eigen", eigen_version()},
-          {"embree", embree_version()},
-          {"fcl", fcl_version()},
-          {"libccd", libccd_version()}};
+  std::map<std::string, std::string> out;
+  for (const Adapter& adapter : adapters()) out[adapter.library] = adapter.version;
+  out["eigen"] = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +
+                 "." + std::to_string(EIGEN_MINOR_VERSION);
+  return out;
 }
 
 std::string library_of(const std::string& detector) {
   const std::string word = detector.substr(0, detector.find_first_of("-+:"));
-  const bool foreign = word == "bullet" || word == "embree" || word == "fcl" || word == "libccd";
-  return foreign ? word : "contactcheck";
+  for (const Adapter& adapter : adapters())
+    if (adapter.library == word) return word;
+  return "contactcheck";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::adapters

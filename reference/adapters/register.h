@@ -6,7 +6,7 @@
 
 #include "core/detect/registry.h"
 
-namespace contactcheck {
+namespace contactcheck::adapters {
 
 /// Adds every adapted detector to the catalogue.
 void register_reference_detectors(DetectorCatalog& catalog);
@@ -20,4 +20,4 @@ std::map<std::string, std::string> library_versions();
 /// The one of these that a detector is made of, by its name; "contactcheck" for our own.
 std::string library_of(const std::string& detector);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::adapters

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <utility>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 // In the order of --help.
@@ -79,18 +79,18 @@ void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib) {
   command
       .add_option(
           "--call-limit", seconds,
-          fmt::format("seconds that one call of a detector may take (default {:g}); beyond, "
-                      "it has ended in an error",
+          fmt::format("time limit for one detector call, in seconds (default {:g}); a slower call "
+                      "gets status error",
                       seconds))
       ->check(number_in(0.1, 1e6, "0.1 to 1000000"))
       ->type_name("SECONDS");
   command
       .add_option("--memory-limit", mib,
-                  fmt::format("resident memory of a worker process (default {}); the detector that "
-                              "passes it has ended in an error",
+                  fmt::format("resident memory of a worker process (default {}); a detector that "
+                              "exceeds it gets status error",
                               mib))
       ->check(whole_in(64, 1 << 30))
       ->type_name("MIB");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -14,7 +14,7 @@ class App;
 class Validator;
 }  // namespace CLI
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 struct CommandLine {
   CLI::App& app;
@@ -63,4 +63,4 @@ CLI::Validator whole_in(std::uint64_t least, std::uint64_t most);
 /// The values that they have now are the defaults.
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

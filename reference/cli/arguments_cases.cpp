@@ -4,7 +4,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 void add_reduce(CommandLine& line) {
   const auto arguments = std::make_shared<ReduceArguments>();
@@ -52,9 +52,7 @@ void add_export(CommandLine& line) {
       ->required();
   exported->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
-  exported
-      ->add_option("--every", arguments->every,
-                   "of the frames, write only the first of every so many (default 1)")
+  exported->add_option("--every", arguments->every, "write every Nth frame (default 1)")
       ->check(whole_in(1, 100000));
   exported->add_option("--out", arguments->out,
                        "folder for a folder per scene: surfaces (PLY), certificates, check.py "
@@ -66,4 +64,4 @@ void add_export(CommandLine& line) {
   choose(*exported, line, [arguments, &line] { return export_command(*arguments, line.catalog); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -3,9 +3,9 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 struct DiffFiles {
@@ -33,8 +33,8 @@ void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
       "ab",
-      "run two builds, of this program or of your library, in turns: is head slower, does it "
-      "answer otherwise");
+      "compare two builds, of this program or of your library: is HEAD slower, does it answer "
+      "differently");
   ab->add_option("base", arguments->base,
                  "the program as it was, or the shared library of a detector")
       ->required();
@@ -44,7 +44,7 @@ void add_ab(CommandLine& line) {
   ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
       ->allow_extra_args(false);
   ab->add_option("--rounds", arguments->rounds, "how often each of them runs (default 7)")
-      ->check(whole_in(kFewestForInterval, 1000));
+      ->check(whole_in(results::kFewestForInterval, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
   add_ab_limits(*ab, *arguments);
@@ -75,4 +75,4 @@ void add_diff(CommandLine& line) {
   choose(*diff, line, [files] { return diff_command(files->before, files->after); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

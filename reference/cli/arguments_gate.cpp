@@ -4,7 +4,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 struct AcceptFiles {
@@ -53,4 +53,4 @@ void add_accept(CommandLine& line) {
   choose(*accept, line, [files] { return accept_command(files->results, files->baseline); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,7 +4,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 struct TruthWords {
@@ -21,8 +21,7 @@ struct DefectsWords {
 
 void add_truth(CommandLine& line) {
   const auto words = std::make_shared<TruthWords>();
-  CLI::App* truth = line.app.add_subcommand(
-      "truth", "what is really there in each case of a family of hard cases");
+  CLI::App* truth = line.app.add_subcommand("truth", "print the ground truth of each hard case");
   truth->add_option("families", words->families, "their ids; default: all");
   truth->add_flag(
       "--write", words->write,
@@ -44,4 +43,4 @@ void add_defects(CommandLine& line) {
   choose(*defects, line, [words] { return defects_command(words->results, words->write); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

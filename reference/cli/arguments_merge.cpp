@@ -4,7 +4,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 void add_merge(CommandLine& line) {
   struct Arguments {
@@ -28,4 +28,4 @@ void add_merge(CommandLine& line) {
   choose(*merge, line, [arguments] { return merge_command(arguments->results, arguments->out); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -1,12 +1,63 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
 
+#include "core/types/check.h"
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
-#include "reference/cli/mesh_options.h"
+#include "reference/scene/amount.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
+
+// The options of `run` that make a scene out of mesh files.
+
+constexpr double kLargestSize = 1e6;  // metres, as in scene files
+
+std::optional<double> size_of(const std::string& text) {
+  if (text == "file") return std::nullopt;
+  const std::optional<double> size = scene::parse_double(text);
+  if (!size || !(*size > 0.0) || !(*size <= kLargestSize))
+    throw InputError("--size: " + text::in_quotes(text) +
+                     " is neither \"file\" nor a number of metres above 0, at most 1000000");
+  return size;
+}
+
+std::string motions_help() {
+  std::string out = "how they meet (default approach):";
+  for (const scene::NamedMotion& motion : scene::named_motions())
+    out += std::string(&motion == &scene::named_motions().front() ? " " : "; ") + motion.name +
+           ": " + motion.says;
+  return out;
+}
+
+// --mesh, --motion, --size, --save-scene. Both must outlive the parsing.
+void add_mesh_options(CLI::App& run, RunArguments& arguments) {
+  scene::MeshSceneRequest& request = arguments.meshes;
+  CLI::Option* mesh =
+      run.add_option_function<std::vector<std::string>>(
+             "--mesh",
+             [&request](const std::vector<std::string>& files) {
+               request.meshes.assign(files.begin(), files.end());
+             },
+             "a mesh file (OBJ, PLY, OFF, STL, others through assimp), twice or more: they "
+             "become a scene, each in a lattice of about 150 kept cells, beside the targets or "
+             "alone; 2 s, 60 frames unless --frames says otherwise")
+          ->allow_extra_args(false)
+          ->type_name("FILE");
+  run.add_option("--motion", request.motion, motions_help())->type_name("NAME")->needs(mesh);
+  run.add_option_function<std::string>(
+         "--size", [&request](const std::string& text) { request.size = size_of(text); },
+         "largest side of each mesh in metres (default 1), or file: as it is there")
+      ->type_name("METRES")
+      ->needs(mesh);
+  run.add_option("--save-scene", arguments.save_scene,
+                 "keep the scene of the meshes as a scene file, to be edited and run again; a file "
+                 "that is there is not written over")
+      ->type_name("FILE")
+      ->needs(mesh);
+}
 
 struct RunWords {
   RunArguments run;
@@ -16,7 +67,7 @@ struct RunWords {
   RunArguments arguments() const {
     RunArguments out = run;
     out.timing = !no_timing;
-    if (pairs > 0) out.pairs = PairSpec{pairs, run.seed};
+    if (pairs > 0) out.pairs = scene::PairSpec{pairs, run.seed};
     return out;
   }
 };
@@ -31,24 +82,25 @@ void add_threads(CLI::App& command, std::uint32_t& threads) {
 
 void add_pairs(CLI::App& run, RunWords& words) {
   run.add_option("--pairs", words.pairs,
-                 "so many random hard pairs of triangles as a scene of their own, random-pairs, "
-                 "beside the targets or alone; the oracle is held against rational arithmetic "
-                 "on each; detectors: those of the suite hard")
-      ->check(whole_in(1, kMostPairs))
+                 "add a scene of N random hard triangle pairs, random-pairs, to the targets, or "
+                 "run it alone; the oracle is checked against rational arithmetic on each; "
+                 "detectors: those of the suite hard")
+      ->check(whole_in(1, scene::kMostPairs))
       ->type_name("N");
   run.add_option("--seed", words.run.seed,
                  "of the random pairs, of the order in which detectors are timed and of the frames "
                  "that are timed cold (default 1)")
-      ->check(whole_in(0, kLargestPairSeed))
+      ->check(whole_in(0, scene::kLargestPairSeed))
       ->type_name("S");
 }
 
 // `arguments` must outlive the command.
 void add_shard(CLI::App& run, RunArguments& arguments) {
   run.add_option_function<std::string>(
-         "--shard", [&arguments](const std::string& text) { arguments.shard = parse_shard(text); },
-         "run the K-th of N parts of the work alone: scenes are dealt out whole, in turns; merge "
-         "puts the results of all parts together")
+         "--shard",
+         [&arguments](const std::string& text) { arguments.shard = suite::parse_shard(text); },
+         "run only shard K of N (scenes are assigned round-robin); merge assembles the results of "
+         "all shards")
       ->type_name("K/N");
 }
 
@@ -138,4 +190,4 @@ void add_reproduce(CommandLine& line) {
          [arguments, &line] { return reproduce_command(*arguments, line.catalog); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -5,7 +5,7 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/report_folder.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 struct ReportWords {
@@ -58,4 +58,4 @@ void add_report(CommandLine& line) {
          [words] { return report_command(words->results, words->formats, words->out); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

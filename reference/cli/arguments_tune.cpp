@@ -5,19 +5,19 @@
 #include "reference/cli/commands.h"
 #include "reference/scene/simulation_spec.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 constexpr std::uint64_t kMostContacts = std::uint64_t{1} << 53;
 
 void add_error_limits(CLI::App& tune, TuneArguments& arguments) {
-  tune.add_option("--max-missed", arguments.max_missed,
-                  "contacts that may be missed, over all frames, at the question's level (default "
-                  "0)")
+  tune.add_option(
+          "--max-missed", arguments.max_missed,
+          "maximum number of missed contacts over all frames, at the question's level (default 0)")
       ->check(whole_in(0, kMostContacts))
       ->type_name("N");
   tune.add_option("--max-spurious", arguments.max_spurious,
-                  "contacts that may be reported and are not there (default: any number)")
+                  "maximum number of spurious contacts (default: any number)")
       ->check(whole_in(0, kMostContacts))
       ->type_name("N");
   tune.add_option("--max-hover", arguments.max_hover,
@@ -54,12 +54,12 @@ void add_space(CLI::App& tune, TuneArguments& arguments) {
       ->allow_extra_args(false);
   add_commands(tune, arguments.commands);
   tune.add_option("--lattice", arguments.lattices,
-                  "try lattices of so many times the scene's cells too, repeatable: a coarser "
+                  "also try lattices of FACTOR times the scene's cells, repeatable: a coarser "
                   "model is another surface, see --max-deviation")
       ->check(number_in(0.01, 100.0, "0.01 to 100"))
       ->type_name("FACTOR")
       ->allow_extra_args(false);
-  std::vector<std::string> deformers = model_names();
+  std::vector<std::string> deformers = scene::model_names();
   deformers.push_back("all");
   tune.add_option("--deformer", arguments.deformers,
                   "of a simulated scene: try it with bodies deformed by this model too, "
@@ -109,4 +109,4 @@ void add_tune(CommandLine& line) {
   });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,9 +4,9 @@
 #include "reference/cli/arguments.h"
 #include "reference/plugin/examination.h"
 #include "reference/reduce/probe_worker.h"
-#include "reference/run/worker.h"
+#include "reference/suite/worker.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 struct WorkerWords {
@@ -32,8 +32,8 @@ void add_worker(CommandLine& line) {
   worker->add_option("job", words->job)->required();
   worker->add_option("--progress-fd", words->fd);
   choose(*worker, line, [words, &line] {
-    const std::vector<std::string> plugins = read_job(words->job).settings.plugins;
-    return run_worker(words->job, with_plugins(line.catalog, plugins), words->fd);
+    const std::vector<std::string> plugins = suite::read_job(words->job).settings.plugins;
+    return suite::run_worker(words->job, plugin::with_plugins(line.catalog, plugins), words->fd);
   });
 }
 
@@ -44,7 +44,8 @@ void add_probe(CommandLine& line) {
   probe->add_option("--channel-fd", words->fd)->required();
   probe->add_option("--plugin", words->plugins)->allow_extra_args(false);
   choose(*probe, line, [words, &line] {
-    return run_probe_worker(words->detector, with_plugins(line.catalog, words->plugins), words->fd);
+    return reduce::run_probe_worker(words->detector,
+                                    plugin::with_plugins(line.catalog, words->plugins), words->fd);
   });
 }
 
@@ -56,8 +57,8 @@ void add_examine(CommandLine& line) {
   examine->add_option("--memory-limit", words->memory_limit)->required();
   examine->add_option("--answer-fd", words->fd)->required();
   choose(*examine, line, [words] {
-    return run_examination({plugin_kind_from_name(words->kind), words->text}, words->memory_limit,
-                           words->fd);
+    return plugin::run_examination({plugin::plugin_kind_from_name(words->kind), words->text},
+                                   words->memory_limit, words->fd);
   });
 }
 
@@ -69,4 +70,4 @@ void add_workers(CommandLine& line) {
   add_examine(line);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,7 +4,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 namespace fs = std::filesystem;
 
@@ -17,4 +17,4 @@ void check_out(const fs::path& out) {
     throw InputError("--out " + out.string() + ": cannot be written");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// Creates --out where it is missing. @throws InputError when it cannot be written
 void check_out(const std::filesystem::path& out);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

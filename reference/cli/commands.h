@@ -11,32 +11,32 @@
 #include <vector>
 
 #include "core/detect/registry.h"
-#include "reference/arrange/mesh_scene.h"
-#include "reference/run/job.h"
-#include "reference/run/shard.h"
+#include "reference/scene/mesh_scene.h"
 #include "reference/scene/random_pairs.h"
+#include "reference/suite/job.h"
+#include "reference/suite/shard.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
   std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
-  std::size_t frames = 0, step_repeats = RunSettings{}.step_repeats;
+  std::size_t frames = 0, step_repeats = suite::RunSettings{}.step_repeats;
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
-  std::uint64_t seed = RunSettings{}.seed;
+  std::uint64_t seed = suite::RunSettings{}.seed;
   std::filesystem::path out = "out";
-  std::optional<PairSpec> pairs;     ///< a scene of so many random pairs, beside the targets
-  std::optional<Shard> shard;        ///< run this part alone
-  MeshSceneRequest meshes;           ///< a scene of these, beside the targets; no mesh: none
-  std::filesystem::path save_scene;  ///< where that scene is kept as a file; empty: nowhere
+  std::optional<scene::PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
+  std::optional<suite::Shard> shard;     ///< run this part alone
+  scene::MeshSceneRequest meshes;        ///< a scene of these, beside the targets; no mesh: none
+  std::filesystem::path save_scene;      ///< where that scene is kept as a file; empty: nowhere
   bool timing = true, quiet = false, resume = false;
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
-  double call_limit = RunSettings{}.call_limit;  ///< seconds
-  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
+  double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
+  std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::string command_line;  ///< for the record
 };
 
@@ -61,7 +61,7 @@ struct ReduceArguments {
   std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
   std::size_t budget = 20000;
   double call_limit = 10.0;  ///< seconds
-  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
+  std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
 };
 
 struct GateArguments {
@@ -94,8 +94,8 @@ struct TuneArguments {
   std::optional<double> budget_ms;
   std::size_t frames = 0, processes = 5, most = 0;
   bool exhaustive = false, quiet = false;
-  double call_limit = RunSettings{}.call_limit;  ///< seconds
-  std::uint64_t memory_limit_mib = RunSettings{}.memory_limit >> 20;
+  double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
+  std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::filesystem::path out = "out";
   std::string command_line;  ///< for the record
 };
@@ -126,7 +126,7 @@ int diff_command(const std::filesystem::path& before, const std::filesystem::pat
 int gate_command(const GateArguments& arguments);
 /// Writes results as a baseline, and prints what it changes against the one in its place.
 int accept_command(const std::filesystem::path& results, const std::filesystem::path& baseline);
-/// Runs two builds in turns; 1 when head is slower than allowed or answers otherwise.
+/// Compares two builds; 1 when head is slower than allowed or answers differently.
 int ab_command(const AbArguments& arguments, const DetectorCatalog& catalog);
 /// Puts the results of all shards of a run together, with their reports.
 int merge_command(const std::vector<std::string>& results, const std::filesystem::path& out);
@@ -134,4 +134,4 @@ int merge_command(const std::vector<std::string>& results, const std::filesystem
 int report_command(const std::filesystem::path& results, const std::vector<std::string>& formats,
                    const std::filesystem::path& out);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

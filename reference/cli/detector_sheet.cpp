@@ -4,7 +4,7 @@
 
 #include "reference/cli/wrapped_text.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 constexpr std::size_t kIndent = 2, kLabel = 11;  // characters
@@ -104,7 +104,7 @@ DetectorSpec with_defaults(const DetectorInfo& info) {
   return spec;
 }
 
-std::string needs_text(const Declaration& d) {
+std::string needs_text(const plugin::Declaration& d) {
   if (d.needs_vertices && d.needs_nodes) return "deformed vertices and lattice nodes";
   if (d.needs_vertices) return "deformed vertices";
   return d.needs_nodes ? "lattice nodes" : "";
@@ -128,12 +128,12 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
   return sheet.text();
 }
 
-std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const DetectorSpec& spec,
-                         std::size_t width) {
-  const Declaration& declaration = plugin.declaration;
+std::string plugin_sheet(const plugin::Plugin& plugin, const DetectorInfo& info,
+                         const DetectorSpec& spec, std::size_t width) {
+  const plugin::Declaration& declaration = plugin.declaration;
   Sheet sheet(width);
   sheet.title(spec.name, declaration.summary);
-  sheet.whole("from", described(plugin.source));
+  sheet.whole("from", plugin::described(plugin.source));
   sheet.line("version", declaration.version);
   add_semantics(declaration.semantics, sheet);
   sheet.line("given", needs_text(declaration));
@@ -141,4 +141,4 @@ std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const D
   return sheet.text();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

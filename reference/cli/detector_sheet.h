@@ -7,7 +7,7 @@
 #include "core/detect/registry.h"
 #include "reference/plugin/plugin.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// Lines of at most `width` characters (longer only where one word is): summary, declared semantics
 /// with the options at their defaults, and the options with what is allowed.
@@ -19,7 +19,7 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
 /// The same of a detector from outside, with where it comes from, its version and what it is given,
 /// as it declared them with its options at their defaults: nothing of it is loaded or started.
 /// `info`: its entry in the catalogue.
-std::string plugin_sheet(const Plugin& plugin, const DetectorInfo& info, const DetectorSpec& spec,
-                         std::size_t width);
+std::string plugin_sheet(const plugin::Plugin& plugin, const DetectorInfo& info,
+                         const DetectorSpec& spec, std::size_t width);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

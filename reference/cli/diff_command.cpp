@@ -1,11 +1,11 @@
-#include "reference/diff/diff_text.h"
+#include "reference/results/diff_text.h"
 
 #include <cstdio>
 
 #include "reference/cli/commands.h"
 #include "reference/results/results_file.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 void print_heading(const char* label, const std::filesystem::path& file,
@@ -17,11 +17,11 @@ void print_heading(const char* label, const std::filesystem::path& file,
 }  // namespace
 
 int diff_command(const std::filesystem::path& before, const std::filesystem::path& after) {
-  const results::Results was = results_in(before), is = results_in(after);
+  const results::Results was = results::results_in(before), is = results::results_in(after);
   print_heading("before", before, was);
   print_heading("after", after, is);
-  std::printf("\n%s", diff_text(diff_results(was, is)).c_str());
+  std::printf("\n%s", results::diff_text(results::diff_results(was, is)).c_str());
   return 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,9 +22,9 @@ std::string line_of(const Json& event) {
 
 }  // namespace
 
-std::string start_event(const SuiteRequest& request) {
+std::string start_event(const suite::SuiteRequest& request) {
   Json scenes = Json::array();
-  for (const SceneTask& task : request.tasks)
+  for (const suite::SceneTask& task : request.tasks)
     scenes.push_back({{"scene", task.id}, {"frames", task.frames}, {"detectors", task.detectors}});
   return line_of({{"event", "start"},
                   {"schema", "contactcheck-events/1"},
@@ -34,7 +34,7 @@ std::string start_event(const SuiteRequest& request) {
                   {"scenes", std::move(scenes)}});
 }
 
-std::string progress_event(const SuiteProgress& p, std::optional<double> seconds_left) {
+std::string progress_event(const suite::SuiteProgress& p, std::optional<double> seconds_left) {
   return line_of({{"event", "progress"},
                   {"scene", p.scene_id},
                   {"detector", p.detector.empty() ? Json(nullptr) : Json(p.detector)},
@@ -44,7 +44,7 @@ std::string progress_event(const SuiteProgress& p, std::optional<double> seconds
                   {"seconds_left", or_null(seconds_left)}});
 }
 
-std::string scene_event(const SceneEnd& end) {
+std::string scene_event(const suite::SceneEnd& end) {
   Json runs = Json::array();
   for (const results::Run& run : end.runs)
     runs.push_back(
@@ -68,7 +68,8 @@ void EventLines::print(const std::string& event) const {
   std::fflush(stdout);
 }
 
-void EventLines::progress(const SuiteProgress& progress, std::optional<double> seconds_left) {
+void EventLines::progress(const suite::SuiteProgress& progress,
+                          std::optional<double> seconds_left) {
   const auto now = std::chrono::steady_clock::now();
   if (progress.scene_id == last_scene_ && now - last_ < kInterval) return;
   last_scene_ = progress.scene_id;
@@ -76,4 +77,4 @@ void EventLines::progress(const SuiteProgress& progress, std::optional<double> s
   print(progress_event(progress, seconds_left));
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

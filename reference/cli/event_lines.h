@@ -7,14 +7,15 @@
 #include <optional>
 #include <string>
 
-#include "reference/run/suite_run.h"
+#include "reference/suite/suite_run.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// Each is one line without its end.
-std::string start_event(const SuiteRequest& request);
-std::string progress_event(const SuiteProgress& progress, std::optional<double> seconds_left);
-std::string scene_event(const SceneEnd& end);
+std::string start_event(const suite::SuiteRequest& request);
+std::string progress_event(const suite::SuiteProgress& progress,
+                           std::optional<double> seconds_left);
+std::string scene_event(const suite::SceneEnd& end);
 std::string end_event(const std::filesystem::path& out, int exit_code);
 
 /// Prints events to stdout, each at once: who reads them wants to know now.
@@ -25,7 +26,7 @@ class EventLines {
   bool wanted() const { return wanted_; }
   void print(const std::string& event) const;
   /// The first of a scene, and further ones four times a second at most.
-  void progress(const SuiteProgress& progress, std::optional<double> seconds_left);
+  void progress(const suite::SuiteProgress& progress, std::optional<double> seconds_left);
 
  private:
   bool wanted_;
@@ -33,4 +34,4 @@ class EventLines {
   std::chrono::steady_clock::time_point last_ = {};
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

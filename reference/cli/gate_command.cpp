@@ -11,42 +11,42 @@
 #include "reference/gate/github.h"
 #include "reference/gate/junit.h"
 #include "reference/gate/screen.h"
+#include "reference/process/exit_codes.h"
 #include "reference/results/results_file.h"
-#include "reference/run/exit_codes.h"
 #include "reference/scene/fixtures_folder.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-GateResult judged(const GateArguments& arguments) {
+gate::GateResult judged(const GateArguments& arguments) {
   if (arguments.policy.empty() && arguments.baseline.empty())
     throw InputError("gate needs --policy FILE, --baseline FILE or both");
-  const Policy policy =
-      read_policy(arguments.policy.empty() ? fixtures_directory() / "policies" / "unchanged.json"
-                                           : arguments.policy);
-  const results::Results now = results_in(arguments.results);
-  if (arguments.baseline.empty()) return run_gate(policy, now, nullptr);
-  const results::Results before = results_in(arguments.baseline);
-  return run_gate(policy, now, &before);
+  const gate::Policy policy = gate::read_policy(
+      arguments.policy.empty() ? scene::fixtures_directory() / "policies" / "unchanged.json"
+                               : arguments.policy);
+  const results::Results now = results::results_in(arguments.results);
+  if (arguments.baseline.empty()) return gate::run_gate(policy, now, nullptr);
+  const results::Results before = results::results_in(arguments.baseline);
+  return gate::run_gate(policy, now, &before);
 }
 
 // Files first: a gate that could not write one has said nothing yet.
-void write_files(const GateArguments& arguments, const GateResult& result) {
-  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, junit_xml(result));
+void write_files(const GateArguments& arguments, const gate::GateResult& result) {
+  if (!arguments.junit.empty()) write_file_atomically(arguments.junit, gate::junit_xml(result));
   const fs::path summary = arguments.github ? github_summary_file() : "";
-  if (!summary.empty()) append_github_summary(summary, github_summary(result));
+  if (!summary.empty()) append_github_summary(summary, gate::github_summary(result));
 }
 
 }  // namespace
 
 int gate_command(const GateArguments& arguments) {
-  const GateResult result = judged(arguments);
+  const gate::GateResult result = judged(arguments);
   write_files(arguments, result);
-  std::fputs(gate_screen(result, isatty(STDOUT_FILENO) != 0).c_str(), stdout);
-  if (arguments.github) std::fputs(github_annotations(result).c_str(), stdout);
-  return result.red() ? kExitNo : 0;
+  std::fputs(gate::gate_screen(result, isatty(STDOUT_FILENO) != 0).c_str(), stdout);
+  if (arguments.github) std::fputs(gate::github_annotations(result).c_str(), stdout);
+  return result.red() ? process::kExitNo : 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

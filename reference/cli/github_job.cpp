@@ -7,7 +7,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 std::filesystem::path github_summary_file() {
   const char* const file = std::getenv("GITHUB_STEP_SUMMARY");
@@ -23,4 +23,4 @@ void append_github_summary(const std::filesystem::path& file, const std::string&
                      ", which GITHUB_STEP_SUMMARY names: " + std::strerror(errno));
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

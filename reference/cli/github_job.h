@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// What GITHUB_STEP_SUMMARY names; empty where it names nothing.
 std::filesystem::path github_summary_file();
@@ -13,4 +13,4 @@ std::filesystem::path github_summary_file();
 /// @throws InputError when the file cannot be written
 void append_github_summary(const std::filesystem::path& file, const std::string& text);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -15,7 +15,7 @@
 #include "reference/cli/wrapped_text.h"
 #include "reference/scene/catalogue.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 constexpr std::size_t kWidth = 100, kNarrowest = 60, kTextColumn = 29;  // characters
@@ -34,9 +34,9 @@ void print_entry(const std::string& id, const std::string& text) {
   std::printf("  %-26s %s", id.c_str(), wrapped_text(text, kTextColumn, width).c_str());
 }
 
-void print_entries(const char* title, const std::vector<CatalogueEntry>& entries) {
+void print_entries(const char* title, const std::vector<scene::CatalogueEntry>& entries) {
   std::printf("%s\n", title);
-  for (const CatalogueEntry& e : entries) print_entry(e.id, e.title);
+  for (const scene::CatalogueEntry& e : entries) print_entry(e.id, e.title);
 }
 
 void print_lines(const DetectorCatalog& catalog) {
@@ -62,14 +62,15 @@ void print_sheets(const DetectorCatalog& catalog) {
 // One from outside stands in the catalogue too, but what that holds would load or start it here.
 std::string sheet_of(const DetectorSpec& spec, const OwnDetectors& own) {
   const DetectorInfo& info = *own.catalog.find(spec.id);
-  for (const Plugin& plugin : own.plugins)
+  for (const plugin::Plugin& plugin : own.plugins)
     if (plugin.declaration.id == spec.id) return plugin_sheet(plugin, info, spec, sheet_width());
   return detector_sheet(info, spec, sheet_width());
 }
 
 // Everything is looked up before anything is printed; what is named twice is printed once.
 void print_named(const ListArguments& arguments, const DetectorCatalog& catalog) {
-  const OwnDetectors own = bring_in(arguments.named, arguments.commands, RunSettings{}, catalog);
+  const OwnDetectors own =
+      load_own_detectors(arguments.named, arguments.commands, suite::RunSettings{}, catalog);
   std::set<std::string> names;
   std::vector<std::string> sheets;
   for (const std::string& name : own.names)
@@ -97,22 +98,22 @@ class Sections {
 }  // namespace
 
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog) {
-  const auto fixtures = fixtures_directory();
+  const auto fixtures = scene::fixtures_directory();
   const bool named = !arguments.named.empty() || !arguments.commands.empty();
   const bool all = !arguments.suites && !arguments.scenes && !arguments.families &&
                    !arguments.detectors && !named;
   Sections sections;
   if (all || arguments.suites) {
     sections.next();
-    print_entries("Suites", list_suites(fixtures));
+    print_entries("Suites", scene::list_suites(fixtures));
   }
   if (all || arguments.scenes) {
     sections.next();
-    print_entries("Scenes", list_scenes(fixtures));
+    print_entries("Scenes", scene::list_scenes(fixtures));
   }
   if (arguments.families) {
     sections.next();
-    print_entries("Families of hard cases", list_families(fixtures));
+    print_entries("Families of hard cases", scene::list_families(fixtures));
   }
   if (all || arguments.detectors) {
     sections.next();
@@ -125,4 +126,4 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   return 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

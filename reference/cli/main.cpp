@@ -3,5 +3,6 @@
 #include "reference/cli/program.h"
 
 int main(int argc, char** argv) {
-  return contactcheck::contactcheck_main(argc, argv, contactcheck::standard_catalog());
+  return contactcheck::cli::contactcheck_main(argc, argv,
+                                              contactcheck::adapters::standard_catalog());
 }

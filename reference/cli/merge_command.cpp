@@ -6,16 +6,16 @@
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
 #include "reference/results/results_file.h"
-#include "reference/run/out_lock.h"
-#include "reference/run/shard_merge.h"
+#include "reference/suite/out_lock.h"
+#include "reference/suite/shard_merge.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
 // Goals and known defects are this program's own words.
-void require_own_version(const ShardResults& shard) {
+void require_own_version(const suite::ShardResults& shard) {
   const std::string& version = shard.results.version;
   if (version != CONTACTCHECK_VERSION)
     throw InputError(shard.file.string() + ": was written by contactcheck " + version +
@@ -24,7 +24,7 @@ void require_own_version(const ShardResults& shard) {
 }
 
 // The merged results would take a shard's place, cases and all.
-void require_other_folder(const ShardResults& shard, const fs::path& out) {
+void require_other_folder(const suite::ShardResults& shard, const fs::path& out) {
   std::error_code none;  // without the folder they are not the same
   if (fs::equivalent(shard.folder().empty() ? "." : shard.folder(), out, none))
     throw InputError("--out " + out.string() + ": is the folder of shard " + shard.shard().name());
@@ -33,18 +33,18 @@ void require_other_folder(const ShardResults& shard, const fs::path& out) {
 }  // namespace
 
 int merge_command(const std::vector<std::string>& files, const fs::path& out) {
-  std::vector<ShardResults> given;
-  for (const std::string& file : files) given.push_back({file, results_in(file)});
-  const std::vector<ShardResults> shards = checked_shards(std::move(given));
-  for (const ShardResults& shard : shards) {
+  std::vector<suite::ShardResults> given;
+  for (const std::string& file : files) given.push_back({file, results::results_in(file)});
+  const std::vector<suite::ShardResults> shards = suite::checked_shards(std::move(given));
+  for (const suite::ShardResults& shard : shards) {
     require_own_version(shard);
     require_other_folder(shard, out);
   }
   check_out(out);
-  const OutLock lock(out);
-  SuiteOutcome outcome;
+  const suite::OutLock lock(out);
+  suite::SuiteOutcome outcome;
   const results::Results results =
-      merge_shards(shards, out, read_known_defects(known_defects_file()), &outcome);
+      suite::merge_shards(shards, out, results::read_known_defects(known_defects_file()), &outcome);
   const auto reports = report_texts(results, out, all_report_formats());
   write_report(out, reports);
   std::printf("merged %zu shards, %zu scenes\n%s  %s\n", shards.size(), results.scenes.size(),
@@ -52,4 +52,4 @@ int merge_command(const std::vector<std::string>& files, const fs::path& out) {
   return exit_code_of(outcome);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

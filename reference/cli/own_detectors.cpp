@@ -6,7 +6,7 @@
 
 #include "reference/plugin/examination.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +24,8 @@ std::size_t end_of_file_name(const std::string& text) {
 
 class BringIn {
  public:
-  BringIn(const RunSettings& settings, const DetectorCatalog& catalog) : settings_(settings) {
+  BringIn(const suite::RunSettings& settings, const DetectorCatalog& catalog)
+      : settings_(settings) {
     own_.catalog = catalog;
   }
 
@@ -33,7 +34,7 @@ class BringIn {
                   const std::vector<std::string>& commands) {
     std::vector<std::string> ids;
     for (const std::string& command : commands)
-      ids.push_back(id_of({PluginKind::kCommand, command}));
+      ids.push_back(id_of({plugin::PluginKind::kCommand, command}));
     for (const std::string& detector : detectors)
       own_.names.push_back(names_library(detector) ? name_in_library(detector) : detector);
     for (const std::string& id : ids)
@@ -45,16 +46,16 @@ class BringIn {
   std::string name_in_library(const std::string& text) {
     const std::size_t end = end_of_file_name(text);
     const fs::path file = fs::absolute(text.substr(0, end)).lexically_normal();
-    return id_of({PluginKind::kLibrary, file.string()}) + text.substr(end);
+    return id_of({plugin::PluginKind::kLibrary, file.string()}) + text.substr(end);
   }
 
-  std::string id_of(const PluginSource& source) {
-    for (const Plugin& known : own_.plugins)
+  std::string id_of(const plugin::PluginSource& source) {
+    for (const plugin::Plugin& known : own_.plugins)
       if (known.source.kind == source.kind && known.source.text == source.text)
         return known.declaration.id;
     static const fs::path executable = fs::read_symlink("/proc/self/exe");
-    own_.plugins.push_back(examine_plugin(source, executable, settings_));
-    add_plugin(own_.plugins.back(), own_.catalog);
+    own_.plugins.push_back(plugin::examine_plugin(source, executable, settings_));
+    plugin::add_plugin(own_.plugins.back(), own_.catalog);
     return own_.plugins.back().declaration.id;
   }
 
@@ -64,7 +65,7 @@ class BringIn {
     });
   }
 
-  const RunSettings& settings_;
+  const suite::RunSettings& settings_;
   OwnDetectors own_;
 };
 
@@ -72,13 +73,13 @@ class BringIn {
 
 std::vector<std::string> OwnDetectors::records() const {
   std::vector<std::string> out;
-  for (const Plugin& plugin : plugins) out.push_back(to_json(plugin).dump());
+  for (const plugin::Plugin& plugin : plugins) out.push_back(plugin::to_json(plugin).dump());
   return out;
 }
 
 std::vector<std::string> OwnDetectors::ids() const {
   std::vector<std::string> out;
-  for (const Plugin& plugin : plugins) out.push_back(plugin.declaration.id);
+  for (const plugin::Plugin& plugin : plugins) out.push_back(plugin.declaration.id);
   return out;
 }
 
@@ -87,10 +88,11 @@ bool names_library(const std::string& text) {
   return file.find('/') != std::string::npos || file.ends_with(".so");
 }
 
-OwnDetectors bring_in(const std::vector<std::string>& detectors,
-                      const std::vector<std::string>& commands, const RunSettings& settings,
-                      const DetectorCatalog& catalog) {
+OwnDetectors load_own_detectors(const std::vector<std::string>& detectors,
+                                const std::vector<std::string>& commands,
+                                const suite::RunSettings& settings,
+                                const DetectorCatalog& catalog) {
   return BringIn(settings, catalog).of(detectors, commands);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

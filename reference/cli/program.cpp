@@ -18,19 +18,19 @@
 
 #include "core/types/check.h"
 #include "reference/cli/arguments.h"
-#include "reference/run/exit_codes.h"
-#include "reference/run/interrupts.h"
-#include "reference/run/printable.h"
-#include "reference/run/worker.h"
-#include "reference/scene/shell_word.h"
+#include "reference/process/exit_codes.h"
+#include "reference/process/interrupts.h"
+#include "reference/suite/worker.h"
+#include "reference/text/printable.h"
+#include "reference/text/shell_word.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 // For the record, to be run again.
 std::string join_command_line(int argc, char** argv) {
   std::string text = "contactcheck";
-  for (int i = 1; i < argc; ++i) text += " " + in_shell(argv[i]);
+  for (int i = 1; i < argc; ++i) text += " " + text::in_shell(argv[i]);
   return text;
 }
 
@@ -48,7 +48,7 @@ void require_utf8(int argc, char** argv) {
       nlohmann::json(argv[i]).dump();
     } catch (const nlohmann::json::exception&) {
       throw InputError("word " + std::to_string(i) + " of the command line is not UTF-8: \"" +
-                       printable_line(argv[i]) + "\"");
+                       text::printable_line(argv[i]) + "\"");
     }
 }
 
@@ -78,7 +78,7 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
   } else {
     say(error.what());
   }
-  return kExitBadInput;
+  return process::kExitBadInput;
 }
 
 int parse_and_dispatch(int argc, char** argv, const DetectorCatalog& catalog) {
@@ -114,7 +114,7 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
   } catch (const std::filesystem::filesystem_error& e) {
     say(e.path1().string() + ": " + e.code().message());
   }
-  return kExitBadInput;
+  return process::kExitBadInput;
 }
 
 }  // namespace
@@ -122,15 +122,15 @@ int main_with_errors(int argc, char** argv, const DetectorCatalog& catalog) {
 int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog) {
   try {
     return main_with_errors(argc, argv, catalog);
-  } catch (const Interrupted& e) {
-    die_of(e);
+  } catch (const process::Interrupted& e) {
+    process::die_of(e);
   } catch (const std::bad_alloc&) {
     say("memory ran out: this takes more than the process may have");
-    return kExitBadInput;
+    return process::kExitBadInput;
   } catch (const std::exception& e) {
     say(std::string("internal error: ") + e.what());
-    return kExitInternal;
+    return process::kExitInternal;
   }
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -3,11 +3,11 @@
 
 #include "core/detect/registry.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// Does what `contactcheck ARGUMENTS...` does with the detectors of `catalog`. Workers are started
 /// from the running program: its main must be nothing but this call with the same catalogue, and no
 /// thread may have been started before it. Returns the exit code.
 int contactcheck_main(int argc, char** argv, const DetectorCatalog& catalog);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 // A share grows in jumps: the first ones say little about the rest.
@@ -16,9 +16,9 @@ constexpr double kLeastShare = 0.02, kLeastSeconds = 2.0;
 constexpr std::size_t kMostColumns = 120;
 
 std::string bar(double share) {
-  constexpr int kWidth = 20;
-  const int filled = static_cast<int>(share * kWidth);
-  return "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "]";
+  constexpr int kBarWidth = 20;
+  const int filled = static_cast<int>(share * kBarWidth);
+  return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "]";
 }
 
 // "1:02:03 left", "2:03 left"
@@ -49,7 +49,7 @@ std::optional<double> seconds_left(double elapsed, double first_share, double sh
   return elapsed * (1.0 - share) / done;
 }
 
-std::string progress_line(const SuiteProgress& progress, std::optional<double> seconds_left,
+std::string progress_line(const suite::SuiteProgress& progress, std::optional<double> seconds_left,
                           std::size_t columns) {
   char percent[16];
   std::snprintf(percent, sizeof percent, " %3.0f %%", 100.0 * progress.share);
@@ -63,7 +63,8 @@ std::string progress_line(const SuiteProgress& progress, std::optional<double> s
   return line.substr(0, columns);
 }
 
-void ProgressDisplay::show(const SuiteProgress& progress, std::optional<double> seconds_left) {
+void ProgressDisplay::show(const suite::SuiteProgress& progress,
+                           std::optional<double> seconds_left) {
   if (quiet_) return;
   if (!terminal_) {
     if (progress.scene_id == last_scene_) return;
@@ -84,4 +85,4 @@ void ProgressDisplay::finish() {
   drawn_ = false;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

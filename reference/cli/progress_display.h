@@ -3,16 +3,16 @@
 #include <optional>
 #include <string>
 
-#include "reference/run/suite_run.h"
+#include "reference/suite/suite_run.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// Seconds that the rest will take when it goes on as from `first_share` on; none before there is
 /// anything to go by.
 std::optional<double> seconds_left(double elapsed, double first_share, double share);
 
 /// The bar, share, time left, scene, detector and frame, as one line of at most `columns`.
-std::string progress_line(const SuiteProgress& progress, std::optional<double> seconds_left,
+std::string progress_line(const suite::SuiteProgress& progress, std::optional<double> seconds_left,
                           std::size_t columns);
 
 /// Shows a run's progress on stderr: a bar on a terminal, one plain line per scene elsewhere.
@@ -21,7 +21,7 @@ class ProgressDisplay {
   ProgressDisplay(bool quiet, bool terminal) : quiet_(quiet), terminal_(terminal) {}
   ~ProgressDisplay() { finish(); }
 
-  void show(const SuiteProgress& progress, std::optional<double> seconds_left);
+  void show(const suite::SuiteProgress& progress, std::optional<double> seconds_left);
   /// Clears the bar.
   void finish();
 
@@ -30,4 +30,4 @@ class ProgressDisplay {
   std::string last_scene_, last_line_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -16,10 +16,10 @@
 #include "reference/reduce/reduction.h"
 #include "reference/reduce/simple_number.h"
 #include "reference/scene/catalogue.h"
-#include "reference/scene/id_check.h"
 #include "reference/scene/scene.h"
+#include "reference/text/id_check.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,13 +28,13 @@ constexpr std::size_t kProgressEvery = 20;  // candidates
 
 // Of the command line: a case file that named a program to be started would be no mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
-  RunSettings settings;
+  suite::RunSettings settings;
   settings.call_limit = arguments.call_limit;
   settings.memory_limit = arguments.memory_limit_mib << 20;
   std::vector<std::string> detectors, commands;
   if (!arguments.detector.empty()) detectors.push_back(arguments.detector);
   if (!arguments.command.empty()) commands.push_back(arguments.command);
-  OwnDetectors own = bring_in(detectors, commands, settings, catalog);
+  OwnDetectors own = load_own_detectors(detectors, commands, settings, catalog);
   if (own.names.size() > 1)
     throw InputError("--detector " + arguments.detector + " and --detector-cmd \"" +
                      arguments.command + "\" are two detectors; reduce takes one");
@@ -48,11 +48,11 @@ class ReduceCommand {
 
   int run() {
     check_words();
-    const std::vector<ReductionTask> tasks = read_tasks();
+    const std::vector<reduce::ReductionTask> tasks = read_tasks();
     make_probe(tasks.front());
-    const Defect defect = DefectSearch(*probe_, detector_, is_case_).find(tasks);
-    const CaseCandidate whole = candidate_of(defect.task.snapshot);
-    const std::optional<Reduction> reduction = reduce_defect(defect, whole);
+    const reduce::Defect defect = reduce::DefectSearch(*probe_, detector_, is_case_).find(tasks);
+    const reduce::CaseCandidate whole = reduce::candidate_of(defect.task.snapshot);
+    const std::optional<reduce::Reduction> reduction = reduce_defect(defect, whole);
     if (!reduction) refuse_own_lattice(defect);
     write(defect, whole, *reduction);
     return 0;
@@ -62,19 +62,19 @@ class ReduceCommand {
   void check_words() const {
     if (!arguments_.level.empty() && !level_from_name(arguments_.level))
       throw InputError("--level \"" + arguments_.level + "\" is no level");
-    require_reducible(arguments_.level);
+    reduce::require_reducible(arguments_.level);
   }
 
-  std::vector<ReductionTask> read_tasks() {
-    is_case_ = is_case_file(arguments_.target);
-    std::vector<ReductionTask> tasks =
-        is_case_ ? std::vector<ReductionTask>{read_case(arguments_.target)}
-                 : tasks_of_scene(arguments_.target, fixtures_directory());
-    for (ReductionTask& task : tasks) {
+  std::vector<reduce::ReductionTask> read_tasks() {
+    is_case_ = reduce::is_case_file(arguments_.target);
+    std::vector<reduce::ReductionTask> tasks =
+        is_case_ ? std::vector<reduce::ReductionTask>{reduce::read_case(arguments_.target)}
+                 : reduce::tasks_of_scene(arguments_.target, scene::fixtures_directory());
+    for (reduce::ReductionTask& task : tasks) {
       if (!own_.names.empty() && !brings_along(task.detector)) task.detector = own_.names.front();
       if (!arguments_.level.empty()) task.level = arguments_.level;
       if (!arguments_.kind.empty()) task.kind = arguments_.kind;
-      require_reducible(task.level);
+      reduce::require_reducible(task.level);
     }
     if (tasks.front().detector.empty())
       throw InputError("\"" + arguments_.target +
@@ -97,13 +97,13 @@ class ReduceCommand {
                      "--detector FILE.so or --detector-cmd CMD");
   }
 
-  void make_probe(const ReductionTask& task) {
+  void make_probe(const reduce::ReductionTask& task) {
     require_known(task.detector);
     const DetectorSpec spec = own_.catalog.parse(task.detector);
     const DetectorInfo* info = own_.catalog.find(spec.id);
     if (!info->absent_because.empty())
       throw InputError("detector \"" + spec.name + "\" is absent: " + info->absent_because);
-    ProbeSettings settings;
+    reduce::ProbeSettings settings;
     settings.executable = fs::read_symlink("/proc/self/exe");
     settings.detector = detector_ = spec.name;
     settings.plugins = own_.records();
@@ -112,98 +112,104 @@ class ReduceCommand {
     probe_.emplace(settings);
   }
 
-  std::optional<Reduction> reduce_defect(const Defect& defect, const CaseCandidate& whole) {
-    const std::vector<Level> levels = levels_for(defect.finding.level);
-    return reduce(
+  std::optional<reduce::Reduction> reduce_defect(const reduce::Defect& defect,
+                                                 const reduce::CaseCandidate& whole) {
+    const std::vector<Level> levels = reduce::levels_for(defect.finding.level);
+    return reduce::reduce(
         whole, defect.task.pair,
-        [&](const CaseCandidate& candidate) {
+        [&](const reduce::CaseCandidate& candidate) {
           show_progress(candidate);
-          const ProbeVerdict verdict = probe_->ask(snapshot_of(candidate), levels);
-          return shows(verdict, defect.finding) && keeps_position(candidate, verdict, defect);
+          const reduce::ProbeVerdict verdict = probe_->ask(reduce::snapshot_of(candidate), levels);
+          return reduce::shows(verdict, defect.finding) &&
+                 keeps_position(candidate, verdict, defect);
         },
         arguments_.budget,
-        defect.task.cells ? cell_candidates(defect.task.snapshot, *defect.task.cells)
-                          : std::vector<CaseCandidate>());
+        defect.task.cells ? reduce::cell_candidates(defect.task.snapshot, *defect.task.cells)
+                          : std::vector<reduce::CaseCandidate>());
   }
 
   // On a terminal alone; the line is cleared by whatever is printed next.
-  void show_progress(const CaseCandidate& candidate) const {
+  void show_progress(const reduce::CaseCandidate& candidate) const {
     if (isatty(STDERR_FILENO) == 0 || probe_->asked() % kProgressEvery != 0) return;
     std::fprintf(stderr, "\r%zu candidates tried, now %zu triangles   \r", probe_->asked(),
                  candidate.triangles());
   }
 
-  static bool keeps_position(const CaseCandidate& candidate, const ProbeVerdict& verdict,
-                             const Defect& defect) {
+  static bool keeps_position(const reduce::CaseCandidate& candidate,
+                             const reduce::ProbeVerdict& verdict, const reduce::Defect& defect) {
     if (!defect.finding.general) return true;
-    const ElementPair& pair = disagreement_of(verdict, defect.finding).pair;
-    return in_general_position(candidate, {pair.a, pair.b});
+    const ElementPair& pair = reduce::disagreement_of(verdict, defect.finding).pair;
+    return reduce::in_general_position(candidate, {pair.a, pair.b});
   }
 
-  [[noreturn]] void refuse_own_lattice(const Defect& defect) const {
-    throw InputError(where(defect.task) + ", " + detector_ + ": " + described(defect.finding) +
+  [[noreturn]] void refuse_own_lattice(const reduce::Defect& defect) const {
+    throw InputError(reduce::where(defect.task) + ", " + detector_ + ": " +
+                     reduce::described(defect.finding) +
                      " is there with the scene's own lattices and rest shapes alone, and a minimal "
                      "case has its vertices for both");
   }
 
-  fs::path out_file(const ReductionTask& task) const {
+  fs::path out_file(const reduce::ReductionTask& task) const {
     if (!arguments_.out.empty()) return arguments_.out;
     if (is_case_) return fs::path(arguments_.target).replace_extension(".min.json");
     const std::string name = task.scene + "-" + std::to_string(task.frame) + "-" + detector_;
-    return fs::path("out") / "cases" / (id_from(name) + ".min.json");
+    return fs::path("out") / "cases" / (reduce::id_from(name) + ".min.json");
   }
 
   std::string library() const {
-    const std::string name = library_of(detector_);
-    const auto versions = library_versions();
+    const std::string name = adapters::library_of(detector_);
+    const auto versions = adapters::library_versions();
     const auto found = versions.find(name);
     return found == versions.end() ? "" : name + " " + found->second;
   }
 
-  MinimalCase minimal_of(const Defect& defect, const Reduction& reduction,
-                         const fs::path& file) const {
-    MinimalCase minimal;
+  reduce::MinimalCase minimal_of(const reduce::Defect& defect, const reduce::Reduction& reduction,
+                                 const fs::path& file) const {
+    reduce::MinimalCase minimal;
     const std::string stem = file.stem().string();
-    minimal.id = !arguments_.out.empty() && is_id(stem)
+    minimal.id = !arguments_.out.empty() && text::is_id(stem)
                      ? stem
-                     : id_from("min-" + detector_ + "-" + defect.task.scene);
+                     : reduce::id_from("min-" + detector_ + "-" + defect.task.scene);
     minimal.scene = defect.task.scene;
     minimal.place = defect.task.place;
     minimal.detector = detector_;
     minimal.library = library();
     minimal.finding = defect.finding;
     minimal.candidate = reduction.result;
-    minimal.levels = levels_for(defect.finding.level);
+    minimal.levels = reduce::levels_for(defect.finding.level);
     return minimal;
   }
 
   // In a fresh process, as whoever is given the case will see it.
-  ProbeVerdict verified(const MinimalCase& minimal) {
+  reduce::ProbeVerdict verified(const reduce::MinimalCase& minimal) {
     probe_->restart();
-    ProbeVerdict verdict = probe_->ask(snapshot_of(minimal.candidate), minimal.levels);
-    if (!shows(verdict, minimal.finding))
+    reduce::ProbeVerdict verdict =
+        probe_->ask(reduce::snapshot_of(minimal.candidate), minimal.levels);
+    if (!reduce::shows(verdict, minimal.finding))
       throw InputError(minimal.scene + ", " + minimal.place + ": the answer of " + detector_ +
                        " depends on what ran before it in its process, and cannot be reduced");
     return verdict;
   }
 
-  void write(const Defect& defect, const CaseCandidate& whole, const Reduction& reduction) {
+  void write(const reduce::Defect& defect, const reduce::CaseCandidate& whole,
+             const reduce::Reduction& reduction) {
     const fs::path file = out_file(defect.task);
-    const MinimalCase minimal = minimal_of(defect, reduction, file);
-    const CaseAnswers answers = answers_of(minimal, verified(minimal));
+    const reduce::MinimalCase minimal = minimal_of(defect, reduction, file);
+    const reduce::CaseAnswers answers = reduce::answers_of(minimal, verified(minimal));
     std::error_code ignored;
     if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
-    write_file_atomically(file, family_text(minimal));
+    write_file_atomically(file, reduce::family_text(minimal));
     print_summary(minimal, whole, reduction);
     std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", answers.exact.c_str(),
-                answers.detector.c_str(), printed_test(minimal, answers).c_str(), file.c_str());
+                answers.detector.c_str(), reduce::printed_test(minimal, answers).c_str(),
+                file.c_str());
   }
 
-  void print_summary(const MinimalCase& minimal, const CaseCandidate& before,
-                     const Reduction& reduction) const {
-    const CaseCandidate& after = minimal.candidate;
+  void print_summary(const reduce::MinimalCase& minimal, const reduce::CaseCandidate& before,
+                     const reduce::Reduction& reduction) const {
+    const reduce::CaseCandidate& after = minimal.candidate;
     std::printf("%s, %s: %s %s\n\n", minimal.scene.c_str(), minimal.place.c_str(),
-                minimal.detector.c_str(), described(minimal.finding).c_str());
+                minimal.detector.c_str(), reduce::described(minimal.finding).c_str());
     std::printf("  %-28s %10s %10s\n", "", "before", "after");
     const auto line = [](const char* what, std::size_t was, std::size_t is) {
       std::printf("  %-28s %10zu %10zu\n", what, was, is);
@@ -217,10 +223,10 @@ class ReduceCommand {
   }
 
   // A number is as simple as its binary or its decimal text, whichever is shorter.
-  static std::size_t most_figures(const CaseCandidate& candidate) {
+  static std::size_t most_figures(const reduce::CaseCandidate& candidate) {
     int out = 0;
-    for (const double x : coordinates_of(candidate))
-      out = std::max(out, std::min(significant_bits(x), decimal_digits(x)));
+    for (const double x : reduce::coordinates_of(candidate))
+      out = std::max(out, std::min(reduce::significant_bits(x), reduce::decimal_digits(x)));
     return static_cast<std::size_t>(out);
   }
 
@@ -228,7 +234,7 @@ class ReduceCommand {
   OwnDetectors own_;
   bool is_case_ = false;
   std::string detector_;
-  std::optional<Probe> probe_;
+  std::optional<reduce::Probe> probe_;
 };
 
 }  // namespace
@@ -237,4 +243,4 @@ int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& cata
   return ReduceCommand(arguments, catalog).run();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

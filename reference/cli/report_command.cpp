@@ -5,12 +5,12 @@
 #include "reference/cli/report_folder.h"
 #include "reference/results/results_file.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 int report_command(const std::filesystem::path& file, const std::vector<std::string>& formats,
                    const std::filesystem::path& out) {
   check_report_formats(formats);
-  const results::Results results = results_in(file);
+  const results::Results results = results::results_in(file);
   const auto folder = file.parent_path();
   const bool page = std::find(formats.begin(), formats.end(), "html") != formats.end();
   const auto files =
@@ -20,4 +20,4 @@ int report_command(const std::filesystem::path& file, const std::vector<std::str
   return 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -9,12 +9,12 @@
 #include "reference/report/csv.h"
 #include "reference/report/html.h"
 #include "reference/report/report_files.h"
+#include "reference/report/view_bytes.h"
 #include "reference/reproduce/reproduction_report.h"
 #include "reference/results/results_file.h"
-#include "reference/scene/file_text.h"
-#include "reference/view/view_bytes.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,28 +53,29 @@ void check_report_formats(const std::vector<std::string>& formats) {
 std::map<std::string, std::string> report_texts(const results::Results& results,
                                                 const fs::path& folder,
                                                 const std::vector<std::string>& formats,
-                                                const std::optional<PaperPart>& paper) {
+                                                const std::optional<report::PaperPart>& paper) {
   std::map<std::string, std::string> files;
-  if (wanted("md", formats)) files = report_files(results);
-  if (wanted("csv", formats)) files["report.csv"] = csv_report(results);
-  if (wanted("html", formats) && has_html_report())
-    files["report.html"] = html_report(results, paper, view_bytes(results, folder));
+  if (wanted("md", formats)) files = report::report_files(results);
+  if (wanted("csv", formats)) files["report.csv"] = report::csv_report(results);
+  if (wanted("html", formats) && report::has_html_report())
+    files["report.html"] = report::html_report(results, paper, report::view_bytes(results, folder));
   return files;
 }
 
-std::optional<PaperPart> paper_part_in(const fs::path& folder, const results::Results& results) {
+std::optional<report::PaperPart> paper_part_in(const fs::path& folder,
+                                               const results::Results& results) {
   const fs::path file = folder / "reproduction.json";
   if (!fs::exists(file)) return std::nullopt;
-  const std::string bytes = read_file_bytes(file, "reproduction file");
+  const std::string bytes = text::read_file_bytes(file, "reproduction file");
   const auto reproduction = nlohmann::ordered_json::parse(bytes, nullptr, false);
   if (!reproduction.is_object())
     throw InputError("\"" + file.string() + "\" is no JSON object: write it again, or remove it.");
-  check_json_depth(bytes, file);
+  results::check_json_depth(bytes, file);
   // Another run into the same folder leaves the file of an earlier one there.
   const auto command = reproduction.find("command");
   if (command == reproduction.end() || *command != results.command) return std::nullopt;
   try {
-    return paper_part(reproduction);
+    return reproduce::paper_part(reproduction);
   } catch (const nlohmann::json::exception&) {
     throw InputError("\"" + file.string() +
                      "\" is no reproduction as this version writes it: write it again, or remove "
@@ -87,7 +88,7 @@ std::string report_paths(const fs::path& folder, const std::map<std::string, std
   for (const auto& [name, text] : files)
     if (name.starts_with("report."))
       paths += (paths.empty() ? "" : "  ") + (folder / name).string();
-  if (!has_html_report()) paths += "  (no report.html: this program was built without npm)";
+  if (!report::has_html_report()) paths += "  (no report.html: this program was built without npm)";
   return paths;
 }
 
@@ -101,4 +102,4 @@ void write_report(const fs::path& folder, const std::map<std::string, std::strin
   }
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

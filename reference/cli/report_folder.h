@@ -10,7 +10,7 @@
 #include "reference/report/paper_part.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 /// What `report` makes when it is not told, of "csv", "html" and "md".
 std::vector<std::string> all_report_formats();
@@ -23,12 +23,13 @@ void check_report_formats(const std::vector<std::string>& formats);
 /// stands, and `paper`. @pre check_report_formats passed
 std::map<std::string, std::string> report_texts(
     const results::Results& results, const std::filesystem::path& folder,
-    const std::vector<std::string>& formats, const std::optional<PaperPart>& paper = std::nullopt);
+    const std::vector<std::string>& formats,
+    const std::optional<report::PaperPart>& paper = std::nullopt);
 
 /// Of the reproduction.json beside results.json, where that is of the same run.
 /// @throws InputError when it cannot be read, or was written by another version
-std::optional<PaperPart> paper_part_in(const std::filesystem::path& folder,
-                                       const results::Results& results);
+std::optional<report::PaperPart> paper_part_in(const std::filesystem::path& folder,
+                                               const results::Results& results);
 
 /// Where the reports among `files` are, one behind the other; also what was left out, and why.
 std::string report_paths(const std::filesystem::path& folder,
@@ -39,4 +40,4 @@ std::string report_paths(const std::filesystem::path& folder,
 void write_report(const std::filesystem::path& folder,
                   const std::map<std::string, std::string>& files);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -7,29 +7,31 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
+#include "reference/process/exit_codes.h"
 #include "reference/reproduce/paper_arithmetic.h"
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/paper_tables.h"
 #include "reference/reproduce/reproduction.h"
 #include "reference/reproduce/reproduction_report.h"
-#include "reference/run/exit_codes.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/suite_file.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 // The paper has nothing to say of other scenes, nor of these at full resolution.
-void check_targets(const std::vector<std::string>& targets, const PaperTables& tables) {
+void check_targets(const std::vector<std::string>& targets, const reproduce::PaperTables& tables) {
   std::string allowed = "paper";
-  for (const PaperScene& scene : tables.scenes) allowed += ", " + scene_of_paper(scene.id);
+  for (const reproduce::PaperScene& scene : tables.scenes)
+    allowed += ", " + reproduce::scene_of_paper(scene.id);
   for (const std::string& target : targets) {
-    const bool known = target == "paper" || std::any_of(tables.scenes.begin(), tables.scenes.end(),
-                                                        [&](const PaperScene& s) {
-                                                          return target == scene_of_paper(s.id);
-                                                        });
+    const bool known =
+        target == "paper" || std::any_of(tables.scenes.begin(), tables.scenes.end(),
+                                         [&](const reproduce::PaperScene& s) {
+                                           return target == reproduce::scene_of_paper(s.id);
+                                         });
     if (!known)
       throw InputError("\"" + target + "\" is no scene of the paper; allowed: " + allowed);
   }
@@ -41,7 +43,7 @@ void print(const std::filesystem::path& out, const Json& reproduction, bool quie
     const auto contradictions = std::count_if(
         findings.begin(), findings.end(), [](const Json& f) { return f.at("agrees") == false; });
     std::printf("%s\nThe paper's own numbers: %zu checks, %zu contradict a claim or cannot be.\n\n",
-                reproduction_terminal(reproduction).c_str(), findings.size(),
+                reproduce::reproduction_terminal(reproduction).c_str(), findings.size(),
                 static_cast<std::size_t>(contradictions));
   }
   std::printf("%s  %s  %s\n", (out / "reproduction.md").c_str(),
@@ -51,27 +53,30 @@ void print(const std::filesystem::path& out, const Json& reproduction, bool quie
 }  // namespace
 
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog) {
-  const PaperTables tables = load_paper_tables(fixtures_directory() / "paper" / "tables.json");
+  const reproduce::PaperTables tables =
+      reproduce::load_paper_tables(scene::fixtures_directory() / "paper" / "tables.json");
   // Single scenes are run with the suite's detectors too: the tables are made of these.
   if (arguments.detectors.empty())
-    arguments.detectors = load_suite(find_target("paper", fixtures_directory()).file).detectors;
+    arguments.detectors =
+        scene::load_suite(scene::find_target("paper", scene::fixtures_directory()).file).detectors;
   if (arguments.targets.empty()) arguments.targets = {"paper"};
   check_targets(arguments.targets, tables);
   arguments.closed_loop = true;
-  SuiteOutcome outcome;
+  suite::SuiteOutcome outcome;
   const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
   const results::Results& results = reported.results;
-  const std::vector<PaperFinding> findings = check_paper(tables);
-  Json reproduction = reproduce(results, tables);
-  reproduction["paper"] = paper_json(tables, findings);
+  const std::vector<reproduce::PaperFinding> findings = reproduce::check_paper(tables);
+  Json reproduction = reproduce::reproduce(results, tables);
+  reproduction["paper"] = reproduce::paper_json(tables, findings);
   write_file_atomically(arguments.out / "reproduction.json", reproduction.dump(1) + "\n");
-  write_file_atomically(arguments.out / "reproduction.md",
-                        reproduction_markdown(reproduction) + paper_markdown(tables, findings));
+  write_file_atomically(
+      arguments.out / "reproduction.md",
+      reproduce::reproduction_markdown(reproduction) + reproduce::paper_markdown(tables, findings));
   // Once more, now that the page can have the paper's tables.
   write_report(arguments.out, report_texts(results, arguments.out, all_report_formats(),
-                                           paper_part(reproduction)));
+                                           reproduce::paper_part(reproduction)));
   print(arguments.out, reproduction, arguments.quiet);
-  return outcome.unlisted_error ? kExitUnlistedError : 0;
+  return outcome.unlisted_error ? process::kExitUnlistedError : 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -5,22 +5,22 @@
 
 #include "core/detect/registry.h"
 #include "reference/cli/commands.h"
-#include "reference/run/out_lock.h"
-#include "reference/run/suite_run.h"
+#include "reference/suite/out_lock.h"
+#include "reference/suite/suite_run.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 struct ReportedRun {
   results::Results results;  ///< as written
   std::string reports;       ///< their paths, for a person
-  OutLock lock;              ///< of --out
+  suite::OutLock lock;       ///< of --out
 };
 
 /// @throws InputError, before anything is written, for bad arguments
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
-                           SuiteOutcome* outcome);
+                           suite::SuiteOutcome* outcome);
 
 /// Says on standard error when it is the oracle that is wrong.
-int exit_code_of(const SuiteOutcome& outcome);
+int exit_code_of(const suite::SuiteOutcome& outcome);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

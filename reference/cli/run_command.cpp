@@ -1,9 +1,12 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
@@ -15,53 +18,217 @@
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
-#include "reference/cli/run_tasks.h"
+#include "reference/process/exit_codes.h"
+#include "reference/process/interrupts.h"
 #include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
-#include "reference/run/exit_codes.h"
-#include "reference/run/interrupts.h"
-#include "reference/run/out_lock.h"
-#include "reference/run/run_identity.h"
-#include "reference/run/suite_run.h"
-#include "reference/run/worker.h"
 #include "reference/scene/any_scene.h"
+#include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
-#include "reference/simulate/simulate_scene.h"
+#include "reference/scene/simulate_scene.h"
+#include "reference/scene/suite_file.h"
+#include "reference/suite/out_lock.h"
+#include "reference/suite/run_identity.h"
+#include "reference/suite/suite_run.h"
+#include "reference/suite/worker.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-void check_simulation_of(const SceneTask& task, const DetectorCatalog& catalog,
-                         const Scene& scene) {
+// What `run` is asked to do, as scenes with their detectors.
+
+struct RunTasks {
+  std::vector<suite::SceneTask> scenes;
+  std::vector<results::Goal> goals;  ///< of all suites, canonical
+};
+
+using Names = std::vector<std::string>;
+
+void add_new(const std::string& name, Names& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+const OptionInfo* option_of(const DetectorCatalog& catalog, const DetectorSpec& spec,
+                            const std::string& option) {
+  for (const OptionInfo& o : catalog.find(spec.id)->options)
+    if (o.name == option) return &o;
+  return nullptr;
+}
+
+/// Names as given on the command line or by a suite, made those that run.
+class DetectorNames {
+ public:
+  DetectorNames(const RunArguments& arguments, const DetectorCatalog& catalog)
+      : arguments_(arguments), catalog_(catalog) {}
+
+  Names resolved(const Names& given) {
+    Names out;
+    for (const std::string& name : given)
+      for (const std::string& with_isa : with_isas(catalog_.parse(name).name))
+        add_new(with_threads(with_isa), out);
+    return out;
+  }
+
+  // An option that nobody takes would be a silent lie about what ran.
+  void require_use_of_isas() const {
+    if (!arguments_.isas.empty() && !isas_used_)
+      throw InputError("--isa " + arguments_.isas.front() +
+                       ": no detector of this run has instruction sets to choose from");
+  }
+
+ private:
+  // What the name says already stays.
+  std::string with(const std::string& name, const std::string& option,
+                   const std::string& value) const {
+    const DetectorSpec spec = catalog_.parse(name);
+    const OptionInfo* info = option_of(catalog_, spec, option);
+    if (info == nullptr || spec.options.at(option) != info->default_value) return name;
+    const char* const mark = name.find(':') == std::string::npos ? ":" : ",";
+    return catalog_.parse(name + mark + option + "=" + value).name;
+  }
+
+  std::string with_threads(const std::string& name) const {
+    return with(name, "threads", std::to_string(arguments_.threads));
+  }
+
+  Names with_isas(const std::string& name) {
+    if (arguments_.isas.empty()) return {name};
+    if (option_of(catalog_, catalog_.parse(name), "isa") != nullptr) isas_used_ = true;
+    Names out;
+    for (const std::string& isa : arguments_.isas) add_new(with(name, "isa", isa), out);
+    return out;
+  }
+
+  const RunArguments& arguments_;
+  const DetectorCatalog& catalog_;
+  bool isas_used_ = false;
+};
+
+class TaskMaker {
+ public:
+  TaskMaker(const RunArguments& arguments, const DetectorCatalog& catalog)
+      : arguments_(arguments), catalog_(catalog), names_(arguments, catalog) {}
+
+  RunTasks make() {
+    Names targets = arguments_.targets;
+    const bool meshes = !arguments_.meshes.meshes.empty();
+    if (targets.empty() && !arguments_.pairs && !meshes) targets.push_back("default");
+    if (meshes) add_meshes();
+    for (const std::string& name : targets) {
+      const scene::Target target = scene::find_target(name, fixtures_);
+      if (target.kind == scene::TargetKind::kSuite) {
+        add_suite(scene::load_suite(target.file));
+      } else {
+        add_scene(target.file, given_or_of("default"));
+      }
+    }
+    if (arguments_.pairs) add_pairs(*arguments_.pairs);
+    names_.require_use_of_isas();
+    return std::move(tasks_);
+  }
+
+ private:
+  // Of the command line; only where it names none is the suite needed.
+  Names given_or_of(const char* suite) const {
+    if (!arguments_.detectors.empty()) return arguments_.detectors;
+    return scene::load_suite(scene::find_target(suite, fixtures_).file).detectors;
+  }
+
+  void add_suite(const scene::Suite& suite) {
+    for (const scene::SuiteScene& scene : suite.scenes)
+      add_scene(scene::file_of(scene, fixtures_),
+                scene.detectors.empty() ? suite.detectors : scene.detectors);
+    for (const scene::SuiteGoal& wanted : suite.goals) {
+      results::Goal& goal = tasks_.goals.emplace_back();
+      goal = {wanted.name,
+              wanted.scene,
+              catalog_.parse(wanted.detector).name,
+              wanted.part,
+              {},
+              {},
+              {},
+              wanted.at_least,
+              wanted.at_most};
+      if (wanted.kind == scene::SuiteGoal::Kind::kPerPair) goal.per = "pair";
+      if (wanted.kind == scene::SuiteGoal::Kind::kOverScene) goal.over_scene = wanted.other;
+      if (wanted.kind != scene::SuiteGoal::Kind::kOver) continue;
+      goal.over = catalog_.parse(wanted.other).name;
+      for (suite::SceneTask& task : tasks_.scenes)
+        if (task.file == scene::find_scene(goal.scene, fixtures_))
+          add_new(goal.over, task.references);
+    }
+  }
+
+  void add_scene(const fs::path& file, const Names& detectors) {
+    const Names& chosen = arguments_.detectors.empty() ? detectors : arguments_.detectors;
+    const Names resolved = names_.resolved(chosen);
+    for (const suite::SceneTask& task : tasks_.scenes)
+      if (task.file == file) return;
+    tasks_.scenes.push_back({"", file, resolved, {}});
+  }
+
+  // Paths in the text are relative to where it will lie, so that it can be kept as it is.
+  void add_meshes() {
+    const fs::path& kept = arguments_.save_scene;
+    suite::SceneTask task;
+    task.detectors = names_.resolved(given_or_of("default"));
+    task.text = scene::mesh_scene(
+        arguments_.meshes, kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path());
+    tasks_.scenes.push_back(std::move(task));
+  }
+
+  void add_pairs(const scene::PairSpec& pairs) {
+    suite::SceneTask task;
+    task.detectors = names_.resolved(given_or_of("hard"));
+    task.pairs = pairs;
+    tasks_.scenes.push_back(std::move(task));
+  }
+
+  const RunArguments& arguments_;
+  const DetectorCatalog& catalog_;
+  const fs::path fixtures_ = scene::fixtures_directory();
+  DetectorNames names_;
+  RunTasks tasks_;
+};
+
+// Names of detectors become canonical, with --threads and --isa as options of those that have
+// them. @throws InputError for unknown names
+RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  return TaskMaker(arguments, catalog).make();
+}
+
+void check_simulation_of(const suite::SceneTask& task, const DetectorCatalog& catalog,
+                         const scene::Scene& scene) {
   try {
-    check_simulation(catalog, scene);
+    scene::check_simulation(catalog, scene);
   } catch (const InputError& e) {
     throw InputError((task.file.empty() ? "" : task.file.string() + ": ") + e.what());
   }
 }
 
-void read_scene(std::size_t frames, const DetectorCatalog& catalog, SceneTask& task) {
+void read_scene(std::size_t frames, const DetectorCatalog& catalog, suite::SceneTask& task) {
   if (task.pairs) {
-    task.id = kPairsSceneId;
-    task.content = content_of(*task.pairs);
-    task.frames = RandomPairs(*task.pairs).frames();
+    task.id = scene::kPairsSceneId;
+    task.content = suite::content_of(*task.pairs);
+    task.frames = scene::RandomPairs(*task.pairs).frames();
     return;
   }
-  const Scene scene =
-      task.text ? load_scene_text(*task.text, frames) : load_any_scene(task.file, frames);
+  const scene::Scene scene = task.text ? scene::load_scene_text(*task.text, frames)
+                                       : scene::load_any_scene(task.file, frames);
   check_simulation_of(task, catalog, scene);
   task.id = scene.id;
   task.frames = scene.frames;
-  task.content = task.text ? content_of(*task.text, scene) : content_of(task.file, scene);
+  task.content =
+      task.text ? suite::content_of(*task.text, scene) : suite::content_of(task.file, scene);
 }
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
 void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
-                  std::vector<SceneTask>& tasks) {
+                  std::vector<suite::SceneTask>& tasks) {
   std::set<std::string> ids;
-  for (SceneTask& task : tasks) {
+  for (suite::SceneTask& task : tasks) {
     read_scene(frames, catalog, task);
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
@@ -71,7 +238,7 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
 void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {
   const results::Results& results = run_and_reports.results;
   if (!arguments.quiet) {
-    const std::string tables = terminal_tables(results, isatty(STDOUT_FILENO) != 0);
+    const std::string tables = report::terminal_tables(results, isatty(STDOUT_FILENO) != 0);
     std::fwrite(tables.data(), 1, tables.size(), stdout);
   }
   for (const results::Run& run : results.runs)
@@ -90,9 +257,9 @@ class Watcher {
   explicit Watcher(const RunArguments& arguments)
       : display(arguments.quiet, isatty(STDERR_FILENO) != 0), events(arguments.json_lines) {}
 
-  SuiteListener listener() {
-    return {[this](const SuiteProgress& progress) { show(progress); },
-            [this](const SceneEnd& end) {
+  suite::SuiteListener listener() {
+    return {[this](const suite::SuiteProgress& progress) { show(progress); },
+            [this](const suite::SceneEnd& end) {
               if (events.wanted()) events.print(scene_event(end));
             }};
   }
@@ -101,7 +268,7 @@ class Watcher {
   EventLines events;
 
  private:
-  void show(const SuiteProgress& progress) {
+  void show(const suite::SuiteProgress& progress) {
     const Clock::time_point now = Clock::now();
     // Scenes that are taken over from an earlier run took no time.
     if (!first_share_) first_share_ = progress.share;
@@ -117,9 +284,9 @@ class Watcher {
 };
 
 // After all scenes were read: shards of one run know the same scenes.
-void take_shard(const Shard& shard, SuiteRequest& request) {
-  request.shard = ShardOfRun{shard, std::move(request.tasks)};
-  const std::vector<SceneTask>& run = request.shard->run;
+void take_shard(const suite::Shard& shard, suite::SuiteRequest& request) {
+  request.shard = suite::ShardOfRun{shard, std::move(request.tasks)};
+  const std::vector<suite::SceneTask>& run = request.shard->run;
   if (run.size() < shard.of)
     throw InputError("--shard " + shard.name() + ": this run has " + std::to_string(run.size()) +
                      (run.size() == 1 ? " scene" : " scenes") +
@@ -129,8 +296,8 @@ void take_shard(const Shard& shard, SuiteRequest& request) {
     if (shard.holds(i)) request.tasks.push_back(run[i]);
 }
 
-RunSettings settings_of(const RunArguments& arguments) {
-  RunSettings settings;
+suite::RunSettings settings_of(const RunArguments& arguments) {
+  suite::RunSettings settings;
   settings.frames = arguments.frames;
   settings.step_repeats = arguments.step_repeats;
   settings.seed = arguments.seed;
@@ -152,27 +319,27 @@ RunArguments with_names(RunArguments arguments, const std::vector<std::string>& 
 }
 
 // Somebody may have worked on a file that is there.
-void save_scene(const fs::path& file, const std::vector<SceneTask>& tasks) {
+void save_scene(const fs::path& file, const std::vector<suite::SceneTask>& tasks) {
   if (file.empty()) return;
-  for (const SceneTask& task : tasks) {
+  for (const suite::SceneTask& task : tasks) {
     if (!task.text) continue;
     if (!fs::exists(file)) {
       write_file_atomically(file, task.text->text);
-    } else if (read_text_file(file) != task.text->text) {
+    } else if (suite::read_text_file(file) != task.text->text) {
       throw InputError("--save-scene: \"" + file.string() +
                        "\" is there already and is not written over");
     }
   }
 }
 
-SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  SuiteRequest request;
+suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  suite::SuiteRequest request;
   request.settings = settings_of(arguments);
   const OwnDetectors own =
-      bring_in(arguments.detectors, arguments.commands, request.settings, catalog);
+      load_own_detectors(arguments.detectors, arguments.commands, request.settings, catalog);
   request.settings.plugins = own.records();
   request.settings.plugin_ids = own.ids();
-  request.plugins = plugins_in_results(own.plugins);
+  request.plugins = plugin::plugins_in_results(own.plugins);
   RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
@@ -184,30 +351,30 @@ SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& 
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
-  request.known_defects = read_known_defects(known_defects_file());
+  request.known_defects = results::read_known_defects(known_defects_file());
   return request;
 }
 
 }  // namespace
 
-int exit_code_of(const SuiteOutcome& outcome) {
+int exit_code_of(const suite::SuiteOutcome& outcome) {
   if (outcome.oracle_wrong > 0) {
     std::fprintf(stderr,
                  "contactcheck: internal error: rational arithmetic contradicts the oracle on %llu "
                  "random pairs; results.json names the cases\n",
                  static_cast<unsigned long long>(outcome.oracle_wrong));
-    return kExitInternal;
+    return process::kExitInternal;
   }
-  return outcome.unlisted_error ? kExitUnlistedError : 0;
+  return outcome.unlisted_error ? process::kExitUnlistedError : 0;
 }
 
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
-                           SuiteOutcome* outcome) {
-  const SuiteRequest request = make_request(arguments, catalog);
-  OutLock lock(request.out);
+                           suite::SuiteOutcome* outcome) {
+  const suite::SuiteRequest request = make_request(arguments, catalog);
+  suite::OutLock lock(request.out);
   Watcher watcher(arguments);
   watcher.events.print(start_event(request));
-  results::Results results = run_suite(request, watcher.listener(), outcome);
+  results::Results results = suite::run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();
   const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);
@@ -215,10 +382,10 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  say_when_interrupted(
+  process::say_when_interrupted(
       "contactcheck: interrupted; finished scenes are kept: repeat the command with --resume to "
       "continue\n");
-  SuiteOutcome outcome;
+  suite::SuiteOutcome outcome;
   const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
   const int code = exit_code_of(outcome);
   if (arguments.json_lines) {
@@ -229,4 +396,4 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   return code;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -2,24 +2,25 @@
 
 #include "core/types/check.h"
 #include "reference/cli/commands.h"
-#include "reference/run/family_truth.h"
 #include "reference/scene/catalogue.h"
+#include "reference/suite/family_truth.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::vector<fs::path> files_of(const std::vector<std::string>& families, const fs::path& fixtures) {
   std::vector<fs::path> files;
-  for (const std::string& id : families) files.push_back(find_scene(id, fixtures));
+  for (const std::string& id : families) files.push_back(scene::find_scene(id, fixtures));
   if (families.empty())
-    for (const CatalogueEntry& entry : list_families(fixtures)) files.push_back(entry.file);
+    for (const scene::CatalogueEntry& entry : scene::list_families(fixtures))
+      files.push_back(entry.file);
   return files;
 }
 
 // The first pairs by name; all of them would drown the table.
-std::string pairs_text(const CaseTruth& truth) {
+std::string pairs_text(const suite::CaseTruth& truth) {
   constexpr std::size_t kMost = 3;
   std::string out;
   for (std::size_t i = 0; i < truth.triangles.size() && i < kMost; ++i)
@@ -27,11 +28,11 @@ std::string pairs_text(const CaseTruth& truth) {
   return truth.triangles.size() > kMost ? out + "  ..." : out;
 }
 
-void print_family(const Scene& scene, const std::vector<CaseTruth>& cases) {
+void print_family(const scene::Scene& scene, const std::vector<suite::CaseTruth>& cases) {
   std::printf("%s  %s\n  %-24s %9s %11s %9s  pairs of triangles\n", scene.id.c_str(),
               scene.title.c_str(), scene.family->parameter.c_str(), "bodies", "containment",
               "triangles");
-  for (const CaseTruth& c : cases)
+  for (const suite::CaseTruth& c : cases)
     std::printf("  %-24s %9zu %11zu %9zu%s\n", c.value.c_str(), c.bodies, c.containment,
                 c.triangles.size(), pairs_text(c).c_str());
   std::printf("\n");
@@ -40,21 +41,21 @@ void print_family(const Scene& scene, const std::vector<CaseTruth>& cases) {
 }  // namespace
 
 int truth_command(const std::vector<std::string>& families, bool write) {
-  const fs::path fixtures = fixtures_directory(), file = fixtures / "hard" / "expected.json";
-  ExpectedFamilies expected;
-  if (write && !families.empty() && fs::exists(file)) expected = read_expected(file);
+  const fs::path fixtures = scene::fixtures_directory(), file = fixtures / "hard" / "expected.json";
+  suite::ExpectedFamilies expected;
+  if (write && !families.empty() && fs::exists(file)) expected = suite::read_expected(file);
   for (const fs::path& family : files_of(families, fixtures)) {
-    const Scene scene = load_scene(family);
+    const scene::Scene scene = scene::load_scene(family);
     if (!scene.family) throw InputError("\"" + scene.id + "\" is no family of hard cases");
-    const std::vector<CaseTruth> cases = family_truth(scene);
+    const std::vector<suite::CaseTruth> cases = suite::family_truth(scene);
     print_family(scene, cases);
     expected[scene.id].clear();
-    for (const CaseTruth& c : cases) expected[scene.id].push_back(summary_of(c));
+    for (const suite::CaseTruth& c : cases) expected[scene.id].push_back(suite::summary_of(c));
   }
   if (!write) return 0;
-  write_expected(file, expected);
+  suite::write_expected(file, expected);
   std::printf("%s\n", file.c_str());
   return 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -9,21 +9,21 @@
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
-#include "reference/run/exit_codes.h"
-#include "reference/run/out_lock.h"
+#include "reference/process/exit_codes.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/simulation_spec.h"
+#include "reference/suite/out_lock.h"
 #include "reference/tune/chosen_file.h"
 #include "reference/tune/tune_text.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
 fs::path scene_file(const std::string& name) {
-  const Target target = find_target(name, fixtures_directory());
-  if (target.kind == TargetKind::kSuite)
+  const scene::Target target = scene::find_target(name, scene::fixtures_directory());
+  if (target.kind == scene::TargetKind::kSuite)
     throw InputError("\"" + name + "\" is a suite; tune takes one scene");
   return target.file;
 }
@@ -34,8 +34,8 @@ Question question_named(const std::string& name) {
   return Question::kBody;
 }
 
-Limits limits_of(const TuneArguments& arguments) {
-  Limits limits;
+tune::Limits limits_of(const TuneArguments& arguments) {
+  tune::Limits limits;
   limits.missed = arguments.max_missed.value_or(0);
   limits.spurious = arguments.max_spurious;
   limits.hover = arguments.max_hover;
@@ -44,8 +44,8 @@ Limits limits_of(const TuneArguments& arguments) {
   return limits;
 }
 
-RunSettings settings_of(const TuneArguments& arguments) {
-  RunSettings settings;
+suite::RunSettings settings_of(const TuneArguments& arguments) {
+  suite::RunSettings settings;
   settings.processes = arguments.processes;
   settings.one_pass_beyond = 0.0;  // pairs need as many passes of all
   settings.call_limit = arguments.call_limit;
@@ -56,15 +56,15 @@ RunSettings settings_of(const TuneArguments& arguments) {
 std::vector<std::string> deformers_of(const TuneArguments& arguments) {
   std::vector<std::string> deformers;
   for (const std::string& name : arguments.deformers) {
-    if (name == "all") return model_names();
+    if (name == "all") return scene::model_names();
     if (std::find(deformers.begin(), deformers.end(), name) == deformers.end())
       deformers.push_back(name);
   }
   return deformers;
 }
 
-TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& own) {
-  TuningRequest request;
+tune::TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& own) {
+  tune::TuningRequest request;
   request.target = arguments.target;
   request.scene_file = scene_file(arguments.target);
   request.space.question = question_named(arguments.question);
@@ -74,9 +74,9 @@ TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& o
     if (std::find(lattices.begin(), lattices.end(), lattice) == lattices.end())
       lattices.push_back(lattice);
   request.deformers = deformers_of(arguments);
-  for (const Plugin& plugin : own.plugins)
-    (plugin.source.kind == PluginKind::kLibrary ? request.libraries
-                                                : request.commands)[plugin.declaration.id] =
+  for (const plugin::Plugin& plugin : own.plugins)
+    (plugin.source.kind == plugin::PluginKind::kLibrary ? request.libraries
+                                                        : request.commands)[plugin.declaration.id] =
         plugin.source.text;
   request.limits = limits_of(arguments);
   request.budget_ms = arguments.budget_ms;
@@ -88,13 +88,13 @@ TuningRequest make_request(const TuneArguments& arguments, const OwnDetectors& o
   request.settings.plugin_ids = own.ids();
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
-  request.known_defects = read_known_defects(known_defects_file());
+  request.known_defects = results::read_known_defects(known_defects_file());
   request.command = arguments.command_line;
   return request;
 }
 
 // A line that is overwritten on a terminal, one per step elsewhere.
-void show(const TuningProgress& progress) {
+void show(const tune::TuningProgress& progress) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const std::string what =
       !progress.simulating.empty() ? "simulating with " + progress.simulating
@@ -108,30 +108,32 @@ void show(const TuningProgress& progress) {
 }
 
 // What tune.json names is there before it.
-void write_files(const Tuning& tuning, const TuningRequest& request) {
-  if (tuning.chosen) write_file_atomically(chosen_file(request), chosen_suite(tuning, request));
-  write_file_atomically(request.out / "tune.json", to_json(tuning, request).dump(1) + "\n");
-  write_file_atomically(request.out / "tune.md", tuning_markdown(tuning, request));
+void write_files(const tune::Tuning& tuning, const tune::TuningRequest& request) {
+  if (tuning.chosen)
+    write_file_atomically(tune::chosen_file(request), tune::chosen_suite(tuning, request));
+  write_file_atomically(request.out / "tune.json", tune::to_json(tuning, request).dump(1) + "\n");
+  write_file_atomically(request.out / "tune.md", tune::tuning_markdown(tuning, request));
 }
 
 }  // namespace
 
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog) {
   const OwnDetectors own =
-      bring_in(arguments.detectors, arguments.commands, settings_of(arguments), catalog);
-  const TuningRequest request = make_request(arguments, own);
+      load_own_detectors(arguments.detectors, arguments.commands, settings_of(arguments), catalog);
+  const tune::TuningRequest request = make_request(arguments, own);
   check_out(arguments.out);
-  const OutLock lock(arguments.out);
-  const Tuning tuning = tune(request, own.catalog, [&](const TuningProgress& progress) {
-    if (!arguments.quiet) show(progress);
-  });
+  const suite::OutLock lock(arguments.out);
+  const tune::Tuning tuning =
+      tune::tune(request, own.catalog, [&](const tune::TuningProgress& progress) {
+        if (!arguments.quiet) show(progress);
+      });
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   write_files(tuning, request);
-  if (!arguments.quiet) std::printf("%s\n", tuning_text(tuning, request).c_str());
+  if (!arguments.quiet) std::printf("%s\n", tune::tuning_text(tuning, request).c_str());
   std::printf("%s  %s%s%s\n", (arguments.out / "tune.json").c_str(),
               (arguments.out / "tune.md").c_str(), tuning.chosen ? "  " : "",
-              tuning.chosen ? chosen_file(request).c_str() : "");
-  return tuning.within_budget(request.budget_ms) ? 0 : kExitNo;
+              tuning.chosen ? tune::chosen_file(request).c_str() : "");
+  return tuning.within_budget(request.budget_ms) ? 0 : process::kExitNo;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

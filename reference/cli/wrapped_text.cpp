@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 
 std::string wrapped_text(const std::string& text, std::size_t indent, std::size_t width) {
   std::istringstream words(text);
@@ -22,4 +22,4 @@ std::string wrapped_text(const std::string& text, std::size_t indent, std::size_
   return out + "\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -1,9 +1,9 @@
 #include "reference/gate/accuracy_rule.h"
 
 #include "reference/gate/reading.h"
-#include "reference/scene/json_value.h"
+#include "reference/text/json_value.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 Check checked(const Rule& rule, bool holds, const std::string& measured) {
@@ -70,7 +70,7 @@ Check number_against_baseline(const Rule& rule, const results::Index& before,
   // What is there on one side alone has changed.
   Check out = checked(rule, reading.value == known.value, "");
   if (reading.value) out.measured = measured_text(rule, reading);
-  out.allowed = (known.value ? shown(*known.value) : "none") + ", that of the baseline";
+  out.allowed = (known.value ? text::shown(*known.value) : "none") + ", that of the baseline";
   if (!reading.value) out.reason = "was " + out.allowed + "; now " + reading.why_not;
   return out;
 }
@@ -113,4 +113,4 @@ Check judge_oracle(const Rule& rule, const results::Scene& scene) {
   return checked(rule, within(rule, *reading.value), measured_text(rule, reading));
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -5,7 +5,7 @@
 #include "reference/gate/verdict.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 /// Verdict, what was measured and why. `before`: the baseline, or null.
 /// @pre not null where needs_baseline(rule); the rule is no timing rule; the row's status is `ok`,
@@ -24,4 +24,4 @@ Check cannot_judge(const Rule& rule, const std::string& reason);
 const results::Run* row_before(const results::Index& before, const results::Run& row,
                                std::string& reason);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -6,7 +6,7 @@
 
 #include "reference/results/results_json.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 using Json = nlohmann::ordered_json;
 
@@ -121,4 +121,4 @@ std::vector<std::string> baseline_changes(const results::Results& before,
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -6,7 +6,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 /// Without recordings, cases, times and shares per frame, histograms and episodes; machine,
 /// libraries and command stay. @pre no shard
@@ -22,4 +22,4 @@ std::string baseline_text(const results::Results& baseline);
 std::vector<std::string> baseline_changes(const results::Results& before,
                                           const results::Results& now);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "reference/gate/reading.h"
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 std::optional<std::size_t> largest(const std::vector<std::uint64_t>& counts) {
@@ -66,7 +66,7 @@ std::optional<std::size_t> frame_to_blame(const Rule& rule, const results::Resul
 
 // The file that the run's command named, or the id.
 std::string target_of(const results::Results& results, const std::string& scene) {
-  for (const std::string& word : shell_words(results.command)) {
+  for (const std::string& word : text::shell_words(results.command)) {
     const std::filesystem::path path(word);
     if (path.stem() == scene && (path.extension() == ".json" || path.extension() == ".ccr"))
       return word;
@@ -79,7 +79,8 @@ std::string target_of(const results::Results& results, const std::string& scene)
 std::string timing_flags(const results::Results& results, Verdict verdict) {
   const results::Timing timing = results.timing.value_or(results::Timing{0, 0.0, 1, 0});
   std::size_t processes = timing.processes;
-  if (verdict == Verdict::kCannotJudge) processes = std::max(processes, kFewestForInterval);
+  if (verdict == Verdict::kCannotJudge)
+    processes = std::max(processes, results::kFewestForInterval);
   std::string out = processes == 0 ? "" : " --processes " + std::to_string(processes);
   if (timing.seed != 1) out += " --seed " + std::to_string(timing.seed);
   return out;
@@ -108,13 +109,13 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict) {
   const results::Scene* const scene = index.scene(row.scene);
-  const std::string detector = " --detector " + in_shell(row.detector);
+  const std::string detector = " --detector " + text::in_shell(row.detector);
   if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
   const std::string target = target_of(index.results(), row.scene);
   const std::string command =
-      "contactcheck run " + in_shell(target) + frames_flag(row, scene, target) + detector;
+      "contactcheck run " + text::in_shell(target) + frames_flag(row, scene, target) + detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
-  return command + " --detector " + in_shell(rule.reference) +
+  return command + " --detector " + text::in_shell(rule.reference) +
          timing_flags(index.results(), verdict);
 }
 
@@ -123,4 +124,4 @@ std::string pairs_command(const results::Scene& scene) {
          std::to_string(scene.pairs->seed);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -7,7 +7,7 @@
 #include "reference/gate/verdict.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 /// "frame 7": the one with most of what the rule counts, from the counts per frame where they are
 /// of the rule's level, else the first disagreement of that level; of a row that ended in an error
@@ -24,4 +24,4 @@ std::string rerun_command(const Rule& rule, const results::Index& index, const r
 /// The same for the random pairs of a scene.
 std::string pairs_command(const results::Scene& scene);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

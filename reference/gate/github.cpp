@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 constexpr std::size_t kMostOfAKind = 10;  // GitHub drops what is beyond
@@ -142,4 +142,4 @@ std::string github_summary(const GateResult& result) {
          open_list(result, Verdict::kCannotJudge);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -5,7 +5,7 @@
 
 #include "reference/gate/verdict.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 /// A workflow command in a line of its own. `kind` is error, warning or notice; the other two may
 /// hold anything.
@@ -21,4 +21,4 @@ std::string github_annotations(const GateResult& result);
 /// what was left open.
 std::string github_summary(const GateResult& result);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

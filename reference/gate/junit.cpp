@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 // U+FFFE and U+FFFF, in UTF-8.
@@ -106,4 +106,4 @@ std::string junit_xml(const GateResult& result) {
       xml_escaped("contactcheck gate " + result.policy), tally.text(), suites);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

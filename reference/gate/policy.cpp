@@ -1,10 +1,77 @@
 #include "reference/gate/policy.h"
 
-#include "core/types/semantics.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_field.h"
+#include <fnmatch.h>
 
-namespace contactcheck {
+#include <algorithm>
+#include <limits>
+
+#include "core/types/semantics.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_field.h"
+
+namespace contactcheck::gate {
+namespace {
+
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+constexpr Measure kMeasures[] = {
+    {"recall", MeasureKind::kLevel, "", 0, 1},
+    {"missed", MeasureKind::kLevel, "", 0, kEndless},
+    {"spurious", MeasureKind::kLevel, "", 0, kEndless},
+    {"spurious_rate", MeasureKind::kLevel, "", 0, 1},
+    {"missed_length", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"covered_length_fraction", MeasureKind::kGeometry, "", 0, 1},
+    {"spurious_distance_max", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"depth_error_max", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"depth_error_p95", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"depth_error_mean", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"normal_error_deg_max", MeasureKind::kGeometry, "degrees", 0, 180},
+    {"normal_error_deg_p95", MeasureKind::kGeometry, "degrees", 0, 180},
+    {"normal_error_deg_mean", MeasureKind::kGeometry, "degrees", 0, 180},
+    {"hover_gap_max", MeasureKind::kGeometry, "m", 0, kEndless},
+    {"late_frames", MeasureKind::kGeometry, "", -kEndless, kEndless},
+    {"stage_missed", MeasureKind::kStages, "", 0, kEndless},
+    {"memory_bytes", MeasureKind::kMemory, "bytes", 0, kEndless},
+    {"known_defects", MeasureKind::kDefects, "", 0, kEndless},
+    {"oracle_wrong", MeasureKind::kOracle, "", 0, kEndless},
+    {"contact_hash", MeasureKind::kHash, "", 0, 0},
+    {"status", MeasureKind::kStatus, "", 0, 0},
+    {"speedup", MeasureKind::kSpeedup, "x", 0, kEndless},
+    {"slowdown", MeasureKind::kSlowdown, "x", 0, kEndless}};
+
+}  // namespace
+
+const Measure* find_measure(const std::string& name) {
+  for (const Measure& m : kMeasures)
+    if (name == m.name) return &m;
+  return nullptr;
+}
+
+std::vector<std::string> measure_names() {
+  std::vector<std::string> names;
+  for (const Measure& m : kMeasures) names.emplace_back(m.name);
+  return names;
+}
+
+bool is_timing(const Measure& measure) {
+  return measure.kind == MeasureKind::kSpeedup || measure.kind == MeasureKind::kSlowdown;
+}
+
+bool is_accuracy_number(const Measure& measure) {
+  return !is_timing(measure) && measure.kind != MeasureKind::kHash &&
+         measure.kind != MeasureKind::kStatus;
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+bool Patterns::hold(const std::string& name) const {
+  const auto fits = [&](const std::string& pattern) { return matches(pattern, name); };
+  return std::any_of(wanted.begin(), wanted.end(), fits) &&
+         std::none_of(unwanted.begin(), unwanted.end(), fits);
+}
+
 namespace {
 
 using Keys = std::vector<std::string>;
@@ -43,9 +110,9 @@ Keys allowed_keys(const Measure& measure) {
   return keys;
 }
 
-Patterns parse_patterns(const JsonField& field) {
+Patterns parse_patterns(const text::JsonField& field) {
   Patterns out;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     const std::string pattern = item.text();
     if (pattern == "!") item.refuse("a pattern, also behind \"!\"");
     if (pattern[0] == '!')
@@ -57,12 +124,12 @@ Patterns parse_patterns(const JsonField& field) {
   return out;
 }
 
-bool fails(const JsonField& rule, const std::string& key, bool otherwise) {
+bool fails(const text::JsonField& rule, const std::string& key, bool otherwise) {
   return rule.has(key) ? rule.at(key).one_of({"pass", "fail"}) == "fail" : otherwise;
 }
 
-double parse_limit(const JsonField& field, const Measure& measure) {
-  NumberRange range;
+double parse_limit(const text::JsonField& field, const Measure& measure) {
+  text::NumberRange range;
   range.low = measure.least;
   range.high = measure.greatest;
   range.low_open = is_timing(measure);  // no ratio of times is 0
@@ -70,16 +137,16 @@ double parse_limit(const JsonField& field, const Measure& measure) {
 }
 
 // A key that says something by being there.
-bool says_true(const JsonField& rule, const std::string& key) {
+bool says_true(const text::JsonField& rule, const std::string& key) {
   if (!rule.has(key)) return false;
-  const JsonField field = rule.at(key);
-  if (!field.is(JsonValue::Kind::kBool) || !field.value().boolean) field.refuse("true");
+  const text::JsonField field = rule.at(key);
+  if (!field.is(text::JsonValue::Kind::kBool) || !field.value().boolean) field.refuse("true");
   return true;
 }
 
-void parse_bound(const JsonField& field, Rule& rule) {
+void parse_bound(const text::JsonField& field, Rule& rule) {
   const std::string key = field.exactly_one_of(bounds_of(*rule.measure));
-  const JsonField bound = field.at(key);
+  const text::JsonField bound = field.at(key);
   if (key == "unchanged") {
     says_true(field, key);
     rule.bound = Bound::kUnchanged;
@@ -92,8 +159,9 @@ void parse_bound(const JsonField& field, Rule& rule) {
   }
 }
 
-void parse_timing(const JsonField& field, Rule& rule) {
-  constexpr NumberRange kShare{0.0, false, 10.0, false}, kMicroseconds{0.0, false, 1e9, false};
+void parse_timing(const text::JsonField& field, Rule& rule) {
+  constexpr text::NumberRange kShare{0.0, false, 10.0, false},
+      kMicroseconds{0.0, false, 1e9, false};
   rule.question = field.at("question").one_of({"triangles", "body", "cells", "contacts"});
   rule.reference = field.at("reference").text();
   if (field.has("part"))
@@ -103,11 +171,11 @@ void parse_timing(const JsonField& field, Rule& rule) {
   rule.noisy_fails = fails(field, "noisy", false);
 }
 
-const Measure* parse_measure(const JsonField& field) {
+const Measure* parse_measure(const text::JsonField& field) {
   return find_measure(field.at("measure").one_of(measure_names()));
 }
 
-Rule parse_rule(const JsonField& field) {
+Rule parse_rule(const text::JsonField& field) {
   Rule rule;
   rule.measure = parse_measure(field);
   field.only_keys(allowed_keys(*rule.measure));
@@ -126,7 +194,8 @@ Rule parse_rule(const JsonField& field) {
   return rule;
 }
 
-void require_own_name(const JsonField& field, const Rule& rule, const std::vector<Rule>& others) {
+void require_own_name(const text::JsonField& field, const Rule& rule,
+                      const std::vector<Rule>& others) {
   for (std::size_t i = 0; i < others.size(); ++i)
     if (others[i].name == rule.name)
       field.at("rule").refuse("different from rules[" + std::to_string(i) + "].rule");
@@ -143,14 +212,15 @@ std::string allowed_text(const Rule& rule) {
   if (rule.bound == Bound::kEquals)
     return rule.measure->kind == MeasureKind::kHash ? "that of the truth" : "ok";
   const std::string unit = rule.measure->unit;
-  const std::string number = shown(rule.limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;
+  const std::string number =
+      text::shown(rule.limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;
   return (rule.bound == Bound::kAtMost ? "at most " : "at least ") + number;
 }
 
 Policy read_policy(const std::filesystem::path& file) {
-  const std::string document = "policy " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "policy"), document);
-  const JsonField root(value, document);
+  const std::string document = "policy " + text::in_quotes(file.string());
+  const text::JsonValue value = text::parse_json(text::read_file_bytes(file, "policy"), document);
+  const text::JsonField root(value, document);
   root.only_keys({"schema", "id", "title", "rules", "cannot_judge_at_most"});
   root.at("schema").one_of({"contactcheck-policy/1"});
   Policy policy;
@@ -158,7 +228,7 @@ Policy read_policy(const std::filesystem::path& file) {
   policy.title = root.at("title").text();
   if (root.has("cannot_judge_at_most"))
     policy.cannot_judge_at_most = root.at("cannot_judge_at_most").whole(0, 1'000'000);
-  for (const JsonField& item : root.at("rules").items(1)) {
+  for (const text::JsonField& item : root.at("rules").items(1)) {
     Rule rule = parse_rule(item);
     require_own_name(item, rule, policy.rules);
     policy.rules.push_back(std::move(rule));
@@ -166,4 +236,4 @@ Policy read_policy(const std::filesystem::path& file) {
   return policy;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

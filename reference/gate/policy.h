@@ -7,10 +7,51 @@
 #include <string>
 #include <vector>
 
-#include "reference/gate/measure.h"
-#include "reference/gate/pattern.h"
+namespace contactcheck::gate {
 
-namespace contactcheck {
+// What a rule of a policy can look at.
+
+enum class MeasureKind {
+  kLevel,     ///< runs[].levels.LEVEL
+  kGeometry,  ///< runs[].geometry
+  kStages,    ///< runs[].stages[].missed
+  kMemory,    ///< runs[].memory_bytes
+  kDefects,   ///< known_defects: what is unlisted and what did not show, of this row
+  kOracle,    ///< scenes[].pairs.rational.oracle_wrong
+  kHash,      ///< runs[].contact_hash
+  kStatus,    ///< runs[].status
+  kSpeedup,   ///< runs[].speedup: time of a reference / time of the detector
+  kSlowdown   ///< the baseline's speed-up / this run's
+};
+
+struct Measure {
+  const char* name;  ///< in a policy
+  MeasureKind kind;
+  const char* unit;        ///< behind a number; "" for counts and shares
+  double least, greatest;  ///< a limit outside cannot be meant
+};
+
+/// Null when there is none of that name.
+const Measure* find_measure(const std::string& name);
+std::vector<std::string> measure_names();
+
+/// Ratios of times, the only ones that can be too noisy to judge.
+bool is_timing(const Measure& measure);
+/// Is a number that is the same in every run of the same build on the same input?
+bool is_accuracy_number(const Measure& measure);
+
+// Which scenes or detectors a rule is about.
+
+/// Shell patterns (fnmatch: `*`, `?`, `[...]`) for whole names; one that begins with '!' takes
+/// names out again. `*` also stands for ':', '=' and ','.
+struct Patterns {
+  std::vector<std::string> wanted;    ///< at least one
+  std::vector<std::string> unwanted;  ///< without their '!'
+
+  bool hold(const std::string& name) const;
+};
+
+bool matches(const std::string& pattern, const std::string& name);
 
 /// Which numbers a rule allows.
 enum class Bound {
@@ -61,4 +102,4 @@ std::string allowed_text(const Rule& rule);
 /// @throws InputError with file, place and value
 Policy read_policy(const std::filesystem::path& file);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

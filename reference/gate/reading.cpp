@@ -1,8 +1,8 @@
 #include "reference/gate/reading.h"
 
-#include "reference/scene/json_value.h"
+#include "reference/text/json_value.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 Reading without(const std::string& why) {
@@ -112,7 +112,7 @@ Reading read_oracle_wrong(const results::Scene& scene) {
 
 std::string measured_text(const Rule& rule, const Reading& reading) {
   const std::string unit = rule.measure->unit;
-  std::string out = std::string(rule.measure->name) + " " + shown(*reading.value);
+  std::string out = std::string(rule.measure->name) + " " + text::shown(*reading.value);
   if (!unit.empty()) out += " " + unit;
   if (reading.level) out += std::string(" at level ") + name_of(*reading.level);
   if (rule.rounded) out += " of the rounded input";
@@ -120,4 +120,4 @@ std::string measured_text(const Rule& rule, const Reading& reading) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

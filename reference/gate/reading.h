@@ -7,7 +7,7 @@
 #include "reference/gate/policy.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 struct Reading {
   std::optional<double> value;
@@ -28,4 +28,4 @@ Reading read_oracle_wrong(const results::Scene& scene);
 /// "missed 3 at level triangle", "hover_gap_max 0.002 m"
 std::string measured_text(const Rule& rule, const Reading& reading);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

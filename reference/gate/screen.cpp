@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 constexpr std::size_t kMostRules = 8, kMostOfARule = 2;
@@ -64,4 +64,4 @@ std::string gate_screen(const GateResult& result, bool color) {
          (red ? paint("gate: red", kRed, color) : paint("gate: green", kGreen, color)) + "\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

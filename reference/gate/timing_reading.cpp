@@ -7,10 +7,55 @@
 #include <vector>
 
 #include "reference/gate/accuracy_rule.h"
-#include "reference/gate/timing_rule.h"
-#include "reference/scene/file_text.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
+namespace {
+
+TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance) {
+  TimingVerdict out;
+  out.excess_us = slowness.frame_us * (1.0 - 1.0 / slowness.ratio.value);
+  const bool matters = out.excess_us >= tolerance.floor_us;
+  out.verdict = matters ? Verdict::kFail : Verdict::kPass;
+  out.reason = matters ? fmt::format("{:.3g} us too long per frame of {:.4g} us", out.excess_us,
+                                     slowness.frame_us)
+                       : fmt::format("beyond the limit by {:.3g} us per frame, less than {:.3g} us",
+                                     out.excess_us, tolerance.floor_us);
+  return out;
+}
+
+TimingVerdict of_range(const Slowness& slowness, const TimingTolerance& tolerance) {
+  if (slowness.ratio.low > results::kRangeFactor) return beyond(slowness, tolerance);
+  TimingVerdict out;
+  // Of a frame that is shorter than the floor no excess can reach it.
+  if (slowness.frame_us < tolerance.floor_us) return out;
+  if (slowness.ratio.high >= 1.0 / results::kRangeFactor) out.verdict = Verdict::kCannotJudge;
+  return out;
+}
+
+}  // namespace
+
+TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& tolerance) {
+  const results::Ratio& r = slowness.ratio;
+  if (slowness.passes < results::kFewestForInterval) return of_range(slowness, tolerance);
+  if (r.low > 1.0) return beyond(slowness, tolerance);
+  const bool wide = r.high > r.low * (1.0 + tolerance.noise_width);
+  if (r.high <= 1.0 || !wide) return {};
+  TimingVerdict out;
+  out.verdict = Verdict::kTooNoisy;
+  out.reason = fmt::format("the limit lies inside the 95 % interval, whose ends are {:.3g}x apart",
+                           r.high / r.low);
+  return out;
+}
+
+results::Ratio slowness_of(const results::Ratio& speedup, double limit) {
+  return {limit / speedup.value, limit / speedup.high, limit / speedup.low};
+}
+
+results::Ratio over_limit(const results::Ratio& slowdown, double limit) {
+  return {slowdown.value / limit, slowdown.low / limit, slowdown.high / limit};
+}
+
 namespace {
 
 constexpr double kMicrosecondsPerMillisecond = 1e3;
@@ -29,10 +74,11 @@ const results::Speedup* speedup_in(const Rule& rule, const results::Run& row, st
   return nullptr;
 }
 
-std::optional<Ratio> ratio_in(const Rule& rule, const results::Run& row, std::string& reason) {
+std::optional<results::Ratio> ratio_in(const Rule& rule, const results::Run& row,
+                                       std::string& reason) {
   const results::Speedup* const speedup = speedup_in(rule, row, reason);
   if (speedup == nullptr) return std::nullopt;
-  const auto present = [&](const std::optional<Ratio>& part, const std::string& why_not) {
+  const auto present = [&](const std::optional<results::Ratio>& part, const std::string& why_not) {
     if (!part) reason = why_not;
     return part;
   };
@@ -80,13 +126,13 @@ std::size_t frames_of(const Rule& rule, const results::Index& results, const res
 }
 
 // Why a range does not decide, and what would. `passes`: "3 passes".
-std::string too_few_passes(const std::string& passes, std::size_t frames, const Ratio& range,
-                           const std::string& remedy) {
+std::string too_few_passes(const std::string& passes, std::size_t frames,
+                           const results::Ratio& range, const std::string& remedy) {
   const std::string ends = range.low == range.high
                                ? fmt::format("{:.3g}x", range.value)
                                : fmt::format("the range {:.3g}x to {:.3g}x", range.low, range.high);
   return fmt::format("{} {}, {}: the limit lies within a factor {} of {}; {}", frames,
-                     frames == 1 ? "frame" : "frames", passes, kRangeFactor, ends, remedy);
+                     frames == 1 ? "frame" : "frames", passes, results::kRangeFactor, ends, remedy);
 }
 
 std::string passes_text(std::size_t passes) {
@@ -98,7 +144,7 @@ std::string where_text(const Rule& rule) {
 }
 
 // `too_few`: the reason where the passes are too few to decide.
-Check judged(const Rule& rule, const Ratio& slowness, std::size_t passes,
+Check judged(const Rule& rule, const results::Ratio& slowness, std::size_t passes,
              const std::string& measured, const std::string& too_few, const results::Run& row) {
   const std::optional<double> us = frame_us(rule, row);
   if (!us) return cannot_judge(rule, "no times per frame of the question " + rule.question);
@@ -117,11 +163,12 @@ Check judge_speedup(const Rule& rule, const results::Index& now, const results::
   const auto ratio = ratio_in(rule, row, reason);
   if (!ratio) return cannot_judge(rule, reason);
   const std::size_t passes = speedup_in(rule, row, reason)->passes;
-  return judged(rule, slowness_of(*ratio, rule.limit), passes,
-                "speedup " + ratio_text(*ratio, passes) + " " + where_text(rule),
-                too_few_passes(passes_text(passes), frames_of(rule, now, row), *ratio,
-                               fmt::format("--processes {} gives an interval", kFewestForInterval)),
-                row);
+  return judged(
+      rule, slowness_of(*ratio, rule.limit), passes,
+      "speedup " + results::ratio_text(*ratio, passes) + " " + where_text(rule),
+      too_few_passes(passes_text(passes), frames_of(rule, now, row), *ratio,
+                     fmt::format("--processes {} gives an interval", results::kFewestForInterval)),
+      row);
 }
 
 std::string other_timed_frames(const Rule& rule, const results::Index& now,
@@ -156,13 +203,13 @@ std::string other_measurement(const Rule& rule, const results::Index& now,
 }
 
 std::string remedy_of_slowdown(std::size_t passes, std::size_t passes_then) {
-  const char* const where = passes_then >= kFewestForInterval ? ""
-                            : passes >= kFewestForInterval    ? " in the baseline"
-                                                              : " here and in the baseline";
-  return fmt::format("--processes {}{} gives an interval", kFewestForInterval, where);
+  const char* const where = passes_then >= results::kFewestForInterval ? ""
+                            : passes >= results::kFewestForInterval    ? " in the baseline"
+                                                                    : " here and in the baseline";
+  return fmt::format("--processes {}{} gives an interval", results::kFewestForInterval, where);
 }
 
-bool is_above_zero(const Ratio& r) { return r.low > 0.0; }
+bool is_above_zero(const results::Ratio& r) { return r.low > 0.0; }
 
 Check judge_slowdown(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
@@ -181,13 +228,14 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
   const std::size_t here = speedup_in(rule, row, reason)->passes,
                     there = speedup_in(rule, *old, reason)->passes, passes = std::min(here, there);
-  const Ratio slow = quotient(*known, *ratio, passes);
-  return judged(rule, over_limit(slow, rule.limit), passes,
-                fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
-                            ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),
-                too_few_passes(fmt::format("{}, {} in the baseline", passes_text(here), there),
-                               frames_of(rule, now, row), slow, remedy_of_slowdown(here, there)),
-                row);
+  const results::Ratio slow = results::quotient(*known, *ratio, passes);
+  return judged(
+      rule, over_limit(slow, rule.limit), passes,
+      fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
+                  results::ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),
+      too_few_passes(fmt::format("{}, {} in the baseline", passes_text(here), there),
+                     frames_of(rule, now, row), slow, remedy_of_slowdown(here, there)),
+      row);
 }
 
 // "cpu is A here and B in the baseline", where it differs.
@@ -199,7 +247,7 @@ std::string difference(const std::string& what, const std::string& here, const s
 
 std::string version_of(const results::Results& results, const std::string& library) {
   for (const auto& [name, version] : results.libraries)
-    if (name == library) return in_quotes(version);
+    if (name == library) return text::in_quotes(version);
   return "null";
 }
 
@@ -208,11 +256,11 @@ std::string version_of(const results::Results& results, const std::string& libra
 std::string other_machine(const results::Results& now, const results::Results& before) {
   const results::Machine &here = now.machine, &there = before.machine;
   std::vector<std::string> found = {
-      difference("cpu", in_quotes(here.cpu), in_quotes(there.cpu)),
+      difference("cpu", text::in_quotes(here.cpu), text::in_quotes(there.cpu)),
       difference("cores", std::to_string(here.cores), std::to_string(there.cores)),
-      difference("isa", in_quotes(here.isa), in_quotes(there.isa)),
-      difference("compiler", in_quotes(here.compiler), in_quotes(there.compiler)),
-      difference("build", in_quotes(here.build), in_quotes(there.build))};
+      difference("isa", text::in_quotes(here.isa), text::in_quotes(there.isa)),
+      difference("compiler", text::in_quotes(here.compiler), text::in_quotes(there.compiler)),
+      difference("build", text::in_quotes(here.build), text::in_quotes(there.build))};
   for (const auto* results : {&now, &before})
     for (const auto& [library, version] : results->libraries)
       found.push_back(
@@ -228,4 +276,4 @@ Check judge_timing(const Rule& rule, const results::Index& now, const results::I
                                                      : judge_slowdown(rule, now, before, row);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 void append(std::string& text, const std::string& separator, const std::string& part) {
@@ -68,4 +68,4 @@ std::string sentence_of(const Check& check) {
   return where;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 
 enum class Verdict {
   kPass,
@@ -64,4 +64,4 @@ std::string counts_text(const GateResult& result);
 /// In one line: "bunny-touch  ffd-lazy: missed 3 at level triangle, allowed at most 0, frame 7".
 std::string sentence_of(const Check& check);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

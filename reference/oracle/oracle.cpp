@@ -2,23 +2,77 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/types/check.h"
+#include "core/types/contact_set.h"
+#include "core/types/vec3.h"
 #include "reference/oracle/cell_hulls.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point_guard.h"
 #include "reference/oracle/near_pairs.h"
-#include "reference/oracle/pairs_by_gap.h"
 #include "reference/oracle/surface_distance.h"
 #include "reference/oracle/surface_tree.h"
 #include "reference/oracle/winding.h"
 
-namespace contactcheck {
+namespace contactcheck::oracle {
 
 using namespace oracle;
 
 namespace {
+
+// Pairs of bodies, nearest boxes first: the smallest distance in a scene needs few of them.
+
+/// Hands out every pair of bodies once, by the distance of their boxes.
+class PairsByGap {
+ public:
+  struct Entry {
+    double gap = 0.0;  ///< not above the distance of any two points of the two boxes
+    BodyPair pair;
+  };
+
+  /// @pre no box is empty
+  explicit PairsByGap(const std::vector<Aabb>& boxes);
+
+  bool empty() const { return heap_.empty(); }
+  /// @pre not empty()
+  const Entry& nearest() const { return heap_.front(); }
+  /// @pre not empty()
+  void pop();
+
+ private:
+  std::vector<Entry> heap_;  // the nearest first
+};
+
+// The computed distance of two boxes exceeds the true one by less than this share.
+constexpr double kGapRounding = 1 - 16 * 0x1p-53;
+
+// Rounded down, also where it is subnormal; no square of it overflows.
+double box_gap(const Aabb& a, const Aabb& b) {
+  constexpr double kLargestDouble = std::numeric_limits<double>::max();
+  const Vec3 gap = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0).cwiseMin(kLargestDouble);
+  return std::max(0.0, std::nextafter(gap.stableNorm() * kGapRounding, -1.0));
+}
+
+// Of equal gaps the first bodies first: the answer does not depend on the heap.
+bool farther(const PairsByGap::Entry& x, const PairsByGap::Entry& y) {
+  return std::tie(x.gap, x.pair.a, x.pair.b) > std::tie(y.gap, y.pair.a, y.pair.b);
+}
+
+PairsByGap::PairsByGap(const std::vector<Aabb>& boxes) {
+  for (std::uint32_t a = 0; a < boxes.size(); ++a)
+    for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
+      heap_.push_back({box_gap(boxes[a], boxes[b]), {a, b}});
+  std::make_heap(heap_.begin(), heap_.end(), farther);
+}
+
+void PairsByGap::pop() {
+  std::pop_heap(heap_.begin(), heap_.end(), farther);
+  heap_.pop_back();
+}
 // Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
 constexpr double kSeparationWidth = 9e-10;
 }  // namespace
@@ -212,4 +266,4 @@ std::vector<NearPair> Oracle::near(const Frame& frame, double margin) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::oracle

@@ -1,4 +1,4 @@
-// The exact oracle: which contacts are really there, for the deformed doubles of a frame.
+// The exact oracle: the ground truth for the deformed doubles of a frame.
 //
 // Uses core's types and its rest-shape data, none of its broad or narrow code: its own tree finds
 // the candidates, CGAL's EPICK kernel decides, with a path of its own for degenerate triangles.
@@ -11,7 +11,7 @@
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
 
-namespace contactcheck {
+namespace contactcheck::oracle {
 
 /// What truth is wanted; what is not wanted is not computed.
 struct WantedTruth {
@@ -60,4 +60,4 @@ class Oracle {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::oracle

@@ -11,7 +11,7 @@
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
 
-namespace contactcheck {
+namespace contactcheck::oracle {
 
 /// The shortest way apart. "As short": within 1e-9 of the body size, the largest side of the boxes
 /// of the two bodies' vertices.
@@ -57,4 +57,4 @@ class SurfaceGeometry {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::oracle

@@ -22,14 +22,14 @@ namespace contactcheck::oracle {
 namespace {
 
 using Rational = CGAL::Exact_rational;
-using Vector = CGAL::Simple_cartesian<Rational>::Vector_3;
-using Corners3 = std::array<Vector, 3>;
+using RelativeVector = CGAL::Simple_cartesian<Rational>::Vector_3;
+using RelativeCorners = std::array<RelativeVector, 3>;
 
 // Twice what the analysis above asks for; relative to M.
 constexpr double kVertexRounding = 128 * 0x1p-53;
 
 // Within, M to the fourth power and its fraction 2^-100 are normal numbers.
-constexpr double kSmallest = 0x1p-200, kLargest = 0x1p+200;
+constexpr double kSmallestSize = 0x1p-200, kLargestSize = 0x1p+200;
 
 // Directions shorter than this times their natural size are rounding; they bound nothing.
 constexpr double kShortest = 0x1p-50;
@@ -74,33 +74,34 @@ Vec3 nearest_to_origin(const TriangleCorners& t, const Vec3& normal, bool proper
   return best;
 }
 
-Corners3 exactly_relative(const Vec3& vertex, const TriangleCorners& t) {
+RelativeCorners exactly_relative(const Vec3& vertex, const TriangleCorners& t) {
   const auto convert = [&](const Vec3& p) {
-    return Vector(Rational(p.x()) - Rational(vertex.x()), Rational(p.y()) - Rational(vertex.y()),
-                  Rational(p.z()) - Rational(vertex.z()));
+    return RelativeVector(Rational(p.x()) - Rational(vertex.x()),
+                          Rational(p.y()) - Rational(vertex.y()),
+                          Rational(p.z()) - Rational(vertex.z()));
   };
   return {convert(t[0]), convert(t[1]), convert(t[2])};
 }
 
 struct ExactNearest {
-  Vector offset;
+  RelativeVector offset;
   Rational squared;
 
-  void offer(const Vector& x) {
+  void offer(const RelativeVector& x) {
     const Rational x2 = x * x;
     if (x2 < squared) *this = {x, x2};
   }
 };
 
-Vector exact_on_edge(const Vector& a, const Vector& b) {
-  const Vector d = b - a;
+RelativeVector exact_on_edge(const RelativeVector& a, const RelativeVector& b) {
+  const RelativeVector d = b - a;
   const Rational along = -(d * a), length2 = d * d;
   if (along <= 0) return a;
-  return along < length2 ? Vector(a + d * (along / length2)) : b;
+  return along < length2 ? RelativeVector(a + d * (along / length2)) : b;
 }
 
-void offer_exact_face(const Corners3& t, ExactNearest& best) {
-  const Vector n = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
+void offer_exact_face(const RelativeCorners& t, ExactNearest& best) {
+  const RelativeVector n = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
   const Rational n2 = n * n;
   if (n2 == 0) return;
   for (int k = 0; k < 3; ++k)
@@ -108,7 +109,7 @@ void offer_exact_face(const Corners3& t, ExactNearest& best) {
   best.offer(n * (n * t[0] / n2));
 }
 
-ExactNearest exact_nearest(const Corners3& t) {
+ExactNearest exact_nearest(const RelativeCorners& t) {
   ExactNearest best{t[0], t[0] * t[0]};
   for (int k = 0; k < 3; ++k) best.offer(exact_on_edge(t[k], t[(k + 1) % 3]));
   offer_exact_face(t, best);
@@ -122,7 +123,7 @@ NearestPoint nearest_point(const Vec3& vertex, const TriangleCorners& triangle) 
   const double size = largest_of(t);
   NearestPoint out;
   out.upper = std::numeric_limits<double>::infinity();
-  if (!(size >= kSmallest && size <= kLargest)) return out;
+  if (!(size >= kSmallestSize && size <= kLargestSize)) return out;
   const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const bool proper = normal.norm() > kShortest * size * size;
   out.offset = nearest_to_origin(t, normal, proper);

@@ -5,9 +5,9 @@
 
 #include "reference/plugin/header_order.h"
 #include "reference/results/results_json.h"
-#include "reference/scene/id_check.h"
+#include "reference/text/id_check.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -16,7 +16,7 @@ constexpr std::size_t kLongestText = 200;  // bytes of a summary or a sentence
 constexpr std::size_t kMostOptions = 64, kMostChoices = 64;
 
 template <typename Value, std::size_t N>
-Value named_value(const JsonField& field, const Value (&all)[N]) {
+Value named_value(const text::JsonField& field, const Value (&all)[N]) {
   std::vector<std::string> names;
   for (const Value value : all) names.emplace_back(name_of(value));
   const std::string name = field.one_of(names);
@@ -26,19 +26,19 @@ Value named_value(const JsonField& field, const Value (&all)[N]) {
 }
 
 template <typename Value, std::size_t N>
-std::vector<Value> named_values(const JsonField& field, const Value (&all)[N]) {
+std::vector<Value> named_values(const text::JsonField& field, const Value (&all)[N]) {
   std::vector<Value> out;
-  for (const JsonField& item : field.items()) out.push_back(named_value(item, all));
+  for (const text::JsonField& item : field.items()) out.push_back(named_value(item, all));
   return out;
 }
 
-bool truth_value(const JsonField& field) {
-  if (!field.is(JsonValue::Kind::kBool)) field.refuse("true or false");
+bool truth_value(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kBool)) field.refuse("true or false");
   return field.value().boolean;
 }
 
 // It goes into tables and on terminals.
-std::string one_line(const JsonField& field) {
+std::string one_line(const text::JsonField& field) {
   std::string text = field.text();
   const bool control = std::any_of(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
@@ -48,22 +48,22 @@ std::string one_line(const JsonField& field) {
   return text;
 }
 
-std::string optional_line(const JsonField& object, const char* key) {
+std::string optional_line(const text::JsonField& object, const char* key) {
   if (!object.has(key)) return "";
-  const JsonField field = object.at(key);
-  const bool empty = field.is(JsonValue::Kind::kText) && field.value().text.empty();
+  const text::JsonField field = object.at(key);
+  const bool empty = field.is(text::JsonValue::Kind::kText) && field.value().text.empty();
   return empty ? "" : one_line(field);
 }
 
 // Names and words of options stand between ':', ',' and '=' in a detector's name.
-OptionInfo read_option(const JsonField& field) {
+OptionInfo read_option(const text::JsonField& field) {
   OptionInfo option;
-  option.name = parse_id(field.at("name"));
+  option.name = text::parse_id(field.at("name"));
   option.default_value = one_line(field.at("default"));
   option.help = optional_line(field, "help");
   if (field.has("choices")) {
-    for (const JsonField& choice : field.at("choices").items(1))
-      option.choices.push_back(parse_id(choice));
+    for (const text::JsonField& choice : field.at("choices").items(1))
+      option.choices.push_back(text::parse_id(choice));
     if (option.choices.size() > kMostChoices) field.fail("has too many choices");
     return option;
   }
@@ -85,9 +85,9 @@ Json option_json(const OptionInfo& option) {
   return out;
 }
 
-std::vector<OptionInfo> read_options(const JsonField& field) {
+std::vector<OptionInfo> read_options(const text::JsonField& field) {
   std::vector<OptionInfo> options;
-  for (const JsonField& item : field.items()) {
+  for (const text::JsonField& item : field.items()) {
     options.push_back(read_option(item));
     for (std::size_t i = 0; i + 1 < options.size(); ++i)
       if (options[i].name == options.back().name) item.fail("is an option that is there already");
@@ -96,15 +96,15 @@ std::vector<OptionInfo> read_options(const JsonField& field) {
   return options;
 }
 
-void read_needs(const JsonField& field, Declaration& out) {
+void read_needs(const text::JsonField& field, Declaration& out) {
   out.needs_vertices = out.needs_nodes = false;
-  for (const JsonField& item : field.items())
+  for (const text::JsonField& item : field.items())
     (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
 }
 
 }  // namespace
 
-Semantics read_semantics(const JsonField& field) {
+Semantics read_semantics(const text::JsonField& field) {
   Semantics s;
   s.levels = named_values(field.at("levels"), kHeaderLevels);
   s.questions = named_values(field.at("questions"), kHeaderQuestions);
@@ -124,9 +124,9 @@ Semantics read_semantics(const JsonField& field) {
   return s;
 }
 
-Declaration read_declaration(const JsonField& field) {
+Declaration read_declaration(const text::JsonField& field) {
   Declaration out;
-  out.id = parse_id(field.at("id"));
+  out.id = text::parse_id(field.at("id"));
   out.summary = optional_line(field, "summary");
   out.version = optional_line(field, "version");
   if (field.has("options")) out.options = read_options(field.at("options"));
@@ -145,4 +145,4 @@ nlohmann::ordered_json to_json(const Declaration& d) {
           {"options", options}, {"needs", needs},       {"semantics", semantics}};
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

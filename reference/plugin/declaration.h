@@ -7,9 +7,9 @@
 
 #include "core/detect/registry.h"
 #include "core/types/semantics.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 struct Declaration {
   std::string id, summary, version;
@@ -21,8 +21,8 @@ struct Declaration {
 /// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are
 /// passed over, so that later versions may add some.
 /// @throws InputError: one sentence with the document, the place, the value and what is allowed
-Declaration read_declaration(const JsonField& field);
-Semantics read_semantics(const JsonField& field);
+Declaration read_declaration(const text::JsonField& field);
+Semantics read_semantics(const text::JsonField& field);
 nlohmann::ordered_json to_json(const Declaration& declaration);
 
 /// What is wrong with it in itself: levels and questions that do not fit together, margins and
@@ -34,4 +34,4 @@ std::string semantics_fault(const Semantics& semantics);
 void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now);
 [[noreturn]] void refuse_change(const std::string& from, const std::string& key);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

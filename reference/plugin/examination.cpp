@@ -13,13 +13,13 @@
 #include "core/types/check.h"
 #include "reference/plugin/pipe_detector.h"
 #include "reference/plugin/plugin_library.h"
-#include "reference/run/interrupts.h"
-#include "reference/run/printable.h"
-#include "reference/run/surroundings.h"
-#include "reference/run/worker.h"
-#include "reference/run/worker_process.h"
+#include "reference/process/interrupts.h"
+#include "reference/process/surroundings.h"
+#include "reference/process/worker_process.h"
+#include "reference/suite/worker.h"
+#include "reference/text/printable.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -34,7 +34,7 @@ constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;  // as for worke
 class Examination {
  public:
   Examination(const PluginSource& source, const std::filesystem::path& executable,
-              const RunSettings& settings)
+              const suite::RunSettings& settings)
       : source_(source),
         memory_limit_(settings.memory_limit),
         seconds_(std::min(settings.call_limit, kMostSeconds)),
@@ -43,7 +43,7 @@ class Examination {
                  {"examine", name_of(source.kind),
                   // A word of its own that begins with '-' would be a flag.
                   "--text=" + source.text, "--memory-limit", std::to_string(memory_limit_),
-                  "--answer-fd", std::to_string(WorkerProcess::kInheritedFd)},
+                  "--answer-fd", std::to_string(process::WorkerProcess::kInheritedFd)},
                  answer_.fd()) {}
 
   std::string answer() {
@@ -52,13 +52,13 @@ class Examination {
     std::string text = answer_.text(kLongestAnswer);
     // The exit code says nothing: a library may end the process in its own ways afterwards.
     if (!limit.empty()) refuse(limit);
-    if (text.empty()) refuse("ended in " + describe_status(status) + last_words());
+    if (text.empty()) refuse("ended in " + process::describe_status(status) + last_words());
     return text;
   }
 
  private:
   std::string watch_to_the_end() {
-    InterruptGuard interrupts;
+    process::InterruptGuard interrupts;
     const Clock::time_point start = Clock::now();
     while (!process_.has_ended()) {
       std::this_thread::sleep_for(kPollInterval);
@@ -77,7 +77,7 @@ class Examination {
   }
 
   std::string broken_limit(double seconds) const {
-    if (seconds > seconds_) return "said nothing for " + shown(seconds_) + " s (time limit)";
+    if (seconds > seconds_) return "said nothing for " + text::shown(seconds_) + " s (time limit)";
     if (process_.resident_bytes() > memory_limit_)
       return "took more than " + std::to_string(memory_limit_ >> 20) + " MiB (memory limit)";
     if (process_.output_bytes() > kOutputLimit) return "wrote without end (output limit)";
@@ -85,7 +85,7 @@ class Examination {
   }
 
   std::string last_words() const {
-    const std::string words = printable_line(process_.error_text());
+    const std::string words = text::printable_line(process_.error_text());
     return words.empty() ? "" : ": " + words;
   }
 
@@ -96,8 +96,8 @@ class Examination {
   const PluginSource& source_;
   std::uint64_t memory_limit_;
   double seconds_;
-  MemoryFile answer_;
-  WorkerProcess process_;
+  process::MemoryFile answer_;
+  process::WorkerProcess process_;
 };
 
 Declaration declaration_of(const PluginSource& source, std::uint64_t memory_limit) {
@@ -109,7 +109,7 @@ Json answer_of(const PluginSource& source, std::uint64_t memory_limit) {
   try {
     return {{"declaration", to_json(declaration_of(source, memory_limit))}};
   } catch (...) {
-    return {{"fault", current_exception_text()}};
+    return {{"fault", text::current_exception_text()}};
   }
 }
 
@@ -131,7 +131,7 @@ void write_all(int fd, const std::string& text) {
 }  // namespace
 
 Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& executable,
-                      const RunSettings& settings) {
+                      const suite::RunSettings& settings) {
   Plugin plugin;
   plugin.source = source;
   plugin.content = content_of(source);
@@ -139,19 +139,19 @@ Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& e
   const std::string text = Examination(source, executable, settings).answer();
   // What the child has written was in reach of the plug-in.
   const std::string document = described(source);
-  const JsonValue value = parse_json(text, document);
-  const JsonField answer(value, document);
-  if (value.kind != JsonValue::Kind::kObject) answer.refuse("an object");
+  const text::JsonValue value = text::parse_json(text, document);
+  const text::JsonField answer(value, document);
+  if (value.kind != text::JsonValue::Kind::kObject) answer.refuse("an object");
   if (answer.has("fault")) refuse(source, answer.at("fault").text());
   plugin.declaration = read_declaration(answer.at("declaration"));
   return plugin;
 }
 
 int run_examination(const PluginSource& source, std::uint64_t memory_limit, int answer_fd) {
-  end_with_supervisor();
+  process::end_with_supervisor();
   write_all(answer_fd,
             answer_of(source, memory_limit).dump(-1, ' ', false, Json::error_handler_t::replace));
   _exit(0);  // its destructors may hang
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -5,19 +5,19 @@
 #include <filesystem>
 
 #include "reference/plugin/plugin.h"
-#include "reference/run/job.h"
+#include "reference/suite/job.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 /// Loads or starts it in a child (`executable`: this program, for its hidden subcommand `examine`)
 /// within the limits of `settings`, at most 30 seconds.
 /// @throws InputError, one sentence: it cannot be loaded, speaks another version, declares what
 /// makes no sense, crashes, hangs; Interrupted
 Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& executable,
-                      const RunSettings& settings);
+                      const suite::RunSettings& settings);
 
 /// The child's side: writes what the plug-in says, or what is wrong with it, to the descriptor
 /// `answer_fd`. Returns the exit code.
 int run_examination(const PluginSource& source, std::uint64_t memory_limit, int answer_fd);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

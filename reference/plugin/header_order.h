@@ -3,7 +3,7 @@
 
 #include "core/types/semantics.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 inline constexpr Level kHeaderLevels[] = {Level::kBody, Level::kContainment, Level::kCell,
                                           Level::kBox,  Level::kTriangle,    Level::kVertex,
@@ -14,4 +14,4 @@ inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision:
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

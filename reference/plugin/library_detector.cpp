@@ -9,7 +9,7 @@
 #include "reference/plugin/library_views.h"
 #include "reference/plugin/plugin_library.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 class LibraryDetector : public Detector {
@@ -143,4 +143,4 @@ std::unique_ptr<Detector> make_library_detector(const PluginLibrary& library,
   return std::make_unique<LibraryDetector>(library, options);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/scene/id_check.h"
+#include "reference/text/id_check.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 constexpr std::size_t kLongestName = 64, kMostItems = 64;
@@ -214,7 +214,7 @@ std::vector<Count> ToldCounts::checked() {
     fail("counts: gives more than " + std::to_string(kMostItems) + " counters");
   std::vector<std::string> names;
   for (const Count& count : frame_) {
-    if (!is_id(count.name))
+    if (!text::is_id(count.name))
       fail("counts: a counter's name must be letters, digits, '-', '_' and '.', " +
            std::to_string(kLongestName) + " at most");
     check_number(count.value, "counts: " + count.name);
@@ -236,4 +236,4 @@ std::optional<double> told_ns(double milliseconds) {
   return kNanosecondsPerMillisecond * milliseconds;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

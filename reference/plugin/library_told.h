@@ -11,7 +11,7 @@
 #include "core/detect/detector.h"
 #include "reference/plugin/contactcheck_plugin.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 /// The stages of one detector, frame after frame.
 class ToldStages {
@@ -55,4 +55,4 @@ class ToldCounts {
 /// @throws std::runtime_error for what is no time
 std::optional<double> told_ns(double milliseconds);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -9,7 +9,7 @@
 #include "reference/plugin/declaration.h"
 #include "reference/plugin/header_order.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 // What is passed without a copy must lie in memory as the header says.
@@ -155,4 +155,4 @@ contactcheck_answer answer_into(ContactSet& out) {
           add_vertices, add_near,   add_pieces,    add_vertex_contacts};
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -10,7 +10,7 @@
 #include "core/types/semantics.h"
 #include "reference/plugin/contactcheck_plugin.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 /// Numbers of points, one after the other.
 const double* numbers(std::span<const Vec3> points);
@@ -43,4 +43,4 @@ std::uint32_t number_of(Question question);
 /// Functions that append to `out`.
 contactcheck_answer answer_into(ContactSet& out);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

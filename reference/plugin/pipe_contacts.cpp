@@ -4,7 +4,7 @@
 #include "core/types/check.h"
 #include "reference/plugin/pipe_messages.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t), kNumber = sizeof(double);
@@ -113,4 +113,4 @@ void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out) 
   read(out.vertex_contacts, read_vertex_contact);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -7,7 +7,7 @@
 #include "reference/plugin/pipe_messages.h"
 #include "reference/plugin/pipe_process.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 PipeLimits limits_with(std::uint64_t memory) {
@@ -105,4 +105,4 @@ std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const s
   return detector;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -8,7 +8,7 @@
 #include "core/detect/detector.h"
 #include "reference/plugin/declaration.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 /// Starts the command and reads its handshake.
 /// @throws InputError, std::runtime_error when it does not speak the protocol
@@ -21,4 +21,4 @@ Declaration declare_command(const std::string& command, std::uint64_t memory_lim
 std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const std::string& id,
                                              const Options& options, std::uint64_t memory_limit);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

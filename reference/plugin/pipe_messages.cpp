@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/types/check.h"
-#include "reference/run/printable.h"
+#include "reference/text/printable.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -54,16 +54,16 @@ void append_lattice(const BodyShape& shape, std::string& out) {
 // What a command prints for people lands among its messages: then that is what has to be said.
 [[noreturn]] void refuse_words(const std::string& line, const std::string& from,
                                const char* message) {
-  throw InputError(from + " wrote \"" + printable_line(line, kLongestShownLine) +
+  throw InputError(from + " wrote \"" + text::printable_line(line, kLongestShownLine) +
                    "\" where its message \"" + message +
                    "\" was due; standard output is for messages alone, what it prints for people "
                    "belongs on standard error");
 }
 
-JsonValue parsed(const std::string& line, const std::string& from, const char* message) {
+text::JsonValue parsed(const std::string& line, const std::string& from, const char* message) {
   const std::size_t begin = line.find_first_not_of(" \t");
   if (begin == std::string::npos || line[begin] != '{') refuse_words(line, from, message);
-  return parse_json(line, from);
+  return text::parse_json(line, from);
 }
 
 }  // namespace
@@ -124,4 +124,4 @@ std::size_t Reply::bytes() const {
   return root().has("bytes") ? root().at("bytes").whole(0, kLargestAnswer) : 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -14,7 +14,7 @@
 #include "core/types/semantics.h"
 #include "reference/plugin/declaration.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 constexpr const char* kPipeProtocol = "contactcheck-pipe/1";    ///< with its version
 constexpr std::size_t kLargestAnswer = std::size_t{256} << 20;  ///< bytes behind a line
@@ -37,7 +37,7 @@ class Reply {
   Reply(const Reply&) = delete;
   Reply& operator=(const Reply&) = delete;
 
-  JsonField root() const { return {value_, from_}; }
+  text::JsonField root() const { return {value_, from_}; }
   /// What the other side says this took, nanoseconds (key `ms`).
   std::optional<double> reported_ns() const;
   /// Bytes that follow. @throws InputError beyond kLargestAnswer
@@ -47,7 +47,7 @@ class Reply {
   void require_message(const char* message) const;
 
   std::string from_;
-  JsonValue value_;
+  text::JsonValue value_;
 };
 
 /// Appends the contacts that follow an answer of the kind `contacts`.
@@ -56,4 +56,4 @@ void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out);
 /// The sizes alone: what read_contacts will throw for can be known before anything is read.
 void check_contact_counts(const Reply& reply);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -17,10 +17,10 @@
 #include <thread>
 
 #include "core/types/check.h"
-#include "reference/run/printable.h"
-#include "reference/run/process_tree.h"
+#include "reference/process/process_tree.h"
+#include "reference/text/printable.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 constexpr int kPollMilliseconds = 20;    // between two looks at the limits
@@ -129,7 +129,7 @@ std::string for_shell(const std::string& command) {
 // Of Python: the last line `File "mine.py", line 7, in update`.
 std::string traceback_place(const std::string& text) {
   const std::size_t found = text.rfind("\n  File \"");
-  return found == std::string::npos ? "" : printable_line(text.substr(found));
+  return found == std::string::npos ? "" : text::printable_line(text.substr(found));
 }
 
 // Between fork and exec: system calls alone. A library may have changed what is inherited.
@@ -179,7 +179,7 @@ PipeProcess::~PipeProcess() {
 
 void PipeProcess::kill() {
   if (reaped_) return;
-  kill_tree(pid_);
+  process::kill_tree(pid_);
   mark_.kill_bearers();  // those that left the tree
   while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
   }
@@ -260,7 +260,7 @@ void PipeProcess::read_more() {
 }
 
 void PipeProcess::check_limits() const {
-  if (resident_bytes_of_tree(pid_) > limits_.memory)
+  if (process::resident_bytes_of_tree(pid_) > limits_.memory)
     fail("has more than " + std::to_string(limits_.memory >> 20) + " MiB resident (memory limit)");
   if (errors_.size() > limits_.errors)
     fail("wrote more than " + std::to_string(limits_.errors >> 20) +
@@ -270,7 +270,7 @@ void PipeProcess::check_limits() const {
 void PipeProcess::fail_ended() {
   close_input();
   if (ends_within(kLeaveMilliseconds))
-    fail("ended with " + describe_status(status_) + last_words());
+    fail("ended with " + process::describe_status(status_) + last_words());
   fail("closed its standard output" + last_words());
 }
 
@@ -279,7 +279,7 @@ void PipeProcess::fail(const std::string& what) const {
 }
 
 std::string PipeProcess::first_error_line() const {
-  return printable_line(errors_.text(kLongestErrorText));
+  return text::printable_line(errors_.text(kLongestErrorText));
 }
 
 // An interpreter names the cause in the last line of many, and before it where that was.
@@ -287,10 +287,10 @@ std::string PipeProcess::last_words() const {
   std::string text = errors_.last_text(kLongestErrorText);
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
   const std::size_t end = text.find_last_of('\n');
-  const std::string line = printable_line(text.substr(end + 1));
+  const std::string line = text::printable_line(text.substr(end + 1));
   if (line.empty()) return "";
   const std::string place = end == std::string::npos ? "" : traceback_place(text.substr(0, end));
   return "; its last words: " + line + (place.empty() ? "" : " (" + place + ")");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "reference/run/process_mark.h"
-#include "reference/run/worker_process.h"
+#include "reference/process/process_mark.h"
+#include "reference/process/worker_process.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 struct PipeLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;   ///< bytes resident, with all that it starts
@@ -56,8 +56,8 @@ class PipeProcess {
   void close_input();
 
   PipeLimits limits_;
-  MemoryFile errors_;
-  ProcessMark mark_;
+  process::MemoryFile errors_;
+  process::ProcessMark mark_;
   pid_t pid_ = 0;
   int input_ = -1, output_ = -1;  ///< of the command: written and read here
   int status_ = 0;
@@ -67,4 +67,4 @@ class PipeProcess {
   mutable std::chrono::steady_clock::time_point checked_{};
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -9,10 +9,10 @@
 #include "reference/plugin/pipe_detector.h"
 #include "reference/plugin/plugin_library.h"
 #include "reference/results/results.h"
-#include "reference/run/job.h"
-#include "reference/scene/shell_word.h"
+#include "reference/suite/job.h"
+#include "reference/text/shell_word.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,14 +22,14 @@ constexpr const char* kCommand = "command";
 constexpr const char* kOracle = "oracle";  // under this name results.json lists its errors
 
 void add_file(const fs::path& file, Fnv1a& hash) {
-  const std::string bytes = read_text_file(file);
+  const std::string bytes = suite::read_text_file(file);
   hash.bytes(bytes.data(), bytes.size());
 }
 
 // A script is edited where its command line stays.
 void add_named_files(const std::string& command, Fnv1a& hash) {
   hash.bytes(command.data(), command.size());
-  for (const std::string& word : shell_words(command)) {
+  for (const std::string& word : text::shell_words(command)) {
     std::error_code ignored;
     if (fs::is_regular_file(word, ignored)) add_file(word, hash);
   }
@@ -41,9 +41,9 @@ void require_free_id(const Plugin& plugin, const DetectorCatalog& catalog) {
   const std::string& id = plugin.declaration.id;
   const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
   if (catalog.find(id) != nullptr) throw InputError(claim + "which is another detector's name");
-  if (id == kOracle || library_of(id) != "contactcheck")
+  if (id == kOracle || adapters::library_of(id) != "contactcheck")
     throw InputError(claim + "a name that is kept for " +
-                     (id == kOracle ? "the oracle" : library_of(id)));
+                     (id == kOracle ? "the oracle" : adapters::library_of(id)));
 }
 
 DetectorInfo info_of(const Plugin& plugin) {
@@ -98,8 +98,8 @@ nlohmann::ordered_json to_json(const Plugin& plugin) {
 
 Plugin plugin_from_text(const std::string& json) {
   const std::string document = "record of a detector";
-  const JsonValue value = parse_json(json, document);
-  const JsonField field(value, document);
+  const text::JsonValue value = text::parse_json(json, document);
+  const text::JsonField field(value, document);
   Plugin plugin;
   plugin.source = {plugin_kind_from_name(field.at("kind").text()), field.at("source").text()};
   plugin.content = field.at("content").text();
@@ -136,4 +136,4 @@ std::vector<results::Plugin> plugins_in_results(const std::vector<Plugin>& plugi
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

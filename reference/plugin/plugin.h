@@ -9,9 +9,9 @@
 
 #include "core/detect/registry.h"
 #include "reference/plugin/declaration.h"
-#include "reference/run/job.h"
+#include "reference/suite/job.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 enum class PluginKind { kLibrary, kCommand };
 
@@ -34,7 +34,8 @@ std::string content_of(const PluginSource& source);
 struct Plugin {
   PluginSource source;
   std::string content;
-  std::uint64_t memory_limit = RunSettings{}.memory_limit;  ///< bytes, of a command's processes
+  std::uint64_t memory_limit =
+      suite::RunSettings{}.memory_limit;  ///< bytes, of a command's processes
   Declaration declaration;
 };
 
@@ -54,4 +55,4 @@ DetectorCatalog with_plugins(const DetectorCatalog& catalog,
 /// What results.json says of them: id, kind, file name or command, content, version.
 std::vector<results::Plugin> plugins_in_results(const std::vector<Plugin>& plugins);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

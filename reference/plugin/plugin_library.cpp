@@ -9,7 +9,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 constexpr const char* kEntry = "contactcheck_plugin_entry";
@@ -133,4 +133,4 @@ Declaration PluginLibrary::declare() const {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

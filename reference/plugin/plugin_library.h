@@ -9,7 +9,7 @@
 #include "reference/plugin/contactcheck_plugin.h"
 #include "reference/plugin/declaration.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 
 /// A library that is loaded, of the right version and layout. It stays loaded: what it has started
 /// may still run. @pre this process may die of it
@@ -37,4 +37,4 @@ class PluginLibrary {
 std::unique_ptr<Detector> make_library_detector(const PluginLibrary& library,
                                                 const Options& options);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

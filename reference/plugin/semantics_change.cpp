@@ -1,7 +1,7 @@
 #include "core/types/check.h"
 #include "reference/plugin/declaration.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 // The first that differs, by its key in a declaration.
@@ -30,4 +30,4 @@ void refuse_change(const std::string& from, const std::string& key) {
                    "\" after prepare than before: only scale and margin may change then");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -4,7 +4,7 @@
 
 #include "reference/plugin/declaration.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 std::string levels_fault(const Semantics& s) {
@@ -53,4 +53,4 @@ std::string semantics_fault(const Semantics& semantics) {
   return "";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

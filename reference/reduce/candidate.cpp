@@ -8,7 +8,7 @@
 #include "core/types/check.h"
 #include "reference/oracle/exact_predicates.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 constexpr std::uint32_t kUnused = ~0u;
@@ -152,4 +152,4 @@ bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pai
   return off_plane(both[0], both[1]) && off_plane(both[1], both[0]);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -10,7 +10,7 @@
 #include "core/deform/body.h"
 #include "core/types/mesh.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// One frame of two bodies, as a detector is given it.
 struct Snapshot {
@@ -71,4 +71,4 @@ using TrianglePair = std::array<std::uint32_t, 2>;
 /// a contact of them is a crossing that a small move of any corner does not end. Exact.
 bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -11,7 +11,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 // Longer messages are none of ours: a frame of two meshes of 100,000 triangles has 30 MiB.
@@ -82,4 +82,4 @@ bool Channel::waits(std::chrono::milliseconds time) const {
   return poll(&entry, 1, static_cast<int>(time.count())) > 0;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// One end of a stream socket; messages are byte strings of any length.
 class Channel {
@@ -35,4 +35,4 @@ class Channel {
   int fd_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

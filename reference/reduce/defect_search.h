@@ -1,14 +1,64 @@
 // Finds the frame and the two bodies of which a detector's error is reduced.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "reference/reduce/probe.h"
+#include "reference/process/interrupts.h"
+#include "reference/process/worker_process.h"
+#include "reference/reduce/candidate.h"
+#include "reference/reduce/channel.h"
 #include "reference/reduce/task.h"
 #include "reference/reduce/verdict.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
+
+// Asks a detector about one frame of two bodies after the other, in a process of its own: a
+// detector that crashes, hangs or eats memory ends that process, and this is its answer.
+
+struct ProbeSettings {
+  std::filesystem::path executable;  ///< this program, for its hidden subcommand `probe`
+  std::string detector;              ///< canonical name
+  std::vector<std::string> plugins;  ///< as RunSettings::plugins
+  double call_limit = 10.0;          ///< seconds that a detector may take for one frame
+  std::uint64_t memory_limit = std::uint64_t{4} << 30;  ///< bytes resident
+};
+
+class Probe {
+ public:
+  explicit Probe(ProbeSettings settings) : settings_(std::move(settings)) {}
+
+  /// What the detector, made anew, answers, judged at `levels` as `contactcheck run` judges it.
+  /// @throws std::runtime_error when the suite's own code cannot judge the frame; Interrupted
+  ProbeVerdict ask(const Snapshot& snapshot, const std::vector<Level>& levels);
+  /// The next question is asked in a fresh process.
+  void restart() { connection_.reset(); }
+  std::size_t asked() const { return asked_; }
+
+ private:
+  struct Connection {
+    Connection(const ProbeSettings& settings, Channel theirs, Channel own);
+    Channel channel;
+    process::WorkerProcess process;
+  };
+
+  void connect();
+  void pass_on_interrupt();
+  std::optional<ProbeVerdict> exchange(const std::string& request);
+  std::string limit_passed_before_message(double seconds);
+  bool leaves_by_itself() const;
+  ProbeVerdict end_of_process(const std::string& limit);
+
+  ProbeSettings settings_;
+  std::unique_ptr<Connection> connection_;
+  process::InterruptGuard interrupts_;
+  std::size_t asked_ = 0;
+};
 
 /// What is reduced: a frame of two bodies in which the detector was seen to err.
 struct Defect {
@@ -51,4 +101,4 @@ class DefectSearch {
   ProbeVerdict last_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -3,10 +3,10 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "reference/run/case_file.h"
-#include "reference/scene/json_value.h"
+#include "reference/suite/case_file.h"
+#include "reference/text/json_value.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 constexpr std::size_t kLongestDecimal = 9, kLongestId = 64;
@@ -61,8 +61,8 @@ std::string origin_of(const MinimalCase& c) {
 }  // namespace
 
 std::string number_text(double value) {
-  const std::string decimal = shown(value);
-  return decimal.size() <= kLongestDecimal ? decimal : hex_float(value);
+  const std::string decimal = text::shown(value);
+  return decimal.size() <= kLongestDecimal ? decimal : suite::hex_float(value);
 }
 
 std::string family_text(const MinimalCase& c) {
@@ -85,4 +85,4 @@ std::string id_from(const std::string& words) {
   return out.substr(0, kLongestId);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -7,7 +7,7 @@
 #include "reference/reduce/candidate.h"
 #include "reference/reduce/verdict.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 struct MinimalCase {
   std::string id;        ///< of the family
@@ -31,4 +31,4 @@ std::string family_text(const MinimalCase& minimal);
 /// An id made of `words`, as is_id wants it.
 std::string id_from(const std::string& words);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

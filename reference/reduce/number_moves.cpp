@@ -8,7 +8,7 @@
 
 #include "reference/reduce/simple_number.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 constexpr std::size_t kAxes = 3;
@@ -261,4 +261,4 @@ Coordinates simplify(Coordinates start, std::size_t first,
   return simplifier.now();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

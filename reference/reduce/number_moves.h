@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// x, y, z of all vertices after one another, those of the first mesh first.
 using Coordinates = std::vector<double>;
@@ -37,4 +37,4 @@ Coordinates simplify(Coordinates start, std::size_t first,
                      const std::function<bool(const Coordinates&)>& shows,
                      const std::function<bool()>& may_go_on);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 /// "fcl-obbrss" becomes "FclObbrss".
@@ -48,7 +48,7 @@ std::string mesh_text(const TriangleMesh& mesh, const std::string& name) {
                     });
 }
 
-std::string pair_text(const MinimalCase& c, const Disagreement& d) {
+std::string pair_text(const MinimalCase& c, const judge::Disagreement& d) {
   const std::string &first = c.candidate.names[d.pair.body_a],
                     &second = c.candidate.names[d.pair.body_b];
   const std::string a = std::to_string(d.pair.a), b = std::to_string(d.pair.b);
@@ -91,7 +91,7 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   if (c.finding.kind == "error")
     return {"any answer, but an answer",
             described(c.finding) + (verdict.message.empty() ? "" : ": " + verdict.message)};
-  const Disagreement& d = disagreement_of(verdict, c.finding);
+  const judge::Disagreement& d = disagreement_of(verdict, c.finding);
   const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
   return {pair_text(c, d) + " " + truth_text(d.level, missed),
@@ -110,4 +110,4 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers) {
          " answered: " + answers.detector + ".\n" + "  // " + expectation(c.finding) + "\n" + "}\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -5,7 +5,7 @@
 
 #include "reference/reduce/minimal_case.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// What is exactly true of the case and what the detector answered, one sentence each.
 struct CaseAnswers {
@@ -17,4 +17,4 @@ CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
 /// meshes bit for bit, with what is to be expected, and what was answered, in comments.
 std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -8,17 +8,17 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "reference/judge/accuracy.h"
+#include "reference/process/exit_codes.h"
+#include "reference/process/float_environment.h"
+#include "reference/process/surroundings.h"
 #include "reference/reduce/channel.h"
 #include "reference/reduce/verdict.h"
-#include "reference/run/accuracy.h"
-#include "reference/run/exit_codes.h"
-#include "reference/run/float_environment.h"
-#include "reference/run/printable.h"
-#include "reference/run/surroundings.h"
-#include "reference/run/worker.h"
 #include "reference/scene/scene.h"
+#include "reference/suite/worker.h"
+#include "reference/text/printable.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 constexpr const char* kName = "a frame";  // of the recording in a request
@@ -37,11 +37,11 @@ std::vector<Level> levels_from(const std::string& line) {
   return out;
 }
 
-Scene scene_of(const std::string& request) {
+scene::Scene scene_of(const std::string& request) {
   const std::size_t end = request.find(kEndOfLevels);
   if (end == std::string::npos) throw InputError("a request without levels");
   Recording recording = read_recording_bytes(request.substr(end + 1), kName);
-  Scene scene;
+  scene::Scene scene;
   scene.id = recording.scene;
   scene.bodies = std::move(recording.bodies);
   scene.frames = 1;
@@ -61,23 +61,23 @@ class ProbeWorker {
 
   void run() {
     while (const std::optional<std::string> request = channel_.receive()) {
-      const Scene scene = scene_of(*request);
-      const JudgedScene judged = judge_scene(scene, progress_);
-      JudgingTools tools(judged);
+      const scene::Scene scene = scene_of(*request);
+      const judge::JudgedScene judged = judge::judge_scene(scene, progress_);
+      judge::JudgingTools tools(judged);
       if (!channel_.send("")) return;
       if (!channel_.send(to_text(judge(tools)))) return;
     }
   }
 
  private:
-  // As a worker of a run books it (run/guarded_call.cpp).
-  ProbeVerdict judge(JudgingTools& tools) {
+  // As a worker of a run books it (suite/guarded_call.cpp).
+  ProbeVerdict judge(judge::JudgingTools& tools) {
     ProbeVerdict out;
-    const FloatEnvironmentGuard guard;
+    const process::FloatEnvironmentGuard guard;
     try {
       const std::unique_ptr<Detector> detector = catalog_.make(spec_);
       results::Run run;
-      AccuracyOutcome accuracy = run_accuracy(tools, 0, *detector, progress_, run);
+      judge::AccuracyOutcome accuracy = judge::run_accuracy(tools, 0, *detector, progress_, run);
       out.levels = run.levels;
       out.not_judged = run.not_judged;
       out.missed_length = run.geometry.missed_length.value_or(0.0);
@@ -90,7 +90,7 @@ class ProbeWorker {
       out.message = e.what();
     } catch (...) {
       out.status = results::Status::kError;
-      out.message = current_exception_text();
+      out.message = text::current_exception_text();
       out.how = "threw";
     }
     guard.check_and_restore();
@@ -101,9 +101,9 @@ class ProbeWorker {
   DetectorSpec spec_;
   const DetectorCatalog& catalog_;
   Channel channel_;
-  Surroundings surroundings_;
-  SharedProgress page_;
-  ProgressWriter progress_{&page_};
+  process::Surroundings surroundings_;
+  process::SharedProgress page_;
+  process::ProgressWriter progress_{&page_};
 };
 
 }  // namespace
@@ -120,14 +120,14 @@ std::string probe_request(const Snapshot& snapshot, const std::vector<Level>& le
 }
 
 int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd) {
-  end_with_supervisor();
+  process::end_with_supervisor();
   try {
     ProbeWorker(detector, catalog, channel_fd).run();
     return 0;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "contactcheck: %s\n", e.what());
-    return kExitInternal;
+    return process::kExitInternal;
   }
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

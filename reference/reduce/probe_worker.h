@@ -7,7 +7,7 @@
 #include "core/detect/registry.h"
 #include "reference/reduce/candidate.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// A frame and the levels at which it is to be judged, as one message.
 std::string probe_request(const Snapshot& snapshot, const std::vector<Level>& levels);
@@ -16,4 +16,4 @@ std::string probe_request(const Snapshot& snapshot, const std::vector<Level>& le
 /// the truth is known and the detector's turn comes, then the verdict. Returns the exit code.
 int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -11,7 +11,18 @@
 
 #include "reference/reduce/candidate.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
+
+// Delta debugging: the fewest items that still show something.
+
+/// Numbers of items, ascending; what is asked of a subset. Must answer the same to the same.
+using ShowsSubset = std::function<bool(const std::vector<std::size_t>&)>;
+
+/// A subset of `items` that shows and of which no single item can be left out. The same items and
+/// answers give the same subset. Where `may_go_on` turns false, the best so far.
+/// @pre `items` shows
+std::vector<std::size_t> minimal_subset(std::vector<std::size_t> items, const ShowsSubset& shows,
+                                        const std::function<bool()>& may_go_on);
 
 /// Does a candidate still show the defect? Must answer the same to the same candidate.
 using ShowsCandidate = std::function<bool(const CaseCandidate&)>;
@@ -35,4 +46,4 @@ std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<
                                 const ShowsCandidate& shows, std::size_t budget,
                                 const std::vector<CaseCandidate>& cells = {});
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

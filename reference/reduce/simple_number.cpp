@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 constexpr int kBits = 53, kDigits = 17;  // of any double
@@ -107,4 +107,4 @@ std::vector<double> simpler_numbers(double value) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// How much there is to read in a finite number. 0 is the simplest, then 1 and small whole numbers,
 /// then numbers of few bits (a bit counts 2, a halving or doubling of the last one 1), then numbers
@@ -25,4 +25,4 @@ double rounded_to_digits(double value, int digits);
 /// its roundings to fewer bits (up and down) and to fewer decimal digits. All different.
 std::vector<double> simpler_numbers(double value);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

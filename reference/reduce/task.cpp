@@ -7,15 +7,15 @@
 #include "core/deform/lattice.h"
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "reference/arrange/sweep_poses.h"
 #include "reference/scene/amount.h"
 #include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_field.h"
 #include "reference/scene/scene.h"
+#include "reference/scene/sweep_poses.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ std::optional<std::uint32_t> triangle_with(const TriangleMesh& mesh, std::size_t
 /// One of the two bodies that a case names, in the recorded frame.
 class CaseElement {
  public:
-  CaseElement(const JsonField& field, const Recording& recording, std::size_t frame)
+  CaseElement(const text::JsonField& field, const Recording& recording, std::size_t frame)
       : field_(field), body_(find_body(recording)) {
     field.only_keys({"body", "triangle", "vertices", "cell", "nodes", "vertex", "position"});
     shape_ = recording.bodies[body_].shape;
@@ -81,15 +81,15 @@ class CaseElement {
 
   void check_places(const char* key, const Vec3* recorded, std::size_t count) const {
     if (!field_.has(key)) return;
-    const JsonField list = field_.at(key);
-    const std::vector<JsonField> places = list.items();
+    const text::JsonField list = field_.at(key);
+    const std::vector<text::JsonField> places = list.items();
     if (places.size() != count) list.refuse("an array of " + std::to_string(count) + " places");
     for (std::size_t i = 0; i < count; ++i)
-      if (at(parse_amount_vector(places[i]), 0.0) != recorded[i])
+      if (scene::at(scene::parse_amount_vector(places[i]), 0.0) != recorded[i])
         places[i].fail("is not where the recording has it: it is the recording of another run");
   }
 
-  JsonField field_;
+  text::JsonField field_;
   std::size_t body_;
   std::shared_ptr<const BodyShape> shape_;
   std::vector<Vec3> nodes_, vertices_;
@@ -107,7 +107,7 @@ Snapshot snapshot_of_bodies(const std::vector<Body>& bodies,
 }
 
 // The body of less number first: so a detector is given them again in the order of the scene.
-void take_bodies(const JsonField& root, const Recording& recording, ReductionTask& task) {
+void take_bodies(const text::JsonField& root, const Recording& recording, ReductionTask& task) {
   CaseElement first(root.at("first"), recording, task.frame),
       second(root.at("second"), recording, task.frame);
   if (first.body() == second.body()) root.at("second").at("body").refuse("another body than first");
@@ -121,15 +121,15 @@ void take_bodies(const JsonField& root, const Recording& recording, ReductionTas
 }
 
 // A case without a recording: its two triangles are all there is.
-void take_triangles(const JsonField& root, ReductionTask& task) {
+void take_triangles(const text::JsonField& root, ReductionTask& task) {
   CaseCandidate pair;
   for (std::size_t side = 0; side < 2; ++side) {
-    const JsonField element = root.at(side == 0 ? "first" : "second");
+    const text::JsonField element = root.at(side == 0 ? "first" : "second");
     pair.names[side] = element.at("body").text();
-    const std::vector<JsonField> corners = element.at("vertices").items(3);
+    const std::vector<text::JsonField> corners = element.at("vertices").items(3);
     if (corners.size() != 3) element.at("vertices").refuse("an array of 3 places");
-    for (const JsonField& corner : corners)
-      pair.meshes[side].vertices.push_back(at(parse_amount_vector(corner), 0.0));
+    for (const text::JsonField& corner : corners)
+      pair.meshes[side].vertices.push_back(scene::at(scene::parse_amount_vector(corner), 0.0));
     pair.meshes[side].triangles = {{0, 1, 2}};
   }
   if (pair.names[0] == pair.names[1])
@@ -140,7 +140,7 @@ void take_triangles(const JsonField& root, ReductionTask& task) {
 
 std::string frame_text(std::size_t frame) { return "frame " + std::to_string(frame); }
 
-ReductionTask task_of_frame(const Scene& scene, std::size_t frame) {
+ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
   ReductionTask task;
   task.scene = scene.id;
   task.frame = frame;
@@ -164,13 +164,13 @@ SplitTarget split(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-std::size_t frame_named(const Scene& scene, const std::string& which) {
+std::size_t frame_named(const scene::Scene& scene, const std::string& which) {
   if (scene.family) {
     const std::vector<std::string>& values = scene.family->values;
     const auto found = std::find(values.begin(), values.end(), which);
     if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
     throw InputError("\"" + scene.id + "\" has no value \"" + which + "\"; it has " +
-                     joined(values));
+                     text::joined(values));
   }
   const bool number = !which.empty() && which.size() < 9 &&
                       which.find_first_not_of("0123456789") == std::string::npos;
@@ -179,12 +179,12 @@ std::size_t frame_named(const Scene& scene, const std::string& which) {
                    std::to_string(scene.frames - 1));
 }
 
-Recording recording_of(const JsonField& root, const fs::path& file) {
+Recording recording_of(const text::JsonField& root, const fs::path& file) {
   const fs::path recording_file = file.parent_path() / root.at("recording").text();
   std::error_code ignored;
   if (!fs::exists(recording_file, ignored))
     root.at("recording")
-        .fail("names " + in_quotes(recording_file.string()) + ", which does not exist");
+        .fail("names " + text::in_quotes(recording_file.string()) + ", which does not exist");
   Recording recording = read_recording(recording_file);
   if (recording.frames.empty()) root.at("recording").fail("names a recording without a frame");
   return recording;
@@ -192,7 +192,7 @@ Recording recording_of(const JsonField& root, const fs::path& file) {
 
 }  // namespace
 
-std::optional<TrianglePair> triangles_of(const Disagreement& d, const Snapshot& snapshot) {
+std::optional<TrianglePair> triangles_of(const judge::Disagreement& d, const Snapshot& snapshot) {
   if (names_triangles({d.level, d.kind})) return TrianglePair{d.pair.a, d.pair.b};
   if (d.level != name_of(Level::kNear)) return std::nullopt;
   const auto of_vertex = triangle_with(snapshot.bodies[d.pair.body_a].shape->mesh, d.pair.a);
@@ -201,7 +201,7 @@ std::optional<TrianglePair> triangles_of(const Disagreement& d, const Snapshot& 
                                        : TrianglePair{d.pair.b, *of_vertex};
 }
 
-std::optional<CellPair> cells_of(const Disagreement& d) {
+std::optional<CellPair> cells_of(const judge::Disagreement& d) {
   const bool of_cells =
       d.level == name_of(Level::kBox) || (d.level == name_of(Level::kCell) && d.kind == "spurious");
   return of_cells ? std::optional<CellPair>({d.pair.a, d.pair.b}) : std::nullopt;
@@ -210,17 +210,19 @@ std::optional<CellPair> cells_of(const Disagreement& d) {
 bool is_case_file(const fs::path& file) {
   std::error_code ignored;
   if (file.extension() != ".json" || !fs::exists(file, ignored)) return false;
-  const std::string document = "case file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "case file"), document);
-  return value.kind == JsonValue::Kind::kObject &&
+  const std::string document = "case file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "case file"), document);
+  return value.kind == text::JsonValue::Kind::kObject &&
          (value.find("detector") != nullptr || value.find("kind") != nullptr ||
           value.find("recording") != nullptr);
 }
 
 ReductionTask read_case(const fs::path& file) {
-  const std::string document = "case file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "case file"), document);
-  const JsonField root(value, document);
+  const std::string document = "case file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "case file"), document);
+  const text::JsonField root(value, document);
   root.only_keys({"scene", "frame", "detector", "level", "kind", "recording", "first", "second"});
   ReductionTask task;
   task.scene = root.at("scene").text();
@@ -241,19 +243,19 @@ ReductionTask read_case(const fs::path& file) {
 
 std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::path& fixtures) {
   const SplitTarget named = split(text);
-  const Target target = find_target(named.target, fixtures);
-  if (target.kind == TargetKind::kSuite)
+  const scene::Target target = scene::find_target(named.target, fixtures);
+  if (target.kind == scene::TargetKind::kSuite)
     throw InputError("\"" + named.target +
                      "\" is a suite; reduce takes a case, a scene, a family "
                      "of hard cases or a recording");
-  Scene scene = load_any_scene(target.file);
+  scene::Scene scene = scene::load_any_scene(target.file);
   if (scene.simulation)
     throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
-  place_sweep([](std::size_t) {}, scene);
+  scene::place_sweep([](std::size_t) {}, scene);
   std::vector<ReductionTask> tasks;
   if (named.which) return {task_of_frame(scene, frame_named(scene, *named.which))};
   for (std::size_t f = 0; f < scene.frames; ++f) tasks.push_back(task_of_frame(scene, f));
   return tasks;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -9,7 +9,7 @@
 #include "reference/reduce/candidate.h"
 #include "reference/reduce/verdict.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 /// One frame in which a detector may err, and what of it is to be reduced where that is known.
 struct ReductionTask {
@@ -25,11 +25,11 @@ struct ReductionTask {
 
 /// The triangles of a disagreement, that of the first of its two bodies first: a pair of triangles,
 /// or a triangle with the first one that has the vertex beside it. None at other levels.
-std::optional<TrianglePair> triangles_of(const Disagreement& disagreement,
+std::optional<TrianglePair> triangles_of(const judge::Disagreement& disagreement,
                                          const Snapshot& snapshot);
 
 /// The cells of a disagreement between such; none at other levels.
-std::optional<CellPair> cells_of(const Disagreement& disagreement);
+std::optional<CellPair> cells_of(const judge::Disagreement& disagreement);
 
 /// True when `file` is a case file: JSON of one object with a detector and a kind.
 bool is_case_file(const std::filesystem::path& file);
@@ -46,4 +46,4 @@ ReductionTask read_case(const std::filesystem::path& file);
 std::vector<ReductionTask> tasks_of_scene(const std::string& target,
                                           const std::filesystem::path& fixtures);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -6,7 +6,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using Json = nlohmann::json;
@@ -21,12 +21,12 @@ results::LevelCounts counts_from(const Json& j) {
   return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)};
 }
 
-Json disagreement_json(const Disagreement& d) {
+Json disagreement_json(const judge::Disagreement& d) {
   return {d.level, d.kind, d.pair.body_a, d.pair.body_b, d.pair.a, d.pair.b};
 }
 
-Disagreement disagreement_from(const Json& j) {
-  Disagreement d;
+judge::Disagreement disagreement_from(const Json& j) {
+  judge::Disagreement d;
   d.level = j.at(0);
   d.kind = j.at(1);
   d.pair = {j.at(2), j.at(3), j.at(4), j.at(5)};
@@ -43,9 +43,9 @@ bool matches(const std::string& wanted, const std::string& is) {
   return wanted.empty() || wanted == is;
 }
 
-const Disagreement* find(const ProbeVerdict& verdict, const std::string& level,
-                         const std::string& kind) {
-  for (const Disagreement& d : verdict.disagreements)
+const judge::Disagreement* find(const ProbeVerdict& verdict, const std::string& level,
+                                const std::string& kind) {
+  for (const judge::Disagreement& d : verdict.disagreements)
     if (d.level == level && matches(kind, d.kind)) return &d;
   return nullptr;
 }
@@ -60,7 +60,8 @@ std::string to_text(const ProbeVerdict& v) {
   Json levels = Json::object(), not_judged = Json::object(), disagreements = Json::array();
   for (const auto& [level, counts] : v.levels) levels[name_of(level)] = counts_json(counts);
   for (const auto& [level, why] : v.not_judged) not_judged[name_of(level)] = why;
-  for (const Disagreement& d : v.disagreements) disagreements.push_back(disagreement_json(d));
+  for (const judge::Disagreement& d : v.disagreements)
+    disagreements.push_back(disagreement_json(d));
   const Json out = {{"status", static_cast<int>(v.status)},
                     {"message", v.message},
                     {"how", v.how},
@@ -104,7 +105,7 @@ std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string
   if (verdict.status != results::Status::kOk) return std::nullopt;
   for (const Level l : kFineToCoarse) {
     if (!matches(level, name_of(l))) continue;
-    const Disagreement* d = find(verdict, name_of(l), kind);
+    const judge::Disagreement* d = find(verdict, name_of(l), kind);
     if (d != nullptr)
       return Finding{d->level, d->kind, "", crosses(verdict, d->level, d->kind), false};
   }
@@ -119,10 +120,10 @@ bool shows(const ProbeVerdict& verdict, const Finding& finding) {
          (!finding.crossing || crosses(verdict, finding.level, finding.kind));
 }
 
-const Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding) {
-  const Disagreement* d = find(verdict, finding.level, finding.kind);
+const judge::Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding) {
+  const judge::Disagreement* d = find(verdict, finding.level, finding.kind);
   CONTACTCHECK_INVARIANT(d != nullptr, "the verdict shows the finding");
   return *d;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "reference/compare/judge.h"
+#include "reference/judge/judge.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 
 struct ProbeVerdict {
   results::Status status = results::Status::kOk;
@@ -21,7 +21,7 @@ struct ProbeVerdict {
   std::map<Level, std::string> not_judged;
   double missed_length = 0.0;  ///< metres of contour, as far as it is judged
   /// The first missed and the first spurious contact of each level claimed.
-  std::vector<Disagreement> disagreements;
+  std::vector<judge::Disagreement> disagreements;
 };
 
 std::string to_text(const ProbeVerdict& verdict);
@@ -56,6 +56,6 @@ std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string
 bool shows(const ProbeVerdict& verdict, const Finding& finding);
 
 /// The disagreement that shows it. @pre shows(verdict, finding), no error
-const Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding);
+const judge::Disagreement& disagreement_of(const ProbeVerdict& verdict, const Finding& finding);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -9,7 +9,7 @@
 #include "reference/report/plot_axis.h"
 #include "reference/report/svg.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using Anchor = Svg::Anchor;
 
@@ -180,4 +180,4 @@ std::string bar_plot(const BarChart& chart) {
   return chart.rows.empty() ? "" : BarPlot(chart).draw();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

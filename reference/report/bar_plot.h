@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// One bar. `words` say what it stands for to a browser's pointer and to a screen reader.
 struct BarPart {
@@ -42,4 +42,4 @@ inline constexpr std::size_t kBarSeries = 8;
 /// @pre no more series than there are colours; see Scale
 std::string bar_plot(const BarChart& chart);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/report/format.h"
 #include "reference/results/references.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::Index, results::LevelCounts, results::Run;
@@ -61,7 +61,7 @@ TitledTable speed_claim(const Index& index, const char* detector, Question quest
                   name_of(level)),
       {{"scene", true, ""}, {"errors", false, ""}},
       {}};
-  for (const std::string reference : kReferences) {
+  for (const std::string reference : results::kReferences) {
     out.columns.push_back({"errors of " + reference, false, ""});
     out.columns.push_back({"speed-up over " + reference, false, ""});
   }
@@ -73,7 +73,7 @@ TitledTable speed_claim(const Index& index, const char* detector, Question quest
     std::vector<std::string>& row = out.rows.emplace_back();
     row = {scene.id, errors_at(run, level)};
     Range passes;
-    for (const char* reference : kReferences) {
+    for (const char* reference : results::kReferences) {
       const results::Speedup* s = speedup_of(*run, question, reference);
       row.push_back(errors_at(index.ok_run(scene.id, reference), level));
       row.push_back(s == nullptr ? "-" : format_ratio(s->playback, s->passes));
@@ -247,4 +247,4 @@ std::string claims_markdown(const results::Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Those that the results have rows for: the hover gaps of ffd-grid and ffd-aabb side by side (the
 /// paper's claim: the first is larger); the speed of sphere2 against FCL and Embree in the
@@ -18,4 +18,4 @@ std::vector<TitledTable> claims_of(const results::Results& results);
 /// The same for the Markdown report.
 std::string claims_markdown(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

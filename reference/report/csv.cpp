@@ -8,7 +8,7 @@
 
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::ErrorSpread;
@@ -146,8 +146,9 @@ class Columns {
       return speedup_of(run, compared_question(run), reference);
     };
     const auto add_ratio = [&](const char* regime, auto part) {
-      add_members(name + regime, "", part, std::pair("_ratio", &Ratio::value),
-                  std::pair("_low", &Ratio::low), std::pair("_high", &Ratio::high));
+      add_members(name + regime, "", part, std::pair("_ratio", &results::Ratio::value),
+                  std::pair("_low", &results::Ratio::low),
+                  std::pair("_high", &results::Ratio::high));
     };
     add_ratio("_playback", [=](const Run& run) {
       const Speedup* found = speedup(run);
@@ -188,4 +189,4 @@ std::string csv_report(const results::Results& results) {
   return text;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// One line per scene and detector below a line of titles: RFC 4180 (CRLF, quotes doubled), UTF-8.
 /// Numbers as results.json has them; a cell is empty where there is no value. The columns are the
@@ -13,4 +13,4 @@ namespace contactcheck {
 /// speed-up against.
 std::string csv_report(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -1,6 +1,6 @@
 #include "reference/report/detector_group.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 // Okabe and Ito's palette, which all kinds of eyes tell apart, darkened on white and lightened on
@@ -36,4 +36,4 @@ std::size_t group_of(const std::string& detector) {
   return id.find("+tri") != std::string::npos ? 1 : 2;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 struct DetectorGroup {
   const char* name;
@@ -18,4 +18,4 @@ inline constexpr std::size_t kDetectorGroups = 9;
 const DetectorGroup& detector_group(std::size_t index);
 std::size_t group_of(const std::string& detector);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
@@ -33,4 +33,4 @@ std::optional<double> ErrorCounts::worse_share() const {
   return std::max(*missing, *inventing);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

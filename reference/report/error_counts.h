@@ -6,7 +6,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 struct ErrorCounts {
   std::uint64_t truth = 0, reported = 0, missed = 0, spurious = 0;
@@ -23,4 +23,4 @@ struct ErrorCounts {
   std::optional<double> worse_share() const;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

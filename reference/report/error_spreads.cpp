@@ -6,7 +6,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::ErrorSpread, results::Geometry, results::HistogramBin, results::Run;
 
@@ -173,4 +173,4 @@ std::vector<ErrorChart> error_charts(const results::Index& index, const SceneCho
   return charts;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

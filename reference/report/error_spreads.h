@@ -11,7 +11,7 @@
 #include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Errors from `from` on and below `below`.
 struct ErrorBin {
@@ -48,4 +48,4 @@ struct ErrorChart {
 /// Of all quantities of which something was judged in these scenes.
 std::vector<ErrorChart> error_charts(const results::Index& index, const SceneChoice& scenes);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 template <typename T>
@@ -59,4 +59,4 @@ std::vector<FamilyResult> family_results(const results::Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,7 +8,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Refers to results that must outlive it. The schema does not say how long their lists are:
 /// whatever is of a case that is not there throws InputError.
@@ -44,4 +44,4 @@ struct FamilyResult {
 /// In the order of scenes, then of runs.
 std::vector<FamilyResult> family_results(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 // Rates are shown with five decimals. The product with 1e5 may fall a rounding step beside a whole
@@ -31,7 +31,7 @@ std::string format_error_rate(std::optional<double> value) {
 }
 
 std::string format_number(std::optional<double> value) {
-  return value ? three_digits(*value) : "-";
+  return value ? results::three_digits(*value) : "-";
 }
 
 std::string format_count(std::optional<std::int64_t> value) {
@@ -39,7 +39,7 @@ std::string format_count(std::optional<std::int64_t> value) {
 }
 
 std::string format_millimetres(std::optional<double> value) {
-  return value ? three_digits(1e3 * *value) : "-";
+  return value ? results::three_digits(1e3 * *value) : "-";
 }
 
 void Range::add(double value) {
@@ -96,28 +96,28 @@ std::string counted_passes(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " pass" : " passes");
 }
 
-std::string format_ratio(const std::optional<Ratio>& ratio) {
-  return ratio ? three_digits(ratio->value) + "x" : "-";
+std::string format_ratio(const std::optional<results::Ratio>& ratio) {
+  return ratio ? results::three_digits(ratio->value) + "x" : "-";
 }
 
-std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes) {
+std::string format_ratio(const std::optional<results::Ratio>& ratio, std::size_t passes) {
   if (!ratio) return "-";
   // A table says once what its brackets are (ends_sentence).
-  const bool range = passes != 1 && passes < kFewestForInterval;
-  return range ? format_ratio_range(ratio) : ratio_text(*ratio, passes);
+  const bool range = passes != 1 && passes < results::kFewestForInterval;
+  return range ? format_ratio_range(ratio) : results::ratio_text(*ratio, passes);
 }
 
-std::string format_ratio_range(const std::optional<Ratio>& ratio) {
+std::string format_ratio_range(const std::optional<results::Ratio>& ratio) {
   if (!ratio) return "-";
-  return fmt::format("{} ({} to {})", format_ratio(ratio), three_digits(ratio->low),
-                     three_digits(ratio->high));
+  return fmt::format("{} ({} to {})", format_ratio(ratio), results::three_digits(ratio->low),
+                     results::three_digits(ratio->high));
 }
 
 std::string ends_sentence(const std::set<std::size_t>& passes) {
   std::string interval, range;
   for (const std::size_t n : passes) {
     if (n == 1) continue;
-    std::string& numbers = n < kFewestForInterval ? range : interval;
+    std::string& numbers = n < results::kFewestForInterval ? range : interval;
     numbers += (numbers.empty() ? "" : " or ") + std::to_string(n);
   }
   if (!interval.empty()) interval = "[low, high] is the 95 % interval over " + interval + " passes";
@@ -126,4 +126,4 @@ std::string ends_sentence(const std::set<std::size_t>& passes) {
   return interval + (interval.empty() || range.empty() ? "" : "; ") + range + ".";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// "1" only for exactly 1, otherwise cut (not rounded) to five decimals: 0.99999 never reads as 1.
 std::string format_rate(std::optional<double> value);
@@ -45,13 +45,13 @@ std::string format_counts(const Range& range);
 /// "1 pass", "3 passes"
 std::string counted_passes(std::size_t n);
 /// "12.3x"
-std::string format_ratio(const std::optional<Ratio>& ratio);
+std::string format_ratio(const std::optional<results::Ratio>& ratio);
 /// With its ends, which passes make an interval of 95 % or a range (interval_name): "12.3x [11.8,
 /// 12.9]" or "12.3x (11.8 to 12.9)"; "12.3x (1 pass)" has none.
-std::string format_ratio(const std::optional<Ratio>& ratio, std::size_t passes);
+std::string format_ratio(const std::optional<results::Ratio>& ratio, std::size_t passes);
 /// "12.3x (11.8 to 12.9)": the ends are a range, whatever they are of.
-std::string format_ratio_range(const std::optional<Ratio>& ratio);
+std::string format_ratio_range(const std::optional<results::Ratio>& ratio);
 /// What the ends are of ratios over so many passes; empty where none has ends.
 std::string ends_sentence(const std::set<std::size_t>& passes);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <string_view>
 
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::Run;
@@ -46,7 +46,8 @@ std::vector<std::pair<double, double>> medians_by_distance(
   }
   std::vector<std::pair<double, double>> out;
   for (auto& [bin, values] : bins)
-    out.emplace_back(median(std::move(values.first)), median(std::move(values.second)));
+    out.emplace_back(results::median(std::move(values.first)),
+                     results::median(std::move(values.second)));
   return out;
 }
 
@@ -64,7 +65,7 @@ void add_distances(const std::vector<double>& distance, DetectorCosts& costs) {
   costs.by_distance = medians_by_distance(apart);
   if (touching.empty()) return;
   const auto [low, high] = std::minmax_element(touching.begin(), touching.end());
-  costs.touching = {*low, median(touching), *high, touching.size()};
+  costs.touching = {*low, results::median(touching), *high, touching.size()};
 }
 
 DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
@@ -102,4 +103,4 @@ SceneCosts scene_costs(const results::Index& index, const results::Scene& scene)
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -9,7 +9,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Of frames in which surfaces touch; milliseconds, playback.
 struct TouchingCost {
@@ -45,4 +45,4 @@ struct SceneCosts {
 /// @pre `scene` is one of those of `index`
 SceneCosts scene_costs(const results::Index& index, const results::Scene& scene);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::MeasuredGoal;
 
@@ -27,7 +27,7 @@ std::size_t passes_of(const MeasuredGoal& goal, const results::Index& index) {
 std::string measured(const MeasuredGoal& goal, std::size_t passes) {
   if (!goal.measured) return "-";
   if (!goal.low || !goal.high) return format_number(goal.measured) + unit_of(goal);
-  return format_ratio(Ratio{*goal.measured, *goal.low, *goal.high}, passes);
+  return format_ratio(results::Ratio{*goal.measured, *goal.low, *goal.high}, passes);
 }
 
 std::string met_text(const MeasuredGoal& goal) {
@@ -64,4 +64,4 @@ TitledTable goals_table(const results::Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,9 +4,9 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// A row per goal; none where the suite has none.
 TitledTable goals_table(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -10,7 +10,7 @@
 #include "reference/report/format.h"
 #include "reference/report/stability_plot.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::PerFrame;
 
@@ -203,4 +203,4 @@ std::string hard_cases_markdown(const results::Results& results) {
          (tables.empty() ? "Nowhere.\n\n" : tables);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

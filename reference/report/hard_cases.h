@@ -11,7 +11,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// A row per detector: families and cases, how many of them it answered as it claims, missed and
 /// spurious, errors, and what a case costs. None without families.
@@ -42,4 +42,4 @@ std::vector<WrongFamily> wrong_families(const results::Results& results);
 /// families.
 std::string hard_cases_markdown(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

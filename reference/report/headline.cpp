@@ -12,7 +12,7 @@
 #include "reference/report/run_row.h"
 #include "reference/results/references.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::Index, results::Results, results::Run;
@@ -211,7 +211,7 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
 // In the scenes of the time that stands before it.
 std::string slower_text(const std::vector<const Run*>& runs, const std::string& detector) {
   Names texts;
-  for (const std::string reference : kReferences) {
+  for (const std::string reference : results::kReferences) {
     if (reference == detector) continue;
     Range times;
     for (const Run* run : runs)
@@ -407,4 +407,4 @@ Headline headline_of(const Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

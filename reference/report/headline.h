@@ -6,7 +6,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// A topic, and a sentence about it.
 struct HeadlineFinding {
@@ -25,4 +25,4 @@ struct Headline {
 /// than declared, and errors of depths and normals, are findings of their own.
 Headline headline_of(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 struct HeatCell {
   std::string text;
@@ -19,4 +19,4 @@ struct HeatTable {
   std::vector<std::vector<HeatCell>> rows;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

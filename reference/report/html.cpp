@@ -9,7 +9,7 @@
 #include "reference/report/page_data.h"
 #include "reference/report/web/report_template.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 std::string deflated(std::string_view bytes) {
@@ -58,4 +58,4 @@ std::string html_report(const results::Results& results, const std::optional<Pap
   return page;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,15 +8,15 @@
 #include "reference/report/paper_part.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Whether this build carries the page (it takes npm to make it).
 bool has_html_report();
 
 /// `paper`: what the page shows of a reproduction of the same run, where there is one. `view`: the
-/// bytes of reference/view/view_bytes.h, or nothing: a report without 3D view.
+/// bytes of reference/report/view_bytes.h, or nothing: a report without 3D view.
 /// @pre has_html_report()
 std::string html_report(const results::Results& results, const std::optional<PaperPart>& paper,
                         std::string_view view);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

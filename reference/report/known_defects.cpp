@@ -5,7 +5,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Groups = std::vector<results::Sightings>;
@@ -16,11 +16,11 @@ std::size_t cases_in(const Groups& groups) {
   return out;
 }
 
-std::string shown_text(const results::KnownDefect& d) {
+std::string shown_text(const results::DefectCount& d) {
   return d.other_version ? "other version" : fmt::format("{} of {}", d.shown, d.listed);
 }
 
-TitledTable defects_table(const results::KnownDefects& known) {
+TitledTable defects_table(const results::DefectCounts& known) {
   TitledTable out{"",
                   "",
                   {{"library", true, ""},
@@ -31,7 +31,7 @@ TitledTable defects_table(const results::KnownDefects& known) {
                    {"families", false, ""},
                    {"cases that show it", false, ""}},
                   {}};
-  for (const results::KnownDefect& d : known.defects)
+  for (const results::DefectCount& d : known.defects)
     out.rows.push_back({d.library + " " + d.version, d.issue, d.kind, d.sentence,
                         fmt::format("{}", fmt::join(d.detectors, ", ")),
                         format_count(d.scenes.size()), shown_text(d)});
@@ -59,9 +59,9 @@ std::string group_lines(const char* title, const Groups& groups) {
 
 }  // namespace
 
-std::string known_defects_sentence(const results::KnownDefects& known) {
+std::string known_defects_sentence(const results::DefectCounts& known) {
   std::size_t listed = 0, shown = 0;
-  for (const results::KnownDefect& d : known.defects) {
+  for (const results::DefectCount& d : known.defects) {
     listed += d.listed;
     shown += d.shown;
   }
@@ -72,7 +72,7 @@ std::string known_defects_sentence(const results::KnownDefects& known) {
       grouped_digits(cases_in(known.unlisted)));
 }
 
-std::vector<TitledTable> known_defects_tables(const results::KnownDefects& known) {
+std::vector<TitledTable> known_defects_tables(const results::DefectCounts& known) {
   std::vector<TitledTable> tables = {
       defects_table(known),
       groups_table("Listed, and not shown: mended in this build of the library, or the case has "
@@ -92,18 +92,18 @@ std::string known_defects_markdown(const results::Results& results) {
   return out;
 }
 
-std::string defects_text(const results::KnownDefects& known) {
+std::string defects_text(const results::DefectCounts& known) {
   std::string out;
-  for (const results::KnownDefect& d : known.defects)
+  for (const results::DefectCount& d : known.defects)
     out += fmt::format("{} {}  {}  {}  {}: {}\n", d.library, d.version,
                        fmt::join(d.detectors, ", "), d.kind, shown_text(d), d.sentence);
   return out + defects_summary(known);
 }
 
-std::string defects_summary(const results::KnownDefects& known) {
+std::string defects_summary(const results::DefectCounts& known) {
   return group_lines("listed, not shown:", known.not_shown) +
          group_lines("shown, not listed:", known.unlisted) + "  " + known_defects_sentence(known) +
          "\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -6,7 +6,7 @@
 #include <random>
 #include <utility>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 constexpr double kGap = 3.0, kWordGap = 6.0;  // between a name and what it must not touch
@@ -180,4 +180,4 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelledPo
   return best;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Of a picture, in pixels, y downwards; left upper corner and size.
 struct Box {
@@ -45,4 +45,4 @@ std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelledPo
                                                     const Box& area, double radius,
                                                     const std::vector<PictureSegment>& lines = {});
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

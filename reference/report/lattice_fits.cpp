@@ -9,7 +9,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 // Every frame has as many vertices: the mean of the squares is that of all of them.
@@ -63,4 +63,4 @@ TitledTable fits_table(const results::Scene& scene) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -6,7 +6,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// "judged with lattices fitted to recordings: vertices at most 1.20 mm off (body cloth, frame 7)",
 /// of the vertex farthest from where it was recorded. Empty for scenes without a fitted lattice.
@@ -16,4 +16,4 @@ std::string fits_line(const results::Scene& scene);
 /// lattice.
 TitledTable fits_table(const results::Scene& scene);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

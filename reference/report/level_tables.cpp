@@ -8,7 +8,7 @@
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::LevelCounts, results::Run;
@@ -102,4 +102,4 @@ LevelTables level_tables(const results::Index& index, std::optional<Level> level
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

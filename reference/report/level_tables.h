@@ -8,7 +8,7 @@
 #include "reference/report/heat_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// The levels that some detector claims and was judged at, coarse before fine.
 std::vector<Level> judged_levels(const results::Results& results);
@@ -23,4 +23,4 @@ struct LevelTables {
 /// the same in all, since counts of different levels do not add up.
 LevelTables level_tables(const results::Index& index, std::optional<Level> level);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

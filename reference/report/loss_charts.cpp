@@ -10,7 +10,7 @@
 #include "reference/report/error_counts.h"
 #include "reference/report/stage_losses.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::Run;
 
@@ -151,4 +151,4 @@ std::string loss_markdown(const results::Results& results) {
   return out.empty() ? "" : "## Who errs, and in which stage\n\n" + out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

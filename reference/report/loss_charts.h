@@ -5,7 +5,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Where the report expects them, beside report.md. No picture of a family has such a name.
 inline constexpr const char* kErrorsFile = "plots/who_errs.svg";
@@ -24,4 +24,4 @@ std::string stages_picture(const results::Results& results);
 /// The section that shows both; empty without pictures.
 std::string loss_markdown(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -13,7 +13,7 @@
 #include "reference/report/speed_error_section.h"
 #include "reference/report/summary.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 std::string origin_section(const results::Results& results) {
@@ -85,4 +85,4 @@ std::string markdown_report(const results::Results& results) {
   return out + section_of(semantics_table(results)) + legend();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

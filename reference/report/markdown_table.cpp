@@ -1,6 +1,6 @@
 #include "reference/report/markdown_table.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 std::string escaped(const std::string& text) {
@@ -35,4 +35,4 @@ std::string markdown_of(const TitledTable& table) {
   return out + "\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

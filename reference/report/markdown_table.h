@@ -6,7 +6,7 @@
 
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// A table with what is said above it. `Code` stands in backticks.
 struct TitledTable {
@@ -20,4 +20,4 @@ struct TitledTable {
 /// without rows. A cell cannot end its column or its line.
 std::string markdown_of(const TitledTable& table);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

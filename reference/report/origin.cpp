@@ -6,9 +6,9 @@
 #include <set>
 
 #include "reference/report/run_row.h"
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 std::vector<std::string> machine_lines(const results::Results& results) {
   const results::Machine& m = results.machine;
@@ -62,8 +62,8 @@ std::string steadiness_line(const results::Results& results) {
       std::vector<double> ratios;
       for (std::size_t p = 0; p + 1 < times.pass_ms.size(); p += 2)
         ratios.push_back(times.pass_ms[p] / times.pass_ms[p + 1]);
-      if (ratios.size() < kFewestForInterval) continue;
-      const Ratio beside_itself = mean_ratio(ratios);
+      if (ratios.size() < results::kFewestForInterval) continue;
+      const results::Ratio beside_itself = results::mean_ratio(ratios);
       inside += beside_itself.low <= 1.0 && 1.0 <= beside_itself.high;
       half_widths.push_back(std::sqrt(beside_itself.high / beside_itself.low) - 1.0);
       if (fewest == 0 || ratios.size() < fewest) fewest = ratios.size();
@@ -72,7 +72,7 @@ std::string steadiness_line(const results::Results& results) {
   return fmt::format(
       "each detector beside itself, over {} pairs of passes: 1.00 lies inside {} of {} "
       "intervals of 95 %; their median half-width is {:.1f} %",
-      fewest, inside, half_widths.size(), 100.0 * median(half_widths));
+      fewest, inside, half_widths.size(), 100.0 * results::median(half_widths));
 }
 
 std::vector<std::string> part_sentences(const results::Results& results) {
@@ -110,4 +110,4 @@ TitledTable semantics_table(const results::Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Command, machine, compiler, libraries, version and how it was timed, a line each; `code` stands
 /// in backticks.
@@ -28,4 +28,4 @@ std::vector<std::string> part_sentences(const results::Results& results);
 /// Of each detector's first row that is `ok`: options, and what it claims in words.
 TitledTable semantics_table(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

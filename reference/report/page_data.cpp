@@ -31,7 +31,7 @@
 #include "reference/report/summary.h"
 #include "reference/results/references.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -360,7 +360,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"group_names", std::move(group_names)},
               {"timed", timed},
               {"fastest", headline.fastest},
-              {"references", kReferences},
+              {"references", results::kReferences},
               {"summary", to_json(summary_table(results))},
               {"claimed", to_json(semantics_table(results))},
               {"claims", to_json(claims_of(results))},
@@ -383,4 +383,4 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

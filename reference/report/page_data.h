@@ -8,11 +8,11 @@
 #include "reference/report/paper_part.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// One object, whose fields are those of the interface Page in reference/report/web/src/page.ts.
 /// `paper`: the tables of `reproduce`, where there are such.
 nlohmann::ordered_json page_data(const results::Results& results,
                                  const std::optional<PaperPart>& paper);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 
 #include "reference/report/markdown_table.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// The section "The paper's tables beside ours", in the order of the page.
 struct PaperPart {
@@ -27,4 +27,4 @@ struct PaperPart {
   TitledTable checks;       ///< of these numbers, each with its sentence in the last cell
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

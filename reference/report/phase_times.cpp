@@ -4,7 +4,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 // None where no run was timed.
@@ -64,4 +64,4 @@ TitledTable phase_times_table(const std::vector<PhaseMeans>& all) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -10,7 +10,7 @@
 #include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// One detector over the scenes in which it was timed, each counting the same. Milliseconds per
 /// frame.
@@ -36,4 +36,4 @@ std::vector<PhaseMeans> phase_times(const results::Index& index, const SceneChoi
 /// A row per detector, in this order.
 TitledTable phase_times_table(const std::vector<PhaseMeans>& all);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 constexpr double kBend = 0.001;  // where ErrorAxis turns from linear to logarithmic
@@ -47,4 +47,4 @@ std::vector<Tick> ErrorAxis::ticks() const {
   return ticks;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 struct Tick {
   double value;
@@ -40,4 +40,4 @@ class ErrorAxis {
   double top_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -4,7 +4,7 @@
 
 #include "reference/report/format.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 std::string oracle_text(std::uint64_t wrong) {
@@ -40,4 +40,4 @@ TitledTable pairs_table(const results::Scene& scene) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

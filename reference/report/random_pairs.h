@@ -7,7 +7,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// "10,000,000 pairs, seed 1, 5,012,345 touch; oracle against rational arithmetic: 0 wrong".
 /// Empty for scenes without pairs.
@@ -16,4 +16,4 @@ std::string pairs_line(const results::Scene& scene);
 /// How many of each kind touch, below that line; no rows for scenes without pairs.
 TitledTable pairs_table(const results::Scene& scene);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

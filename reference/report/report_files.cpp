@@ -8,7 +8,7 @@
 #include "reference/report/speed_error_section.h"
 #include "reference/report/stability_plot.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 std::map<std::string, std::string> report_files(const results::Results& results) {
   std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
@@ -24,4 +24,4 @@ std::map<std::string, std::string> report_files(const results::Results& results)
   return files;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -6,9 +6,9 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Texts by path below the report's folder: report.md and plots/*.svg.
 std::map<std::string, std::string> report_files(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

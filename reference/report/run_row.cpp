@@ -5,7 +5,7 @@
 
 #include "reference/results/references.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::Run;
 
@@ -59,7 +59,7 @@ const std::vector<Column>& result_columns() {
          "map + update + query in playback, without the first frame; (own ...): update + query by "
          "its own clock"},
         {"passes", false, "timed passes through the frames, each in a fresh process"}};
-    for (const std::string reference : kReferences)
+    for (const std::string reference : results::kReferences)
       all.push_back({"vs " + reference, false,
                      "time of " + reference + " / time of this detector, playback"});
     return all;
@@ -92,7 +92,8 @@ std::vector<std::string> result_cells(const Run& run) {
                                     name_of(compared_question(run)),
                                     times == nullptr ? "-" : frame_cell(run, *times),
                                     times == nullptr ? "-" : std::to_string(times->passes)};
-  for (const char* reference : kReferences) cells.push_back(speed_cell(run, reference, times));
+  for (const char* reference : results::kReferences)
+    cells.push_back(speed_cell(run, reference, times));
   return cells;
 }
 
@@ -190,4 +191,4 @@ std::string finest_level(const Run& run) {
   return run.per_frame.level ? name_of(*run.per_frame.level) : "";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

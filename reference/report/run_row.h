@@ -8,7 +8,7 @@
 #include "reference/report/format.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 struct Column {
   std::string title;
@@ -62,4 +62,4 @@ std::string semantics_text(const Semantics& semantics);
 
 /// The finest level that a run which is `ok` was judged at; "" without one.
 std::string finest_level(const results::Run& run);
-}  // namespace contactcheck
+}  // namespace contactcheck::report

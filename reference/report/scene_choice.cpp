@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 std::vector<SceneChoice> scene_choices(const results::Results& results) {
   std::vector<SceneChoice> choices;
@@ -27,4 +27,4 @@ std::vector<const results::Run*> ok_runs(const results::Index& index, const std:
   return runs;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

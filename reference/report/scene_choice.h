@@ -6,7 +6,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Scenes that one chart can be drawn for.
 struct SceneChoice {
@@ -22,4 +22,4 @@ std::vector<SceneChoice> scene_choices(const results::Results& results);
 std::vector<const results::Run*> ok_runs(const results::Index& index, const std::string& detector,
                                          const SceneChoice& scenes);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 using RunList = std::vector<const results::Run*>;
 
@@ -27,4 +27,11 @@ struct SceneReport {
 /// Refers to the results of `index`. @pre `scene` is one of theirs
 SceneReport scene_report(const results::Index& index, const results::Scene& scene);
 
-}  // namespace contactcheck
+// Time and error against separation, of scenes that are distance sweeps.
+
+/// A row per detector and a column per separation: the median time of a frame over the orientations
+/// that were timed (where there are such), and missed and spurious contacts over all of them. None
+/// for scenes that are no sweep.
+std::vector<TitledTable> separation_tables(const results::Scene& scene, const RunList& runs);
+
+}  // namespace contactcheck::report

@@ -11,7 +11,7 @@
 
 #include "core/types/semantics.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::Run;
 using Runs = std::vector<const Run*>;
@@ -140,4 +140,4 @@ std::string left_out_sentence(const SpeedError& chart) {
   return text.empty() ? "" : "Not in the chart: " + text + ".";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

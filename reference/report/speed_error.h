@@ -10,7 +10,7 @@
 #include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// One detector over several scenes; the counts are sums over them.
 struct SpeedErrorPoint : ErrorCounts {
@@ -75,4 +75,4 @@ std::string left_out_sentence(const SpeedError& chart);
 /// Sets `on_front` of every point.
 void mark_front(std::vector<SpeedErrorPoint>& points);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -12,16 +12,16 @@
 #include "reference/report/plot_axis.h"
 #include "reference/report/svg.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using Anchor = Svg::Anchor;
 using Points = std::vector<SpeedErrorPoint>;
 
-constexpr double kWidth = 900, kLeft = 76, kRight = 24, kBottom = 108, kPlotHeight = 400;
-constexpr double kLegendLine = 20, kMargin = 20, kInset = 14;  // room below an error of 0
+constexpr double kWidth = 900, kPlotLeft = 76, kRight = 24, kBottom = 108, kPlotHeight = 400;
+constexpr double kLegendLine = 20, kPlotMargin = 20, kInset = 14;  // room below an error of 0
 constexpr double kRadius = 5.5;
 // Names stand in a font whose letters are all as wide, so that they are known not to overlap.
-constexpr double kNameLetter = 6.7, kNameHeight = 12, kLetter = 6.7;
+constexpr double kNameLetter = 6.7, kNameHeight = 12, kLegendLetter = 6.7;
 
 struct Shape {
   Question question;
@@ -41,7 +41,7 @@ const Shape& shape_of(Question question) {
 
 std::string class_of(std::size_t group) { return fmt::format("dot g{}", group); }
 
-std::string style() {
+std::string plot_style() {
   std::string light =
       ".grid{stroke:#d1d9e0}.front{fill:none;stroke:#59636e;stroke-width:1.5;stroke-dasharray:5 "
       "3}\n"
@@ -118,26 +118,28 @@ class SpeedErrorPlot {
     const std::size_t nameless = draw_names();
     draw_points();
     draw_foot(nameless);
-    return svg_.document("Speed against error, " + chart_.scenes, style());
+    return svg_.document("Speed against error, " + chart_.scenes, plot_style());
   }
 
  private:
-  double x_of(double ms) const { return kLeft + (kWidth - kLeft - kRight) * time_.place(ms); }
+  double x_of(double ms) const {
+    return kPlotLeft + (kWidth - kPlotLeft - kRight) * time_.place(ms);
+  }
   double y_of(double error) const { return base() - (kPlotHeight - kInset) * error_.place(error); }
   double base() const { return top_ + kPlotHeight - kInset; }
   double bottom() const { return top_ + kPlotHeight; }
 
   static double width_of(const LegendEntry& entry) {
-    return 16 + kLetter * static_cast<double>(entry.words.size()) + 12;
+    return 16 + kLegendLetter * static_cast<double>(entry.words.size()) + 12;
   }
   // Calls `use(entry, x, line)` for every entry; returns the number of lines.
   template <typename Use>
   std::size_t for_each_entry(Use&& use) const {
-    double x = kMargin;
+    double x = kPlotMargin;
     std::size_t line = 0;
     for (const LegendEntry& entry : legend_) {
-      if (x > kMargin && x + width_of(entry) > kWidth - kRight) {
-        x = kMargin;
+      if (x > kPlotMargin && x + width_of(entry) > kWidth - kRight) {
+        x = kPlotMargin;
         ++line;
       }
       use(entry, x, line);
@@ -150,7 +152,7 @@ class SpeedErrorPlot {
   }
 
   void draw_head() {
-    svg_.text(kMargin, 22, "Speed against error, " + chart_.scenes, Anchor::kStart, "title");
+    svg_.text(kPlotMargin, 22, "Speed against error, " + chart_.scenes, Anchor::kStart, "title");
     for_each_entry([&](const LegendEntry& entry, double x, std::size_t line) {
       const double y = 40 + kLegendLine * static_cast<double>(line);
       svg_.path(x + 5, y, entry.outline, entry.css_class);
@@ -160,8 +162,8 @@ class SpeedErrorPlot {
 
   void draw_axes() {
     for (const Tick& tick : error_.ticks()) {
-      svg_.line(kLeft, y_of(tick.value), kWidth - kRight, y_of(tick.value), "grid");
-      svg_.text(kLeft - 8, y_of(tick.value) + 4, tick.name, Anchor::kEnd);
+      svg_.line(kPlotLeft, y_of(tick.value), kWidth - kRight, y_of(tick.value), "grid");
+      svg_.text(kPlotLeft - 8, y_of(tick.value) + 4, tick.name, Anchor::kEnd);
     }
     for (const Tick& tick : time_.ticks()) {
       svg_.line(x_of(tick.value), top_, x_of(tick.value), bottom(), "grid");
@@ -198,7 +200,7 @@ class SpeedErrorPlot {
     for (const SpeedErrorPoint& p : points_)
       wanted.push_back({x_of(p.ms), y_of(p.error),
                         kNameLetter * static_cast<double>(p.detector.size()), kNameHeight});
-    const Box area{kLeft, top_, kWidth - kLeft - kRight, kPlotHeight};
+    const Box area{kPlotLeft, top_, kWidth - kPlotLeft - kRight, kPlotHeight};
     const auto places = place_labels(wanted, area, kRadius, fronts_);
     std::size_t nameless = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -222,7 +224,7 @@ class SpeedErrorPlot {
 
   void draw_foot(std::size_t nameless) {
     const auto line = [&](double y, const std::string& words) {
-      svg_.text(kMargin, bottom() + y, words, Anchor::kStart, "faint");
+      svg_.text(kPlotMargin, bottom() + y, words, Anchor::kStart, "faint");
     };
     line(58,
          "Time: mapping, update and query in playback, mean over frames. Errors: share of "
@@ -253,4 +255,4 @@ std::string speed_error_plot(const SpeedError& chart, const std::string& machine
   return chart.points.empty() ? "" : SpeedErrorPlot(chart, machine).draw();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 
 #include "reference/report/speed_error.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Where the report expects it, beside report.md. No picture of a family has that name.
 inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
@@ -16,4 +16,4 @@ inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
 /// points.
 std::string speed_error_plot(const SpeedError& chart, const std::string& machine);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

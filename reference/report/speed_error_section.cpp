@@ -9,7 +9,7 @@
 #include "reference/report/speed_error.h"
 #include "reference/report/speed_error_plot.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 const std::vector<Column>& speed_error_columns() {
   static const std::vector<Column> columns = {
@@ -57,4 +57,4 @@ std::string speed_error_picture(const results::Results& results) {
   return speed_error_plot(speed_error(results), results.machine.cpu + ", " + results.machine.isa);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,7 +8,7 @@
 #include "reference/report/speed_error.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 const std::vector<Column>& speed_error_columns();
 std::vector<std::string> speed_error_cells(const SpeedErrorPoint& point);
@@ -19,4 +19,4 @@ std::string speed_error_markdown(const results::Results& results);
 /// The picture that the section shows, empty where it shows none.
 std::string speed_error_picture(const results::Results& results);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,13 +8,13 @@
 
 #include "reference/report/svg.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using Anchor = Svg::Anchor;
 
-constexpr double kSquare = 22, kGap = 2, kCaptionLetter = 7.2, kEdge = 16;
-constexpr double kHead = 50;       // title and legend
-constexpr double kFaintest = 0.3;  // one wrong contact of many must still be seen
+constexpr double kSquare = 22, kSquareGap = 2, kCaptionLetter = 7.2, kEdge = 16;
+constexpr double kHeadHeight = 50;  // title and legend
+constexpr double kFaintest = 0.3;   // one wrong contact of many must still be seen
 
 // Blue and orange are told apart by every kind of eye. What is unknown can be clicked like the
 // rest.
@@ -44,7 +44,7 @@ class StabilityPlot {
       : scene_(scene),
         rows_(std::move(rows)),
         left_(kEdge + label_width()),
-        svg_(width(), kHead + height_of_rows() + foot()) {}
+        svg_(width(), kHeadHeight + height_of_rows() + foot()) {}
 
   std::string draw() {
     draw_head();
@@ -67,20 +67,26 @@ class StabilityPlot {
     return kCaptionLetter * static_cast<double>(longest) + 8;
   }
   double width() const {
-    const double squares = static_cast<double>(cases()) * (kSquare + kGap);
+    const double squares = static_cast<double>(cases()) * (kSquare + kSquareGap);
     const double words = kCaptionLetter * static_cast<double>(title().size());
     return std::max({left_ + squares, words + kEdge, 420.0}) + kEdge;
   }
-  double height_of_rows() const { return static_cast<double>(rows_.size()) * (kSquare + kGap); }
+  double height_of_rows() const {
+    return static_cast<double>(rows_.size()) * (kSquare + kSquareGap);
+  }
   // Values stand on their heads below the squares, the parameter below them.
   double foot() const {
     std::size_t longest = 0;
     for (std::size_t c = 0; c < cases(); ++c) longest = std::max(longest, rows_[0].value(c).size());
     return 40 + 0.9 * kCaptionLetter * static_cast<double>(longest);
   }
-  double svg_bottom() const { return kHead + height_of_rows() + foot(); }
-  double x_of(std::size_t c) const { return left_ + static_cast<double>(c) * (kSquare + kGap); }
-  double y_of(std::size_t row) const { return kHead + static_cast<double>(row) * (kSquare + kGap); }
+  double svg_bottom() const { return kHeadHeight + height_of_rows() + foot(); }
+  double x_of(std::size_t c) const {
+    return left_ + static_cast<double>(c) * (kSquare + kSquareGap);
+  }
+  double y_of(std::size_t row) const {
+    return kHeadHeight + static_cast<double>(row) * (kSquare + kSquareGap);
+  }
 
   void draw_head() {
     svg_.text(kEdge, 18, title(), Anchor::kStart, "title");
@@ -167,4 +173,4 @@ std::string stability_plot(const results::Scene& scene, const std::vector<Family
   return rows.empty() ? "" : StabilityPlot(scene, std::move(rows)).draw();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

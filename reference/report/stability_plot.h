@@ -7,7 +7,7 @@
 #include "reference/report/family_result.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// An SVG document: a row per detector that goes wrong in the family, a column per value of its
 /// parameter; of each square the upper half says which share of the true contacts was missed, the
@@ -19,4 +19,4 @@ std::string stability_plot(const results::Scene& scene, const std::vector<Family
 /// Where the report expects it, beside report.md: "plots/ID.svg".
 std::string stability_plot_file(const results::Scene& scene);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::Run;
 
@@ -142,4 +142,4 @@ TitledTable stage_losses_table(const std::vector<DetectorLosses>& all) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -11,7 +11,7 @@
 #include "reference/report/scene_choice.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// What the stages of one name lost.
 struct StageLoss {
@@ -55,4 +55,4 @@ std::string no_loss_sentence(const std::vector<DetectorLosses>& all);
 /// What went in and out of every stage of every detector.
 TitledTable stage_losses_table(const std::vector<DetectorLosses>& all);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,7 +8,7 @@
 #include "reference/report/run_row.h"
 #include "reference/results/references.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using results::LevelCounts;
 using results::Run;
@@ -20,7 +20,7 @@ struct Sums {
   std::size_t scenes = 0, not_ok = 0;
   std::optional<LevelCounts> counts, body;  ///< none: nothing judged, which is no perfect score
   std::optional<double> hover;
-  std::array<Range, kReferences.size()> speedups;
+  std::array<Range, results::kReferences.size()> speedups;
   Range passes;  ///< of these
 };
 
@@ -41,8 +41,8 @@ void add_run(const Run& run, Sums& sums) {
   add_counts(counts_of(run, Level::kBody), sums.body);
   if (const auto hover = run.geometry.hover_gap_max)
     sums.hover = std::max(sums.hover.value_or(0.0), *hover);
-  for (std::size_t i = 0; i < kReferences.size(); ++i)
-    if (const auto* speedup = speedup_of(run, *sums.question, kReferences[i])) {
+  for (std::size_t i = 0; i < results::kReferences.size(); ++i)
+    if (const auto* speedup = speedup_of(run, *sums.question, results::kReferences[i])) {
       sums.speedups[i].add(speedup->playback.value);
       sums.passes.add(static_cast<double>(speedup->passes));
     }
@@ -105,7 +105,7 @@ TitledTable summary_table(const results::Results& results) {
                    {"question", true, ""},
                    {"passes", false, ""}},
                   {}};
-  for (const char* reference : kReferences)
+  for (const char* reference : results::kReferences)
     out.columns.push_back({std::string("vs ") + reference, false, ""});
   std::vector<Sums> all;
   for (const Run& run : results.runs) add_run(run, line_of(run, all));
@@ -113,4 +113,4 @@ TitledTable summary_table(const results::Results& results) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 const char* anchor_name(Svg::Anchor anchor) {
@@ -109,4 +109,4 @@ std::string themed_css(const std::vector<ThemedColour>& colours) {
   return light + "@media(prefers-color-scheme:dark){" + dark + "}\n";
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

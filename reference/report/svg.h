@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// Coordinates in pixels, y downwards. Colours come from classes, so that one picture reads well on
 /// a light page and on a dark one: it lies on paper of its own, which is dark where the reader
@@ -51,4 +51,4 @@ std::string themed_css(const std::vector<ThemedColour>& colours);
 /// With &, <, >, " and control characters made harmless.
 std::string xml_text(const std::string& text);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

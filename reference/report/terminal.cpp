@@ -13,7 +13,7 @@
 #include "reference/report/run_row.h"
 #include "reference/report/summary.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 using Line = std::vector<std::string>;
 
@@ -83,7 +83,7 @@ std::string scene_head(const results::Scene& scene, bool color) {
                      scene.frames, scene.contact_frames, more);
 }
 
-std::string legend() {
+std::string terminal_legend() {
   std::string out;
   for (std::size_t i = 1; i < result_columns().size(); ++i)
     out += fmt::format("  {:<13}  {}\n", result_columns()[i].title, result_columns()[i].meaning);
@@ -116,7 +116,7 @@ std::string terminal_tables(const results::Results& results, bool color) {
     out += paint("goals", kBold, color) + "\n" + table(goals, color);
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";
-  return out + legend();
+  return out + terminal_legend();
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 // Times are printed to 0.001 ms: each is off by at most half of that. Only what lies beyond the
@@ -210,4 +210,4 @@ std::vector<PaperFinding> check_paper(const PaperTables& tables) {
   return findings;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

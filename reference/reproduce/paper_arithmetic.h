@@ -8,7 +8,7 @@
 
 #include "reference/reproduce/paper_tables.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 
 /// One figure. Every member has an initialiser, so that a finding names only what it sets.
 struct PaperFinding {
@@ -33,4 +33,4 @@ void check_claims(const PaperTables& tables, std::vector<PaperFinding>& findings
 /// `value` as sentences show it: 3 decimals for ratio and ms, 2 for fps, 1 for %, 0 for count.
 std::string paper_figure(double value, const std::string& unit);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -5,7 +5,7 @@
 
 #include "reference/reproduce/paper_arithmetic.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 constexpr double kMsPerSecond = 1000.0;
@@ -198,4 +198,4 @@ void check_claims(const PaperTables& tables, std::vector<PaperFinding>& findings
     if (scene.objects_in_text) add_objects(scene, findings);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/report/format.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 using Json = nlohmann::ordered_json;
 
 // With the title as `title` has it: every kind of report marks it in its own way.
 std::string source_words(const PaperSource& source, const std::string& title) {
-  return fmt::format("{}: {}, {}, {}, doi {}.", joined(source.authors), title, source.journal,
+  return fmt::format("{}: {}, {}, {}, doi {}.", text::joined(source.authors), title, source.journal,
                      source.year, source.doi);
 }
 
@@ -51,17 +51,17 @@ std::string with_unit(double value, const std::string& unit) {
   return unit == "ratio" || unit == "count" ? figure : figure + " " + unit;
 }
 
-TitledTable figures_table(const std::vector<PaperFinding>& findings) {
-  TitledTable table = {"Every figure",
-                       "",
-                       {{"check", true, "what is computed"},
-                        {"table", true, "from which table"},
-                        {"scene", true, "- over all scenes"},
-                        {"method", true, "- over both methods"},
-                        {"computed", false, "by arithmetic"},
-                        {"claimed", false, "in the same unit"},
-                        {"verdict", true, "- where nothing is claimed"}},
-                       {}};
+report::TitledTable figures_table(const std::vector<PaperFinding>& findings) {
+  report::TitledTable table = {"Every figure",
+                               "",
+                               {{"check", true, "what is computed"},
+                                {"table", true, "from which table"},
+                                {"scene", true, "- over all scenes"},
+                                {"method", true, "- over both methods"},
+                                {"computed", false, "by arithmetic"},
+                                {"claimed", false, "in the same unit"},
+                                {"verdict", true, "- where nothing is claimed"}},
+                               {}};
   for (const PaperFinding& f : findings)
     table.rows.push_back({f.topic, f.table, or_dash(f.scene), or_dash(f.method),
                           with_unit(f.computed, f.unit),
@@ -115,7 +115,7 @@ std::string paper_markdown(const PaperTables& tables, const std::vector<PaperFin
          "\n\nComputed from the printed tables alone; nothing here was measured.\n\n" +
          sentences("What does not add up", findings, false) +
          sentences("What agrees", findings, true) + not_checkable(tables) +
-         markdown_of(figures_table(findings));
+         report::markdown_of(figures_table(findings));
 }
 
 Json paper_json(const PaperTables& tables, const std::vector<PaperFinding>& findings) {
@@ -143,16 +143,16 @@ std::string own_numbers(const Json& paper) {
                                    .doi = source.at("doi"),
                                    .year = source.at("year")},
                                   source.at("title")),
-                     plural(findings.size(), "check"), contradictions);
+                     report::plural(findings.size(), "check"), contradictions);
 }
 
-TitledTable checks_table(const Json& paper) {
+report::TitledTable checks_table(const Json& paper) {
   const std::vector<PaperFinding> findings = findings_of(paper);
-  TitledTable table = figures_table(findings);
+  report::TitledTable table = figures_table(findings);
   table.title = "Checks of the paper's own numbers";
   table.columns.push_back({"in words", true, ""});
   for (std::size_t i = 0; i < findings.size(); ++i) table.rows[i].push_back(findings[i].sentence);
   return table;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

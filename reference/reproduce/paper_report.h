@@ -8,7 +8,7 @@
 #include "reference/report/markdown_table.h"
 #include "reference/reproduce/paper_arithmetic.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 
 /// A Markdown section (heading of level 2): the source, the sentences that contradict a claim or
 /// cannot be, those that agree, claims that no table lets one check, and every figure in a table.
@@ -24,6 +24,6 @@ nlohmann::ordered_json paper_json(const PaperTables& tables,
 /// figure, with its finding's sentence as last cell.
 /// @throws nlohmann::json::exception when it is something else
 std::string own_numbers(const nlohmann::ordered_json& paper);
-TitledTable checks_table(const nlohmann::ordered_json& paper);
+report::TitledTable checks_table(const nlohmann::ordered_json& paper);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

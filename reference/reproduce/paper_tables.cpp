@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 // Far above any count or time of such a paper, and low enough that sums and products stay finite.
@@ -16,13 +16,13 @@ constexpr double kLongestMs = 3.6e6;  // an hour for one step
 constexpr double kLargestClaim = 1e6;
 constexpr std::size_t kFirstYear = 1900, kLastYear = 2100;
 
-std::vector<std::string> parse_authors(const JsonField& field) {
+std::vector<std::string> parse_authors(const text::JsonField& field) {
   std::vector<std::string> authors;
-  for (const JsonField& item : field.items(1)) authors.push_back(item.text());
+  for (const text::JsonField& item : field.items(1)) authors.push_back(item.text());
   return authors;
 }
 
-PaperSource parse_source(const JsonField& field) {
+PaperSource parse_source(const text::JsonField& field) {
   field.only_keys({"authors", "title", "journal", "year", "doi"});
   PaperSource source;
   source.authors = parse_authors(field.at("authors"));
@@ -33,7 +33,7 @@ PaperSource parse_source(const JsonField& field) {
   return source;
 }
 
-PaperClaim parse_claim(const JsonField& field) {
+PaperClaim parse_claim(const text::JsonField& field) {
   field.only_keys({"says", "value", "low", "high"});
   PaperClaim claim;
   claim.says = field.at("says").text();
@@ -44,10 +44,10 @@ PaperClaim parse_claim(const JsonField& field) {
   return claim;
 }
 
-std::vector<PaperDevice> parse_devices(const JsonField& field) {
+std::vector<PaperDevice> parse_devices(const text::JsonField& field) {
   std::vector<PaperDevice> devices;
   std::vector<std::string> names;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     item.only_keys({"name", "average_frame_rate"});
     const std::string name = item.at("name").text();
     if (std::find(names.begin(), names.end(), name) != names.end())
@@ -58,11 +58,11 @@ std::vector<PaperDevice> parse_devices(const JsonField& field) {
   return devices;
 }
 
-PaperScene parse_scene(const JsonField& field) {
+PaperScene parse_scene(const text::JsonField& field) {
   field.only_keys({"scene", "objects", "objects_in_text", "vertices", "triangles", "cells"});
   const auto count = [&](const char* key) { return field.at(key).whole(1, kMostCounted); };
   PaperScene scene;
-  scene.id = parse_id(field.at("scene"));
+  scene.id = text::parse_id(field.at("scene"));
   scene.objects = count("objects");
   if (field.has("objects_in_text")) scene.objects_in_text = count("objects_in_text");
   scene.vertices = count("vertices");
@@ -71,9 +71,9 @@ PaperScene parse_scene(const JsonField& field) {
   return scene;
 }
 
-std::vector<PaperScene> parse_scenes(const JsonField& field) {
+std::vector<PaperScene> parse_scenes(const text::JsonField& field) {
   std::vector<PaperScene> scenes;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     const PaperScene scene = parse_scene(item);
     const auto same = [&](const PaperScene& other) { return other.id == scene.id; };
     if (std::any_of(scenes.begin(), scenes.end(), same)) item.at("scene").refuse("named once only");
@@ -94,7 +94,7 @@ std::vector<std::string> ids_of(const std::vector<PaperScene>& scenes) {
   return ids;
 }
 
-PaperRow parse_row(const JsonField& field, const std::vector<std::string>& scenes,
+PaperRow parse_row(const text::JsonField& field, const std::vector<std::string>& scenes,
                    const std::vector<std::string>& methods) {
   field.only_keys({"scene", "method", "mss", "cell", "test", "response", "total"});
   const auto time = [&](const char* key) {
@@ -118,8 +118,9 @@ bool has_row(const PaperTable& table, const std::string& scene, const std::strin
   });
 }
 
-void parse_rows(const JsonField& field, const std::vector<std::string>& scenes, PaperTable& table) {
-  for (const JsonField& item : field.items(1)) {
+void parse_rows(const text::JsonField& field, const std::vector<std::string>& scenes,
+                PaperTable& table) {
+  for (const text::JsonField& item : field.items(1)) {
     const PaperRow row = parse_row(item, scenes, {table.before, table.after});
     if (has_row(table, row.scene, row.method))
       item.fail("is a second row of " + row.method + " on " + row.scene);
@@ -130,21 +131,21 @@ void parse_rows(const JsonField& field, const std::vector<std::string>& scenes, 
       if (!has_row(table, scene, method)) field.fail("has no row of " + method + " on " + scene);
 }
 
-PaperTable parse_table(const JsonField& field, const std::string& name,
+PaperTable parse_table(const text::JsonField& field, const std::string& name,
                        const std::vector<PaperDevice>& devices,
                        const std::vector<PaperScene>& scenes) {
   field.only_keys({"device", "before", "after", "rows"});
   PaperTable table;
   table.name = name;
   table.device = field.at("device").one_of(names_of(devices));
-  table.before = parse_id(field.at("before"));
-  table.after = parse_id(field.at("after"));
+  table.before = text::parse_id(field.at("before"));
+  table.after = text::parse_id(field.at("after"));
   if (table.after == table.before) field.at("after").refuse("another method than before");
   parse_rows(field.at("rows"), ids_of(scenes), table);
   return table;
 }
 
-PaperClaims parse_claims(const JsonField& field, const PaperTables& tables) {
+PaperClaims parse_claims(const text::JsonField& field, const PaperTables& tables) {
   field.only_keys({"frame_rate_gain", "best_frame_rate", "best_device", "best_scene", "test_share",
                    "cell_share", "one_level_gain"});
   PaperClaims claims;
@@ -176,9 +177,10 @@ const PaperRow& PaperTable::row(const std::string& scene, const std::string& met
 }
 
 PaperTables load_paper_tables(const std::filesystem::path& file) {
-  const std::string document = "paper file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "paper file"), document);
-  const JsonField root(value, document);
+  const std::string document = "paper file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "paper file"), document);
+  const text::JsonField root(value, document);
   root.only_keys({"source", "devices", "table_1", "table_2", "table_3", "claims"});
   PaperTables tables;
   tables.source = parse_source(root.at("source"));
@@ -190,4 +192,4 @@ PaperTables load_paper_tables(const std::filesystem::path& file) {
   return tables;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 
 struct PaperSource {
   std::vector<std::string> authors;  ///< family names, in the paper's order
@@ -91,4 +91,4 @@ struct PaperTables {
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 PaperTables load_paper_tables(const std::filesystem::path& file);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -9,7 +9,7 @@
 
 #include "reference/results/results_json.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -308,4 +308,4 @@ Json reproduce(const results::Results& results, const PaperTables& tables) {
           {"means", std::move(means)}};
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

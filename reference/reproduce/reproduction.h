@@ -9,7 +9,7 @@
 #include "reference/reproduce/paper_tables.h"
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 
 /// One way to read the paper's method, as the end of a detector's name.
 struct MethodReading {
@@ -42,4 +42,4 @@ std::string scene_of_paper(const std::string& id);
 /// @pre results of `contactcheck reproduce`: runs with `step_ms` and `closed_loop`
 nlohmann::ordered_json reproduce(const results::Results& results, const PaperTables& tables);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -10,7 +10,7 @@
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -24,21 +24,21 @@ std::optional<double> real(const Json& value) {
 std::optional<std::int64_t> whole(const Json& value) {
   return value.is_null() ? std::nullopt : std::optional(value.get<std::int64_t>());
 }
-std::optional<Ratio> ratio(const Json& value) {
+std::optional<results::Ratio> ratio(const Json& value) {
   if (value.is_null()) return std::nullopt;
-  return Ratio{value.at("ratio"), value.at("low"), value.at("high")};
+  return results::Ratio{value.at("ratio"), value.at("low"), value.at("high")};
 }
 
 // Titles of words and of figures; the first column names what a row is of.
-Column words(const char* title) { return {title, true, ""}; }
-Column figures(const char* title) { return {title, false, ""}; }
+report::Column words(const char* title) { return {title, true, ""}; }
+report::Column figures(const char* title) { return {title, false, ""}; }
 
-TitledTable counts_table(const Json& counts) {
-  TitledTable table = {
+report::TitledTable counts_table(const Json& counts) {
+  report::TitledTable table = {
       "Counts", "", {words("count"), figures("paper"), figures("ours"), figures("difference")}, {}};
   for (const auto& [name, c] : counts.items())
-    table.rows.push_back({name, format_count(whole(c.at("paper"))),
-                          format_count(whole(c.at("ours"))),
+    table.rows.push_back({name, report::format_count(whole(c.at("paper"))),
+                          report::format_count(whole(c.at("ours"))),
                           fmt::format("{:+.2f} %", c.at("difference_percent").get<double>())});
   return table;
 }
@@ -47,7 +47,7 @@ std::vector<std::string> time_cells(const Json& t) {
   if (t.is_null()) return {"-", "-", "-", "-", "-"};
   std::vector<std::string> cells;
   for (const char* part : {"mss", "cell", "test", "response", "total"})
-    cells.push_back(format_number(real(t.at(part))));
+    cells.push_back(report::format_number(real(t.at(part))));
   return cells;
 }
 
@@ -59,20 +59,21 @@ std::vector<std::string> time_row(const std::string& method, const std::string& 
     cells.insert(cells.end(), {"-", "-", "-"});
   } else {
     cells.push_back(text(times.at("level")));
-    cells.push_back(fmt::format("{} of {}", format_count(whole(times.at("missed"))),
-                                format_count(whole(times.at("truth")))));
-    cells.push_back(format_count(whole(times.at("spurious"))));
+    cells.push_back(fmt::format("{} of {}", report::format_count(whole(times.at("missed"))),
+                                report::format_count(whole(times.at("truth")))));
+    cells.push_back(report::format_count(whole(times.at("spurious"))));
   }
   return cells;
 }
 
-TitledTable times_table(const Json& steps) {
-  TitledTable table = {"Milliseconds per whole step, timed in lockstep from the same states, cold",
-                       "",
-                       {words("method"), words("whose"), figures("MSS"), figures("CELL"),
-                        figures("collision test"), figures("response"), figures("total"),
-                        words("level"), figures("missed"), figures("spurious")},
-                       {}};
+report::TitledTable times_table(const Json& steps) {
+  report::TitledTable table = {
+      "Milliseconds per whole step, timed in lockstep from the same states, cold",
+      "",
+      {words("method"), words("whose"), figures("MSS"), figures("CELL"), figures("collision test"),
+       figures("response"), figures("total"), words("level"), figures("missed"),
+       figures("spurious")},
+      {}};
   for (const Json& row : steps) {
     const Json& paper = row.at("paper_reports");
     const std::string method = text(row.at("method"));
@@ -94,8 +95,8 @@ std::string paper_total(const Json& paper) {
   return fmt::format("{:.3f}x", paper.at("total").get<double>());
 }
 
-TitledTable ratios_table(const Json& ratios) {
-  TitledTable table = {
+report::TitledTable ratios_table(const Json& ratios) {
+  report::TitledTable table = {
       "From one method to the next: the time before over the time after",
       "",
       {words("from"), words("to"), words("whose"), figures("collision test"),
@@ -110,12 +111,13 @@ TitledTable ratios_table(const Json& ratios) {
     for (const MethodReading& reading : kReadings) {
       const Json& ours = row.at(reading.id);
       if (ours.is_null()) continue;
-      table.rows.push_back({from, to, fmt::format("ours, {}", reading.id),
-                            format_ratio_range(ratio(ours.at("test"))),
-                            format_ratio_range(ratio(ours.at("total"))),
-                            ours.at("same_contacts").get<bool>() ? "yes" : "no",
-                            fmt::format("{}, {}", format_count(whole(ours.at("missed_before"))),
-                                        format_count(whole(ours.at("missed_after"))))});
+      table.rows.push_back(
+          {from, to, fmt::format("ours, {}", reading.id),
+           report::format_ratio_range(ratio(ours.at("test"))),
+           report::format_ratio_range(ratio(ours.at("total"))),
+           ours.at("same_contacts").get<bool>() ? "yes" : "no",
+           fmt::format("{}, {}", report::format_count(whole(ours.at("missed_before"))),
+                       report::format_count(whole(ours.at("missed_after"))))});
     }
   }
   return table;
@@ -127,19 +129,19 @@ std::vector<std::string> closed_loop_row(const Json& loop) {
   std::string recalls;
   for (const auto& [level, counts] : loop.at("levels").items())
     recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
-                           format_rate(real(counts.at("recall"))));
+                           report::format_rate(real(counts.at("recall"))));
   return {text(loop.at("detector")),
-          format_millimetres(real(loop.at("hover_at_rest_max"))),
-          format_millimetres(real(loop.at("hover_at_rest_mean"))),
-          format_millimetres(real(loop.at("deepest_penetration"))),
-          format_number(real(loop.at("energy_gain"))),
-          format_number(real(loop.at("last_speed"))),
-          format_count(whole(loop.at("tunnelling_events"))),
+          report::format_millimetres(real(loop.at("hover_at_rest_max"))),
+          report::format_millimetres(real(loop.at("hover_at_rest_mean"))),
+          report::format_millimetres(real(loop.at("deepest_penetration"))),
+          report::format_number(real(loop.at("energy_gain"))),
+          report::format_number(real(loop.at("last_speed"))),
+          report::format_count(whole(loop.at("tunnelling_events"))),
           recalls};
 }
 
-TitledTable closed_loop_table(const Json& loops) {
-  TitledTable table = {
+report::TitledTable closed_loop_table(const Json& loops) {
+  report::TitledTable table = {
       "Closed loop: each detector drives the simulation itself, and is judged on the frames of its "
       "own motion",
       "Hover at rest is the true distance of the pairs that it reports in the last tenth of the "
@@ -161,8 +163,8 @@ std::string frame_rate_sentence(const Json& rate) {
 std::string hover_sentence(const Json& hover) {
   std::string out =
       fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm", kMethods[2],
-                  format_millimetres(real(hover.at(kMethods[2]))), kTraditional,
-                  format_millimetres(real(hover.at(kTraditional))));
+                  report::format_millimetres(real(hover.at(kMethods[2]))), kTraditional,
+                  report::format_millimetres(real(hover.at(kTraditional))));
   if (!hover.at("factor").is_null())
     out += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
   return out + ".";
@@ -180,8 +182,8 @@ std::vector<std::string> motion_sentences(const Json& scene) {
 
 std::string scene_words(const Json& scene) {
   return fmt::format("`{}`, {} frames, {} with contact", text(scene.at("ours")),
-                     format_count(whole(scene.at("frames"))),
-                     format_count(whole(scene.at("contact_frames"))));
+                     report::format_count(whole(scene.at("frames"))),
+                     report::format_count(whole(scene.at("contact_frames"))));
 }
 
 std::string markdown_list(const std::vector<std::string>& sentences) {
@@ -192,16 +194,16 @@ std::string markdown_list(const std::vector<std::string>& sentences) {
 
 // Below a scene's heading a table has no heading of its own, and only its first column is at the
 // left.
-std::string markdown_below(TitledTable table, const std::string& paragraph) {
+std::string markdown_below(report::TitledTable table, const std::string& paragraph) {
   table.title.clear();
   table.text = paragraph;
   for (std::size_t i = 1; i < table.columns.size(); ++i) table.columns[i].left = false;
-  return markdown_of(table);
+  return report::markdown_of(table);
 }
 
 std::string scene_section(const Json& scene) {
-  const TitledTable times = times_table(scene.at("steps"));
-  const TitledTable loops = closed_loop_table(scene.at("closed_loop"));
+  const report::TitledTable times = times_table(scene.at("steps"));
+  const report::TitledTable loops = closed_loop_table(scene.at("closed_loop"));
   std::string out =
       fmt::format("## {}\n\nScene {}.\n\n", text(scene.at("scene")), scene_words(scene)) +
       markdown_below(counts_table(scene.at("counts")), "") +
@@ -243,7 +245,7 @@ std::string introduction(const Json& reproduction) {
              "# The paper's tables beside ours\n\n- command: `{}`\n- machine: {}, {} cores, {}, "
              "{}\n- contactcheck {}\n\nReadings of the method:\n\n",
              text(reproduction.at("command")), text(machine.at("cpu")),
-             format_count(whole(machine.at("cores"))), text(machine.at("isa")),
+             report::format_count(whole(machine.at("cores"))), text(machine.at("isa")),
              text(machine.at("os")), text(reproduction.at("version"))) +
          markdown_list(reading_lines()) +
          "MSS is the deformation with gravity and ground; CELL maps every vertex and updates the "
@@ -252,8 +254,8 @@ std::string introduction(const Json& reproduction) {
 }
 
 // Two levels over one is the paper's own step: a row per scene, ours beside the paper's.
-TitledTable overview(const Json& scenes) {
-  TitledTable table = {
+report::TitledTable overview(const Json& scenes) {
+  report::TitledTable table = {
       "Two levels of spheres over one: the paper's ratios beside ours", "", {words("scene")}, {}};
   for (const char* title : {"collision test: paper", "frames per second: paper"}) {
     table.columns.push_back(figures(title));
@@ -269,7 +271,7 @@ TitledTable overview(const Json& scenes) {
         cells.push_back(part == std::string("test") ? paper_test(paper) : paper_total(paper));
         for (const MethodReading& reading : kReadings) {
           const Json& ours = row.at(reading.id);
-          cells.push_back(ours.is_null() ? "-" : format_ratio_range(ratio(ours.at(part))));
+          cells.push_back(ours.is_null() ? "-" : report::format_ratio_range(ratio(ours.at(part))));
         }
       }
       table.rows.push_back(std::move(cells));
@@ -277,8 +279,8 @@ TitledTable overview(const Json& scenes) {
   return table;
 }
 
-PaperPart::Scene scene_part(const Json& scene) {
-  PaperPart::Scene out = {
+report::PaperPart::Scene scene_part(const Json& scene) {
+  report::PaperPart::Scene out = {
       text(scene.at("scene")),
       scene_words(scene),
       scene.at("sentences").get<std::vector<std::string>>(),
@@ -300,8 +302,8 @@ std::string reproduction_markdown(const Json& reproduction) {
   return out;
 }
 
-PaperPart paper_part(const Json& reproduction) {
-  PaperPart out;
+report::PaperPart paper_part(const Json& reproduction) {
+  report::PaperPart out;
   out.overview = overview(reproduction.at("scenes"));
   out.readings = reading_lines();
   if (const Json& means = reproduction.at("means"); !means.is_null()) {
@@ -322,15 +324,16 @@ std::string reproduction_terminal(const Json& reproduction) {
     for (const Json& row : scene.at("ratios")) {
       if (row.at("after") != kMethods[2] || row.at("safe").is_null()) continue;
       for (const char* part : {"test", "total"})
-        out += fmt::format(
-            "  {:<10} {:<22} {:>8.3f}x {:>24} {:>24}  {}\n", text(scene.at("scene")),
-            part == std::string("test") ? "collision test" : "frames per second",
-            row.at("paper_reports").at(part).get<double>(),
-            format_ratio_range(ratio(row.at("safe").at(part))),
-            row.at("paper").is_null() ? "-" : format_ratio_range(ratio(row.at("paper").at(part))),
-            row.at("safe").at("same_contacts").get<bool>() ? "yes" : "no");
+        out += fmt::format("  {:<10} {:<22} {:>8.3f}x {:>24} {:>24}  {}\n", text(scene.at("scene")),
+                           part == std::string("test") ? "collision test" : "frames per second",
+                           row.at("paper_reports").at(part).get<double>(),
+                           report::format_ratio_range(ratio(row.at("safe").at(part))),
+                           row.at("paper").is_null()
+                               ? "-"
+                               : report::format_ratio_range(ratio(row.at("paper").at(part))),
+                           row.at("safe").at("same_contacts").get<bool>() ? "yes" : "no");
     }
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

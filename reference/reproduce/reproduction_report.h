@@ -6,7 +6,7 @@
 
 #include "reference/report/paper_part.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 
 /// @pre reproduction as reproduce() makes it
 std::string reproduction_markdown(const nlohmann::ordered_json& reproduction);
@@ -15,6 +15,6 @@ std::string reproduction_terminal(const nlohmann::ordered_json& reproduction);
 
 /// Of reproduction.json: what reproduce() makes, with paper_json() as "paper".
 /// @throws nlohmann::json::exception when it is something else, or of another version
-PaperPart paper_part(const nlohmann::ordered_json& reproduction);
+report::PaperPart paper_part(const nlohmann::ordered_json& reproduction);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -3,10 +3,10 @@
 
 #include <array>
 
-namespace contactcheck {
+namespace contactcheck::results {
 
 /// Their detectors, in the order of tables. Each has a column; a run gives speed-ups against these
 /// wherever they run.
 inline constexpr std::array kReferences = {"fcl-aabb", "fcl-obbrss", "embree"};
 
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -13,7 +13,7 @@
 
 #include "core/types/contact_set.h"
 #include "core/types/semantics.h"
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
 namespace contactcheck::results {
 
@@ -291,7 +291,7 @@ struct Plugin {
   std::string detector, kind, source, content, version;
 };
 
-struct KnownDefect {
+struct DefectCount {
   std::string library, version, issue, kind, sentence;
   std::vector<std::string> detectors, scenes;
   std::size_t listed = 0, shown = 0;
@@ -303,8 +303,8 @@ struct Sightings {
   std::vector<std::string> values;
 };
 
-struct KnownDefects {
-  std::vector<KnownDefect> defects;
+struct DefectCounts {
+  std::vector<DefectCount> defects;
   std::vector<Sightings> not_shown, unlisted;
 };
 
@@ -334,7 +334,7 @@ struct Results {
   std::vector<Scene> scenes;
   std::vector<Run> runs;
   std::vector<Disagreement> disagreements;
-  std::optional<KnownDefects> known_defects;
+  std::optional<DefectCounts> known_defects;
   std::vector<MeasuredGoal> goals;
   std::optional<std::vector<std::string>> resumed;
   std::optional<Shard> shard;

@@ -9,10 +9,10 @@
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_value.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_value.h"
 
-namespace contactcheck {
+namespace contactcheck::results {
 namespace {
 using Json = nlohmann::ordered_json;
 
@@ -24,7 +24,7 @@ std::string sentence_of(const Json::exception& e) {
 }
 
 Json read_results(const std::filesystem::path& file) {
-  const std::string bytes = read_file_bytes(file, "results file");
+  const std::string bytes = text::read_file_bytes(file, "results file");
   Json results;
   try {
     results = Json::parse(bytes);
@@ -63,7 +63,7 @@ std::size_t depth_of(std::string_view json) {
 }
 
 std::string times_place(std::size_t question) {
-  return question == 0 ? "time_ms" : item_path("time_ms_other_questions", question - 1);
+  return question == 0 ? "time_ms" : text::item_path("time_ms_other_questions", question - 1);
 }
 
 std::string speedup_defect(const results::Run& run, const results::QuestionTimes& times) {
@@ -102,11 +102,11 @@ std::string time_defect(const results::Run& run) {
 std::string time_defect(const results::Results& results) {
   for (std::size_t i = 0; i < results.runs.size(); ++i)
     if (const std::string found = time_defect(results.runs[i]); !found.empty())
-      return member_path(item_path("runs", i), found);
+      return text::member_path(text::item_path("runs", i), found);
   return "";
 }
 
-std::filesystem::path schema_file() { return fixtures_directory() / "results.schema.json"; }
+std::filesystem::path schema_file() { return scene::fixtures_directory() / "results.schema.json"; }
 
 }  // namespace
 
@@ -123,7 +123,7 @@ results::Results results_in(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(schema_file()))
     throw InputError(file.string() + ": cannot be checked: there is no " + schema_file().string());
   const std::string found =
-      schema_defect(Json::parse(read_file_bytes(schema_file(), "schema file")), json);
+      schema_defect(Json::parse(text::read_file_bytes(schema_file(), "schema file")), json);
   if (!found.empty()) throw InputError(file.string() + ": not complete: " + found);
   results::Results out;
   try {
@@ -136,4 +136,4 @@ results::Results results_in(const std::filesystem::path& file) {
   return out;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -7,7 +7,7 @@
 
 #include "reference/results/results.h"
 
-namespace contactcheck {
+namespace contactcheck::results {
 
 /// Whoever copies or writes JSON recurses into it, and the stack is no place to find out how deep
 /// it is. `json`: bytes that were parsed. @throws InputError when they are nested deeper than
@@ -18,4 +18,4 @@ void check_json_depth(std::string_view json, const std::filesystem::path& file);
 /// fixtures/results.schema.json says, or has times that cannot be: with the first such place
 results::Results results_in(const std::filesystem::path& file);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -501,7 +501,7 @@ void fields(Io& io, Plugin& p) {
 }
 
 template <typename Io>
-void fields(Io& io, KnownDefect& d) {
+void fields(Io& io, DefectCount& d) {
   io("library", d.library);
   io("version", d.version);
   io("issue", d.issue);
@@ -523,7 +523,7 @@ void fields(Io& io, Sightings& s) {
 }
 
 template <typename Io>
-void fields(Io& io, KnownDefects& k) {
+void fields(Io& io, DefectCounts& k) {
   io("defects", k.defects);
   io("not_shown", k.not_shown);
   io("unlisted", k.unlisted);

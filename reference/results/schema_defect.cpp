@@ -5,10 +5,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_value.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_value.h"
 
-namespace contactcheck {
+namespace contactcheck::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -18,7 +18,7 @@ constexpr std::size_t kLongestValue = 60;  // bytes that are shown of a text
 std::string value_text(const Json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "an array of " + std::to_string(value.size());
-  if (value.is_string()) return in_quotes(value.get<std::string>(), kLongestValue);
+  if (value.is_string()) return text::in_quotes(value.get<std::string>(), kLongestValue);
   return value.dump();
 }
 
@@ -78,7 +78,7 @@ void require_known_keywords(const Json& schema) {
     } else if (of_schemas.count(keyword)) {
       for (const Json& part : value) require_known_keywords(part);
     } else if (!others.count(keyword)) {
-      throw std::invalid_argument("the schema has the keyword " + in_quotes(keyword) +
+      throw std::invalid_argument("the schema has the keyword " + text::in_quotes(keyword) +
                                   ", which is not checked");
     }
   }
@@ -149,21 +149,21 @@ class Checker {
     if (!value.is_object()) return "";
     for (const Json& key : schema.value("required", Json::array()))
       if (!value.contains(key.get<std::string>()))
-        return member_path(path, key.get<std::string>()) + " is missing";
+        return text::member_path(path, key.get<std::string>()) + " is missing";
     const Json companions = schema.value("dependentRequired", Json::object());
     for (const auto& [key, others] : companions.items())
       for (const Json& other : others)
         if (value.contains(key) && !value.contains(other.get<std::string>()))
-          return member_path(path, other.get<std::string>()) + " is missing beside " + key;
+          return text::member_path(path, other.get<std::string>()) + " is missing beside " + key;
     const Json properties = schema.value("properties", Json::object());
     for (const auto& [key, member] : value.items()) {
       std::string found;
       if (schema.contains("propertyNames"))
         found = defect(schema.at("propertyNames"), key, "a key of " + path);
       if (found.empty() && properties.contains(key)) {
-        found = defect(properties.at(key), member, member_path(path, key));
+        found = defect(properties.at(key), member, text::member_path(path, key));
       } else if (found.empty() && schema.contains("additionalProperties")) {
-        found = defect(schema.at("additionalProperties"), member, member_path(path, key));
+        found = defect(schema.at("additionalProperties"), member, text::member_path(path, key));
       }
       if (!found.empty()) return found;
     }
@@ -177,10 +177,11 @@ class Checker {
     if (schema.value("uniqueItems", false))
       for (std::size_t i = 1; i < value.size(); ++i)
         if (std::find(value.begin(), value.begin() + i, value[i]) != value.begin() + i)
-          return item_path(path, i) + " is " + value_text(value[i]) + ", as an earlier one is";
+          return text::item_path(path, i) + " is " + value_text(value[i]) +
+                 ", as an earlier one is";
     if (!schema.contains("items")) return "";
     for (std::size_t i = 0; i < value.size(); ++i) {
-      std::string found = defect(schema.at("items"), value[i], item_path(path, i));
+      std::string found = defect(schema.at("items"), value[i], text::item_path(path, i));
       if (!found.empty()) return found;
     }
     return "";
@@ -224,4 +225,4 @@ std::string schema_defect(const Json& schema, const Json& document) {
   return Checker(schema).defect(schema, document, "");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace contactcheck {
+namespace contactcheck::results {
 
 /// "runs[2].levels.body.truth is -1; it must be at least 0", or "" when there is nothing to say.
 /// Knows the keywords of JSON Schema that fixtures/results.schema.json uses.
@@ -12,4 +12,4 @@ namespace contactcheck {
 std::string schema_defect(const nlohmann::ordered_json& schema,
                           const nlohmann::ordered_json& document);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 // Reads "[constant][+|-]$[*factor]" or "constant" from left to right.
@@ -56,19 +56,19 @@ std::optional<double> parse_double(const std::string& text) {
   return amount->constant;
 }
 
-Amount parse_amount(const JsonField& field) {
-  if (field.is(JsonValue::Kind::kNumber)) return {field.number(), 0.0};
-  if (!field.is(JsonValue::Kind::kText)) field.refuse(kForms);
+Amount parse_amount(const text::JsonField& field) {
+  if (field.is(text::JsonValue::Kind::kNumber)) return {field.number(), 0.0};
+  if (!field.is(text::JsonValue::Kind::kText)) field.refuse(kForms);
   const std::optional<Amount> amount = AmountReader(field.value().text.c_str()).read();
   if (!amount) field.refuse(kForms);
   return *amount;
 }
 
-AmountVector parse_amount_vector(const JsonField& field) {
-  if (!field.is(JsonValue::Kind::kArray) || field.value().items.size() != 3)
+AmountVector parse_amount_vector(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 3)
     field.refuse("an array of three amounts");
-  const std::vector<JsonField> parts = field.items();
+  const std::vector<text::JsonField> parts = field.items();
   return {parse_amount(parts[0]), parse_amount(parts[1]), parse_amount(parts[2])};
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "core/types/vec3.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 struct Amount {
   double constant = 0.0;
@@ -30,9 +30,9 @@ inline Vec3 at(const AmountVector& amounts, double parameter) {
 std::optional<double> parse_double(const std::string& text);
 
 /// A JSON number, or a text as above. @throws InputError
-Amount parse_amount(const JsonField& field);
+Amount parse_amount(const text::JsonField& field);
 
 /// An array of three. @throws InputError
-AmountVector parse_amount_vector(const JsonField& field);
+AmountVector parse_amount_vector(const text::JsonField& field);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -2,7 +2,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 Scene load_any_scene(const std::filesystem::path& file, std::size_t frames) {
   const bool recorded = file.extension() == ".ccr";
@@ -12,4 +12,4 @@ Scene load_any_scene(const std::filesystem::path& file, std::size_t frames) {
   return recorded ? load_recording(file) : load_scene(file, frames);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

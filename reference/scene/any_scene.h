@@ -6,10 +6,10 @@
 
 #include "reference/scene/scene.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// A scene, a family or a recording (.ccr). `frames` above 0 replaces the number of frames.
 /// @throws InputError, also where a recording is to have other frames than its own
 Scene load_any_scene(const std::filesystem::path& file, std::size_t frames = 0);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -4,30 +4,31 @@
 #include <optional>
 
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
 CatalogueEntry read_entry(const fs::path& file, const std::string& kind) {
-  const std::string document = kind + " file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, kind + " file"), document);
-  const JsonField root(value, document);
-  const JsonField id = root.at("id");
-  if (parse_id(id) != file.stem().string()) {
-    id.refuse("the file's name without its extension, " + in_quotes(file.stem().string()));
+  const std::string document = kind + " file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, kind + " file"), document);
+  const text::JsonField root(value, document);
+  const text::JsonField id = root.at("id");
+  if (text::parse_id(id) != file.stem().string()) {
+    id.refuse("the file's name without its extension, " + text::in_quotes(file.stem().string()));
   }
   return {id.text(), root.has("title") ? root.at("title").text() : id.text(), file};
 }
 
 std::vector<CatalogueEntry> list_folder(const fs::path& folder, const std::string& kind) {
   if (!fs::is_directory(folder)) {
-    throw InputError("folder " + in_quotes(folder.string()) + " with files of the kind " + kind +
-                     " does not exist; $CONTACTCHECK_FIXTURES says where fixtures are.");
+    throw InputError("folder " + text::in_quotes(folder.string()) + " with files of the kind " +
+                     kind + " does not exist; $CONTACTCHECK_FIXTURES says where fixtures are.");
   }
   std::vector<CatalogueEntry> entries;
   for (const fs::directory_entry& file : fs::directory_iterator(folder)) {
@@ -40,7 +41,7 @@ std::vector<CatalogueEntry> list_folder(const fs::path& folder, const std::strin
 
 // The file of an id in a folder, found by name alone: no other file is read.
 std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id) {
-  if (!is_id(id)) return std::nullopt;
+  if (!text::is_id(id)) return std::nullopt;
   const fs::path file = folder / (id + ".json");
   if (!fs::is_regular_file(file)) return std::nullopt;
   return file;
@@ -60,13 +61,14 @@ std::string ids_in(const fs::path& folder) {
     if (file.path().extension() == ".json") ids.push_back(file.path().stem().string());
   }
   std::sort(ids.begin(), ids.end());
-  return ids.empty() ? "none" : joined(ids);
+  return ids.empty() ? "none" : text::joined(ids);
 }
 
 bool is_suite_file(const fs::path& file) {
-  const std::string document = "scene file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "scene file"), document);
-  return value.kind == JsonValue::Kind::kObject && value.find("scenes") != nullptr;
+  const std::string document = "scene file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "scene file"), document);
+  return value.kind == text::JsonValue::Kind::kObject && value.find("scenes") != nullptr;
 }
 
 }  // namespace
@@ -97,7 +99,7 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
   if (file.extension() == ".json" && fs::exists(file, ignored)) {
     return {is_suite_file(file) ? TargetKind::kSuite : TargetKind::kScene, file};
   }
-  throw InputError(in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +
+  throw InputError(text::in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +
                    ") nor a scene (" + ids_in(fixtures / "scenes") +
                    ") nor a family of hard cases (contactcheck list --families) nor an existing "
                    ".json or .ccr file.");
@@ -105,8 +107,8 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
 
 fs::path find_scene(const std::string& id, const fs::path& fixtures) {
   if (const auto file = scene_or_family(fixtures, id)) return *file;
-  throw InputError("there is no scene " + in_quotes(id) + "; the scenes are " +
+  throw InputError("there is no scene " + text::in_quotes(id) + "; the scenes are " +
                    ids_in(fixtures / "scenes") + ".");
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -7,7 +7,7 @@
 
 #include "reference/scene/fixtures_folder.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 struct CatalogueEntry {
   std::string id;  ///< equal to the file's name without ".json"
@@ -38,4 +38,4 @@ Target find_target(const std::string& name, const std::filesystem::path& fixture
 /// are
 std::filesystem::path find_scene(const std::string& id, const std::filesystem::path& fixtures);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -4,11 +4,11 @@
 
 #include "core/deform/name_check.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
-std::vector<Level> parse_levels(const JsonField& field) {
+std::vector<Level> parse_levels(const text::JsonField& field) {
   std::vector<Level> levels;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     const Level level = *level_from_name(item.one_of(level_names()));
     if (std::find(levels.begin(), levels.end(), level) != levels.end()) {
       item.refuse("named once only");
@@ -18,7 +18,7 @@ std::vector<Level> parse_levels(const JsonField& field) {
   return levels;
 }
 
-std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies) {
+std::string parse_body_name(const text::JsonField& field, const std::vector<Body>& bodies) {
   std::string name = field.text();
   const std::string fault = name_fault(name);
   if (!fault.empty()) field.fail(fault + " and cannot be a name");
@@ -29,4 +29,4 @@ std::string parse_body_name(const JsonField& field, const std::vector<Body>& bod
   return name;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

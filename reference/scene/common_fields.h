@@ -6,14 +6,14 @@
 
 #include "core/deform/body.h"
 #include "core/types/semantics.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// An array of names of levels, at least one, all different. @throws InputError
-std::vector<Level> parse_levels(const JsonField& field);
+std::vector<Level> parse_levels(const text::JsonField& field);
 
 /// A name that no body has yet. @throws InputError
-std::string parse_body_name(const JsonField& field, const std::vector<Body>& bodies);
+std::string parse_body_name(const text::JsonField& field, const std::vector<Body>& bodies);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

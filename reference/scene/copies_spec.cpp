@@ -3,15 +3,15 @@
 #include <variant>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
-constexpr NumberRange kSpacing = {-1e6, false, 1e6, false};  // metres
-constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
-constexpr NumberRange kSeconds = {0.0, false, 1e6, false};
+constexpr text::NumberRange kSpacing = {-1e6, false, 1e6, false};  // metres
+constexpr text::NumberRange kTurnDegrees = {-1e6, false, 1e6, false};
+constexpr text::NumberRange kDelaySeconds = {0.0, false, 1e6, false};
 
-std::array<std::size_t, 3> parse_counts(const JsonField& field) {
-  const std::vector<JsonField> parts = field.items();
+std::array<std::size_t, 3> parse_counts(const text::JsonField& field) {
+  const std::vector<text::JsonField> parts = field.items();
   if (parts.size() != 3) field.refuse("an array of three whole numbers");
   std::array<std::size_t, 3> counts;
   for (std::size_t k = 0; k < 3; ++k) counts[k] = parts[k].whole(1, CopiesSpec::kMost);
@@ -44,13 +44,13 @@ void delay_all(double way, Motion& motion) {
 
 }  // namespace
 
-CopiesSpec parse_copies(const JsonField& field) {
+CopiesSpec parse_copies(const text::JsonField& field) {
   field.only_keys({"counts", "spacing", "turn", "delay"});
   CopiesSpec out;
   out.counts = parse_counts(field.at("counts"));
   out.spacing = field.at("spacing").vector(kSpacing);
-  if (field.has("turn")) out.turn_degrees = field.at("turn").number(kDegrees);
-  if (field.has("delay")) out.delay = field.at("delay").number(kSeconds);
+  if (field.has("turn")) out.turn_degrees = field.at("turn").number(kTurnDegrees);
+  if (field.has("delay")) out.delay = field.at("delay").number(kDelaySeconds);
   return out;
 }
 
@@ -75,4 +75,4 @@ std::string name_of_copy(const std::string& name, std::size_t i) {
   return name + "-" + std::to_string(i + 1);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

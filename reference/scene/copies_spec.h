@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/deform/motion.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// The "copies" of a body, all defaults filled in.
 struct CopiesSpec {
@@ -22,7 +22,7 @@ struct CopiesSpec {
   std::size_t count() const { return counts[0] * counts[1] * counts[2]; }
 };
 
-CopiesSpec parse_copies(const JsonField& field);
+CopiesSpec parse_copies(const text::JsonField& field);
 
 /// The motion of copy `i`, counted along x first, then y, then z.
 /// @pre i < copies.count()
@@ -31,4 +31,4 @@ Motion motion_of_copy(const CopiesSpec& copies, const Motion& motion, std::size_
 /// "name-1", "name-2", ...
 std::string name_of_copy(const std::string& name, std::size_t i);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

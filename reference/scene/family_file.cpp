@@ -1,23 +1,160 @@
 #include "reference/scene/family_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "core/deform/lattice.h"
 #include "core/deform/node_shape.h"
 #include "core/types/check.h"
+#include "reference/mesh/mesh_spec.h"
 #include "reference/scene/amount.h"
 #include "reference/scene/common_fields.h"
-#include "reference/scene/family_step.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
 #include "reference/scene/lattice_spec.h"
-#include "reference/scene/mesh_spec.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
+
+// How a case of a family moves a body's positions: lattice nodes, or vertices without a lattice.
+// Sums, products and quotients of doubles alone: the same bits on every machine.
+
+struct FamilyStep {
+  enum class Kind {
+    kScale,      ///< by `vector`, per axis, about the origin
+    kTranslate,  ///< by `vector`
+    kRotate,     ///< by `quaternion` over its squared length: a rotation without angles
+    kRound,      ///< to the nearest multiple of `amount`
+    kMoveNode,   ///< the lattice's node `node` by `vector`
+    kMoveVertex  ///< the mesh's vertex `vertex` by `vector`; no lattice, or one of nodes
+  };
+  Kind kind = Kind::kScale;
+  AmountVector vector = {};
+  std::array<Amount, 4> quaternion = {};  ///< w, x, y, z
+  Amount amount;
+  GridIndex node = {};
+  std::size_t vertex = 0;
+};
+
+constexpr std::size_t kMostNodesPerAxis = 129, kLargestVertex = 10'000'000;
+
+AmountVector parse_scale(const text::JsonField& field) {
+  if (field.is(text::JsonValue::Kind::kArray)) return parse_amount_vector(field);
+  const Amount all = parse_amount(field);
+  return {all, all, all};
+}
+
+std::array<Amount, 4> parse_quaternion(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 4)
+    field.refuse("an array of four amounts: w, x, y, z");
+  const std::vector<text::JsonField> parts = field.items();
+  return {parse_amount(parts[0]), parse_amount(parts[1]), parse_amount(parts[2]),
+          parse_amount(parts[3])};
+}
+
+GridIndex parse_node(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 3)
+    field.refuse("an array of three whole numbers");
+  const std::vector<text::JsonField> parts = field.items();
+  GridIndex node;
+  for (std::size_t k = 0; k < 3; ++k)
+    node[k] = static_cast<std::uint32_t>(parts[k].whole(0, kMostNodesPerAxis - 1));
+  return node;
+}
+
+// Rows of the rotation matrix of a quaternion, times its squared length.
+std::array<Vec3, 3> rotation_rows(double w, double x, double y, double z) {
+  const double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+  return {Vec3(ww + xx - yy - zz, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+          Vec3(2.0 * (x * y + w * z), ww - xx + yy - zz, 2.0 * (y * z - w * x)),
+          Vec3(2.0 * (x * z - w * y), 2.0 * (y * z + w * x), ww - xx - yy + zz)};
+}
+
+double sum_of_products(const Vec3& a, const Vec3& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
+void rotate(const FamilyStep& step, double parameter, std::span<Vec3> positions) {
+  std::array<double, 4> q;
+  for (std::size_t i = 0; i < 4; ++i) q[i] = step.quaternion[i].at(parameter);
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  const std::array<Vec3, 3> rows = rotation_rows(q[0], q[1], q[2], q[3]);
+  for (Vec3& p : positions)
+    p = Vec3(sum_of_products(rows[0], p), sum_of_products(rows[1], p),
+             sum_of_products(rows[2], p)) /
+        square;
+}
+
+void round_to(double unit, std::span<Vec3> positions) {
+  for (Vec3& p : positions)
+    for (int k = 0; k < 3; ++k) p[k] = std::nearbyint(p[k] / unit) * unit;
+}
+
+// @throws InputError
+FamilyStep parse_family_step(const text::JsonField& field) {
+  FamilyStep step;
+  const std::string kind =
+      field.exactly_one_of({"scale", "translate", "rotate", "round", "node", "vertex"});
+  if (kind == "node" || kind == "vertex") {
+    field.only_keys({kind, "by"});
+    step.kind = kind == "node" ? FamilyStep::Kind::kMoveNode : FamilyStep::Kind::kMoveVertex;
+    if (kind == "node") step.node = parse_node(field.at("node"));
+    if (kind == "vertex") step.vertex = field.at("vertex").whole(0, kLargestVertex);
+    step.vector = parse_amount_vector(field.at("by"));
+    return step;
+  }
+  field.only_keys({kind});
+  const text::JsonField value = field.at(kind);
+  if (kind == "scale") {
+    step.vector = parse_scale(value);
+  } else if (kind == "translate") {
+    step.kind = FamilyStep::Kind::kTranslate;
+    step.vector = parse_amount_vector(value);
+  } else if (kind == "rotate") {
+    step.kind = FamilyStep::Kind::kRotate;
+    step.quaternion = parse_quaternion(value);
+  } else {
+    step.kind = FamilyStep::Kind::kRound;
+    step.amount = parse_amount(value);
+  }
+  return step;
+}
+
+// `lattice`: whose nodes the positions are; null for vertices. @pre the node or vertex exists
+void apply(const FamilyStep& step, double parameter, const Lattice* lattice,
+           std::span<Vec3> positions) {
+  const Vec3 vector = at(step.vector, parameter);
+  switch (step.kind) {
+    case FamilyStep::Kind::kScale:
+      for (Vec3& p : positions) p = p.cwiseProduct(vector);
+      return;
+    case FamilyStep::Kind::kTranslate:
+      for (Vec3& p : positions) p += vector;
+      return;
+    case FamilyStep::Kind::kRotate:
+      return rotate(step, parameter, positions);
+    case FamilyStep::Kind::kRound:
+      return round_to(step.amount.at(parameter), positions);
+    case FamilyStep::Kind::kMoveNode: {
+      CONTACTCHECK_INVARIANT(lattice != nullptr, "nodes are moved in a lattice");
+      const auto node = std::find(lattice->nodes.begin(), lattice->nodes.end(), step.node);
+      CONTACTCHECK_INVARIANT(node != lattice->nodes.end(), "the node was looked up before");
+      positions[static_cast<std::size_t>(node - lattice->nodes.begin())] += vector;
+      return;
+    }
+    case FamilyStep::Kind::kMoveVertex:
+      positions[step.vertex] += vector;
+  }
+}
 
 constexpr std::size_t kMostFamilyVertices = 100'000;
 
@@ -35,10 +172,10 @@ struct BaseMesh {
   }
 };
 
-std::vector<Triangle> parse_triangles(const JsonField& field, std::size_t vertices) {
+std::vector<Triangle> parse_triangles(const text::JsonField& field, std::size_t vertices) {
   std::vector<Triangle> out;
-  for (const JsonField& item : field.items(1)) {
-    const std::vector<JsonField> corners = item.items();
+  for (const text::JsonField& item : field.items(1)) {
+    const std::vector<text::JsonField> corners = item.items();
     if (corners.size() != 3) item.refuse("an array of three indices");
     Triangle t;
     for (std::size_t c = 0; c < 3; ++c)
@@ -48,24 +185,24 @@ std::vector<Triangle> parse_triangles(const JsonField& field, std::size_t vertic
   return out;
 }
 
-BaseMesh parse_base_mesh(const JsonField& field, const std::filesystem::path& folder) {
+BaseMesh parse_base_mesh(const text::JsonField& field, const std::filesystem::path& folder) {
   BaseMesh base;
   if (field.has("vertices")) {
     field.only_keys({"vertices", "triangles"});
-    for (const JsonField& v : field.at("vertices").items(1))
+    for (const text::JsonField& v : field.at("vertices").items(1))
       base.given.push_back(parse_amount_vector(v));
     base.triangles = parse_triangles(field.at("triangles"), base.given.size());
     base.source = "vertices given";
     return base;
   }
-  const MeshSpec spec = parse_mesh_spec(field, folder);
-  LoadedMesh loaded = build_mesh(spec, field);
+  const mesh::MeshSpec spec = mesh::parse_mesh_spec(field, folder);
+  mesh::LoadedMesh loaded = mesh::build_mesh(spec, field);
   if (loaded.mesh.vertices.size() > kMostFamilyVertices)
     field.fail("has " + std::to_string(loaded.mesh.vertices.size()) +
                " vertices; a family may have " + std::to_string(kMostFamilyVertices));
   base.triangles = loaded.mesh.triangles;
   base.built = std::move(loaded.mesh);
-  base.source = described_source(spec);
+  base.source = mesh::described_source(spec);
   base.notes = loaded.notes;
   return base;
 }
@@ -74,16 +211,16 @@ BaseMesh parse_base_mesh(const JsonField& field, const std::filesystem::path& fo
 // the lattice's nodes.
 class FamilyBody {
  public:
-  FamilyBody(const JsonField& field, const std::filesystem::path& folder, double first_value)
+  FamilyBody(const text::JsonField& field, const std::filesystem::path& folder, double first_value)
       : field_(field), base_(parse_base_mesh(field.at("mesh"), folder)) {
     if (field.has("steps"))
-      for (const JsonField& step : field.at("steps").items()) {
+      for (const text::JsonField& step : field.at("steps").items()) {
         steps_.push_back(parse_family_step(step));
       }
     try {
       build(first_value);
     } catch (const InputError& error) {
-      field.at("mesh").fail("cannot be used: " + without_full_stop(error.what()));
+      field.at("mesh").fail("cannot be used: " + text::without_full_stop(error.what()));
     }
     check_steps();
   }
@@ -107,8 +244,8 @@ class FamilyBody {
       shape_ = make_bare_shape({base_.vertices(first_value), base_.triangles});
       return;
     }
-    const JsonField lattice = field_.at("lattice");
-    if (lattice.is(JsonValue::Kind::kText)) {
+    const text::JsonField lattice = field_.at("lattice");
+    if (lattice.is(text::JsonValue::Kind::kText)) {
       lattice.one_of({"nodes"});
       on_nodes_ = make_node_shape(base_.vertices(first_value).size(), base_.triangles);
       shape_ = on_nodes_.shape;
@@ -119,8 +256,8 @@ class FamilyBody {
   }
 
   void check_steps() const {
-    const std::vector<JsonField> fields =
-        steps_.empty() ? std::vector<JsonField>() : field_.at("steps").items();
+    const std::vector<text::JsonField> fields =
+        steps_.empty() ? std::vector<text::JsonField>() : field_.at("steps").items();
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (steps_[i].kind == FamilyStep::Kind::kMoveNode && !has_node(steps_[i].node))
         fields[i].at("node").refuse("a node of a kept cell of this body's lattice");
@@ -136,24 +273,24 @@ class FamilyBody {
     return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
   }
 
-  JsonField field_;
+  text::JsonField field_;
   BaseMesh base_;
   std::vector<FamilyStep> steps_;
   std::shared_ptr<const BodyShape> shape_;
   NodeShape on_nodes_;  // with "lattice": "nodes"
 };
 
-CaseFamily parse_parameter(const JsonField& root, std::vector<double>& values) {
+CaseFamily parse_parameter(const text::JsonField& root, std::vector<double>& values) {
   CaseFamily family;
   family.origin = root.at("origin").text();
   family.stresses = root.at("stresses").text();
-  const JsonField parameter = root.at("parameter");
+  const text::JsonField parameter = root.at("parameter");
   parameter.only_keys({"name", "values"});
   family.parameter = parameter.at("name").text();
   std::set<double> seen;
-  for (const JsonField& item : parameter.at("values").items(1)) {
+  for (const text::JsonField& item : parameter.at("values").items(1)) {
     const std::optional<double> value =
-        item.is(JsonValue::Kind::kText) ? parse_double(item.value().text) : std::nullopt;
+        item.is(text::JsonValue::Kind::kText) ? parse_double(item.value().text) : std::nullopt;
     if (!value || !seen.insert(*value).second)
       item.refuse("a text with one finite number, different from the others");
     values.push_back(*value);
@@ -162,13 +299,13 @@ CaseFamily parse_parameter(const JsonField& root, std::vector<double>& values) {
   return family;
 }
 
-void require_finite(const std::vector<Vec3>& nodes, const JsonField& body,
+void require_finite(const std::vector<Vec3>& nodes, const text::JsonField& body,
                     const std::string& value) {
   for (const Vec3& n : nodes)
     if (!n.allFinite()) body.fail("has a position that is not finite at the value " + value);
 }
 
-void add_body(const JsonField& field, const std::filesystem::path& folder,
+void add_body(const text::JsonField& field, const std::filesystem::path& folder,
               const std::vector<double>& values, Scene& scene) {
   field.only_keys({"name", "mesh", "lattice", "steps"});
   const std::string name = parse_body_name(field.at("name"), scene.bodies);
@@ -183,10 +320,10 @@ void add_body(const JsonField& field, const std::filesystem::path& folder,
 
 }  // namespace
 
-Scene parse_family(const JsonField& root, const std::filesystem::path& folder) {
+Scene parse_family(const text::JsonField& root, const std::filesystem::path& folder) {
   root.only_keys({"id", "title", "origin", "stresses", "parameter", "levels", "bodies"});
   Scene scene;
-  scene.id = parse_id(root.at("id"));
+  scene.id = text::parse_id(root.at("id"));
   scene.title = root.at("title").text();
   std::vector<double> values;
   scene.family = parse_parameter(root, values);
@@ -195,10 +332,10 @@ Scene parse_family(const JsonField& root, const std::filesystem::path& folder) {
   scene.levels = {Level::kBody, Level::kContainment, Level::kCell, Level::kTriangle, Level::kNear};
   if (root.has("levels")) scene.levels = parse_levels(root.at("levels"));
   scene.recorded.resize(values.size());
-  for (const JsonField& body : root.at("bodies").items(1)) {
+  for (const text::JsonField& body : root.at("bodies").items(1)) {
     add_body(body, folder, values, scene);
   }
   return scene;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -5,12 +5,12 @@
 
 #include <filesystem>
 
-#include "reference/scene/json_field.h"
 #include "reference/scene/scene.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
-Scene parse_family(const JsonField& root, const std::filesystem::path& folder);
+Scene parse_family(const text::JsonField& root, const std::filesystem::path& folder);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <system_error>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,4 +44,4 @@ fs::path fixtures_directory() {
   return CONTACTCHECK_FIXTURES_BUILT_FROM;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// $CONTACTCHECK_FIXTURES where it is set; else the first that is a folder of: the data installed
 /// with the running program, the source tree this was built from, and contactcheck/fixtures in
@@ -20,4 +20,4 @@ std::filesystem::path installed_fixtures(const std::filesystem::path& program);
 /// out, as its specification says.
 std::vector<std::filesystem::path> shared_fixtures(const std::string& data_folders);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -9,7 +9,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -150,4 +150,4 @@ std::vector<Vec3> LatticeFit::fitted(std::span<const Vec3> vertices, FitError& e
   return nodes;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -23,7 +23,7 @@
 #include "core/deform/body.h"
 #include "reference/scene/scene.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 class LatticeFit {
  public:
@@ -45,4 +45,4 @@ class LatticeFit {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 // More would take minutes to embed and is beyond any lattice of the paper (97 to 224 cells kept).
@@ -11,14 +11,14 @@ constexpr std::size_t kMostCellsPerAxis = 128;
 constexpr std::size_t kMostKept = 10'000;
 constexpr double kPadding = 0.02;
 constexpr double kSmoothing = 1e-6;
-constexpr NumberRange kSmoothingRange = {1e-12, false, 1.0, false};
+constexpr text::NumberRange kSmoothingRange = {1e-12, false, 1.0, false};
 
 // Said aloud in the file, because it changes what all detectors are given.
-void parse_fit(const JsonField& field, LatticeSpec& spec) {
+void parse_fit(const text::JsonField& field, LatticeSpec& spec) {
   if (!field.has("fit"))
     field.fail("has no \"fit\"; beside a recording it must be true: the lattice is fitted to it");
-  const JsonField fit = field.at("fit");
-  if (!fit.is(JsonValue::Kind::kBool) || !fit.value().boolean)
+  const text::JsonField fit = field.at("fit");
+  if (!fit.is(text::JsonValue::Kind::kBool) || !fit.value().boolean)
     fit.refuse("true: beside a recording a lattice is fitted to it");
   spec.fit = true;
   spec.smoothing =
@@ -27,20 +27,20 @@ void parse_fit(const JsonField& field, LatticeSpec& spec) {
 
 }  // namespace
 
-LatticeSpec parse_lattice_spec(const JsonField& field, bool recorded) {
+LatticeSpec parse_lattice_spec(const text::JsonField& field, bool recorded) {
   LatticeSpec spec;
-  if (field.is(JsonValue::Kind::kNull)) return spec;
+  if (field.is(text::JsonValue::Kind::kNull)) return spec;
   std::vector<std::string> keys = {"cells", "kept", "padding"};
   if (recorded) keys.insert(keys.end(), {"fit", "smoothing"});
   field.only_keys(keys);
   if (recorded) parse_fit(field, spec);
   if (field.exactly_one_of({"cells", "kept"}) == "cells") {
     spec.kind = LatticeSpec::Kind::kCells;
-    const JsonField cells = field.at("cells");
-    if (!cells.is(JsonValue::Kind::kArray) || cells.value().items.size() != 3) {
+    const text::JsonField cells = field.at("cells");
+    if (!cells.is(text::JsonValue::Kind::kArray) || cells.value().items.size() != 3) {
       cells.refuse("an array of three whole numbers");
     }
-    const std::vector<JsonField> parts = cells.items();
+    const std::vector<text::JsonField> parts = cells.items();
     for (std::size_t k = 0; k < 3; ++k) spec.cells[k] = parts[k].whole(1, kMostCellsPerAxis);
   } else {
     spec.kind = LatticeSpec::Kind::kKept;
@@ -64,4 +64,4 @@ std::shared_ptr<const BodyShape> build_shape(TriangleMesh mesh, const LatticeSpe
   return make_shape(std::move(mesh), resolution, spec.padding);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

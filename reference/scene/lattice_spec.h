@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "core/deform/body.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// The "lattice" of a body. Equal specs over equal meshes give equal shapes.
 struct LatticeSpec {
@@ -26,9 +26,9 @@ struct LatticeSpec {
 };
 
 /// `recorded`: beside a recording, to which every lattice is fitted and has to say so.
-LatticeSpec parse_lattice_spec(const JsonField& field, bool recorded = false);
+LatticeSpec parse_lattice_spec(const text::JsonField& field, bool recorded = false);
 
 /// @throws InputError when the mesh has a fatal defect
 std::shared_ptr<const BodyShape> build_shape(TriangleMesh mesh, const LatticeSpec& spec);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -7,45 +7,46 @@
 #include <utility>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 // Far outside any real motion; keeps sums and products finite.
-constexpr NumberRange kTime = {0.0, false, 1e9, false};     // seconds
-constexpr NumberRange kOffset = {-1e6, false, 1e6, false};  // metres
-constexpr NumberRange kPlace = {-1e7, false, 1e7, false};   // metres: apart from the largest body
-constexpr NumberRange kDegrees = {-1e6, false, 1e6, false};
-constexpr NumberRange kTaperAmount = {-100.0, false, 100.0, false};
-constexpr NumberRange kStretchAmount = {-1.0, true, 100.0, false};
+constexpr text::NumberRange kTime = {0.0, false, 1e9, false};     // seconds
+constexpr text::NumberRange kOffset = {-1e6, false, 1e6, false};  // metres
+constexpr text::NumberRange kPlace = {-1e7, false, 1e7,
+                                      false};  // metres: apart from the largest body
+constexpr text::NumberRange kDegrees = {-1e6, false, 1e6, false};
+constexpr text::NumberRange kTaperAmount = {-100.0, false, 100.0, false};
+constexpr text::NumberRange kStretchAmount = {-1.0, true, 100.0, false};
 
 // The time of a key, which must be above that of the key before.
-double key_time(const JsonField& field, std::size_t index, double before) {
+double key_time(const text::JsonField& field, std::size_t index, double before) {
   const double time = field.number(kTime);
   if (index > 0 && !(time > before)) {
-    field.refuse("above " + shown(before) + ", the time of the key before");
+    field.refuse("above " + text::shown(before) + ", the time of the key before");
   }
   return time;
 }
 
 // Time and value of [time, value].
-std::pair<JsonField, JsonField> key_parts(const JsonField& field) {
-  if (!field.is(JsonValue::Kind::kArray) || field.value().items.size() != 2) {
+std::pair<text::JsonField, text::JsonField> key_parts(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 2) {
     field.refuse("a key: an array of a time and a value");
   }
-  std::vector<JsonField> parts = field.items();
+  std::vector<text::JsonField> parts = field.items();
   return {parts[0], parts[1]};
 }
 
 // A number, or keys [[time, number], ...].
-Curve parse_curve(const JsonField& field, const NumberRange& range, bool smooth) {
+Curve parse_curve(const text::JsonField& field, const text::NumberRange& range, bool smooth) {
   Curve curve;
   curve.smooth = smooth;
-  if (field.is(JsonValue::Kind::kNumber)) {
+  if (field.is(text::JsonValue::Kind::kNumber)) {
     curve.keys.push_back({0.0, field.number(range)});
     return curve;
   }
-  if (!field.is(JsonValue::Kind::kArray)) field.refuse("a number or an array of keys");
-  const std::vector<JsonField> keys = field.items(1);
+  if (!field.is(text::JsonValue::Kind::kArray)) field.refuse("a number or an array of keys");
+  const std::vector<text::JsonField> keys = field.items(1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto [time, value] = key_parts(keys[i]);
     const double before = i > 0 ? curve.keys.back().time : 0.0;
@@ -60,18 +61,19 @@ std::array<Curve, 3> constant_curves(const Vec3& value) {
   return curves;
 }
 
-bool all_numbers(const JsonValue& value) {
-  return std::all_of(value.items.begin(), value.items.end(),
-                     [](const JsonValue& item) { return item.kind == JsonValue::Kind::kNumber; });
+bool all_numbers(const text::JsonValue& value) {
+  return std::all_of(value.items.begin(), value.items.end(), [](const text::JsonValue& item) {
+    return item.kind == text::JsonValue::Kind::kNumber;
+  });
 }
 
 // [x, y, z], or keys [[time, [x, y, z]], ...].
-std::array<Curve, 3> parse_position(const JsonField& field, bool smooth) {
-  if (!field.is(JsonValue::Kind::kArray)) field.refuse("[x, y, z] or an array of keys");
+std::array<Curve, 3> parse_position(const text::JsonField& field, bool smooth) {
+  if (!field.is(text::JsonValue::Kind::kArray)) field.refuse("[x, y, z] or an array of keys");
   if (all_numbers(field.value())) return constant_curves(field.vector(kPlace));
   std::array<Curve, 3> curves;
   for (Curve& curve : curves) curve.smooth = smooth;
-  const std::vector<JsonField> keys = field.items(1);
+  const std::vector<text::JsonField> keys = field.items(1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto [time_field, value] = key_parts(keys[i]);
     const double time = key_time(time_field, i, i > 0 ? curves[0].keys.back().time : 0.0);
@@ -81,18 +83,19 @@ std::array<Curve, 3> parse_position(const JsonField& field, bool smooth) {
   return curves;
 }
 
-int parse_axis(const JsonField& field) { return field.one_of({"x", "y", "z"})[0] - 'x'; }
+int parse_axis(const text::JsonField& field) { return field.one_of({"x", "y", "z"})[0] - 'x'; }
 
 // "x", "y", "z", or a vector that is not zero.
-Vec3 parse_direction(const JsonField& field) {
-  if (field.is(JsonValue::Kind::kText)) return Vec3::Unit(parse_axis(field));
-  if (!field.is(JsonValue::Kind::kArray)) field.refuse("x, y, z, or an array of three numbers");
+Vec3 parse_direction(const text::JsonField& field) {
+  if (field.is(text::JsonValue::Kind::kText)) return Vec3::Unit(parse_axis(field));
+  if (!field.is(text::JsonValue::Kind::kArray))
+    field.refuse("x, y, z, or an array of three numbers");
   Vec3 direction = field.vector(kOffset);
   if (!(direction.norm() > 1e-9)) field.fail("is too short; it must not be zero");
   return direction;
 }
 
-Deformer parse_bend(const JsonField& field, bool smooth) {
+Deformer parse_bend(const text::JsonField& field, bool smooth) {
   field.only_keys({"axis", "toward", "degrees"});
   Bend bend;
   bend.axis = parse_axis(field.at("axis"));
@@ -102,27 +105,27 @@ Deformer parse_bend(const JsonField& field, bool smooth) {
   return bend;
 }
 
-Deformer parse_twist(const JsonField& field, bool smooth) {
+Deformer parse_twist(const text::JsonField& field, bool smooth) {
   field.only_keys({"axis", "degrees"});
   return Twist{parse_axis(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
 }
 
-Deformer parse_taper(const JsonField& field, bool smooth) {
+Deformer parse_taper(const text::JsonField& field, bool smooth) {
   field.only_keys({"axis", "amount"});
   return Taper{parse_axis(field.at("axis")), parse_curve(field.at("amount"), kTaperAmount, smooth)};
 }
 
-Deformer parse_stretch(const JsonField& field, bool smooth) {
+Deformer parse_stretch(const text::JsonField& field, bool smooth) {
   field.only_keys({"axis", "amount"});
   return Stretch{parse_axis(field.at("axis")),
                  parse_curve(field.at("amount"), kStretchAmount, smooth)};
 }
 
-GridIndex parse_node(const JsonField& field, const Lattice& lattice) {
-  if (!field.is(JsonValue::Kind::kArray) || field.value().items.size() != 3) {
+GridIndex parse_node(const text::JsonField& field, const Lattice& lattice) {
+  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 3) {
     field.refuse("an array of three whole numbers");
   }
-  const std::vector<JsonField> parts = field.items();
+  const std::vector<text::JsonField> parts = field.items();
   GridIndex node;
   for (std::size_t k = 0; k < 3; ++k) {
     node[k] = static_cast<std::uint32_t>(parts[k].whole(0, lattice.lines[k].size() - 1));
@@ -134,16 +137,16 @@ GridIndex parse_node(const JsonField& field, const Lattice& lattice) {
 }
 
 // [[time, [{"node": [i, j, k], "offset": [x, y, z]}, ...]], ...]
-Deformer parse_nodes(const JsonField& field, const BodyShape& shape) {
+Deformer parse_nodes(const text::JsonField& field, const BodyShape& shape) {
   if (!shape.lattice) field.fail("needs a lattice; this body has none");
   NodeKeys out;
-  const std::vector<JsonField> keys = field.items(1);
+  const std::vector<text::JsonField> keys = field.items(1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const auto [time, list] = key_parts(keys[i]);
     NodeKeys::Key key;
     key.time = key_time(time, i, i > 0 ? out.keys.back().time : 0.0);
     std::set<GridIndex> seen;
-    for (const JsonField& entry : list.items()) {
+    for (const text::JsonField& entry : list.items()) {
       entry.only_keys({"node", "offset"});
       const GridIndex node = parse_node(entry.at("node"), *shape.lattice);
       if (!seen.insert(node).second) entry.at("node").fail("is named twice in this key");
@@ -154,11 +157,11 @@ Deformer parse_nodes(const JsonField& field, const BodyShape& shape) {
   return out;
 }
 
-Deformer parse_deformer(const JsonField& field, const BodyShape& shape, bool smooth) {
+Deformer parse_deformer(const text::JsonField& field, const BodyShape& shape, bool smooth) {
   const std::vector<std::string> kinds = {"twist", "bend", "taper", "stretch", "nodes"};
   field.only_keys(kinds);
   const std::string kind = field.exactly_one_of(kinds);
-  const JsonField inner = field.at(kind);
+  const text::JsonField inner = field.at(kind);
   if (kind == "twist") return parse_twist(inner, smooth);
   if (kind == "bend") return parse_bend(inner, smooth);
   if (kind == "taper") return parse_taper(inner, smooth);
@@ -166,25 +169,25 @@ Deformer parse_deformer(const JsonField& field, const BodyShape& shape, bool smo
   return parse_nodes(inner, shape);
 }
 
-RigidPath::Spin parse_spin(const JsonField& field, bool smooth) {
+RigidPath::Spin parse_spin(const text::JsonField& field, bool smooth) {
   field.only_keys({"axis", "degrees"});
   return {parse_direction(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
 }
 
 }  // namespace
 
-Motion parse_motion(const JsonField& field, const BodyShape& shape) {
+Motion parse_motion(const text::JsonField& field, const BodyShape& shape) {
   field.only_keys({"ease", "position", "spins", "deformers"});
   const bool smooth =
       field.has("ease") && field.at("ease").one_of({"linear", "smooth"}) == "smooth";
   Motion motion;
   if (field.has("deformers")) {
-    for (const JsonField& item : field.at("deformers").items()) {
+    for (const text::JsonField& item : field.at("deformers").items()) {
       motion.deformers.push_back(parse_deformer(item, shape, smooth));
     }
   }
   if (field.has("spins")) {
-    for (const JsonField& item : field.at("spins").items()) {
+    for (const text::JsonField& item : field.at("spins").items()) {
       motion.path.spins.push_back(parse_spin(item, smooth));
     }
   }
@@ -202,4 +205,4 @@ bool is_rest(const Motion& motion) {
                      [](const Curve& curve) { return curve.keys.empty(); });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -3,16 +3,16 @@
 
 #include "core/deform/body.h"
 #include "core/deform/motion.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// The motion of a body with this shape. Where no position is given, the body's rest box keeps its
 /// place.
 /// @throws InputError
-Motion parse_motion(const JsonField& field, const BodyShape& shape);
+Motion parse_motion(const text::JsonField& field, const BodyShape& shape);
 
 /// No deformer, no spin, no position: the body rests, bit for bit.
 bool is_rest(const Motion& motion);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 class PairRandom {
  public:
@@ -34,4 +34,4 @@ class PairRandom {
   std::uint64_t state_;
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

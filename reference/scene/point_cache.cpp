@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 constexpr std::string_view kPc2Magic("POINTCACHE2\0", 12);
@@ -118,11 +118,11 @@ PointCache read_point_cache(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::string name = "point cache " + in_quotes(file.string());
+  const std::string name = "point cache " + text::in_quotes(file.string());
   if (extension != ".pc2" && extension != ".mdd")
     throw InputError(name + " is neither .pc2 nor .mdd.");
   return PointCache(extension == ".pc2" ? CacheFormat::kPc2 : CacheFormat::kMdd,
-                    read_file_bytes(file, "point cache", kLongestMesh), name);
+                    text::read_file_bytes(file, "point cache", text::kLongestMesh), name);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

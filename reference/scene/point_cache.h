@@ -14,7 +14,7 @@
 
 #include "core/types/vec3.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 enum class CacheFormat { kPc2, kMdd };
 
@@ -50,4 +50,4 @@ class PointCache {
 /// By the extension: .pc2 or .mdd (any case). @throws InputError
 PointCache read_point_cache(const std::filesystem::path& file);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

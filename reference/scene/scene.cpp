@@ -4,11 +4,11 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/random_pairs.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 std::vector<Vec3> rest_nodes(const BodyShape& shape) {
@@ -68,7 +68,7 @@ Scene make_pairs_scene(const PairSpec& spec) {
 Scene load_recording(const std::filesystem::path& file) {
   Recording recording = read_recording(file);
   if (recording.frames.empty()) {
-    throw InputError("recording " + in_quotes(file.string()) + " holds no frame.");
+    throw InputError("recording " + text::in_quotes(file.string()) + " holds no frame.");
   }
   Scene scene;
   scene.id = recording.scene;
@@ -84,4 +84,4 @@ Scene load_recording(const std::filesystem::path& file) {
   return scene;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -15,7 +15,7 @@
 #include "core/dynamics/simulation.h"
 #include "core/types/semantics.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// Where and how a body's mesh came to be; goes into the results.
 struct MeshOrigin {
@@ -43,7 +43,7 @@ struct CaseFamily {
 };
 
 /// Poses of two bodies at given separations, over many orientations. Frames are ordered by
-/// separation, then orientation; reference/arrange (place_sweep) says what a separation is.
+/// separation, then orientation; sweep_poses.h (place_sweep) says what a separation is.
 struct SweepSpec {
   std::vector<double> separations;  ///< of the scene's size, ascending; below 0: depths
   std::size_t orientations = 64;
@@ -71,8 +71,8 @@ struct Scene {
   std::vector<Level> levels;    ///< to be judged; nothing else is computed
   std::vector<Motion> motions;  ///< per body; empty for a recording; simulated: the pose at time 0
   /// Recorded nodes [frame][body]; empty for a scripted scene. A scene with recorded bodies has
-  /// them of all its bodies. Of a simulated scene, reference/run (simulate) fills it before any
-  /// frame is asked for; of a sweep reference/arrange does.
+  /// them of all its bodies. Of a simulated scene, simulate_scene.h (simulate) fills it before any
+  /// frame is asked for; of a sweep sweep_poses.h does.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
   std::optional<SimulationSpec> simulation;  ///< simulated scenes only
   std::optional<SweepSpec> sweep;            ///< sweeps only
@@ -117,4 +117,4 @@ Scene make_pairs_scene(const PairSpec& spec);
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -5,65 +5,90 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "reference/mesh/mesh_spec.h"
 #include "reference/scene/common_fields.h"
 #include "reference/scene/copies_spec.h"
 #include "reference/scene/family_file.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
-#include "reference/scene/json_field.h"
 #include "reference/scene/lattice_spec.h"
-#include "reference/scene/mesh_spec.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/recorded_bodies.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulation_spec.h"
-#include "reference/scene/sweep_spec.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
+
+// How a scene file asks for poses of two bodies at given separations.
+
+// Of the size: deeper, a body may have gone through the other one.
+constexpr text::NumberRange kSeparation = {-0.5, false, 10.0, false};
+constexpr std::size_t kMostOrientations = 10'000, kLargestSeed = 1'000'000'000;
+constexpr std::size_t kMostPoses = 100'000;
+
+// The "sweep" of a scene, all defaults filled in. @throws InputError
+SweepSpec parse_sweep(const text::JsonField& field) {
+  field.only_keys({"separations", "orientations", "seed"});
+  SweepSpec spec;
+  for (const text::JsonField& item : field.at("separations").items(1)) {
+    const double separation = item.number(kSeparation);
+    if (!spec.separations.empty() && !(separation > spec.separations.back()))
+      item.refuse("above " + text::shown(spec.separations.back()) + ", the one before");
+    spec.separations.push_back(separation);
+  }
+  if (field.has("orientations"))
+    spec.orientations = field.at("orientations").whole(1, kMostOrientations);
+  if (field.has("seed")) spec.seed = field.at("seed").whole(0, kLargestSeed);
+  if (spec.separations.size() * spec.orientations > kMostPoses)
+    field.fail("asks for more than " + std::to_string(kMostPoses) + " poses");
+  return spec;
+}
 
 constexpr std::size_t kMostFrames = 100'000;
 constexpr double kLongest = 1e6;  // seconds
-constexpr NumberRange kSeconds = {0.0, true, kLongest, false};
+constexpr text::NumberRange kSeconds = {0.0, true, kLongest, false};
 
 // Builds each distinct mesh and each distinct shape once.
 class Workshop {
  public:
   struct Made {
-    MeshSpec mesh;
+    mesh::MeshSpec mesh;
     LatticeSpec lattice;
     std::shared_ptr<const BodyShape> shape;
     std::string notes;
   };
 
-  const Made& shape(const MeshSpec& mesh, const LatticeSpec& lattice, const JsonField& body) {
+  const Made& shape(const mesh::MeshSpec& mesh, const LatticeSpec& lattice,
+                    const text::JsonField& body) {
     for (const Made& made : made_) {
       if (made.mesh == mesh && made.lattice == lattice) return made;
     }
-    const LoadedMesh& loaded = loaded_mesh(mesh, body.at("mesh"));
+    const mesh::LoadedMesh& loaded = loaded_mesh(mesh, body.at("mesh"));
     Made made{mesh, lattice, nullptr, loaded.notes};
     try {
       made.shape = build_shape(loaded.mesh, lattice);
     } catch (const InputError& error) {
-      body.at("mesh").fail("cannot be used: " + without_full_stop(error.what()));
+      body.at("mesh").fail("cannot be used: " + text::without_full_stop(error.what()));
     }
-    add_note(made.notes, describe(made.shape->topology));
+    mesh::add_note(made.notes, describe(made.shape->topology));
     return made_.emplace_back(std::move(made));
   }
 
  private:
-  const LoadedMesh& loaded_mesh(const MeshSpec& spec, const JsonField& field) {
+  const mesh::LoadedMesh& loaded_mesh(const mesh::MeshSpec& spec, const text::JsonField& field) {
     for (const auto& [known, mesh] : loaded_) {
       if (known == spec) return mesh;
     }
-    return loaded_.emplace_back(spec, build_mesh(spec, field)).second;
+    return loaded_.emplace_back(spec, mesh::build_mesh(spec, field)).second;
   }
 
   std::deque<Made> made_;
-  std::deque<std::pair<MeshSpec, LoadedMesh>> loaded_;
+  std::deque<std::pair<mesh::MeshSpec, mesh::LoadedMesh>> loaded_;
 };
 
-void parse_times(const JsonField& root, std::size_t frames, std::size_t wanted_frames,
+void parse_times(const text::JsonField& root, std::size_t frames, std::size_t wanted_frames,
                  Scene& scene) {
   const std::string key = root.exactly_one_of({"duration", "time_step"});
   const double value = root.at(key).number(kSeconds);
@@ -75,7 +100,7 @@ void parse_times(const JsonField& root, std::size_t frames, std::size_t wanted_f
 }
 
 // Steps keep their length: another one would be another simulation.
-void parse_simulated_times(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
+void parse_simulated_times(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
   scene.simulation = parse_simulation(root.at("simulation"));
   for (const char* key : {"duration", "time_step"}) {
     if (!root.has(key)) continue;
@@ -87,10 +112,10 @@ void parse_simulated_times(const JsonField& root, std::size_t wanted_frames, Sce
       scene.simulation->settings.time_step * static_cast<double>(scene.simulation->every);
 }
 
-void add_body(const JsonField& field, const std::string& name, const Workshop::Made& made,
-              const MeshSpec& mesh, Motion motion, Scene& scene) {
+void add_body(const text::JsonField& field, const std::string& name, const Workshop::Made& made,
+              const mesh::MeshSpec& mesh, Motion motion, Scene& scene) {
   scene.bodies.push_back({name, made.shape});
-  scene.origins.push_back({name, described_source(mesh), made.notes});
+  scene.origins.push_back({name, mesh::described_source(mesh), made.notes});
   scene.motions.push_back(std::move(motion));
   if (scene.simulation) {
     add_simulated_body(field, *made.shape, scene.motions.back(), *scene.simulation);
@@ -99,8 +124,8 @@ void add_body(const JsonField& field, const std::string& name, const Workshop::M
   }
 }
 
-void add_copies(const JsonField& field, const std::string& name, const Workshop::Made& made,
-                const MeshSpec& mesh, const Motion& motion, Scene& scene) {
+void add_copies(const text::JsonField& field, const std::string& name, const Workshop::Made& made,
+                const mesh::MeshSpec& mesh, const Motion& motion, Scene& scene) {
   if (!field.has("motion")) field.at("copies").fail("needs a \"motion\" beside it");
   const CopiesSpec copies = parse_copies(field.at("copies"));
   std::set<std::string> taken;
@@ -112,13 +137,13 @@ void add_copies(const JsonField& field, const std::string& name, const Workshop:
   }
 }
 
-void parse_body(const JsonField& field, const std::filesystem::path& folder, Workshop& workshop,
-                RecordedBodies& recorded, Scene& scene) {
+void parse_body(const text::JsonField& field, const std::filesystem::path& folder,
+                Workshop& workshop, RecordedBodies& recorded, Scene& scene) {
   field.only_keys(
       {"name", "copies", "mesh", "lattice", "motion", "recording", "material", "velocity"});
   const std::string name = parse_body_name(field.at("name"), scene.bodies);
   if (field.has("recording")) return recorded.add(field, name, folder, scene);
-  const MeshSpec mesh = parse_mesh_spec(field.at("mesh"), folder);
+  const mesh::MeshSpec mesh = mesh::parse_mesh_spec(field.at("mesh"), folder);
   const LatticeSpec lattice =
       field.has("lattice") ? parse_lattice_spec(field.at("lattice")) : LatticeSpec{};
   const Workshop::Made& made = workshop.shape(mesh, lattice, field);
@@ -127,22 +152,22 @@ void parse_body(const JsonField& field, const std::filesystem::path& folder, Wor
   add_body(field, name, made, mesh, std::move(motion), scene);
 }
 
-void parse_sweep_frames(const JsonField& root, std::size_t wanted_frames, Scene& scene) {
+void parse_sweep_frames(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
   for (const char* key : {"frames", "duration", "time_step", "simulation"})
     if (root.has(key))
       root.at(key).fail("is not allowed beside \"sweep\", which says what frames there are");
   scene.sweep = parse_sweep(root.at("sweep"));
   if (wanted_frames > 0)
-    throw InputError("--frames: scene " + in_quotes(scene.id) +
+    throw InputError("--frames: scene " + text::in_quotes(scene.id) +
                      " is a sweep, has a frame for every pose and cannot be given others");
   scene.frames = scene.sweep->separations.size() * scene.sweep->orientations;
   scene.time_step = 1.0;
 }
 
 // Two that have no motion of their own.
-void require_sweep_bodies(const JsonField& root, const Scene& scene) {
-  const std::vector<JsonField> bodies = root.at("bodies").items();
-  for (const JsonField& body : bodies)
+void require_sweep_bodies(const text::JsonField& root, const Scene& scene) {
+  const std::vector<text::JsonField> bodies = root.at("bodies").items();
+  for (const text::JsonField& body : bodies)
     for (const char* key : {"motion", "recording", "copies"})
       if (body.has(key))
         body.at(key).fail("is not allowed in a sweep, which moves the second body");
@@ -154,18 +179,18 @@ void require_sweep_bodies(const JsonField& root, const Scene& scene) {
 }
 
 // Before bodies are read: their recordings say how many frames there are.
-bool any_recording(const JsonField& root) {
-  const std::vector<JsonField> bodies = root.at("bodies").items(1);
-  return std::any_of(bodies.begin(), bodies.end(), [](const JsonField& body) {
-    return body.is(JsonValue::Kind::kObject) && body.has("recording");
+bool any_recording(const text::JsonField& root) {
+  const std::vector<text::JsonField> bodies = root.at("bodies").items(1);
+  return std::any_of(bodies.begin(), bodies.end(), [](const text::JsonField& body) {
+    return body.is(text::JsonValue::Kind::kObject) && body.has("recording");
   });
 }
 
 // As many as are asked for, or as every recording has.
-std::size_t recorded_frames(const JsonField& root, std::size_t wanted_frames,
+std::size_t recorded_frames(const text::JsonField& root, std::size_t wanted_frames,
                             const RecordedBodies& recorded, const Scene& scene) {
   if (wanted_frames > 0)
-    throw InputError("--frames: scene " + in_quotes(scene.id) +
+    throw InputError("--frames: scene " + text::in_quotes(scene.id) +
                      " has recorded frames and cannot be given others");
   if (!root.has("frames")) return recorded.available(kMostFrames).frames;
   const std::size_t frames = root.at("frames").whole(1, kMostFrames);
@@ -173,15 +198,15 @@ std::size_t recorded_frames(const JsonField& root, std::size_t wanted_frames,
   if (available < frames)
     root.at("frames").refuse("at most " + std::to_string(available) +
                              ", as many as the recording of body " +
-                             in_quotes(scene.bodies[body].name) + " has");
+                             text::in_quotes(scene.bodies[body].name) + " has");
   return frames;
 }
 
 }  // namespace
 
 Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
-  const JsonValue value = parse_json(document.text, document.name);
-  const JsonField root(value, document.name);
+  const text::JsonValue value = text::parse_json(document.text, document.name);
+  const text::JsonField root(value, document.name);
   if (root.has("parameter")) {
     if (wanted_frames > 0)
       throw InputError("--frames: the family of cases in the " + document.name +
@@ -191,7 +216,7 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   root.only_keys({"id", "title", "frames", "duration", "time_step", "simulation", "sweep", "levels",
                   "bodies"});
   Scene scene;
-  scene.id = parse_id(root.at("id"));
+  scene.id = text::parse_id(root.at("id"));
   scene.title = root.has("title") ? root.at("title").text() : scene.id;
   if (root.has("sweep")) {
     parse_sweep_frames(root, wanted_frames, scene);
@@ -203,7 +228,7 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   scene.levels = parse_levels(root.at("levels"));
   Workshop workshop;
   RecordedBodies recorded;
-  for (const JsonField& body : root.at("bodies").items(1)) {
+  for (const text::JsonField& body : root.at("bodies").items(1)) {
     parse_body(body, document.folder, workshop, recorded, scene);
   }
   if (scene.sweep) require_sweep_bodies(root, scene);
@@ -214,9 +239,9 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
 }
 
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames) {
-  return load_scene_text({read_file_bytes(file, "scene file"),
-                          "scene file " + in_quotes(file.string()), file.parent_path()},
+  return load_scene_text({text::read_file_bytes(file, "scene file"),
+                          "scene file " + text::in_quotes(file.string()), file.parent_path()},
                          wanted_frames);
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

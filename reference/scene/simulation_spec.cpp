@@ -7,7 +7,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 // The paper moves all of its scenes by its two-level method; this is the one that also answers
@@ -15,32 +15,34 @@ namespace {
 constexpr const char* kUsualDriver = "ffd-aabb-sphere2+tri";
 
 // Steps above a second are typing errors: a body falls 5 m within one.
-constexpr NumberRange kStep = {0.0, true, 1.0, false};  // seconds
+constexpr text::NumberRange kStep = {0.0, true, 1.0, false};  // seconds
 constexpr std::size_t kMostSubsteps = 1000;
 constexpr std::size_t kMostEvery = 10'000;
 // A hundred times the earth's.
-constexpr NumberRange kAcceleration = {-1000.0, false, 1000.0, false};  // m/s^2
-constexpr NumberRange kHeight = {-1e6, false, 1e6, false};              // metres, as positions
+constexpr text::NumberRange kAcceleration = {-1000.0, false, 1000.0, false};  // m/s^2
+constexpr text::NumberRange kHeight = {-1e6, false, 1e6, false};  // metres, as positions
 // Faster, a body crosses its own size within a step of 1/60 s many times over.
-constexpr NumberRange kSpeed = {-1000.0, false, 1000.0, false};  // m/s, per axis
+constexpr text::NumberRange kSpeed = {-1000.0, false, 1000.0, false};  // m/s, per axis
 
-constexpr NumberRange kMass = {0.0, true, 1e9, false};            // kg
-constexpr NumberRange kStiffness = {0.0, true, 1e12, false};      // N/m
-constexpr NumberRange kDamping = {0.0, false, 1e9, false};        // N s/m
-constexpr NumberRange kYoungsModulus = {0.0, true, 1e12, false};  // Pa; diamond: 1.2e12
-constexpr NumberRange kPoissonRatio = {0.0, false, 0.5, true};    // 0.5: no volume change, singular
-constexpr NumberRange kDampingTime = {0.0, false, 1.0, false};    // seconds
-constexpr NumberRange kRelaxation = {0.0, true, 100.0, false};    // seconds
-constexpr std::size_t kLargestRegion = 128;                       // cells per axis of any lattice
-constexpr NumberRange kRestitution = {0.0, false, 1.0, false};    // above 1 would make energy
-constexpr NumberRange kFriction = {0.0, false, 10.0, false};      // rubber reaches 2
+constexpr text::NumberRange kMass = {0.0, true, 1e9, false};            // kg
+constexpr text::NumberRange kStiffness = {0.0, true, 1e12, false};      // N/m
+constexpr text::NumberRange kDamping = {0.0, false, 1e9, false};        // N s/m
+constexpr text::NumberRange kYoungsModulus = {0.0, true, 1e12, false};  // Pa; diamond: 1.2e12
+constexpr text::NumberRange kPoissonRatio = {0.0, false, 0.5,
+                                             true};  // 0.5: no volume change, singular
+constexpr text::NumberRange kDampingTime = {0.0, false, 1.0, false};  // seconds
+constexpr text::NumberRange kRelaxation = {0.0, true, 100.0, false};  // seconds
+constexpr std::size_t kLargestRegion = 128;  // cells per axis of any lattice
+constexpr text::NumberRange kRestitution = {0.0, false, 1.0, false};  // above 1 would make energy
+constexpr text::NumberRange kFriction = {0.0, false, 10.0, false};    // rubber reaches 2
 
 // A key that may be left out keeps its default.
-void read(const JsonField& field, const char* key, const NumberRange& range, double& value) {
+void read(const text::JsonField& field, const char* key, const text::NumberRange& range,
+          double& value) {
   if (field.has(key)) value = field.at(key).number(range);
 }
 
-Ground parse_ground(const JsonField& field) {
+Ground parse_ground(const text::JsonField& field) {
   field.only_keys({"axis", "height", "restitution", "friction"});
   Ground ground;
   if (field.has("axis")) ground.axis = field.at("axis").one_of({"x", "y", "z"})[0] - 'x';
@@ -86,11 +88,11 @@ bool goes_on(const Deformer& deformer) {
   return std::visit(Visitor(), deformer);
 }
 
-[[noreturn]] void refuse_keys(const JsonField& field) {
+[[noreturn]] void refuse_keys(const text::JsonField& field) {
   field.fail("has keys over time; in a simulated scene a motion gives the pose at time 0 alone");
 }
 
-void require_pose(const JsonField& field, const Motion& motion) {
+void require_pose(const text::JsonField& field, const Motion& motion) {
   if (goes_on(motion.path.position[0])) refuse_keys(field.at("position"));
   for (std::size_t i = 0; i < motion.path.spins.size(); ++i) {
     if (goes_on(motion.path.spins[i].angle)) refuse_keys(field.at("spins").items()[i]);
@@ -120,7 +122,7 @@ const std::vector<std::string>& model_names() {
   return names;
 }
 
-SimulationSpec parse_simulation(const JsonField& field) {
+SimulationSpec parse_simulation(const text::JsonField& field) {
   field.only_keys({"step", "substeps", "gravity", "ground", "driver", "every"});
   SimulationSpec spec;
   read(field, "step", kStep, spec.settings.time_step);
@@ -135,7 +137,7 @@ SimulationSpec parse_simulation(const JsonField& field) {
   return spec;
 }
 
-Material parse_material(const JsonField& field) {
+Material parse_material(const text::JsonField& field) {
   const ModelRule& rule = rule_named(field.at("model").one_of(model_names()));
   std::vector<std::string> keys = {"model", "mass", "restitution", "friction"};
   keys.insert(keys.end(), rule.own_keys.begin(), rule.own_keys.end());
@@ -158,7 +160,7 @@ Material parse_material(const JsonField& field) {
   return material;
 }
 
-void add_simulated_body(const JsonField& body, const BodyShape& shape, const Motion& motion,
+void add_simulated_body(const text::JsonField& body, const BodyShape& shape, const Motion& motion,
                         SimulationSpec& simulation) {
   if (body.has("motion")) require_pose(body.at("motion"), motion);
   std::optional<Material> material;
@@ -175,10 +177,10 @@ void add_simulated_body(const JsonField& body, const BodyShape& shape, const Mot
   simulation.velocities.push_back(velocity);
 }
 
-void require_no_simulation_keys(const JsonField& body) {
+void require_no_simulation_keys(const text::JsonField& body) {
   for (const char* key : {"material", "velocity"}) {
     if (body.has(key)) body.at(key).fail("needs \"simulation\" in the scene; there is none");
   }
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

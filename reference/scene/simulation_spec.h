@@ -10,10 +10,10 @@
 #include "core/deform/body.h"
 #include "core/deform/motion.h"
 #include "core/dynamics/material.h"
-#include "reference/scene/json_field.h"
 #include "reference/scene/scene.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// What scene files call a model: "mass-spring".
 const char* name_of(DeformableModel model);
@@ -24,20 +24,20 @@ const std::vector<std::string>& model_names();
 
 /// The root's "simulation"; materials and velocities stay empty.
 /// @throws InputError
-SimulationSpec parse_simulation(const JsonField& field);
+SimulationSpec parse_simulation(const text::JsonField& field);
 
 /// A body's "material".
 /// @throws InputError
-Material parse_material(const JsonField& field);
+Material parse_material(const text::JsonField& field);
 
 /// Adds the material and velocity of one body, in the order of the bodies. `body` is its whole
 /// field; `motion` what its "motion" became.
 /// @throws InputError also when the body has no lattice to deform, or a motion that goes on
-void add_simulated_body(const JsonField& body, const BodyShape& shape, const Motion& motion,
+void add_simulated_body(const text::JsonField& body, const BodyShape& shape, const Motion& motion,
                         SimulationSpec& simulation);
 
 /// Refuses "material" and "velocity" of a body in a scene that is not simulated.
 /// @throws InputError
-void require_no_simulation_keys(const JsonField& body);
+void require_no_simulation_keys(const text::JsonField& body);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

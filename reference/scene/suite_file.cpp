@@ -3,23 +3,23 @@
 #include <algorithm>
 
 #include "reference/scene/catalogue.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/id_check.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
+#include "reference/text/json_field.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
-void require_new(const JsonField& field, const std::string& name,
+void require_new(const text::JsonField& field, const std::string& name,
                  const std::vector<std::string>& names) {
   if (std::find(names.begin(), names.end(), name) != names.end()) field.refuse("named once only");
 }
 
-std::vector<std::string> parse_detectors(const JsonField& field) {
+std::vector<std::string> parse_detectors(const text::JsonField& field) {
   std::vector<std::string> names;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     const std::string name = item.text();
     require_new(item, name, names);
     names.push_back(name);
@@ -32,7 +32,7 @@ fs::path beside(const fs::path& suite, const fs::path& path) {
   return (fs::canonical(fs::absolute(suite).parent_path()) / path).lexically_normal();
 }
 
-fs::path parse_scene_path(const JsonField& field, const fs::path& suite) {
+fs::path parse_scene_path(const text::JsonField& field, const fs::path& suite) {
   const fs::path path = field.text();
   if (path.extension() != ".json" && path.extension() != ".ccr")
     field.refuse("the path of a scene file (.json) or of a recording (.ccr)");
@@ -40,10 +40,10 @@ fs::path parse_scene_path(const JsonField& field, const fs::path& suite) {
 }
 
 // "ID", or an object where the scene has detectors of its own or is a file.
-SuiteScene parse_scene(const JsonField& field, const fs::path& suite) {
+SuiteScene parse_scene(const text::JsonField& field, const fs::path& suite) {
   SuiteScene scene;
-  if (!field.is(JsonValue::Kind::kObject)) {
-    scene.id = parse_id(field);
+  if (!field.is(text::JsonValue::Kind::kObject)) {
+    scene.id = text::parse_id(field);
     return scene;
   }
   field.only_keys({"scene", "file", "detectors"});
@@ -51,15 +51,15 @@ SuiteScene parse_scene(const JsonField& field, const fs::path& suite) {
   if (by_file)
     scene.file = parse_scene_path(field.at("file"), suite);
   else
-    scene.id = parse_id(field.at("scene"));
+    scene.id = text::parse_id(field.at("scene"));
   if (!by_file || field.has("detectors")) scene.detectors = parse_detectors(field.at("detectors"));
   return scene;
 }
 
-std::vector<SuiteScene> parse_scenes(const JsonField& field, const fs::path& suite) {
+std::vector<SuiteScene> parse_scenes(const text::JsonField& field, const fs::path& suite) {
   std::vector<SuiteScene> scenes;
   std::vector<std::string> names;
-  for (const JsonField& item : field.items(1)) {
+  for (const text::JsonField& item : field.items(1)) {
     scenes.push_back(parse_scene(item, suite));
     const SuiteScene& scene = scenes.back();
     const std::string name = scene.file.empty() ? scene.id : scene.file.string();
@@ -69,20 +69,20 @@ std::vector<SuiteScene> parse_scenes(const JsonField& field, const fs::path& sui
   return scenes;
 }
 
-SuiteGoal parse_goal(const JsonField& field) {
-  constexpr NumberRange kAboveZero{0.0, true};
+SuiteGoal parse_goal(const text::JsonField& field) {
+  constexpr text::NumberRange kAboveZero{0.0, true};
   field.only_keys(
       {"goal", "scene", "detector", "over", "over_scene", "per", "part", "at_least", "at_most"});
   SuiteGoal goal;
   goal.name = field.at("goal").text();
-  goal.scene = parse_id(field.at("scene"));
+  goal.scene = text::parse_id(field.at("scene"));
   goal.detector = field.at("detector").text();
   const std::string kind = field.exactly_one_of({"over", "over_scene", "per"});
   if (kind == "over") {
     goal.other = field.at("over").text();
   } else if (kind == "over_scene") {
     goal.kind = SuiteGoal::Kind::kOverScene;
-    goal.other = parse_id(field.at("over_scene"));
+    goal.other = text::parse_id(field.at("over_scene"));
   } else {
     goal.kind = SuiteGoal::Kind::kPerPair;
     field.at("per").one_of({"pair"});
@@ -96,17 +96,19 @@ SuiteGoal parse_goal(const JsonField& field) {
 }  // namespace
 
 Suite load_suite(const fs::path& file) {
-  const std::string document = "suite file " + in_quotes(file.string());
-  const JsonValue value = parse_json(read_file_bytes(file, "suite file"), document);
-  const JsonField root(value, document);
+  const std::string document = "suite file " + text::in_quotes(file.string());
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "suite file"), document);
+  const text::JsonField root(value, document);
   root.only_keys({"id", "title", "scenes", "detectors", "goals"});
   Suite suite;
-  suite.id = parse_id(root.at("id"));
+  suite.id = text::parse_id(root.at("id"));
   suite.title = root.has("title") ? root.at("title").text() : suite.id;
   suite.scenes = parse_scenes(root.at("scenes"), file);
   suite.detectors = parse_detectors(root.at("detectors"));
   if (root.has("goals"))
-    for (const JsonField& item : root.at("goals").items(1)) suite.goals.push_back(parse_goal(item));
+    for (const text::JsonField& item : root.at("goals").items(1))
+      suite.goals.push_back(parse_goal(item));
   return suite;
 }
 
@@ -114,4 +116,4 @@ fs::path file_of(const SuiteScene& scene, const fs::path& fixtures) {
   return scene.file.empty() ? find_scene(scene.id, fixtures) : scene.file;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 /// Names of detectors are as on the command line, all different. Whether they exist is the
 /// registry's business.
@@ -47,4 +47,4 @@ Suite load_suite(const std::filesystem::path& file);
 /// Where a suite's scene is read. @throws InputError for an id that is none of `fixtures`
 std::filesystem::path file_of(const SuiteScene& scene, const std::filesystem::path& fixtures);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

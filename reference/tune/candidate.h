@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// One way to set one thing: "detector" is "ffd-aabb", "cell" is "2", "lattice" is "0.5".
 struct Choice {
@@ -31,4 +31,4 @@ struct TuneCandidate {
   bool usual = false;  ///< every option at its default, the scene's own lattice and deformer
 };
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,10 +64,11 @@ void remove_old_choice(const TuningRequest& request) {
   const fs::path file = chosen_file(request);
   std::error_code error;
   if (fs::equivalent(file, request.scene_file, error))
-    throw InputError("--out: the scene " + in_quotes(file.string()) +
+    throw InputError("--out: the scene " + text::in_quotes(file.string()) +
                      " lies where the choice is to be written");
   if (!fs::remove(file, error) && error)
-    throw InputError("cannot remove the old " + in_quotes(file.string()) + ": " + error.message());
+    throw InputError("cannot remove the old " + text::in_quotes(file.string()) + ": " +
+                     error.message());
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -6,7 +6,7 @@
 
 #include "reference/tune/tuning.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// chosen.json in the folder of the request.
 std::filesystem::path chosen_file(const TuningRequest& request);
@@ -24,4 +24,4 @@ bool chosen_from_outside(const Tuning& tuning, const TuningRequest& request);
 /// @throws InputError when it is the scene itself, or cannot be taken away
 void remove_old_choice(const TuningRequest& request);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

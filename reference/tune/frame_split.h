@@ -6,7 +6,7 @@
 
 #include "reference/scene/scene.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// A scene as it is run: its file, and how many frames of it.
 struct SceneFrames {
@@ -27,6 +27,6 @@ FrameSplit split_frames(const std::filesystem::path& file, std::size_t frames,
 
 /// Of a scene with recorded frames: every other one of them, written to `work`.
 /// @throws InputError for fewer than 4 frames
-FrameSplit split_recorded(const Scene& scene, const std::filesystem::path& work);
+FrameSplit split_recorded(const scene::Scene& scene, const std::filesystem::path& work);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdlib>
 
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 std::array<double, 6> badness(const Measurement& m) {
@@ -22,7 +22,7 @@ std::array<double, 6> badness(const Measurement& m) {
 Cost Measurement::cost() const {
   if (!failure.empty()) return {};
   const ModelCost shared = model ? *model : ModelCost{};
-  const Ratio own = product(shared.anchor_ms, beside_anchor);
+  const results::Ratio own = results::product(shared.anchor_ms, beside_anchor);
   return {own.value + shared.step.ms, own.low + shared.step.low_ms, own.high + shared.step.high_ms};
 }
 
@@ -54,4 +54,4 @@ bool dominates(const Measurement& a, const Measurement& b) {
   return better;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

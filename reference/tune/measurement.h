@@ -6,23 +6,23 @@
 #include <optional>
 #include <string>
 
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 #include "reference/tune/candidate.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// What all measurements in one model (a lattice, a deformer) share. Where it is uncertain, all of
 /// them are too dear or too cheap together.
 struct ModelCost {
-  Ratio anchor_ms{1.0, 1.0, 1.0};  ///< what the anchor takes for a frame of it
-  Cost step;                       ///< TuneCandidate::step
+  results::Ratio anchor_ms{1.0, 1.0, 1.0};  ///< what the anchor takes for a frame of it
+  Cost step;                                ///< TuneCandidate::step
 };
 
 struct Measurement {
   std::string failure;  ///< not empty: it gave no answer or no time, and nothing else is set
   /// Map, update and query in playback, in times what the anchor takes in the same model, with its
   /// interval (paired_cost.h).
-  Ratio beside_anchor;
+  results::Ratio beside_anchor;
   /// One object for all measurements in a model, which later runs correct. None: the anchor takes
   /// 1 ms, and a step nothing.
   std::shared_ptr<const ModelCost> model;
@@ -53,4 +53,4 @@ bool as_cheap_within_noise(const Measurement& a, const Measurement& b);
 /// No dearer and no more wrong in anything, and better in something. A failure dominates nothing.
 bool dominates(const Measurement& a, const Measurement& b);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -1,16 +1,103 @@
 #include "reference/tune/measuring.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "core/types/check.h"
 #include "reference/results/results.h"
-#include "reference/run/out_folder.h"
+#include "reference/results/statistics.h"
 #include "reference/scene/any_scene.h"
-#include "reference/tune/lattice_variant.h"
+#include "reference/scene/frame_positions.h"
+#include "reference/suite/out_folder.h"
+#include "reference/tune/scene_variant.h"
 #include "reference/tune/space.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void scale_lattice(Json& body, double factor, const std::string& document) {
+  if (!body.contains("lattice"))
+    throw InputError(document + ": body \"" + body.value("name", "") +
+                     "\" has no lattice, whose resolution could be another");
+  Json& lattice = body["lattice"];
+  if (lattice.contains("kept")) {
+    const double kept = std::round(lattice["kept"].get<double>() * factor);
+    lattice["kept"] = static_cast<std::size_t>(std::max(1.0, kept));
+  } else if (lattice.contains("cells")) {
+    for (Json& cells : lattice["cells"]) {
+      const double along = std::round(cells.get<double>() * std::cbrt(factor));
+      cells = static_cast<std::size_t>(std::max(1.0, along));
+    }
+  } else {
+    throw InputError(document + ": the lattice of body \"" + body.value("name", "") +
+                     "\" has neither \"kept\" nor \"cells\"");
+  }
+}
+
+}  // namespace
+
+fs::path write_lattice_variant(const fs::path& file, double factor, const fs::path& folder) {
+  return write_scene_variant(
+      file, fmt::format("lattice-{:g}", 100.0 * factor),
+      [&](Json& scene, const std::string& document) {
+        for (Json& body : scene["bodies"]) scale_lattice(body, factor, document);
+      },
+      folder);
+}
+
+double deviation(const scene::Scene& scene, const scene::Scene& variant) {
+  const scene::FramePositions first(scene), second(variant);
+  double largest = 0.0;
+  for (std::size_t f = 0; f < scene.frames; ++f)
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      const auto &one = first[f].vertices[b], &other = second[f].vertices[b];
+      if (one.size() != other.size())
+        throw InputError("scene " + variant.id + " has other meshes than " + scene.id);
+      for (std::size_t v = 0; v < one.size(); ++v)
+        largest = std::max(largest, (one[v] - other[v]).norm());
+    }
+  return largest;
+}
+
+void CostBook::set_unit(double anchor_ms) {
+  CONTACTCHECK_INVARIANT(anchor_ms > 0.0, "a time to count in");
+  unit_ms_ = anchor_ms;
+  models_[{}].cost->anchor_ms = {anchor_ms, anchor_ms, anchor_ms};
+}
+
+void CostBook::add_model(const ModelKey& key, const Cost& step) { models_[key].cost->step = step; }
+
+void CostBook::take_anchor(const ModelKey& key, const PairedRun& run) {
+  if (key == ModelKey{} || run.empty()) return;
+  Model& model = models_.at(key);
+  model.scales.push_back(relative_cost({run}));
+  const results::Ratio scale = results::median_ratio(model.scales);
+  model.cost->anchor_ms = {unit_ms_ * scale.value, unit_ms_ * scale.low, unit_ms_ * scale.high};
+}
+
+void CostBook::take(std::size_t candidate, PairedRun run) {
+  if (!run.empty()) paired_[candidate].push_back(std::move(run));
+}
+
+bool CostBook::price(std::size_t candidate, const ModelKey& key, Measurement& m) const {
+  const Model& model = models_.at(key);
+  const auto runs = paired_.find(candidate);
+  if (runs == paired_.end() || (key != ModelKey{} && model.scales.empty())) return false;
+  m.beside_anchor = relative_cost(runs->second);
+  m.model = model.cost;
+  return true;
+}
+
 namespace {
 
 // The time per frame of a playback within a question; none where it was not timed.
@@ -20,15 +107,15 @@ std::optional<double> time_of(const results::Run& run, Question question) {
   return std::nullopt;
 }
 
-const QuestionSamples* found_in(
-    const std::map<std::pair<std::string, std::string>, QuestionSamples>& times,
+const timing::QuestionSamples* found_in(
+    const std::map<std::pair<std::string, std::string>, timing::QuestionSamples>& times,
     const std::string& scene, const std::string& detector) {
   const auto at = times.find({scene, detector});
   return at == times.end() ? nullptr : &at->second;
 }
 
 // What one side costs in units of the other; nothing where one of them was not timed.
-PairedRun paired(const QuestionSamples* own, const QuestionSamples* anchor) {
+PairedRun paired(const timing::QuestionSamples* own, const timing::QuestionSamples* anchor) {
   return own != nullptr && anchor != nullptr ? pair_up(*own, *anchor) : PairedRun{};
 }
 
@@ -61,7 +148,7 @@ Measurement errors_of(const results::Run& run, Level level) {
 
 Measuring::Measuring(const std::vector<TuneCandidate>& candidates, MeasuringRequest request)
     : candidates_(candidates), request_(std::move(request)), anchor_(request_.anchor) {
-  const std::string id = load_any_scene(request_.scene_file, request_.settings.frames).id;
+  const std::string id = scene::load_any_scene(request_.scene_file, request_.settings.frames).id;
   models_[{}] = {request_.scene_file, id, 0.0};
   for (const TuneCandidate& candidate : candidates_) {
     const ModelKey key = key_of(candidate);
@@ -77,7 +164,7 @@ ModelKey Measuring::key_of(const TuneCandidate& candidate) const {
 
 Measuring::Model Measuring::make_model(const ModelKey& key) const {
   const std::size_t frames = request_.settings.frames;
-  const Scene scene = load_any_scene(request_.scene_file, frames);
+  const scene::Scene scene = scene::load_any_scene(request_.scene_file, frames);
   Model model;
   if (!key.deformer.empty()) {
     model.file = request_.other_deformers.at(key.deformer);
@@ -87,7 +174,7 @@ Measuring::Model Measuring::make_model(const ModelKey& key) const {
                        " is not scripted: its lattices cannot be of another resolution");
     model.file = write_lattice_variant(request_.scene_file, key.lattice, request_.work / "scenes");
   }
-  const Scene variant = load_any_scene(model.file, frames);
+  const scene::Scene variant = scene::load_any_scene(model.file, frames);
   model.id = variant.id;
   model.deviation = deviation(scene, variant);
   return model;
@@ -97,8 +184,9 @@ std::filesystem::path Measuring::scene_of(const TuneCandidate& candidate) const 
   return models_.at(key_of(candidate)).file;
 }
 
-SceneTask Measuring::task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const {
-  SceneTask task;
+suite::SceneTask Measuring::task_of(const ModelKey& key,
+                                    const std::vector<std::size_t>& batch) const {
+  suite::SceneTask task;
   task.id = models_.at(key).id;
   task.file = models_.at(key).file;
   std::set<std::string> names;
@@ -108,7 +196,7 @@ SceneTask Measuring::task_of(const ModelKey& key, const std::vector<std::size_t>
   if (!anchor_.empty()) add(anchor_);
   for (const std::size_t i : batch)
     if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
-  task.frames = load_any_scene(task.file, request_.settings.frames).frames;
+  task.frames = scene::load_any_scene(task.file, request_.settings.frames).frames;
   return task;
 }
 
@@ -128,23 +216,23 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
 
 results::Results Measuring::run(const std::vector<ModelKey>& keys,
                                 const std::vector<std::size_t>& batch, Times& times) const {
-  SuiteRequest suite;
+  suite::SuiteRequest suite;
   for (const ModelKey& key : keys) {
-    SceneTask task = task_of(key, batch);
+    suite::SceneTask task = task_of(key, batch);
     if (!task.detectors.empty()) suite.tasks.push_back(std::move(task));
   }
-  const ScratchFolder scratch(request_.work);
+  const suite::ScratchFolder scratch(request_.work);
   suite.settings = request_.settings;
   suite.out = scratch.path();
   suite.executable = request_.executable;
   suite.known_defects = request_.known_defects;
-  SuiteListener listener = request_.listener;
+  suite::SuiteListener listener = request_.listener;
   listener.samples = [&](const std::string& scene, const std::string& detector,
-                         const QuestionSamples& samples) {
+                         const timing::QuestionSamples& samples) {
     if (samples.question == request_.question) times[{scene, detector}] = samples;
   };
-  SuiteOutcome outcome;
-  results::Results results = run_suite(suite, listener, &outcome);
+  suite::SuiteOutcome outcome;
+  results::Results results = suite::run_suite(suite, listener, &outcome);
   expect_judged(results.scenes);
   return results;
 }
@@ -188,4 +276,4 @@ Measurement Measuring::read(std::size_t index, const results::Index& rows) const
   return m;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "core/types/check.h"
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 constexpr std::size_t kPairsThatShowSpread = 3;
@@ -39,7 +39,7 @@ double weight_of(std::size_t frame, const std::vector<std::size_t>& frames,
     for (const std::size_t f : frames) whole += least(run.at(f).anchor);
     shares.push_back(least(run.at(frame).anchor) / whole);
   }
-  return median(shares);
+  return results::median(shares);
 }
 
 std::vector<FramePairs> quotients_of(const std::vector<PairedRun>& runs) {
@@ -64,7 +64,7 @@ double mean_cost(const std::vector<FramePairs>& frames) {
   for (const FramePairs& frame : frames) {
     std::vector<double> values;
     for (const auto& run : frame.quotients) values.insert(values.end(), run.begin(), run.end());
-    sum += frame.weight * median(std::move(values));
+    sum += frame.weight * results::median(std::move(values));
     weights += frame.weight;
   }
   return sum / weights;
@@ -77,12 +77,12 @@ bool is_one_pair(const std::vector<FramePairs>& frames) {
 
 }  // namespace
 
-PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor) {
+PairedRun pair_up(const timing::QuestionSamples& own, const timing::QuestionSamples& anchor) {
   PairedRun run;
   for (std::size_t p = 0; p < std::min(own.playback.size(), anchor.playback.size()); ++p) {
-    const Pass &mine = own.playback[p], &beside = anchor.playback[p];
+    const timing::Pass &mine = own.playback[p], &beside = anchor.playback[p];
     // A clock that has not ticked has seen a nanosecond at most.
-    for (const std::size_t f : played_frames(std::min(mine.size(), beside.size()))) {
+    for (const std::size_t f : timing::played_frames(std::min(mine.size(), beside.size()))) {
       run[f].own.push_back(std::max(mine[f].total(), 1.0));
       run[f].anchor.push_back(std::max(beside[f].total(), 1.0));
     }
@@ -90,7 +90,7 @@ PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor) {
   return run;
 }
 
-Ratio relative_cost(const std::vector<PairedRun>& runs) {
+results::Ratio relative_cost(const std::vector<PairedRun>& runs) {
   CONTACTCHECK_INVARIANT(!runs.empty(), "a cost out of at least one run");
   const std::vector<FramePairs> frames = quotients_of(runs);
   const double cost = mean_cost(frames);
@@ -99,7 +99,7 @@ Ratio relative_cost(const std::vector<PairedRun>& runs) {
   for (const FramePairs& frame : frames)
     fewest = std::min(fewest, frame.quotients.front().size() * runs.size());
   const bool draws_frames = fewest < kPairsThatShowSpread;
-  return bootstrap(cost, [&](Resampler& resampler) {
+  return results::bootstrap(cost, [&](results::Resampler& resampler) {
     std::vector<std::size_t> drawn;
     for (std::size_t i = 0; i < runs.size(); ++i) drawn.push_back(resampler.below(runs.size()));
     std::vector<FramePairs> again;
@@ -115,4 +115,4 @@ Ratio relative_cost(const std::vector<PairedRun>& runs) {
   });
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

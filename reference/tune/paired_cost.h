@@ -10,9 +10,9 @@
 #include <map>
 #include <vector>
 
-#include "reference/compare/speedup.h"
+#include "reference/timing/speedup.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// Nanoseconds of one frame, by pass; as many of one as of the other.
 struct PairedFrame {
@@ -24,7 +24,7 @@ using PairedRun = std::map<std::size_t, PairedFrame>;
 
 /// Of playbacks, frame by frame: pass p of one with pass p of the other, as far as both have any.
 /// The first frame counts only where there is no other.
-PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor);
+PairedRun pair_up(const timing::QuestionSamples& own, const timing::QuestionSamples& anchor);
 
 /// How many times the anchor it costs: the mean over frames of the median quotient, weighted by
 /// what the anchor takes for the frame (the least of its passes: a preemption only adds). Runs are
@@ -33,6 +33,6 @@ PairedRun pair_up(const QuestionSamples& own, const QuestionSamples& anchor);
 /// too, which is wider. Of one pair in all the interval is open: 0 to infinity. Frames are drawn
 /// apart, so what all frames of a pass have in common widens it only through further runs.
 /// @pre at least one run; all share a frame; times are finite and above 0
-Ratio relative_cost(const std::vector<PairedRun>& runs);
+results::Ratio relative_cost(const std::vector<PairedRun>& runs);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -4,9 +4,9 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
-#include "reference/scene/file_text.h"
+#include "reference/text/file_text.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,8 +22,8 @@ void make_paths_absolute(Json& mesh, const fs::path& folder) {
 
 fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
                              const ChangeScene& change, const fs::path& folder) {
-  const std::string document = "scene file " + in_quotes(file.string());
-  Json scene = Json::parse(read_file_bytes(file, "scene file"), nullptr, false);
+  const std::string document = "scene file " + text::in_quotes(file.string());
+  Json scene = Json::parse(text::read_file_bytes(file, "scene file"), nullptr, false);
   if (!scene.is_object() || !scene.contains("bodies") || !scene.contains("id"))
     throw InputError(document + " is no scene whose bodies could be others");
   const std::string id = scene["id"].get<std::string>() + "-" + suffix;
@@ -37,4 +37,4 @@ fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
   return variant;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

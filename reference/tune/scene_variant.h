@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// The scene as its file has it, with an array "bodies"; `document` names the file in messages.
 using ChangeScene = std::function<void(nlohmann::ordered_json& scene, const std::string& document)>;
@@ -18,4 +18,4 @@ std::filesystem::path write_scene_variant(const std::filesystem::path& file,
                                           const std::string& suffix, const ChangeScene& change,
                                           const std::filesystem::path& folder);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

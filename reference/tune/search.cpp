@@ -1,12 +1,106 @@
 #include "reference/tune/search.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "reference/tune/additive_model.h"
+#include "core/types/check.h"
+#include "reference/tune/candidate.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
+
+// A guess at what has not been measured yet, from what has: every choice adds an effect of its own,
+// and a smaller one together with the detector it is made for.
+//
+// Bayesian linear regression with a normal prior on every effect (Bishop, Pattern Recognition and
+// Machine Learning, 2006, 3.3): few measurements give wide guesses, and a choice that was never
+// tried is as uncertain as the prior says.
+
+/// Standard deviations of the effects, in units of the value that is modelled.
+struct EffectPriors {
+  double detector = 2.0;     ///< of the detector itself
+  double choice = 0.5;       ///< of another choice
+  double interaction = 0.2;  ///< of a choice for one detector
+  double noise = 0.05;       ///< of a measurement
+};
+
+class AdditiveModel {
+ public:
+  /// `candidates` must outlive it.
+  AdditiveModel(const std::vector<TuneCandidate>& candidates, const EffectPriors& priors);
+
+  /// Forgets earlier fits. @pre as many values as indices, at least one, all finite
+  void fit(std::span<const std::size_t> measured, std::span<const double> values);
+
+  struct Guess {
+    double mean = 0.0, deviation = 0.0;
+  };
+  /// @pre fit was called
+  Guess guess(std::size_t candidate) const;
+
+ private:
+  std::vector<std::vector<std::pair<Eigen::Index, double>>> features_;  ///< [candidate]
+  Eigen::Index size_ = 0;
+  double noise_;
+  double centre_ = 0.0;
+  Eigen::VectorXd mean_;
+  Eigen::MatrixXd covariance_;
+};
+
+AdditiveModel::AdditiveModel(const std::vector<TuneCandidate>& candidates,
+                             const EffectPriors& priors)
+    : noise_(priors.noise) {
+  std::map<std::string, Eigen::Index> columns;
+  const auto column = [&](const std::string& name) {
+    return columns.emplace(name, static_cast<Eigen::Index>(columns.size())).first->second;
+  };
+  for (const TuneCandidate& candidate : candidates) {
+    auto& row = features_.emplace_back();
+    const std::string& detector = candidate.choices.front().value;
+    row.emplace_back(column(detector), priors.detector);
+    for (std::size_t i = 1; i < candidate.choices.size(); ++i) {
+      const std::string choice = candidate.choices[i].axis + "=" + candidate.choices[i].value;
+      row.emplace_back(column(choice), priors.choice);
+      row.emplace_back(column(detector + " " + choice), priors.interaction);
+    }
+  }
+  size_ = static_cast<Eigen::Index>(columns.size());
+}
+
+void AdditiveModel::fit(std::span<const std::size_t> measured, std::span<const double> values) {
+  CONTACTCHECK_INVARIANT(!measured.empty() && measured.size() == values.size(),
+                         "a fit needs a value for each index");
+  centre_ = 0.0;
+  for (const double value : values) centre_ += value / static_cast<double>(values.size());
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(size_, size_);
+  Eigen::VectorXd weighted = Eigen::VectorXd::Zero(size_);
+  const double weight = 1.0 / (noise_ * noise_);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    for (const auto& [a, x] : features_[measured[i]]) {
+      weighted[a] += weight * x * (values[i] - centre_);
+      for (const auto& [b, y] : features_[measured[i]]) precision(a, b) += weight * x * y;
+    }
+  covariance_ = precision.llt().solve(Eigen::MatrixXd::Identity(size_, size_));
+  mean_ = covariance_ * weighted;
+}
+
+AdditiveModel::Guess AdditiveModel::guess(std::size_t candidate) const {
+  Guess guess{centre_, 0.0};
+  double variance = 0.0;
+  for (const auto& [a, x] : features_[candidate]) {
+    guess.mean += x * mean_[a];
+    for (const auto& [b, y] : features_[candidate]) variance += x * y * covariance_(a, b);
+  }
+  guess.deviation = std::sqrt(std::max(variance, 0.0));
+  return guess;
+}
 
 // Whether the limits are met is a value of 1 or -1; what options do to it is seldom small.
 constexpr EffectPriors kAccuracyPriors{1.0, 0.3, 0.3, 0.1};
@@ -206,4 +300,4 @@ std::vector<std::size_t> pareto_front(const std::vector<Tried>& tried) {
   return front;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

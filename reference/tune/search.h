@@ -1,7 +1,7 @@
 // The cheapest candidate that is accurate enough, found without measuring them all.
 //
 // Every detector is measured once as it is. Then, batch by batch, what may still be cheaper than
-// the best one found: two additive models (additive_model.h), of the logarithm of the cost and of
+// the best one found: two additive models, of the logarithm of the cost and of
 // whether the limits are met, say how cheap and how accurate each of the others may be at best.
 // What a step of the simulation costs is known beforehand and comes on top of the model's guess.
 // When none of them may be cheaper, the best one races: it is measured again beside those whose
@@ -18,7 +18,7 @@
 #include "reference/tune/candidate.h"
 #include "reference/tune/measurement.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 struct SearchSettings {
   std::size_t batch = 4;  ///< measured together
@@ -62,4 +62,4 @@ std::vector<std::size_t> as_cheap_as(std::size_t best, const std::vector<Tried>&
 /// Of what was tried, what nothing else tried dominates, by cost.
 std::vector<std::size_t> pareto_front(const std::vector<Tried>& tried);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -9,7 +9,7 @@
 #include "core/types/check.h"
 #include "core/types/shortest.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 std::vector<std::string> values_of(const OptionInfo& option) {
@@ -154,4 +154,4 @@ std::vector<TuneCandidate> make_space(const DetectorCatalog& catalog, const Spac
   return candidates;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

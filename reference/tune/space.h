@@ -8,7 +8,7 @@
 #include "core/types/semantics.h"
 #include "reference/tune/candidate.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// The level at which answers to a question are counted. @pre not `contacts`
 Level level_of(Question question);
@@ -35,4 +35,4 @@ struct SpaceRequest {
 /// @throws InputError for unknown detectors, and for one that was named and does not answer
 std::vector<TuneCandidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "reference/tune/chosen_file.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -213,11 +213,11 @@ std::string detector_in_words(const Tuning& tuning, const TuningRequest& request
   const std::string id = name.substr(0, name.find(':'));
   std::string words;
   if (const auto own = request.commands.find(id); own != request.commands.end())
-    words += " --detector-cmd " + in_shell(own->second);
+    words += " --detector-cmd " + text::in_shell(own->second);
   const auto library = request.libraries.find(id);
   return words + " --detector " +
-         in_shell(library == request.libraries.end() ? name
-                                                     : library->second + name.substr(id.size()));
+         text::in_shell(
+             library == request.libraries.end() ? name : library->second + name.substr(id.size()));
 }
 
 /// How the chosen configuration is run.
@@ -233,9 +233,9 @@ HowToRun how_to_run(const Tuning& tuning, const TuningRequest& request) {
     return {file +
                 " names scene and detector, but a file cannot bring in a detector from outside; "
                 "the command line does:",
-            {run + in_shell(file) + detector}};
+            {run + text::in_shell(file) + detector}};
   return {"It is written to " + file + "; run it by either of:",
-          {run + in_shell(file), run + in_shell(tuning.chosen_scene) + detector}};
+          {run + text::in_shell(file), run + text::in_shell(tuning.chosen_scene) + detector}};
 }
 
 }  // namespace
@@ -273,4 +273,4 @@ std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) 
          markdown(rows_of(tuning.outcome.tried, tuning.candidates));
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

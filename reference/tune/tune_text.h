@@ -5,7 +5,7 @@
 
 #include "reference/tune/tuning.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 /// For a terminal: the front, the chosen configuration and the command that runs it.
 std::string tuning_text(const Tuning& tuning, const TuningRequest& request);
@@ -13,4 +13,4 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request);
 /// The same as a Markdown page, with everything that was measured.
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

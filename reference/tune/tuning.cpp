@@ -8,7 +8,7 @@
 #include "reference/scene/any_scene.h"
 #include "reference/tune/chosen_file.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,7 +184,7 @@ SpaceRequest with_deformers(const TuningRequest& request, const Tuning& tuning) 
   return space;
 }
 
-FrameSplit split_of(const TuningRequest& request, const Scene& scene,
+FrameSplit split_of(const TuningRequest& request, const scene::Scene& scene,
                     const DetectorCatalog& catalog, Teller& teller, Tuning& tuning) {
   if (scene.simulation) {
     simulate_all(request, catalog, teller, tuning);
@@ -196,7 +196,7 @@ FrameSplit split_of(const TuningRequest& request, const Scene& scene,
 }
 
 std::size_t count_frames(const SceneFrames& part) {
-  return load_any_scene(part.file, part.frames).frames;
+  return scene::load_any_scene(part.file, part.frames).frames;
 }
 
 }  // namespace
@@ -214,9 +214,9 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
   const WorkFolder work(request.out);
   Teller teller(tuning, request.limits, progress);
   const FrameSplit split =
-      split_of(request, load_any_scene(request.scene_file), catalog, teller, tuning);
+      split_of(request, scene::load_any_scene(request.scene_file), catalog, teller, tuning);
   tuning.candidates = make_space(catalog, with_deformers(request, tuning));
-  tuning.scene = load_any_scene(split.chosen_by.file).id;
+  tuning.scene = scene::load_any_scene(split.chosen_by.file).id;
   tuning.frames = count_frames(split.chosen_by);
   tuning.held_out_frames = count_frames(split.held_out);
   teller.starts();
@@ -237,4 +237,4 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
   return tuning;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -15,7 +15,7 @@
 #include "reference/tune/simulated_models.h"
 #include "reference/tune/space.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 
 struct TuningRequest {
   std::string target;  ///< the scene as the user named it
@@ -27,11 +27,11 @@ struct TuningRequest {
   SearchSettings search;
   bool exhaustive = false;  ///< measure every candidate
   std::size_t frames = 0;   ///< to choose by; 0: see split_frames
-  RunSettings settings;
+  suite::RunSettings settings;
   /// Existing; for tune.json, tune.md, chosen.json and, in tune/, scenes and recordings.
   std::filesystem::path out;
   std::filesystem::path executable;
-  KnownDefects known_defects;
+  results::KnownDefects known_defects;
   std::string command;  ///< for the record
   /// Of detectors from outside, by id: the library's file, or the command.
   std::map<std::string, std::string> libraries, commands;
@@ -77,4 +77,4 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
 /// tune.json (schema contactcheck-tune/1, reference/tune/README.md).
 nlohmann::ordered_json to_json(const Tuning& tuning, const TuningRequest& request);
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -4,7 +4,7 @@
 #include "reference/tune/chosen_file.h"
 #include "reference/tune/tuning.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -103,4 +103,4 @@ Json to_json(const Tuning& tuning, const TuningRequest& request) {
   return json;
 }
 
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -1,8 +1,8 @@
 #include "tests/bench/bench_bodies.h"
 
 #include "core/types/check.h"
-#include "reference/scene/datasets.h"
-#include "reference/scene/simplify.h"
+#include "reference/mesh/datasets.h"
+#include "reference/mesh/simplify.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
 
@@ -16,8 +16,8 @@ BenchBody bunny_or_sphere(std::size_t triangles, int levels) {
   TriangleMesh mesh;
   std::string name = "bunny00";
   try {
-    mesh = load_dataset("bunny00").mesh;
-    if (triangles > 0) mesh = simplify(mesh, triangles);
+    mesh = mesh::load_dataset("bunny00").mesh;
+    if (triangles > 0) mesh = mesh::simplify(mesh, triangles);
   } catch (const InputError&) {
     name = "sphere";
     mesh = test::sphere_mesh(Vec3::Zero(), 1.0, levels);

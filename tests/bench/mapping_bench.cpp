@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/deform/mapping.h"
-#include "reference/statistics/statistics.h"
+#include "reference/results/statistics.h"
 #include "tests/bench/bench_bodies.h"
 #include "tests/bench/plain_gather.h"
 #include "tests/bench/register.h"
@@ -39,7 +39,7 @@ void compare_with_gather(benchmark::State& state, const BenchBody& body, std::in
     ratios.push_back(gather_time / our_time);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ours.size()));
-  state.counters["speedup_over_gather"] = median(ratios);
+  state.counters["speedup_over_gather"] = results::median(ratios);
   state.SetLabel(simd_target());
   choose_target(0);
 }

@@ -12,7 +12,7 @@
 namespace contactcheck::bench {
 namespace {
 
-void judge_frame(benchmark::State& state, const WantedTruth& wanted) {
+void judge_frame(benchmark::State& state, const oracle::WantedTruth& wanted) {
   const auto& shape = small_body().shape;
   const std::vector<Body> bodies = {{"a", shape}, {"b", shape}};
   const double width = bounding_box(shape->mesh.vertices).extent().x();
@@ -20,7 +20,7 @@ void judge_frame(benchmark::State& state, const WantedTruth& wanted) {
       bodies,
       {shaken_nodes(*shape, 0.01, Vec3::Zero()), shaken_nodes(*shape, 0.01, {0.5 * width, 0, 0})});
   const Frame frame = data.frame();
-  Oracle oracle(bodies);
+  oracle::Oracle oracle(bodies);
   std::size_t pairs = 0;
   for (auto _ : state) pairs = oracle.judge(frame, wanted).surface.triangles.size();
   state.counters["triangle_pairs"] = static_cast<double>(pairs);
@@ -30,7 +30,7 @@ void judge_frame(benchmark::State& state, const WantedTruth& wanted) {
 }  // namespace
 
 void register_oracle_benchmarks() {
-  WantedTruth surface, all;
+  oracle::WantedTruth surface, all;
   all.containment = all.vertices = all.boxes = true;
   benchmark::RegisterBenchmark("oracle/surface", &judge_frame, surface)
       ->Unit(benchmark::kMillisecond);

@@ -16,9 +16,9 @@
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
+#include "reference/results/statistics.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
-#include "reference/statistics/statistics.h"
 #include "tests/bench/register.h"
 #include "tests/support/shapes.h"
 
@@ -35,7 +35,7 @@ const DetectorCatalog& catalog() {
   static const DetectorCatalog all = [] {
     DetectorCatalog out;
     register_core_detectors(out);
-    register_reference_detectors(out);
+    adapters::register_reference_detectors(out);
     return out;
   }();
   return all;
@@ -49,7 +49,7 @@ double mean_of_medians(const Samples& samples) {
   std::size_t frames = 0;
   for (const std::vector<double>& repeats : samples) {
     if (repeats.empty()) continue;
-    sum += median(repeats);
+    sum += results::median(repeats);
     ++frames;
   }
   return sum / static_cast<double>(frames);
@@ -113,7 +113,7 @@ struct SceneFrames {
 };
 
 SceneFrames load_frames(const std::string& id) {
-  const Scene scene = load_scene(find_scene(id, fixtures_directory()));
+  const scene::Scene scene = scene::load_scene(scene::find_scene(id, scene::fixtures_directory()));
   SceneFrames out;
   out.bodies = scene.bodies;
   for (std::size_t f = 0; f < scene.frames; ++f)

@@ -19,12 +19,12 @@
 
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
-#include "reference/run/frame_positions.h"
-#include "reference/run/judged_scene.h"
-#include "reference/run/timing.h"
+#include "reference/judge/judged_scene.h"
+#include "reference/results/statistics.h"
 #include "reference/scene/catalogue.h"
+#include "reference/scene/frame_positions.h"
 #include "reference/scene/scene.h"
-#include "reference/statistics/statistics.h"
+#include "reference/timing/timing.h"
 #include "tests/bench/register.h"
 
 namespace contactcheck::bench {
@@ -34,24 +34,24 @@ namespace {
 class SharedPage {
  public:
   SharedPage() {
-    void* page = mmap(nullptr, sizeof(SharedProgress), PROT_READ | PROT_WRITE,
+    void* page = mmap(nullptr, sizeof(process::SharedProgress), PROT_READ | PROT_WRITE,
                       MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (page == MAP_FAILED) throw std::bad_alloc();
-    progress_ = new (page) SharedProgress;
+    progress_ = new (page) process::SharedProgress;
   }
-  ~SharedPage() { munmap(progress_, sizeof(SharedProgress)); }
+  ~SharedPage() { munmap(progress_, sizeof(process::SharedProgress)); }
   SharedPage(const SharedPage&) = delete;
   SharedPage& operator=(const SharedPage&) = delete;
-  SharedProgress* get() { return progress_; }
+  process::SharedProgress* get() { return progress_; }
 
  private:
-  SharedProgress* progress_ = nullptr;
+  process::SharedProgress* progress_ = nullptr;
 };
 
 /// Does what the supervisor does, as often as it does, in a thread of its own.
 class Poller {
  public:
-  explicit Poller(const SharedProgress& progress)
+  explicit Poller(const process::SharedProgress& progress)
       : thread_([this, &progress] {
           while (!stop_) {
             poll(progress);
@@ -66,7 +66,7 @@ class Poller {
   Poller& operator=(const Poller&) = delete;
 
  private:
-  void poll(const SharedProgress& progress) {
+  void poll(const process::SharedProgress& progress) {
     std::ifstream statm("/proc/self/statm");
     std::uint64_t total = 0, resident = 0;
     statm >> total >> resident;
@@ -82,8 +82,8 @@ class Poller {
 class TimedScene {
  public:
   TimedScene(const std::string& id, const std::string& detector)
-      : scene_(load_scene(find_scene(id, fixtures_directory()))) {
-    const DetectorCatalog catalog = standard_catalog();
+      : scene_(scene::load_scene(scene::find_scene(id, scene::fixtures_directory()))) {
+    const DetectorCatalog catalog = adapters::standard_catalog();
     detector_ = catalog.make(catalog.parse(detector));
     detector_->prepare(scene_.bodies);
     request_.asked = {detector_->semantics().questions.front(), true};
@@ -94,10 +94,11 @@ class TimedScene {
   }
 
   /// Nanoseconds: the sum over the frames of one pass.
-  double run(SharedProgress* page) {
-    ProgressWriter progress(page);
+  double run(process::SharedProgress* page) {
+    process::ProgressWriter progress(page);
     double sum = 0.0;
-    for (const PhaseSample& frame : time_pass(scene_, request_, *detector_, progress))
+    for (const timing::PhaseSample& frame :
+         timing::time_pass(scene_, request_, *detector_, progress))
       sum += frame.total();
     return sum;
   }
@@ -106,21 +107,21 @@ class TimedScene {
   // time_pass compares every answer with these.
   void answer_all() {
     ContactSet contacts;
-    const FramePositions positions(scene_);
+    const scene::FramePositions positions(scene_);
     for (std::size_t f = 0; f < scene_.frames; ++f) {
       contacts.clear();
-      const FramePosition& at = positions[f];
-      detector_->update(make_frame(f, scene_.time_of(f), at.nodes, at.vertices));
+      const scene::FramePosition& at = positions[f];
+      detector_->update(judge::make_frame(f, scene_.time_of(f), at.nodes, at.vertices));
       detector_->query(request_.asked.question, contacts);
       contacts.canonicalize();
-      answers_.push_back(print_of(contacts, request_.asked));
+      answers_.push_back(judge::fingerprint_of(contacts, request_.asked));
     }
   }
 
-  Scene scene_;
+  scene::Scene scene_;
   std::unique_ptr<Detector> detector_;
-  std::vector<AnswerPrint> answers_;
-  PassRequest request_;
+  std::vector<judge::AnswerFingerprint> answers_;
+  timing::PassRequest request_;
 };
 
 void run_both(benchmark::State& state, const std::string& scene, const std::string& detector) {
@@ -131,7 +132,7 @@ void run_both(benchmark::State& state, const std::string& scene, const std::stri
     state.SkipWithError(e.what());
     return;
   }
-  SharedProgress own;
+  process::SharedProgress own;
   SharedPage shared;
   std::vector<double> alone, watched;
   const auto run_alone = [&] { alone.push_back(timed->run(&own)); };
@@ -150,9 +151,9 @@ void run_both(benchmark::State& state, const std::string& scene, const std::stri
     }
     state.SetIterationTime(1e-9 * watched.back());
   }
-  state.counters["alone_us"] = 1e-3 * median(alone);
-  state.counters["watched_us"] = 1e-3 * median(watched);
-  state.counters["watched_over_alone"] = median(watched) / median(alone);
+  state.counters["alone_us"] = 1e-3 * results::median(alone);
+  state.counters["watched_us"] = 1e-3 * results::median(watched);
+  state.counters["watched_over_alone"] = results::median(watched) / results::median(alone);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@ namespace {
 using test::Case;
 using test::CaseTruth;
 
-CaseTruth truth_of(Oracle& oracle, const Frame& frame) {
-  WantedTruth wanted;
+CaseTruth truth_of(oracle::Oracle& oracle, const Frame& frame) {
+  oracle::WantedTruth wanted;
   wanted.containment = wanted.vertices = true;
-  const Truth truth = oracle.judge(frame, wanted);
+  const oracle::Truth truth = oracle.judge(frame, wanted);
   return {truth.surface.bodies.size(), truth.surface.triangles.size(), truth.containment.size(),
           truth.surface.vertices.size()};
 }
@@ -27,7 +27,7 @@ std::string text(const CaseTruth& t) {
 
 TEST(Cases, AreWhatTheySay) {
   for (const Case& c : test::all_cases()) {
-    Oracle oracle(c.bodies);
+    oracle::Oracle oracle(c.bodies);
     EXPECT_EQ(c.truth.size(), c.frames.size()) << c.name;
     for (std::size_t f = 0; f < c.frames.size(); ++f) {
       const CaseTruth truth = truth_of(oracle, c.frames[f].frame(f));

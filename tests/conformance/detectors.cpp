@@ -31,7 +31,7 @@ constexpr const char* kVariants[] = {"spatial-hash:table=1",
 DetectorCatalog made_catalogue() {
   DetectorCatalog catalog;
   register_core_detectors(catalog);
-  register_reference_detectors(catalog);
+  adapters::register_reference_detectors(catalog);
   return catalog;
 }
 

@@ -99,7 +99,7 @@ TEST(KnownDeviations, SayWhereTheyComeFromAndWhy) {
 
 // Another version may have other defects: look at the list again.
 TEST(KnownDeviations, AreThoseOfTheInstalledLibraries) {
-  const std::map<std::string, std::string> installed = library_versions();
+  const std::map<std::string, std::string> installed = adapters::library_versions();
   for (const KnownDeviation& d : known_deviations()) {
     if (d.origin.library == "contactcheck") continue;
     ASSERT_EQ(installed.count(d.origin.library), 1u) << d.origin.library;

@@ -4,7 +4,7 @@
 
 #include "core/types/check.h"
 #include "core/types/local_origin.h"
-#include "reference/compare/judge.h"
+#include "reference/judge/judge.h"
 #include "reference/oracle/oracle.h"
 #include "tests/conformance/answers.h"
 
@@ -13,17 +13,17 @@ namespace {
 
 // The level `box` is made of nodes, which no detector in single precision is fed.
 std::vector<Level> judgeable_levels(const std::vector<Body>& bodies, const Semantics& semantics) {
-  std::vector<Level> levels = judged_levels(bodies, semantics, semantics.levels, nullptr);
+  std::vector<Level> levels = judge::judged_levels(bodies, semantics, semantics.levels, nullptr);
   if (semantics.precision == Precision::kSingle)
     std::erase_if(levels, [](Level l) { return l == Level::kCell || l == Level::kBox; });
   return levels;
 }
 
-WantedTruth wanted_truth(const std::vector<Level>& levels, const Semantics& semantics) {
+oracle::WantedTruth wanted_truth(const std::vector<Level>& levels, const Semantics& semantics) {
   const auto has = [&](Level l) {
     return std::find(levels.begin(), levels.end(), l) != levels.end();
   };
-  WantedTruth wanted;
+  oracle::WantedTruth wanted;
   wanted.containment = has(Level::kContainment) || semantics.solid;
   wanted.vertices = has(Level::kVertex);
   wanted.boxes = has(Level::kBox);
@@ -76,7 +76,7 @@ class Observer {
         levels_(judgeable_levels(scene.bodies, semantics_)),
         wanted_(wanted_truth(levels_, semantics_)),
         oracle_(scene.bodies),
-        judge_(scene.bodies, semantics_, levels_) {}
+        totals_(semantics_, levels_) {}
 
   void add_frame(std::size_t f) {
     const Answers answers = ask(*detector_, scene_.frames[f], f);
@@ -97,11 +97,14 @@ class Observer {
     // The margin as fed: semantics give it in metres.
     if (semantics_.claims(Level::kNear))
       near = oracle_.near(frame, semantics_.margin * semantics_.scale);
-    judge_.add_frame(f, oracle_.judge(frame, wanted_), answer, near);
+    const oracle::Truth truth = oracle_.judge(frame, wanted_);
+    for (const Level level : levels_)
+      totals_.add(f, level,
+                  judge::compare_at(level, scene_.bodies, semantics_, truth, answer, near));
   }
 
   Observation result() {
-    for (const auto& [level, counts] : judge_.levels()) {
+    for (const auto& [level, counts] : totals_.levels) {
       const std::string name = name_of(level);
       count(name + " missed", counts.missed);
       count(name + " spurious", counts.spurious);
@@ -121,9 +124,9 @@ class Observer {
   std::unique_ptr<Detector> detector_;
   const Semantics semantics_;
   const std::vector<Level> levels_;
-  const WantedTruth wanted_;
-  Oracle oracle_;
-  Judge judge_;
+  const oracle::WantedTruth wanted_;
+  oracle::Oracle oracle_;
+  judge::LevelTotals totals_;
   Observation out_;
 };
 

@@ -28,6 +28,29 @@ configure "$scratch/consumer" -DWITH_REFERENCE="$reference"
 "$scratch/consumer/two_boxes" >"$scratch/two_boxes.txt" || fail "two_boxes found no contact"
 expect "0 pairs at rest" "$scratch/two_boxes.txt"
 
+# Every installed header compiles alone, and an umbrella leads to it: what is not meant for users is
+# not installed.
+include=$prefix/include/contactcheck
+(cd "$include" && find . -name '*.h' | sed 's|^[.]/||' | LC_ALL=C sort) >"$scratch/headers.txt"
+eigen=$(pkg-config --cflags-only-I eigen3)
+while read -r header; do
+  # shellcheck disable=SC2086  # one word per flag
+  case $header in
+    *_plugin.h) language="c -std=c11" ;;
+    *) language="c++ -std=c++20" ;;
+  esac
+  echo "#include \"$header\"" |
+    g++ -fsyntax-only -Wall -Werror -I"$include" $eigen -x $language - || fail "$header does not compile alone"
+done <"$scratch/headers.txt"
+{
+  for umbrella in core/core.h reference/reference.h; do
+    [ ! -e "$include/$umbrella" ] ||
+      # shellcheck disable=SC2086
+      g++ -std=c++20 -MM -I"$include" $eigen -x c++ "$include/$umbrella"
+  done | tr ' \\' '\n' | sed -n "s|^$include/||p"
+  (cd "$include" && find . -name '*_plugin.h' | sed 's|^[.]/||')
+} | LC_ALL=C sort -u | diff "$scratch/headers.txt" - || fail "headers that no umbrella leads to (<)"
+
 # Core alone asks for none of the libraries that only judging needs.
 without=()
 for package in CGAL CLI11 assimp ccd embree fcl fmt meshoptimizer nlohmann_json; do

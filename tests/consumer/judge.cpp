@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "reference/adapters/register.h"
-#include "reference/cli/program.h"
+#include "reference/reference.h"
 
 using contactcheck::Vec3;
 

@@ -5,8 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/deform/body.h"
-#include "core/detect/registry.h"
+#include "core/core.h"
 
 using contactcheck::Vec3;
 

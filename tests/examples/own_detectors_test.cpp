@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "tests/reference/plugin/plugin_run.h"
 #include "tests/support/files.h"
 
@@ -16,7 +16,7 @@ using test::PluginRun;
 
 std::string c_library() { return CONTACTCHECK_C_EXAMPLE; }
 std::string python_command() {
-  return in_shell(CONTACTCHECK_PYTHON) + " -B " + in_shell(CONTACTCHECK_PYTHON_EXAMPLE);
+  return text::in_shell(CONTACTCHECK_PYTHON) + " -B " + text::in_shell(CONTACTCHECK_PYTHON_EXAMPLE);
 }
 
 void expect_exact(const json& row) {
@@ -46,7 +46,7 @@ TEST(OwnDetectors, FromOutsideAreNamedInTheResults) {
   PluginRun run({"--detector", c_library() + ":axis=z", "--detector-cmd", python_command()});
   EXPECT_EQ(run.row("c-sweep:axis=z").at("options"), json({{"axis", "z"}}));
   EXPECT_THAT(run.results().at("command").get<std::string>(),
-              testing::HasSubstr("--detector-cmd " + in_shell(python_command())))
+              testing::HasSubstr("--detector-cmd " + text::in_shell(python_command())))
       << "to be run again as it stands";
   const json plugins = run.results().at("plugins");
   ASSERT_EQ(plugins.size(), 2u);

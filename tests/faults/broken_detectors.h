@@ -48,7 +48,7 @@ class TruthfulDetector : public Detector {
 
  private:
   Semantics semantics_;
-  std::optional<Oracle> oracle_;
+  std::optional<oracle::Oracle> oracle_;
 };
 
 /// Drops the pairs 0, 10, 20, ... of every frame.

@@ -8,7 +8,7 @@
 
 #include "reference/scene/catalogue.h"
 #include "tests/faults/whole_run.h"
-#include "tests/reference/run/is_dead.h"
+#include "tests/reference/process/is_dead.h"
 
 namespace contactcheck {
 namespace {
@@ -79,7 +79,7 @@ WholeRun expect_harmless(const std::string& fault) {
 TEST(Isolation, AnErrorThatIsAKnownDefectIsNoFailureOfTheRun) {
   const test::Scratch scratch;
   fs::create_directories(scratch.folder() / "hard");
-  fs::create_directory_symlink(fixtures_directory() / "suites", scratch.folder() / "suites");
+  fs::create_directory_symlink(scene::fixtures_directory() / "suites", scratch.folder() / "suites");
   scratch.write("hard/known-defects.json", R"({"defects": [
     {"library": "contactcheck", "version": "any", "issue": "0", "kind": "error", "sentence": "ends",
      "seen": {"fault-abort": {"tiny": ["-"]}}}]})");

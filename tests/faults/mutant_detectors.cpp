@@ -63,7 +63,7 @@ struct FrameTruth {
 };
 
 std::vector<FrameTruth> truth_of(const Scene& scene) {
-  Oracle oracle(scene.bodies);
+  oracle::Oracle oracle(scene.bodies);
   std::vector<FrameTruth> truth;
   for (const FrameData& frame : scene.frames) {
     FrameTruth& t = truth.emplace_back();

@@ -6,7 +6,7 @@
 #include "core/narrow/segments.h"
 #include "core/narrow/triangle_box.h"
 #include "core/narrow/triangle_triangle.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/faults/mutant_checks.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/range_ends.h"
@@ -83,7 +83,7 @@ std::vector<NamedPairs> triangle_pairs() {
 // The test in both orders, then the filter of the kernels, which may leave a pair open.
 void check_pair(const TrianglePair& pair, MutantFindings& out) {
   const auto& [p, q] = pair;
-  const bool truth = rational::triangles_intersect(p, q);
+  const bool truth = oracle::rational::triangles_intersect(p, q);
   out.expect(triangles_intersect(p, q) == truth,
              truth ? "missed=1 spurious=0" : "missed=0 spurious=1");
   out.expect(triangles_intersect(q, p) == truth,
@@ -111,11 +111,11 @@ void check_segments(MutantFindings& out) {
     const Vec3 from = i % 2 == 0 ? c : b;
     if (a == b || from == d) continue;  // a segment has two ends
     out.enter({"grid-segments", i, "segments_meet", "segment"});
-    const bool meet = rational::triangles_intersect({a, b, b}, {from, d, d});
+    const bool meet = oracle::rational::triangles_intersect({a, b, b}, {from, d, d});
     out.expect(segments_meet(ordered_segment(a, b), ordered_segment(from, d)) == meet,
                meet ? "missed=1 spurious=0" : "missed=0 spurious=1");
     out.enter({"grid-segments", i, "point_on_segment", "segment"});
-    const bool on = rational::triangles_intersect({a, b, b}, {c, c, c});
+    const bool on = oracle::rational::triangles_intersect({a, b, b}, {c, c, c});
     out.expect(point_on_segment(c, ordered_segment(a, b)) == on,
                on ? "missed=1 spurious=0" : "missed=0 spurious=1");
   }
@@ -133,7 +133,7 @@ void check_points_at_edges(MutantFindings& out) {
     const double x = beside_half();
     const TrianglePoints t = {Vec3(x, beside_half(), 0.5), Vec3(24, 24, 0.5), Vec3(0, 30, 0.5)};
     const Vec3 e(12, 12, 0.5);
-    const bool on = rational::triangles_intersect(t, {e, e, e});
+    const bool on = oracle::rational::triangles_intersect(t, {e, e, e});
     out.expect(point_on_triangle(e, {t, 2}) == on,
                on ? "missed=1 spurious=0" : "missed=0 spurious=1");
   }
@@ -148,12 +148,13 @@ void check_signs(MutantFindings& out) {
     const TrianglePoints t = random.triangle(Vec3::Zero(), 1.0);
     const Vec3 &a = t[0], &b = t[1], &c = t[2];
     const Vec3 d = a + random.unit() * (b - a) + random.unit() * (c - a);
-    out.expect(orient3d(a, b, c, d) == rational::orient3d(a, b, c, d), "wrong sign");
+    out.expect(orient3d(a, b, c, d) == oracle::rational::orient3d(a, b, c, d), "wrong sign");
     if (i % 2 != 0) continue;
     out.enter({"nearly-collinear", i, "orient2d", "sign"});
     const Vec3 e = a + random.unit() * (b - a);
     for (int axis = 0; axis < 3; ++axis)
-      out.expect(orient2d(a, b, e, axis) == rational::orient2d(a, b, e, axis), "wrong sign");
+      out.expect(orient2d(a, b, e, axis) == oracle::rational::orient2d(a, b, e, axis),
+                 "wrong sign");
   }
 }
 
@@ -182,7 +183,8 @@ void check_labels(MutantFindings& out) {
       const auto& v = meshes[m].vertices;
       std::vector<std::uint32_t> truth;
       for (std::uint32_t cell = 0; cell < shape->lattice->cells.size(); ++cell)
-        if (rational::triangle_meets_box({v[a], v[b], v[c]}, shape->lattice->cell_box(cell)))
+        if (oracle::rational::triangle_meets_box({v[a], v[b], v[c]},
+                                                 shape->lattice->cell_box(cell)))
           truth.push_back(cell);
       const auto label = shape->embedding.cells_of_triangle(t);
       out.expect_same(truth, std::vector(label.begin(), label.end()));

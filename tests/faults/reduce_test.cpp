@@ -49,9 +49,9 @@ class Reduce : public testing::Test {
     return test::run_program(CONTACTCHECK_WITH_FAULTS, words);
   }
 
-  Scene reduced() const { return load_scene(file_); }
+  scene::Scene reduced() const { return scene::load_scene(file_); }
 
-  static std::size_t triangles(const Scene& scene, std::size_t body) {
+  static std::size_t triangles(const scene::Scene& scene, std::size_t body) {
     return scene.bodies[body].shape->mesh.triangles.size();
   }
 
@@ -70,7 +70,7 @@ TEST_F(Reduce, AMissToTwoTrianglesOfSmallWholeNumbers) {
   const Outcome outcome = reduce("fault-misses-high");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
-  const Scene scene = reduced();
+  const scene::Scene scene = reduced();
   EXPECT_EQ(scene.id, "least");
   EXPECT_EQ(triangles(scene, 0), 1u);
   EXPECT_EQ(triangles(scene, 1), 1u);

@@ -80,7 +80,7 @@ class Driver(unittest.TestCase):
         users = {self.build.name_of(unit.source)
                  for unit in self.build.users(["core/types/vec3.h"])}
         for unit in ("core/types/mesh.cpp", "core/lazy/kernels.cpp", "reference/oracle/oracle.cpp",
-                     "reference/rational/geometry.cpp", "tests/faults/mutant_parts.cpp"):
+                     "reference/oracle/rational_geometry.cpp", "tests/faults/mutant_parts.cpp"):
             self.assertIn(unit, users)
 
     def test_deadline_leaves_mutants_but_for_those_that_are_to_be_judged(self):

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <set>
 
-#include "reference/run/accuracy.h"
-#include "reference/run/float_environment.h"
-#include "reference/run/hover.h"
+#include "reference/judge/accuracy.h"
+#include "reference/judge/hover.h"
+#include "reference/process/float_environment.h"
 #include "tests/faults/broken_detectors.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
@@ -21,31 +21,31 @@ using testing::Optional;
 constexpr std::size_t kFrames = 24;
 
 // Two spheres in lattices of 3 x 3 x 3 cells meet head-on, sink 0.15 m into each other and part.
-Scene spheres() {
+scene::Scene spheres() {
   const auto ball = test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 2), {3, 3, 3}).shape;
   return test::approach_scene(ball, ball, {{0.0, 1.4}, {1.2, 0.85}, {2.4, 1.4}}, 0.05, 0.03,
                               kFrames, 0.1, {Level::kBody, Level::kTriangle});
 }
 
 struct Pass {
-  Scene scene;
-  JudgedScene judged;
+  scene::Scene scene;
+  judge::JudgedScene judged;
   results::Run result;
-  AccuracyOutcome outcome;
+  judge::AccuracyOutcome outcome;
 
-  Pass(Scene s, Detector& detector, bool hover = false) : scene(std::move(s)) {
-    SharedProgress page;
-    ProgressWriter progress(&page);
-    judged = judge_scene(scene, progress);
-    JudgingTools tools(judged);
-    outcome = run_accuracy(tools, 0, detector, progress, result);
+  Pass(scene::Scene s, Detector& detector, bool hover = false) : scene(std::move(s)) {
+    process::SharedProgress page;
+    process::ProgressWriter progress(&page);
+    judged = judge::judge_scene(scene, progress);
+    judge::JudgingTools tools(judged);
+    outcome = judge::run_accuracy(tools, 0, detector, progress, result);
     if (!hover) return;
-    measure_hover_gaps(tools, 0, detector, progress, result);
+    judge::measure_hover_gaps(tools, 0, detector, progress, result);
   }
   const results::LevelCounts& at(Level level) const { return result.levels.at(level); }
   std::set<std::string> disagreements() const {
     std::set<std::string> out;
-    for (const Disagreement& d : outcome.disagreements) out.insert(d.level + " " + d.kind);
+    for (const judge::Disagreement& d : outcome.disagreements) out.insert(d.level + " " + d.kind);
     return out;
   }
 };
@@ -71,7 +71,7 @@ TEST(SeededFault, EveryTenthPairDroppedIsMissedAndNothingElse) {
   test::DropsEveryTenth detector;
   const Pass pass(spheres(), detector);
   std::uint64_t dropped = 0;
-  for (const Truth& t : pass.judged.truth) dropped += (t.surface.triangles.size() + 9) / 10;
+  for (const oracle::Truth& t : pass.judged.truth) dropped += (t.surface.triangles.size() + 9) / 10;
   EXPECT_GT(dropped, 10u);
   EXPECT_EQ(pass.at(Level::kTriangle).missed, dropped);
   EXPECT_EQ(pass.at(Level::kTriangle).spurious, 0u);
@@ -84,7 +84,7 @@ TEST(SeededFault, OnePairThatIsNotThereIsSpuriousAndEarly) {
   const ElementPair pair{0, 1, 0, 0};
   test::Invents detector(pair);
   const Pass pass(spheres(), detector);
-  for (const Truth& t : pass.judged.truth)
+  for (const oracle::Truth& t : pass.judged.truth)
     ASSERT_FALSE(std::binary_search(t.surface.triangles.begin(), t.surface.triangles.end(), pair));
   EXPECT_EQ(pass.at(Level::kTriangle).spurious, kFrames);
   EXPECT_EQ(pass.at(Level::kTriangle).missed, 0u);
@@ -124,7 +124,7 @@ TEST(SeededFault, AnswerOfThePreviousFrameIsOneFrameLate) {
 
 // Bare boxes (their vertices are exact): apart in frames 0 to 2, touching in 3 to 5, overlapping
 // in 6 to 8.
-Scene touching_boxes() {
+scene::Scene touching_boxes() {
   const auto box = make_bare_shape(test::box_mesh(Vec3::Constant(-0.5), Vec3::Constant(0.5), 2));
   return test::approach_scene(box, box,
                               {{0, 1.25}, {2, 1.25}, {3, 1.0}, {5, 1.0}, {6, 0.875}, {8, 0.875}},
@@ -194,7 +194,7 @@ TEST(SeededFault, NamesThatDoNotExistAreErrorsAndNotLookedUp) {
 
 #if defined(__SSE__)
 TEST(SeededFault, SpoiledArithmeticIsNamedAndRestored) {
-  const FloatEnvironmentGuard outer;
+  const process::FloatEnvironmentGuard outer;
   test::SpoilsArithmetic detector;
   const Pass pass(spheres(), detector, true);
   EXPECT_THAT(pass.result.float_environment,

@@ -5,8 +5,8 @@
 #include "tests/faults/process_faults.h"
 
 int main(int argc, char** argv) {
-  contactcheck::DetectorCatalog catalog = contactcheck::standard_catalog();
+  contactcheck::DetectorCatalog catalog = contactcheck::adapters::standard_catalog();
   contactcheck::test::register_process_faults(catalog);
   contactcheck::test::register_geometry_faults(catalog);
-  return contactcheck::contactcheck_main(argc, argv, catalog);
+  return contactcheck::cli::contactcheck_main(argc, argv, catalog);
 }

@@ -10,7 +10,7 @@
 namespace contactcheck::test {
 namespace {
 
-void check_promises(const PointCache& cache, std::size_t bytes) {
+void check_promises(const scene::PointCache& cache, std::size_t bytes) {
   require(cache.points() > 0 && cache.samples() > 0, "a cache has points and samples");
   require(cache.points() * cache.samples() <= bytes / 12, "no count is beyond the bytes");
   for (std::size_t s = 0; s < cache.samples(); ++s) {
@@ -26,8 +26,8 @@ void check_promises(const PointCache& cache, std::size_t bytes) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  for (const CacheFormat format : {CacheFormat::kPc2, CacheFormat::kMdd}) try {
-      test::check_promises(PointCache(format, bytes, "point cache"), size);
+  for (const scene::CacheFormat format : {scene::CacheFormat::kPc2, scene::CacheFormat::kMdd}) try {
+      test::check_promises(scene::PointCache(format, bytes, "point cache"), size);
     } catch (const InputError&) {
     }
   return 0;

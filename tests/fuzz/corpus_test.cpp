@@ -7,7 +7,7 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/fuzz/hard_pair.h"
 #include "tests/fuzz/recording_repair.h"
 #include "tests/support/files.h"
@@ -34,7 +34,7 @@ std::vector<std::pair<TrianglePoints, TrianglePoints>> corpus_pairs() {
 bool coplanar(const std::pair<TrianglePoints, TrianglePoints>& pair) {
   const auto& [p, q] = pair;
   for (const Vec3& corner : q)
-    if (rational::orient3d(p[0], p[1], p[2], corner) != 0) return false;
+    if (oracle::rational::orient3d(p[0], p[1], p[2], corner) != 0) return false;
   return true;
 }
 
@@ -45,7 +45,7 @@ bool plain_doubles_are_wrong(const std::pair<TrianglePoints, TrianglePoints>& pa
   for (const Vec3& d : q) {
     const double determinant = (p[1] - p[0]).cross(p[2] - p[0]).dot(d - p[0]);
     const int sign = determinant > 0 ? 1 : determinant < 0 ? -1 : 0;
-    if (sign != rational::orient3d(p[0], p[1], p[2], d)) return true;
+    if (sign != oracle::rational::orient3d(p[0], p[1], p[2], d)) return true;
   }
   return false;
 }
@@ -54,7 +54,7 @@ TEST(TriangleCorpus, HoldsContactsAndGapsMostOfThemHard) {
   const auto pairs = corpus_pairs();
   std::size_t meet = 0, flat = 0, wrong = 0;
   for (const auto& pair : pairs) {
-    meet += rational::triangles_intersect(pair.first, pair.second);
+    meet += oracle::rational::triangles_intersect(pair.first, pair.second);
     flat += coplanar(pair);
     wrong += plain_doubles_are_wrong(pair);
   }

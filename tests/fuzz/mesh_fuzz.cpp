@@ -9,7 +9,7 @@
 
 #include "core/types/check.h"
 #include "core/types/mesh_topology.h"
-#include "reference/scene/mesh_file.h"
+#include "reference/mesh/mesh_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace contactcheck::test {
@@ -55,7 +55,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
 // Doubles and indices are kept: what is written as OFF comes back bit for bit.
 void check_round_trip(const TriangleMesh& mesh) {
   const TriangleMesh again =
-      read_mesh_bytes(SoupFormat::kOff, as_off(mesh), "mesh file \"again.off\"").mesh;
+      mesh::read_mesh_bytes(mesh::SoupFormat::kOff, as_off(mesh), "mesh file \"again.off\"").mesh;
   require(std::equal(mesh.vertices.begin(), mesh.vertices.end(), again.vertices.begin(),
                      again.vertices.end(), same_bits),
           "the OFF reader keeps doubles");
@@ -68,10 +68,10 @@ void silence_cgal() {
   require(silent, "std::cerr had a buffer");
 }
 
-void read_as(SoupFormat format, const std::string& bytes) {
+void read_as(mesh::SoupFormat format, const std::string& bytes) {
   TriangleMesh mesh;
   try {
-    mesh = read_mesh_bytes(format, bytes, "mesh file \"fuzzed\"").mesh;
+    mesh = mesh::read_mesh_bytes(format, bytes, "mesh file \"fuzzed\"").mesh;
   } catch (const InputError&) {
     return;
   }
@@ -83,7 +83,7 @@ void read_as(SoupFormat format, const std::string& bytes) {
 }  // namespace contactcheck::test
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using contactcheck::SoupFormat;
+  using contactcheck::mesh::SoupFormat;
   contactcheck::test::silence_cgal();
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   for (const SoupFormat format :

@@ -29,7 +29,7 @@ void require_text_or_refusal(const Report& report) {
 
 const Json& schema() {
   static const Json read = [] {
-    std::ifstream in(fixtures_directory() / "results.schema.json");
+    std::ifstream in(scene::fixtures_directory() / "results.schema.json");
     return Json::parse(in);
   }();
   return read;
@@ -41,9 +41,9 @@ const Json& schema() {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   const test::Json json = test::Json::parse(data, data + size, nullptr, false);
-  if (!json.is_object() || !schema_defect(test::schema(), json).empty()) return 0;
+  if (!json.is_object() || !results::schema_defect(test::schema(), json).empty()) return 0;
   const results::Results results = results::from_json(json);
-  test::require_text_or_refusal([&] { return report_files(results).at("report.md"); });
-  test::require_text_or_refusal([&] { return terminal_tables(results, true); });
+  test::require_text_or_refusal([&] { return report::report_files(results).at("report.md"); });
+  test::require_text_or_refusal([&] { return report::terminal_tables(results, true); });
   return 0;
 }

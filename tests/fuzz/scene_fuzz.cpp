@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/types/check.h"
-#include "reference/scene/json_value.h"
 #include "reference/scene/scene.h"
+#include "reference/text/json_value.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/reference/scene/scratch.h"
 
@@ -45,10 +45,11 @@ bool own_file(const std::string& key, const std::string& text) {
   return !path || (text.find('/') == std::string::npos && text != "scene.json");
 }
 
-bool harmless(const JsonValue& value, const std::string& key = "") {
-  if (value.kind == JsonValue::Kind::kNumber && !small_number(key, value.number)) return false;
-  if (value.kind == JsonValue::Kind::kText && !own_file(key, value.text)) return false;
-  const bool object = value.kind == JsonValue::Kind::kObject;
+bool harmless(const text::JsonValue& value, const std::string& key = "") {
+  if (value.kind == text::JsonValue::Kind::kNumber && !small_number(key, value.number))
+    return false;
+  if (value.kind == text::JsonValue::Kind::kText && !own_file(key, value.text)) return false;
+  const bool object = value.kind == text::JsonValue::Kind::kObject;
   for (std::size_t i = 0; i < value.items.size(); ++i)
     if (!harmless(value.items[i], object ? value.keys[i] : key)) return false;
   return true;
@@ -57,29 +58,31 @@ bool harmless(const JsonValue& value, const std::string& key = "") {
 // Text that is no JSON is harmless: nothing is built of it.
 bool harmless_text(const std::string& text) {
   try {
-    return harmless(parse_json(text, "scene file"));
+    return harmless(text::parse_json(text, "scene file"));
   } catch (const InputError&) {
     return true;
   }
 }
 
-void check_nodes(const Scene& scene, const std::vector<std::vector<Vec3>>& nodes) {
+void check_nodes(const scene::Scene& scene, const std::vector<std::vector<Vec3>>& nodes) {
   require(nodes.size() == scene.bodies.size(), "there are nodes for every body");
   for (std::size_t b = 0; b < nodes.size(); ++b)
     require(nodes[b].size() == scene.bodies[b].shape->node_count(), "every node has a position");
 }
 
-void check_nodes(const Scene& scene, double time) { check_nodes(scene, scene.nodes_at(time)); }
+void check_nodes(const scene::Scene& scene, double time) {
+  check_nodes(scene, scene.nodes_at(time));
+}
 
-void check_recorded(const Scene& scene) {
+void check_recorded(const scene::Scene& scene) {
   require(scene.recorded.size() == scene.frames, "every frame is recorded");
   for (const auto& nodes : scene.recorded) check_nodes(scene, nodes);
-  for (const FitError& fit : scene.fits)
+  for (const scene::FitError& fit : scene.fits)
     require(fit.rms.size() == scene.frames && fit.max.size() == scene.frames,
             "a fit has an error for every frame");
 }
 
-void check_promises(const Scene& scene) {
+void check_promises(const scene::Scene& scene) {
   require(scene.frames > 0 && scene.time_step > 0.0, "a scene has frames and a time step");
   require(!scene.bodies.empty() && !scene.levels.empty(), "a scene has bodies and levels");
   require(scene.origins.size() == scene.bodies.size(), "every body has an origin");
@@ -101,7 +104,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   if (!test::harmless_text(text)) return test::kNotForTheCorpus;
   try {
-    test::check_promises(load_scene(test::scratch().write("scene.json", text)));
+    test::check_promises(scene::load_scene(test::scratch().write("scene.json", text)));
   } catch (const InputError&) {
   }
   return 0;

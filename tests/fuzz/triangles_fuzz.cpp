@@ -8,7 +8,7 @@
 #include "core/narrow/predicates.h"
 #include "core/narrow/triangle_box.h"
 #include "core/narrow/triangle_triangle.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/hard_pair.h"
 
@@ -59,11 +59,11 @@ TriangleBatch batch_of(const std::vector<Pair>& pairs) {
 void check_predicates(const Pair& pair) {
   const auto& [a, b, c] = pair.first;
   const Vec3& d = pair.second[0];
-  const int side = rational::orient3d(a, b, c, d);
+  const int side = oracle::rational::orient3d(a, b, c, d);
   require_for(pair, orient3d(a, b, c, d) == side, "orient3d is exact");
   require_for(pair, orient3d_exact(a, b, c, d) == side, "orient3d_exact is exact");
   for (int axis = 0; axis < 3; ++axis) {
-    const int area = rational::orient2d(a, b, d, axis);
+    const int area = oracle::rational::orient2d(a, b, d, axis);
     require_for(pair, orient2d(a, b, d, axis) == area, "orient2d is exact");
     require_for(pair, orient2d_exact(a, b, d, axis) == area, "orient2d_exact is exact");
   }
@@ -73,9 +73,10 @@ void check_box(const Pair& pair) {
   Aabb box;
   box.extend(pair.second[0]);
   box.extend(pair.second[1]);
-  require_for(pair,
-              triangle_meets_box(pair.first, box) == rational::triangle_meets_box(pair.first, box),
-              "triangle_meets_box is exact");
+  require_for(
+      pair,
+      triangle_meets_box(pair.first, box) == oracle::rational::triangle_meets_box(pair.first, box),
+      "triangle_meets_box is exact");
 }
 
 void check_filter(const Pair& pair, const TriangleBatch& batch, bool truth) {
@@ -96,7 +97,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   const auto pair = test::hard_pair({data, size});
   if (!pair) return test::kNotForTheCorpus;
-  const bool truth = rational::triangles_intersect(pair->first, pair->second);
+  const bool truth = oracle::rational::triangles_intersect(pair->first, pair->second);
   const std::vector<test::Pair> all = test::arrangements(*pair);
   // As it is, swapped, and swapped and turned: more arrangements cost more than they find.
   for (const std::size_t i : {0, 1, 4})

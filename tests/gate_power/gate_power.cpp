@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference/gate/policy.h"
-#include "reference/gate/timing_rule.h"
+#include "reference/gate/timing_reading.h"
 #include "tests/gate_power/simulated_run.h"
 
 namespace contactcheck::test {
@@ -28,12 +28,14 @@ constexpr double kLimit = 1.05;  // of both rules: 5 % slower than it was, or th
 struct Tally {
   int red = 0, open = 0;
 
-  void add(const Ratio& slowness, std::size_t passes) {
-    const Rule rule;  // with the floor and the noise width that a policy has when it says nothing
-    const Verdict verdict =
-        judge_slowness({slowness, kFrameUs, passes}, {rule.floor_us, rule.noise_width}).verdict;
-    red += verdict == Verdict::kFail;
-    open += verdict == Verdict::kTooNoisy || verdict == Verdict::kCannotJudge;
+  void add(const results::Ratio& slowness, std::size_t passes) {
+    const gate::Rule
+        rule;  // with the floor and the noise width that a policy has when it says nothing
+    const gate::Verdict verdict =
+        gate::judge_slowness({slowness, kFrameUs, passes}, {rule.floor_us, rule.noise_width})
+            .verdict;
+    red += verdict == gate::Verdict::kFail;
+    open += verdict == gate::Verdict::kTooNoisy || verdict == gate::Verdict::kCannotJudge;
   }
   std::string text() const {
     const auto share = [](int n) { return 100.0 * n / kTrials; };
@@ -43,26 +45,26 @@ struct Tally {
 
 using Tallies = std::array<Tally, kSlowdowns.size()>;
 
-Ratio measured(const NoiseModel& model, const RunShape& shape, Noise& noise) {
+results::Ratio measured(const NoiseModel& model, const RunShape& shape, Noise& noise) {
   const SimulatedRun run = simulate_run(model, shape, kFrameUs, kRatio, noise);
-  const TimedFrames frames = {std::vector<bool>(shape.frames, false), {}};
-  return compute_speedup(run.reference, run.detector, frames).playback;
+  const timing::TimedFrames frames = {std::vector<bool>(shape.frames, false), {}};
+  return timing::compute_speedup(run.reference, run.detector, frames).playback;
 }
 
 // A detector that takes longer by a factor has the ratio of every pass divided by it: the same
 // noise serves all slow-downs.
-Ratio divided(const Ratio& r, double factor) {
+results::Ratio divided(const results::Ratio& r, double factor) {
   return {r.value / factor, r.low / factor, r.high / factor};
 }
 
 void one_trial(const NoiseModel& model, const RunShape& shape, Noise& noise, Tallies& against_limit,
                Tallies& against_baseline) {
-  const Ratio before = measured(model, shape, noise), now = measured(model, shape, noise);
+  const results::Ratio before = measured(model, shape, noise), now = measured(model, shape, noise);
   for (std::size_t i = 0; i < kSlowdowns.size(); ++i) {
-    const Ratio slower = divided(now, kSlowdowns[i]);
-    against_limit[i].add(slowness_of(slower, kRatio / kLimit), shape.passes);
-    against_baseline[i].add(over_limit(quotient(before, slower, shape.passes), kLimit),
-                            shape.passes);
+    const results::Ratio slower = divided(now, kSlowdowns[i]);
+    against_limit[i].add(gate::slowness_of(slower, kRatio / kLimit), shape.passes);
+    against_baseline[i].add(
+        gate::over_limit(results::quotient(before, slower, shape.passes), kLimit), shape.passes);
   }
 }
 

@@ -9,10 +9,11 @@ namespace {
 constexpr double kNanosecondsPerMicrosecond = 1e3;
 
 // One side in a process of its own. `drift` goes on from where the side before has left it.
-Pass pass_of(const NoiseModel& model, std::size_t frames, double us, double& drift, Noise& noise) {
+timing::Pass pass_of(const NoiseModel& model, std::size_t frames, double us, double& drift,
+                     Noise& noise) {
   const double nanoseconds =
       us * kNanosecondsPerMicrosecond * std::exp(model.process_sigma * noise.normal());
-  Pass out;
+  timing::Pass out;
   for (std::size_t f = 0; f < frames; ++f) {
     drift += model.drift_sigma * noise.normal();
     const bool spike = noise.uniform() < model.spike_share;
@@ -37,7 +38,7 @@ SimulatedRun simulate_run(const NoiseModel& model, const RunShape& shape, double
   run.reference.lazy_map = run.detector.lazy_map = true;
   for (std::size_t p = 0; p < shape.passes; ++p) {
     double drift = 0.0;
-    const auto take = [&](QuestionSamples& side, double us) {
+    const auto take = [&](timing::QuestionSamples& side, double us) {
       side.playback.push_back(pass_of(model, shape.frames, us, drift, noise));
     };
     const bool reference_first = noise.uniform() < 0.5;

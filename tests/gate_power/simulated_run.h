@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "reference/compare/speedup.h"
+#include "reference/timing/speedup.h"
 
 namespace contactcheck::test {
 
@@ -23,7 +23,7 @@ struct RunShape {
 };
 
 struct SimulatedRun {
-  QuestionSamples reference, detector;
+  timing::QuestionSamples reference, detector;
 };
 
 /// The raw output of mt19937_64, which the standard fixes, and logarithms: the same table for every

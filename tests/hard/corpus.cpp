@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "reference/run/judged_scene.h"
+#include "reference/judge/judged_scene.h"
 #include "reference/scene/catalogue.h"
 
 namespace contactcheck::test {
@@ -12,17 +12,17 @@ const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
 
 HardFamily read_family(const std::string& id) {
   HardFamily family;
-  family.scene = load_scene(find_scene(id, kFixtures));
-  family.truth = family_truth(family.scene);
+  family.scene = scene::load_scene(scene::find_scene(id, kFixtures));
+  family.truth = suite::family_truth(family.scene);
   for (const auto& nodes : family.scene.recorded)
-    family.vertices.push_back(map_bodies(family.scene, nodes));
+    family.vertices.push_back(scene::map_bodies(family.scene, nodes));
   return family;
 }
 
 }  // namespace
 
 Frame HardFamily::frame(std::size_t value) const {
-  return make_frame(value, 0.0, scene.recorded[value], vertices[value]);
+  return judge::make_frame(value, 0.0, scene.recorded[value], vertices[value]);
 }
 
 const HardFamily& hard_family(const std::string& id) {
@@ -33,12 +33,14 @@ const HardFamily& hard_family(const std::string& id) {
 
 std::vector<std::string> family_ids() {
   std::vector<std::string> ids;
-  for (const CatalogueEntry& entry : list_families(kFixtures)) ids.push_back(entry.id);
+  for (const scene::CatalogueEntry& entry : scene::list_families(kFixtures))
+    ids.push_back(entry.id);
   return ids;
 }
 
-const ExpectedFamilies& expected_families() {
-  static const ExpectedFamilies expected = read_expected(kFixtures / "hard" / "expected.json");
+const suite::ExpectedFamilies& expected_families() {
+  static const suite::ExpectedFamilies expected =
+      suite::read_expected(kFixtures / "hard" / "expected.json");
   return expected;
 }
 

@@ -1,17 +1,17 @@
-// The families of hard cases, with what is really there in every case.
+// The families of hard cases, with the ground truth of every case.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "reference/run/family_truth.h"
 #include "reference/scene/scene.h"
+#include "reference/suite/family_truth.h"
 
 namespace contactcheck::test {
 
 struct HardFamily {
-  Scene scene;
-  std::vector<CaseTruth> truth;                          ///< per value
+  scene::Scene scene;
+  std::vector<suite::CaseTruth> truth;                   ///< per value
   std::vector<std::vector<std::vector<Vec3>>> vertices;  ///< [value][body]
 
   Frame frame(std::size_t value) const;
@@ -24,6 +24,6 @@ const HardFamily& hard_family(const std::string& id);
 std::vector<std::string> family_ids();
 
 /// Expected answers as they are kept.
-const ExpectedFamilies& expected_families();
+const suite::ExpectedFamilies& expected_families();
 
 }  // namespace contactcheck::test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 
 namespace contactcheck {
 namespace {
@@ -27,10 +27,11 @@ TEST(HardCorpus, HasAtLeastThreeHundredCases) {
 
 TEST(HardCorpus, OracleGivesTheAnswersThatAreKept) {
   for (const std::string& id : family_ids()) {
-    std::vector<ExpectedCase> found;
-    for (const CaseTruth& truth : hard_family(id).truth) found.push_back(summary_of(truth));
+    std::vector<suite::ExpectedCase> found;
+    for (const suite::CaseTruth& truth : hard_family(id).truth)
+      found.push_back(suite::summary_of(truth));
     ASSERT_EQ(expected_families().count(id), 1u) << id << ": contactcheck truth --write";
-    const std::vector<ExpectedCase>& expected = expected_families().at(id);
+    const std::vector<suite::ExpectedCase>& expected = expected_families().at(id);
     ASSERT_EQ(found.size(), expected.size()) << id;
     for (std::size_t c = 0; c < found.size(); ++c)
       EXPECT_EQ(found[c], expected[c]) << id << " at " << found[c].value;
@@ -38,8 +39,8 @@ TEST(HardCorpus, OracleGivesTheAnswersThatAreKept) {
   EXPECT_EQ(expected_families().size(), family_ids().size());
 }
 
-rational::TriangleCorners corners(const HardFamily& family, std::size_t value, std::size_t body,
-                                  std::size_t triangle) {
+oracle::rational::TriangleCorners corners(const HardFamily& family, std::size_t value,
+                                          std::size_t body, std::size_t triangle) {
   const Triangle& t = family.scene.bodies[body].shape->mesh.triangles[triangle];
   const std::vector<Vec3>& v = family.vertices[value][body];
   return {v[t[0]], v[t[1]], v[t[2]]};
@@ -55,7 +56,7 @@ TEST(HardCorpus, RationalArithmeticGivesTheTruthOfPairs) {
     if (triangles > 2) continue;
     for (std::size_t v = 0; v < family.truth.size(); ++v, ++cases) {
       const bool meet =
-          rational::triangles_intersect(corners(family, v, 0, 0), corners(family, v, 1, 0));
+          oracle::rational::triangles_intersect(corners(family, v, 0, 0), corners(family, v, 1, 0));
       EXPECT_EQ(family.truth[v].triangles.size(), meet ? 1u : 0u)
           << id << " at " << family.truth[v].value;
       meeting += meet;

@@ -22,7 +22,7 @@ const DetectorCatalog& catalogue() {
   static const DetectorCatalog catalog = [] {
     DetectorCatalog made;
     register_core_detectors(made);
-    register_reference_detectors(made);
+    adapters::register_reference_detectors(made);
     return made;
   }();
   return catalog;
@@ -59,7 +59,7 @@ class HardCase : public ::testing::Test {
   void TestBody() override {
     const HardFamily& family = hard_family(family_);
     Detector& detector = prepared(detector_, family);
-    const CaseTruth& truth = family.truth[value_];
+    const suite::CaseTruth& truth = family.truth[value_];
     EXPECT_EQ(answer(detector, family, value_, Question::kTriangles).triangles, truth.triangles);
     if (detector.semantics().answers(Question::kBody)) {
       EXPECT_EQ(answer(detector, family, value_, Question::kBody).bodies.size(), truth.bodies);

@@ -59,7 +59,7 @@ std::size_t elements(const ContactSet& set) {
 }
 
 std::vector<ContactSet> truth_of(const Subject& subject) {
-  Oracle oracle(subject.bodies);
+  oracle::Oracle oracle(subject.bodies);
   std::vector<ContactSet> truth;
   for (std::size_t f = 0; f < subject.frames.size(); ++f)
     truth.push_back(oracle.judge(subject.frames[f].frame(f), {}).surface);

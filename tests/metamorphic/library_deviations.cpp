@@ -40,7 +40,7 @@ std::vector<KnownDeviation> of_bullet() {
   return {{{"bullet-gimpact"},
            kDiffers,
            in({"FlippedWinding", "TurnedCorners", "TurnedToOtherAxes", "Mirrored"}),
-           seen("its clip test, see gimpact_adapter.cpp"),
+           seen("its clip test, see bullet_gimpact.cpp"),
            "triangles have a front and a back, and are clipped in the order of their corners, in "
            "single precision"},
           {{"bullet-vf", "bullet-cl", "bullet-gimpact"},

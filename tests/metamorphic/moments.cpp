@@ -10,7 +10,7 @@ namespace contactcheck::test {
 namespace {
 
 // By a fast detector: a wrong count would only choose another frame.
-std::vector<std::size_t> pairs_per_frame(const Scene& scene) {
+std::vector<std::size_t> pairs_per_frame(const scene::Scene& scene) {
   const auto detector = make_detector("full-refit");
   detector->prepare(scene.bodies);
   std::vector<std::size_t> counts;
@@ -26,7 +26,7 @@ std::vector<std::size_t> pairs_per_frame(const Scene& scene) {
 
 }  // namespace
 
-Subject telling_moments(const Scene& scene) {
+Subject telling_moments(const scene::Scene& scene) {
   const std::vector<std::size_t> pairs = pairs_per_frame(scene);
   std::set<std::size_t> chosen = {0, scene.frames - 1};
   const auto touched =

@@ -11,6 +11,6 @@ namespace contactcheck::test {
 
 /// The first frame, the first with contact, the one with most pairs of triangles and the last,
 /// ascending; fewer where these are the same. @pre the scene is not simulated
-Subject telling_moments(const Scene& scene);
+Subject telling_moments(const scene::Scene& scene);
 
 }  // namespace contactcheck::test

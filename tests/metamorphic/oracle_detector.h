@@ -56,8 +56,8 @@ class OracleDetector : public Detector {
 
   bool asked_near_;
   Semantics semantics_;
-  std::optional<Oracle> oracle_;
-  Truth truth_;
+  std::optional<oracle::Oracle> oracle_;
+  oracle::Truth truth_;
   std::vector<NearPair> near_;
 };
 

@@ -26,7 +26,8 @@ const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
 std::set<std::string> scene_ids() {
   std::set<std::string> ids;
   for (const char* suite : {"default", "references"})
-    for (const SuiteScene& scene : load_suite(find_target(suite, kFixtures).file).scenes)
+    for (const scene::SuiteScene& scene :
+         scene::load_suite(scene::find_target(suite, kFixtures).file).scenes)
       ids.insert(scene.id);
   return ids;
 }
@@ -38,7 +39,7 @@ struct LoadedMoments {
 
 LoadedMoments load_moments(const std::string& id) {
   try {
-    const Scene scene = load_scene(find_scene(id, kFixtures));
+    const scene::Scene scene = scene::load_scene(scene::find_scene(id, kFixtures));
     return {std::make_shared<const Subject>(test::telling_moments(scene)), ""};
   } catch (const InputError& error) {
     const std::string sentence = error.what();

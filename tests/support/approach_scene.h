@@ -16,10 +16,11 @@ using PathKeys = std::vector<Curve::Key>;
 
 /// `moving` follows `x`, shifted by (y, z) across; both centred on the origin at rest. Levels: what
 /// is to be judged.
-inline Scene approach_scene(std::shared_ptr<const BodyShape> resting,
-                            std::shared_ptr<const BodyShape> moving, PathKeys x, double y, double z,
-                            std::size_t frames, double time_step, std::vector<Level> levels) {
-  Scene scene;
+inline scene::Scene approach_scene(std::shared_ptr<const BodyShape> resting,
+                                   std::shared_ptr<const BodyShape> moving, PathKeys x, double y,
+                                   double z, std::size_t frames, double time_step,
+                                   std::vector<Level> levels) {
+  scene::Scene scene;
   scene.id = "approach";
   scene.title = "Two bodies meet";
   scene.bodies = {{"resting", std::move(resting)}, {"moving", std::move(moving)}};
@@ -36,7 +37,7 @@ inline Scene approach_scene(std::shared_ptr<const BodyShape> resting,
 }
 
 /// The nodes of all frames of a scripted scene, as a recording holds them.
-inline std::vector<std::vector<std::vector<Vec3>>> recorded_frames(const Scene& scene) {
+inline std::vector<std::vector<std::vector<Vec3>>> recorded_frames(const scene::Scene& scene) {
   std::vector<std::vector<std::vector<Vec3>>> frames;
   for (std::size_t f = 0; f < scene.frames; ++f) frames.push_back(scene.nodes_of_frame(f));
   return frames;

@@ -58,13 +58,13 @@ writeFileSync(
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 #endif
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 const std::string_view kReportTemplate(
     ${cppLiteral(html)},
     ${Buffer.byteLength(html)});
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report
 `,
 );
 if (outPage) writeFileSync(outPage, html);

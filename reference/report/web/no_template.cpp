@@ -1,7 +1,7 @@
 #include "reference/report/web/report_template.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 const std::string_view kReportTemplate;
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace contactcheck {
+namespace contactcheck::report {
 
 /// With the placeholders @results@ and @view@; empty in a build without npm.
 extern const std::string_view kReportTemplate;
 
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -124,20 +124,5 @@ TEST(BoxPairFinder, EmptyBoxesMeetNothing) {
   EXPECT_TRUE(found({{Aabb{}, 0, 0}, {box, 1, 0}, {Aabb{}, 2, 0}}, 1.0).empty());
 }
 
-TEST(BoxPairFinder, SeededFaultLosesAPairAcrossAGridLine) {
-  // The boxes touch at x = 1.001, just above a grid line: shrunk by 1 %, the left one no longer
-  // reaches the bucket in which the pair is taken.
-  const std::vector<OwnedBox> boxes = {{{Vec3(0.001, 0, 0), Vec3(1.001, 1, 1)}, 0, 0},
-                                       {{Vec3(1.001, 0, 0), Vec3(2.001, 1, 1)}, 1, 0}};
-  BoxPairFinder finder;
-  BoxPairSettings settings;
-  Pairs pairs;
-  finder.find(boxes, settings, pairs);
-  EXPECT_EQ(pairs.size(), 1u);
-  settings.fault_bucket_scale = 0.99;
-  finder.find(boxes, settings, pairs);
-  EXPECT_EQ(pairs.size(), 1u);
-}
-
 }  // namespace
 }  // namespace contactcheck

@@ -112,8 +112,8 @@ TEST(NodePlaneContacts, MovingTheSecondPieceByThemPartsAlignedBoxes) {
   const ContactSet got = answer(*detector, scene.frames[0], Question::kContacts);
   ASSERT_THAT(got.piece_contacts, Not(IsEmpty()));
   for (const PieceContact& c : got.piece_contacts) {
-    const Scene parted = two_cubes(offset + (c.depth + 0x1p-20) * c.normal, false);
-    EXPECT_THAT(answer(*detector, parted.frames[0]).cells, IsEmpty());
+    const Scene separated = two_cubes(offset + (c.depth + 0x1p-20) * c.normal, false);
+    EXPECT_THAT(answer(*detector, separated.frames[0]).cells, IsEmpty());
     const Scene not_yet = two_cubes(offset + (c.depth - 0x1p-20) * c.normal, false);
     EXPECT_THAT(answer(*detector, not_yet.frames[0]).cells, SizeIs(1));
   }

@@ -16,4 +16,12 @@ inline FfdConfig safe_config(CellVolume volume, int sphere_levels) {
   return config;
 }
 
+/// The box about the same centre with `share` of its size.
+template <typename T>
+AabbOf<T> shrunk(const AabbOf<T>& box, T share) {
+  if (share == T(1)) return box;
+  const Vec3Of<T> center = box.center();
+  return {center + (box.lo - center) * share, center + (box.hi - center) * share};
+}
+
 }  // namespace contactcheck::test

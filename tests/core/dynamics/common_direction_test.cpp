@@ -1,4 +1,4 @@
-#include "core/dynamics/common_direction.h"
+#include "core/dynamics/contact_point.h"
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,7 @@ Sides two_masses(double mass_a, const Vec3& velocity_a, double mass_b, const Vec
   return sides;
 }
 
-// Their nodes, parted along x.
+// Their nodes, separated along x.
 ContactPoint along_x() { return {0, 1, {{0}, {1.0}}, {{0}, {1.0}}, Vec3::UnitX(), 0.0}; }
 
 bool same_velocities(const Sides& x, const Sides& y) {

@@ -51,7 +51,7 @@ ContactPoint between(const NodeBlend& a, const NodeBlend& b, const Vec3& normal,
   return {0, 1, a, b, normal, depth};
 }
 
-// Nodes 0 of bodies 0 and 1, parted along x.
+// Nodes 0 of bodies 0 and 1, separated along x.
 ContactPoint along_x(double depth = 0.0) {
   return between({{0}, {1.0}}, {{0}, {1.0}}, Vec3::UnitX(), depth);
 }
@@ -331,7 +331,7 @@ void expect_parted(double overlap, const Contacts& contacts) {
           (world.states[0].positions[0] - start.states[0].positions[0]);
   }
   EXPECT_GE(way.x(), 0.95 * overlap);
-  EXPECT_LE(way.x(), 1.05 * overlap);  // parted, not thrown
+  EXPECT_LE(way.x(), 1.05 * overlap);  // separated, not thrown
   EXPECT_LE(std::abs(way.y()) + std::abs(way.z()), 0.2 * overlap);
 }
 

@@ -109,7 +109,7 @@ TEST(Recording, WithoutFramesIsKept) {
   EXPECT_TRUE(recording_of(bytes_of(in)).frames.empty());
 }
 
-// The whole file of a bare triangle, put together from the description in fixtures/README.md.
+// The whole file of a bare triangle, assembled from the description in fixtures/README.md.
 TEST(Recording, HasTheDocumentedBytes) {
   std::string shape = u64_bytes(3);
   for (double x : {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.1, 0.0}) shape += f64_bytes(x);

@@ -1,6 +1,5 @@
 // contactcheck with one detector more. Its workers are this program again: main is this call alone.
-#include "reference/adapters/register.h"
-#include "reference/cli/program.h"
+#include "reference/reference.h"
 #include "sweep_detector.h"
 
 int main(int argc, char** argv) {

@@ -5,8 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "core/detect/option_info.h"
-#include "core/narrow/triangle_triangle.h"
+#include "core/core.h"
 
 namespace example {
 namespace {

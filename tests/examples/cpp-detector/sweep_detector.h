@@ -1,7 +1,7 @@
 // A detector of one's own in C++: it needs contactcheck::core and nothing else.
 #pragma once
 
-#include "core/detect/registry.h"
+#include "core/core.h"
 
 namespace example {
 

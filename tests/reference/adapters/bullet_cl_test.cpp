@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "tests/reference/adapters/soft_world.h"
+#include "tests/reference/adapters/adapter_world.h"
 
 namespace contactcheck::test {
 namespace {

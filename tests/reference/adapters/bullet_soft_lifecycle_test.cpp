@@ -4,9 +4,7 @@
 #include <thread>
 
 #include "core/types/check.h"
-#include "reference/adapters/bullet_soft_adapter.h"
-#include "reference/adapters/register.h"
-#include "tests/reference/adapters/soft_world.h"
+#include "tests/reference/adapters/adapter_world.h"
 
 namespace contactcheck::test {
 namespace {
@@ -49,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Both, BulletSoft, ::testing::Values("bullet-vf", "bulle
 
 TEST_P(BulletSoft, OptionsAtTheirDefaultsAreLeftOut) {
   DetectorCatalog catalog;
-  register_reference_detectors(catalog);
+  adapters::register_reference_detectors(catalog);
   const std::string id = GetParam();
   EXPECT_EQ(catalog.parse(id + ":margin=0.001,scale=0").name, id);
   EXPECT_EQ(catalog.parse(id + ":scale=100,margin=0.01").name, id + ":margin=0.01,scale=100");
@@ -174,8 +172,8 @@ TEST_P(BulletSoft, TwoDetectorsWorkInTwoThreads) {
 }
 
 TEST(BulletVersion, IsAmongTheLibraries) {
-  EXPECT_EQ(library_versions().at("bullet"), bullet_version());
-  EXPECT_THAT(bullet_version(), ::testing::MatchesRegex("3\\.[0-9]+ float"));
+  EXPECT_THAT(adapters::library_versions().at("bullet"),
+              ::testing::MatchesRegex("3\\.[0-9]+ float"));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/narrow/triangle_triangle.h"
-#include "reference/adapters/bullet_scale.h"
-#include "tests/reference/adapters/soft_world.h"
+#include "reference/adapters/bullet.h"
+#include "tests/reference/adapters/adapter_world.h"
 
 namespace contactcheck::test {
 namespace {
@@ -106,7 +106,7 @@ TEST(BulletVf, MarginIsWhatTheFloatsHold) {
 TEST(BulletVf, ScaleIsTheScenesOrTheOne) {
   const World world({sphere_mesh(Vec3(0, 0, 0), 0.125, 3)});
   const double scale = prepared("bullet-vf", world)->semantics().scale;
-  EXPECT_EQ(scale, automatic_bullet_scale(world.bodies));
+  EXPECT_EQ(scale, adapters::automatic_bullet_scale(world.bodies));
   EXPECT_EQ(scale, 4.0);
   EXPECT_EQ(prepared("bullet-vf:scale=100", world)->semantics().scale, 100.0);
 }

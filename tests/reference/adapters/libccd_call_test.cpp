@@ -19,10 +19,12 @@ using ::testing::IsEmpty;
 using ::testing::Le;
 using ::testing::Lt;
 
-constexpr CcdAlgorithm kBoth[] = {CcdAlgorithm::kGjk, CcdAlgorithm::kMpr};
+constexpr adapters::CcdAlgorithm kBoth[] = {adapters::CcdAlgorithm::kGjk,
+                                            adapters::CcdAlgorithm::kMpr};
 
-CcdSettings settings(CcdAlgorithm algorithm, std::uint32_t iterations = 100, double scale = 1.0) {
-  CcdSettings out;
+adapters::CcdSettings settings(adapters::CcdAlgorithm algorithm, std::uint32_t iterations = 100,
+                               double scale = 1.0) {
+  adapters::CcdSettings out;
   out.algorithm = algorithm;
   out.iterations = iterations;
   out.scale = scale;
@@ -37,35 +39,35 @@ Corners cuboid(const Vec3& lo, const Vec3& sides) {
 }
 Corners cube(const Vec3& lo, double side = 1.0) { return cuboid(lo, Vec3::Constant(side)); }
 
-bool hit(CcdAlgorithm algorithm, CcdPiece a, CcdPiece b) {
-  CcdCaller caller(settings(algorithm));
+bool hit(adapters::CcdAlgorithm algorithm, adapters::CcdPiece a, adapters::CcdPiece b) {
+  adapters::CcdCaller caller(settings(algorithm));
   return caller.intersect(a, b);
 }
 
 TEST(LibccdCall, TellsCubesThatOverlapFromCubesApart) {
-  for (const CcdAlgorithm algorithm : kBoth) {
+  for (const adapters::CcdAlgorithm algorithm : kBoth) {
     EXPECT_TRUE(hit(algorithm, cube(Vec3(0, 0, 0)), cube(Vec3(0.75, 0.5, -0.25))));
     EXPECT_FALSE(hit(algorithm, cube(Vec3(0, 0, 0)), cube(Vec3(1.01, 0.5, -0.25))));
-    CcdCaller caller(settings(algorithm));
+    adapters::CcdCaller caller(settings(algorithm));
     EXPECT_FALSE(caller.penetrate(cube(Vec3(0, 0, 0)), cube(Vec3(1.01, 0, 0))).contact);
   }
 }
 
 TEST(LibccdCall, DepthIsHowFarAndTheNormalWhereTheSecondPieceHasToGo) {
   const Corners still = cube(Vec3(0, 0, 0));
-  for (const CcdAlgorithm algorithm : kBoth) {
+  for (const adapters::CcdAlgorithm algorithm : kBoth) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {
         Vec3 lo(0.13, 0.07, 0.11);
         lo[axis] = 0.9 * sign;
         for (const double scale : {1.0, 64.0, 3.0}) {
-          CcdCaller caller(settings(algorithm, 100, scale));
+          adapters::CcdCaller caller(settings(algorithm, 100, scale));
           const Vec3 out = sign * Vec3::Unit(axis);
-          const CcdPenetration moved = caller.penetrate(still, cube(lo));
+          const adapters::CcdPenetration moved = caller.penetrate(still, cube(lo));
           ASSERT_TRUE(moved.way_out) << axis << " " << sign << " " << scale;
           EXPECT_NEAR(moved.way_out->depth, 0.1, 1e-9);
           EXPECT_NEAR((moved.way_out->normal - out).norm(), 0.0, 1e-9);
-          const CcdPenetration swapped = caller.penetrate(cube(lo), still);
+          const adapters::CcdPenetration swapped = caller.penetrate(cube(lo), still);
           ASSERT_TRUE(swapped.way_out) << axis << " " << sign << " " << scale;
           EXPECT_NEAR(swapped.way_out->depth, 0.1, 1e-9);
           EXPECT_NEAR((swapped.way_out->normal + out).norm(), 0.0, 1e-9);
@@ -78,7 +80,8 @@ TEST(LibccdCall, DepthIsHowFarAndTheNormalWhereTheSecondPieceHasToGo) {
 // The second cube is 1 wide about the middle of one 2 wide: 1.5 along an axis parts them.
 TEST(LibccdCall, OfConcentricCubesMprGivesMoreThanTheShortestWay) {
   const Corners big = cube(Vec3(-1, -1, -1), 2), small = cube(Vec3(-0.5, -0.5, -0.5));
-  CcdCaller gjk(settings(CcdAlgorithm::kGjk)), mpr(settings(CcdAlgorithm::kMpr));
+  adapters::CcdCaller gjk(settings(adapters::CcdAlgorithm::kGjk)),
+      mpr(settings(adapters::CcdAlgorithm::kMpr));
   EXPECT_NEAR(gjk.penetrate(big, small).way_out.value().depth, 1.5, 1e-9);
   EXPECT_NEAR(mpr.penetrate(big, small).way_out.value().depth, 1.6583, 1e-3);
 }
@@ -88,8 +91,9 @@ TEST(LibccdCall, OfConcentricCubesMprGivesMoreThanTheShortestWay) {
 TEST(LibccdCall, CubesInLineAreInContactWithoutADirectionForGjk) {
   const Vec3 one = Vec3::Ones();
   const Corners a = cube(-one, 2), b = cube(Vec3(0, 0, 1.9) - one, 2);
-  CcdCaller gjk(settings(CcdAlgorithm::kGjk)), mpr(settings(CcdAlgorithm::kMpr));
-  const CcdPenetration found = gjk.penetrate(a, b);
+  adapters::CcdCaller gjk(settings(adapters::CcdAlgorithm::kGjk)),
+      mpr(settings(adapters::CcdAlgorithm::kMpr));
+  const adapters::CcdPenetration found = gjk.penetrate(a, b);
   EXPECT_TRUE(found.contact);
   EXPECT_FALSE(found.way_out);
   EXPECT_EQ(gjk.without_direction(), 1u);
@@ -102,10 +106,11 @@ TEST(LibccdCall, CubesInLineAreInContactWithoutADirectionForGjk) {
 TEST(LibccdCall, TouchingCubesAreAHitForGjkAndNoneForMpr) {
   const Corners a = cube(Vec3(0, 0, 0)), face = cube(Vec3(1, 0.25, 0.25), 0.5);
   for (const bool swapped : {false, true}) {
-    const CcdPiece first = swapped ? face : a, second = swapped ? a : face;
-    CcdCaller gjk(settings(CcdAlgorithm::kGjk)), mpr(settings(CcdAlgorithm::kMpr));
+    const adapters::CcdPiece first = swapped ? face : a, second = swapped ? a : face;
+    adapters::CcdCaller gjk(settings(adapters::CcdAlgorithm::kGjk)),
+        mpr(settings(adapters::CcdAlgorithm::kMpr));
     EXPECT_TRUE(gjk.intersect(first, second));
-    const CcdPenetration found = gjk.penetrate(first, second);
+    const adapters::CcdPenetration found = gjk.penetrate(first, second);
     EXPECT_TRUE(found.contact);
     EXPECT_FALSE(found.way_out);
     EXPECT_FALSE(mpr.intersect(first, second));
@@ -116,8 +121,8 @@ TEST(LibccdCall, TouchingCubesAreAHitForGjkAndNoneForMpr) {
 // libccd 2.1: whether GJK sees aligned cubes touch depends on which comes first.
 TEST(LibccdCall, GjkLosesATouchThatItSeesTheOtherWayRound) {
   const Corners a = cube(Vec3(0, 0, 0)), b = cube(Vec3(1, 0, 0));
-  EXPECT_TRUE(hit(CcdAlgorithm::kGjk, a, b));
-  EXPECT_FALSE(hit(CcdAlgorithm::kGjk, b, a));
+  EXPECT_TRUE(hit(adapters::CcdAlgorithm::kGjk, a, b));
+  EXPECT_FALSE(hit(adapters::CcdAlgorithm::kGjk, b, a));
 }
 
 /// libccd 2.1, prior work C2: a triangle that is a segment and one that shares an end with it.
@@ -128,7 +133,7 @@ const TrianglePoints kLoopB = {Vec3(0, 1, 0), Vec3(2, 0, 3), Vec3(2, 1, 2)};
 TEST(LibccdCall, AnEndlessLoopOfMprIsEndedAndCountsAsNoContact) {
   ASSERT_TRUE(triangles_intersect(kLoopA, kLoopB));
   for (const std::uint32_t iterations : {1u, 100u, 100000u}) {
-    CcdCaller caller(settings(CcdAlgorithm::kMpr, iterations));
+    adapters::CcdCaller caller(settings(adapters::CcdAlgorithm::kMpr, iterations));
     EXPECT_FALSE(caller.intersect(kLoopA, kLoopB));
     EXPECT_EQ(caller.verdict_limits(), 1u);
     // One call more than allowed; a second one may follow where two loops have to be left.
@@ -136,12 +141,12 @@ TEST(LibccdCall, AnEndlessLoopOfMprIsEndedAndCountsAsNoContact) {
     EXPECT_THAT(caller.notes(), ElementsAre(HasSubstr("count as no contact")));
     EXPECT_FALSE(caller.penetrate(kLoopA, kLoopB).contact);
   }
-  EXPECT_TRUE(hit(CcdAlgorithm::kGjk, kLoopA, kLoopB));
+  EXPECT_TRUE(hit(adapters::CcdAlgorithm::kGjk, kLoopA, kLoopB));
 }
 
 TEST(LibccdCall, GjkThatUsesUpItsIterationsCountsAsNoContact) {
   const Corners a = cube(Vec3(0, 0, 0)), b = cube(Vec3(0.75, 0.5, -0.25));
-  CcdCaller one(settings(CcdAlgorithm::kGjk, 1));
+  adapters::CcdCaller one(settings(adapters::CcdAlgorithm::kGjk, 1));
   EXPECT_FALSE(one.intersect(a, b));
   EXPECT_FALSE(one.penetrate(a, b).contact);
   EXPECT_EQ(one.verdict_limits(), 2u);
@@ -163,27 +168,29 @@ TEST(LibccdCall, DepthOfRoundPiecesIsFarTooSmallByEpaAndABitTooLargeByMpr) {
   TriangleSource random(5);
   const std::vector<Vec3> a = ball(random, Vec3::Zero(), 500),
                           b = ball(random, 0.1 * Vec3(1, 0.7, 0.3), 500);
-  const auto depth = [&](CcdAlgorithm algorithm) {
-    CcdSettings fine = settings(algorithm);
+  const auto depth = [&](adapters::CcdAlgorithm algorithm) {
+    adapters::CcdSettings fine = settings(algorithm);
     fine.epa_tolerance = fine.mpr_tolerance = 1e-12;
-    CcdCaller caller(fine);
+    adapters::CcdCaller caller(fine);
     return caller.penetrate(a, b).way_out.value().depth;
   };
-  EXPECT_THAT(depth(CcdAlgorithm::kGjk), AllOf(Gt(1.2), Lt(1.5)));
-  EXPECT_THAT(depth(CcdAlgorithm::kMpr), AllOf(Gt(1.86), Lt(1.95)));
+  EXPECT_THAT(depth(adapters::CcdAlgorithm::kGjk), AllOf(Gt(1.2), Lt(1.5)));
+  EXPECT_THAT(depth(adapters::CcdAlgorithm::kMpr), AllOf(Gt(1.86), Lt(1.95)));
 }
 
 TEST(LibccdCall, DepthThatTakesTooLongIsLeftOutOfAContact) {
   TriangleSource random(5);
   const std::vector<Vec3> a = ball(random, Vec3::Zero(), 2000),
                           b = ball(random, 0.3 * Vec3(1, 0.7, 0.3), 2000);
-  for (const CcdAlgorithm algorithm : kBoth) {
-    CcdSettings few = settings(algorithm, algorithm == CcdAlgorithm::kGjk ? 10 : 4), many = few;
+  for (const adapters::CcdAlgorithm algorithm : kBoth) {
+    adapters::CcdSettings few = settings(algorithm,
+                                         algorithm == adapters::CcdAlgorithm::kGjk ? 10 : 4),
+                          many = few;
     few.epa_tolerance = few.mpr_tolerance = many.epa_tolerance = many.mpr_tolerance = 1e-12;
     many.iterations = 10000;
-    CcdCaller limited(few), free(many);
+    adapters::CcdCaller limited(few), free(many);
     EXPECT_TRUE(limited.intersect(a, b));
-    const CcdPenetration found = limited.penetrate(a, b);
+    const adapters::CcdPenetration found = limited.penetrate(a, b);
     EXPECT_TRUE(found.contact);
     EXPECT_FALSE(found.way_out);
     EXPECT_EQ(limited.depth_limits(), 1u);
@@ -195,7 +202,7 @@ TEST(LibccdCall, DepthThatTakesTooLongIsLeftOutOfAContact) {
 }
 
 TEST(LibccdCall, NotesAreForgottenWithTheFrameAndCallsAreNot) {
-  CcdCaller caller(settings(CcdAlgorithm::kMpr));
+  adapters::CcdCaller caller(settings(adapters::CcdAlgorithm::kMpr));
   caller.intersect(kLoopA, kLoopB);
   const std::uint64_t calls = caller.support_calls();
   caller.begin_frame();
@@ -206,9 +213,9 @@ TEST(LibccdCall, NotesAreForgottenWithTheFrameAndCallsAreNot) {
 // Identical, touching, coplanar pairs, segments and points: every call ends, and a penetration says
 // the same as the plain call.
 TEST(LibccdCall, EndsOnTrianglesOfEveryKindAndAgreesWithItself) {
-  for (const CcdAlgorithm algorithm : kBoth) {
+  for (const adapters::CcdAlgorithm algorithm : kBoth) {
     TriangleSource random(1);
-    CcdCaller caller(settings(algorithm, 100, 1024.0));
+    adapters::CcdCaller caller(settings(algorithm, 100, 1024.0));
     std::size_t hits = 0, true_hits = 0, spurious = 0;
     constexpr int kPairs = 40000;
     for (int i = 0; i < kPairs; ++i) {
@@ -224,15 +231,15 @@ TEST(LibccdCall, EndsOnTrianglesOfEveryKindAndAgreesWithItself) {
     EXPECT_EQ(spurious, 0u);
     EXPECT_THAT(hits, AllOf(Gt(kPairs / 5u), Lt(true_hits)));
     // A fact of libccd 2.1: among so many pairs MPR goes round for ever on a few, GJK on none.
-    EXPECT_EQ(caller.verdict_limits() > 0, algorithm == CcdAlgorithm::kMpr);
+    EXPECT_EQ(caller.verdict_limits() > 0, algorithm == adapters::CcdAlgorithm::kMpr);
   }
 }
 
 /// Of pairs of triangles of about this size that intersect, those that are not reported, in percent
 /// (rounded up).
-std::size_t missed_percent(const CcdSettings& settings, double size) {
+std::size_t missed_percent(const adapters::CcdSettings& settings, double size) {
   TriangleSource random(3);
-  CcdCaller caller(settings);
+  adapters::CcdCaller caller(settings);
   std::size_t truth = 0, missed = 0;
   for (int i = 0; i < 4000; ++i) {
     TrianglePoints a = random.triangle(random.point(Vec3(0, 0, 0), 0.5), 1);
@@ -249,24 +256,24 @@ std::size_t missed_percent(const CcdSettings& settings, double size) {
 // libccd 2.1, prior work C9: GJK ends where the square of a direction, itself of the third power of
 // lengths, is below 2.2e-16: at triangles of a few millimetres.
 TEST(LibccdCall, GjkIsBlindToTrianglesOfAMillimetreUnlessScaled) {
-  EXPECT_EQ(missed_percent(settings(CcdAlgorithm::kGjk), 1.0), 0u);
-  EXPECT_GT(missed_percent(settings(CcdAlgorithm::kGjk), 1e-3), 80u);
-  EXPECT_EQ(missed_percent(settings(CcdAlgorithm::kGjk, 100, 1024.0), 1e-3), 0u);
+  EXPECT_EQ(missed_percent(settings(adapters::CcdAlgorithm::kGjk), 1.0), 0u);
+  EXPECT_GT(missed_percent(settings(adapters::CcdAlgorithm::kGjk), 1e-3), 80u);
+  EXPECT_EQ(missed_percent(settings(adapters::CcdAlgorithm::kGjk, 100, 1024.0), 1e-3), 0u);
 }
 
 TEST(LibccdCall, MprLosesWhatIsBelowItsTolerance) {
-  CcdSettings fine = settings(CcdAlgorithm::kMpr);
+  adapters::CcdSettings fine = settings(adapters::CcdAlgorithm::kMpr);
   fine.mpr_tolerance = 1e-12;
-  EXPECT_THAT(missed_percent(settings(CcdAlgorithm::kMpr), 1e-3), AllOf(Gt(0u), Lt(10u)));
+  EXPECT_THAT(missed_percent(settings(adapters::CcdAlgorithm::kMpr), 1e-3), AllOf(Gt(0u), Lt(10u)));
   EXPECT_EQ(missed_percent(fine, 1e-3), 0u);
 }
 
 TEST(LibccdCall, EpaStopsEarlierByACoarserTolerance) {
   TriangleSource random(5);
   const std::vector<Vec3> a = ball(random, Vec3::Zero(), 500), b = ball(random, Vec3::UnitX(), 500);
-  CcdSettings coarse = settings(CcdAlgorithm::kGjk);
+  adapters::CcdSettings coarse = settings(adapters::CcdAlgorithm::kGjk);
   coarse.epa_tolerance = 1.0;
-  CcdCaller rough(coarse), fine(settings(CcdAlgorithm::kGjk));
+  adapters::CcdCaller rough(coarse), fine(settings(adapters::CcdAlgorithm::kGjk));
   EXPECT_LT(rough.penetrate(a, b).way_out.value().depth,
             fine.penetrate(a, b).way_out.value().depth);
   EXPECT_LT(rough.support_calls(), fine.support_calls());

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::adapters {
 namespace {
 
 using ::testing::MatchesRegex;
@@ -31,4 +31,4 @@ TEST(LibraryVersions, AreNumbersOfTheBuiltLibraries) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::adapters

@@ -11,7 +11,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -338,4 +338,4 @@ INSTANTIATE_TEST_SUITE_P(
     file_case);
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,7 +4,7 @@
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using test::BadCommand;
@@ -234,4 +234,4 @@ INSTANTIATE_TEST_SUITE_P(
     named_command);
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,7 +4,7 @@
 #include "tests/reference/cli/gate_files.h"
 #include "tests/reference/cli/refusal.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using test::BadCommand;
@@ -318,4 +318,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const testing::TestParamInfo<BadText>& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -7,7 +7,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ TEST_F(BadInput, ReportOfNoKnownFormat) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

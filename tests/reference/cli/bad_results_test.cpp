@@ -14,7 +14,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,10 +156,11 @@ void for_each_place(const Json& value, const Json::json_pointer& place,
 // Refused at the door, or else neither crashes nor leaves by another exception than the one that
 // becomes a sentence.
 bool reported(const Json& results) {
-  static const Json schema = Json::parse(text_of(fixtures_directory() / "results.schema.json"));
-  if (!schema_defect(schema, results).empty()) return false;
+  static const Json schema =
+      Json::parse(text_of(scene::fixtures_directory() / "results.schema.json"));
+  if (!results::schema_defect(schema, results).empty()) return false;
   try {
-    return !markdown_report(results::from_json(results)).empty();
+    return !report::markdown_report(results::from_json(results)).empty();
   } catch (const InputError&) {
     return false;
   }
@@ -189,4 +190,4 @@ TEST(ResultsField, OfAnyOtherKindIsReportedOrRefused) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

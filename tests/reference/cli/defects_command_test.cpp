@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/defects/known_defects.h"
+#include "reference/results/known_defects.h"
 #include "reference/scene/catalogue.h"
 #include "tests/reference/cli/program.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +30,7 @@ class DefectsCommand : public testing::Test {
 
   // Fixtures as they are, but for the list of known defects.
   static fs::path own_fixtures(const Scratch& scratch) {
-    const fs::path original = fixtures_directory(), copy = scratch.folder() / "fixtures";
+    const fs::path original = scene::fixtures_directory(), copy = scratch.folder() / "fixtures";
     fs::create_directories(copy / "hard");
     for (const char* folder : {"scenes", "suites", "hard/families"})
       fs::create_directory_symlink(original / folder, copy / folder);
@@ -72,10 +72,10 @@ TEST_F(DefectsCommand, SaysWhatIsNotListed) {
 TEST_F(DefectsCommand, WritesWhatShowsAndIsThenContent) {
   run();
   EXPECT_EQ(defects({"--write"}).exit_code, 0);
-  const KnownDefects known = read_known_defects(list());
+  const results::KnownDefects known = results::read_known_defects(list());
   ASSERT_EQ(known.defects.size(), 1u);
   EXPECT_EQ(known.defects[0].library, "fcl");
-  EXPECT_EQ(known.defects[0].issue, kUnexplained);
+  EXPECT_EQ(known.defects[0].issue, results::kUnexplained);
   const Outcome outcome = defects();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
   EXPECT_THAT(outcome.out, HasSubstr("and 0 do not; 0 show that are not listed.\n"));
@@ -85,11 +85,11 @@ TEST_F(DefectsCommand, WritesWhatShowsAndIsThenContent) {
 TEST_F(DefectsCommand, SaysWhatDoesNotShow) {
   run();
   defects({"--write"});
-  KnownDefects known = read_known_defects(list());
-  Sighting mended = known.defects[0].seen[0];
-  mended.kind = known.defects[0].kind = SightingKind::kMissed;
+  results::KnownDefects known = results::read_known_defects(list());
+  results::Sighting mended = known.defects[0].seen[0];
+  mended.kind = known.defects[0].kind = results::SightingKind::kMissed;
   known.defects[0].seen = {mended};
-  write_known_defects(list(), known);
+  results::write_known_defects(list(), known);
   const Outcome outcome = defects();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.out, HasSubstr("listed, not shown:\n  fcl-aabb  " + std::string(kFamily) +
@@ -105,4 +105,4 @@ TEST_F(DefectsCommand, ABadListEndsARunBeforeItStarts) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -4,7 +4,7 @@
 
 #include "core/detect/option_info.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using testing::HasSubstr;
@@ -139,15 +139,15 @@ TEST(DetectorSheet, OfAnAbsentOneSaysWhyAndMakesNone) {
 }
 
 TEST(DetectorSheet, KeepsTheFileOrCommandInOneLineHoweverLongItIs) {
-  Plugin plugin;
+  plugin::Plugin plugin;
   plugin.declaration.semantics = plain();
   const DetectorSpec spec = {"mine", {}, "mine"};
   for (const std::string& path :
        {std::string("/srv/two  blanks/libmine.so"), "/" + std::string(200, 'n') + "/libmine.so"}) {
-    plugin.source = {PluginKind::kLibrary, path};
+    plugin.source = {plugin::PluginKind::kLibrary, path};
     EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
                 HasSubstr("\n  from        library \"" + path + "\"\n"));
-    plugin.source = {PluginKind::kCommand, "python3 '" + path + "'"};
+    plugin.source = {plugin::PluginKind::kCommand, "python3 '" + path + "'"};
     EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
                 HasSubstr("\n  from        command \"python3 '" + path + "'\"\n"));
   }
@@ -160,4 +160,4 @@ TEST(DetectorSheet, BreaksLongLinesBetweenWords) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -6,7 +6,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -63,4 +63,4 @@ TEST_F(DiffCommand, RefusesAFileThatIsNotCompleteByItsName) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -9,7 +9,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -17,7 +17,7 @@ using test::contactcheck_program;
 using test::Outcome;
 
 TEST(EventLines, ProgressNamesDetectorAndFrameOrNull) {
-  SuiteProgress progress;
+  suite::SuiteProgress progress;
   progress.scene_id = "tiny";
   progress.frames = 60;
   progress.share = 0.25;
@@ -128,4 +128,4 @@ TEST_F(JsonLines, RefusedInputTellsNothing) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -1,5 +1,5 @@
 // contactcheck export: what it writes, what it replaces, and what it leaves behind when it cannot
-// finish. That the certificates are right is tested in tests/reference/certify.
+// finish. That the certificates are right is tested in tests/reference/oracle.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST_F(Export, FullDiskLeavesAllOrNothing) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -6,7 +6,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ TEST_F(AcceptCommand, SaysWhatItChanges) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

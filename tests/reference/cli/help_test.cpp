@@ -7,7 +7,7 @@
 #include "reference/scene/catalogue.h"
 #include "tests/reference/cli/program.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using test::contactcheck_program;
@@ -21,14 +21,14 @@ TEST(List, NamesEverySuiteSceneAndDetectorWithOneLine) {
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_EQ(list.err, "");
   for (const auto& entries :
-       {list_suites(CONTACTCHECK_FIXTURES), list_scenes(CONTACTCHECK_FIXTURES)}) {
+       {scene::list_suites(CONTACTCHECK_FIXTURES), scene::list_scenes(CONTACTCHECK_FIXTURES)}) {
     EXPECT_FALSE(entries.empty());
-    for (const CatalogueEntry& e : entries) {
+    for (const scene::CatalogueEntry& e : entries) {
       EXPECT_THAT(list.out, HasSubstr("\n  " + e.id + " "));
       EXPECT_THAT(list.out, HasSubstr(e.title));
     }
   }
-  const DetectorCatalog catalog = standard_catalog();
+  const DetectorCatalog catalog = adapters::standard_catalog();
   for (const DetectorInfo& info : catalog.all()) {
     EXPECT_THAT(list.out, HasSubstr("\n  " + info.id + " "));
     EXPECT_THAT(list.out, HasSubstr(info.summary + "\n"));
@@ -50,7 +50,7 @@ TEST(List, OfDetectorsGivesSemanticsAndOptionsWithinAHundredColumns) {
   EXPECT_EQ(list.err, "");
   EXPECT_THAT(list.out, testing::StartsWith("Detectors "));
   const std::string text = on_one_line(list.out);
-  const DetectorCatalog catalog = standard_catalog();
+  const DetectorCatalog catalog = adapters::standard_catalog();
   for (const DetectorInfo& info : catalog.all()) {
     EXPECT_THAT(list.out, HasSubstr("\n" + info.id + "\n"));
     EXPECT_THAT(text, HasSubstr(on_one_line(info.summary)));
@@ -120,4 +120,4 @@ TEST(Version, IsPrinted) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -14,7 +14,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST(Merge, DoesNotWriteOverAShard) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

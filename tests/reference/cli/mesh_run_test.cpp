@@ -14,7 +14,7 @@
 #include "tests/support/mesh_text.h"
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ TEST_F(MeshRun, RefusesBadWords) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

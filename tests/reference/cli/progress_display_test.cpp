@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
-SuiteProgress in_frame_twelve() {
-  SuiteProgress progress;
+suite::SuiteProgress in_frame_twelve() {
+  suite::SuiteProgress progress;
   progress.scene_id = "bunny-touch";
   progress.detector = "fcl-aabb";
   progress.frame = 11;
@@ -21,7 +21,7 @@ TEST(ProgressLine, NamesShareTimeLeftSceneFrameAndDetector) {
 }
 
 TEST(ProgressLine, LeavesOutWhatIsNotKnown) {
-  SuiteProgress progress = in_frame_twelve();
+  suite::SuiteProgress progress = in_frame_twelve();
   progress.detector = "";
   progress.frame.reset();
   EXPECT_EQ(progress_line(progress, std::nullopt, 100),
@@ -46,4 +46,4 @@ TEST(SecondsLeft, AreNotKnownAtTheBeginning) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

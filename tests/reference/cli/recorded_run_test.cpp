@@ -10,7 +10,7 @@
 #include "tests/support/files.h"
 #include "tests/support/mesh_text.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +38,7 @@ class RecordedRun : public testing::Test {
   }
 
   // The deformed surfaces of a scene, one OBJ file per body and frame.
-  void write_frames(const Scene& scene) const {
+  void write_frames(const scene::Scene& scene) const {
     for (std::size_t f = 0; f < scene.frames; ++f) {
       const auto nodes = scene.nodes_of_frame(f);
       for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -66,7 +66,7 @@ class RecordedRun : public testing::Test {
 TEST_F(RecordedRun, FramesOfASceneGiveItsContactHash) {
   const fs::path file = scratch_.write("tiny.json", test::tiny_scene("tiny", "9"));
   const json scripted = run("tiny.json", {"fcl-aabb", "aabb-tree", "spatial-hash"});
-  write_frames(load_scene(file));
+  write_frames(scene::load_scene(file));
   scratch_.write("recorded.json", recorded());
   const json replayed =
       run("recorded.json", {"fcl-aabb", "aabb-tree", "spatial-hash", "ffd-aabb-sphere2+tri"});
@@ -87,7 +87,7 @@ TEST_F(RecordedRun, FramesOfASceneGiveItsContactHash) {
 // What lattices of the same cells made, they can make again; then everybody joins.
 TEST_F(RecordedRun, AFittedLatticeLetsFfdDetectorsJoinAndTellsItsError) {
   const fs::path file = scratch_.write("tiny.json", test::tiny_scene("tiny", "9"));
-  write_frames(load_scene(file));
+  write_frames(scene::load_scene(file));
   scratch_.write("recorded.json", recorded(R"({"cells": [3, 3, 3], "fit": true})"));
   const json fitted = run("recorded.json", {"fcl-aabb", "ffd-aabb-sphere2+tri", "ffd-lazy"});
   const json scene = fitted["scenes"][0];
@@ -121,4 +121,4 @@ TEST_F(RecordedRun, ChangedCachesAreAnotherScene) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -10,7 +10,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,7 +90,7 @@ TEST_F(ReduceCase, OfAFamilyIsTheFirstFrameOrTheNamedValue) {
       {"reduce", "hard-balls-scale", "--detector", "fcl-obbrss", "--out", file});
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("(frame 0): fcl-obbrss missed at level triangle"));
-  EXPECT_EQ(load_scene(file).id, "least");
+  EXPECT_EQ(scene::load_scene(file).id, "least");
   const Outcome named = contactcheck_program({"reduce", std::string(kFamily) + "@0", "--detector",
                                               "fcl-obbrss", "--kind", "missed", "--out", file});
   EXPECT_EQ(named.exit_code, 2);
@@ -145,4 +145,4 @@ INSTANTIATE_TEST_SUITE_P(
     named);
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

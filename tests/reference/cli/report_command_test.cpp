@@ -9,7 +9,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ TEST(ReportCommand, WritesTheRunsOwnReportAgain) {
   EXPECT_THAT(outcome.out, HasSubstr((again / "report.md").string()));
   EXPECT_NE(text_of(out / "report.md"), "");
   EXPECT_EQ(text_of(again / "report.md"), text_of(out / "report.md"));
-  EXPECT_EQ(fs::exists(again / "report.html"), has_html_report());
+  EXPECT_EQ(fs::exists(again / "report.html"), report::has_html_report());
   EXPECT_EQ(text_of(again / "report.html"), text_of(out / "report.html"));
 }
 
@@ -67,7 +67,7 @@ std::string view_in(const fs::path& page) {
 }
 
 TEST(ReportCommand, ShowsTheRecordingsBesideTheResults) {
-  if (!has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
+  if (!report::has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
   const test::Scratch scratch;
   const fs::path scene = scratch.write("tiny.json", test::tiny_scene());
   const fs::path out = scratch.folder() / "out", again = scratch.folder() / "again";
@@ -143,7 +143,7 @@ TEST(ReportCommand, CsvIsWhatPythonReadsBack) {
 }
 
 TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
-  if (!has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
+  if (!report::has_html_report()) GTEST_SKIP() << "install nodejs and npm, and build anew";
   const test::Scratch scratch;
   const auto report = [&] {
     const Outcome outcome = contactcheck_program(
@@ -178,4 +178,4 @@ TEST(ReportCommand, HtmlTakesTheReproductionOfTheSameRunAlone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -9,7 +9,7 @@
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +22,7 @@ Json read(const char* file) {
 
 bool is_valid(const Json& results) {
   static const Json schema = read(CONTACTCHECK_FIXTURES "/results.schema.json");
-  return schema_defect(schema, results).empty();
+  return results::schema_defect(schema, results).empty();
 }
 
 // Every member of every object, outer ones first.
@@ -44,7 +44,7 @@ Json without(Json results, const Place& place) {
 void write_all_reports(const Json& document) {
   const results::Results results = results::from_json(document);
   report_texts(results, "no-folder", all_report_formats());
-  terminal_tables(results, false);
+  report::terminal_tables(results, false);
 }
 
 TEST(ReportOfValidResults, TheExampleOfTheSchemaIsWritten) {
@@ -79,4 +79,4 @@ TEST(ReportOfValidResults, OptionsMayBeNumbers) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

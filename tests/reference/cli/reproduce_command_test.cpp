@@ -10,7 +10,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(ReproduceCommand, OfOneSceneWritesItsTablesBesideThePapers) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -11,7 +11,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -388,4 +388,4 @@ TEST_F(RunCommand, ScenesRunInTheOrderGivenWithRunningCaseNumbers) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -13,7 +13,7 @@ namespace contactcheck::test {
 inline std::set<std::string> run_files(std::set<std::string> further = {}) {
   std::set<std::string> names = {"cases",      "contacts",  "recordings",
                                  "report.csv", "report.md", "results.json"};
-  if (has_html_report()) names.insert("report.html");
+  if (report::has_html_report()) names.insert("report.html");
   names.merge(further);
   return names;
 }

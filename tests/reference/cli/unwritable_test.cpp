@@ -13,7 +13,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST_F(FullDisk, DiskThatIsTooSmallLeavesAllOrNothing) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::cli

@@ -5,7 +5,7 @@
 
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -365,4 +365,4 @@ TEST(OracleWrong, IsOfTheScenesWithRandomPairs) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

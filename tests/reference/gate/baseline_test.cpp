@@ -7,7 +7,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -91,4 +91,4 @@ TEST(BaselineChanges, LeaveTimesOut) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -5,7 +5,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -116,4 +116,4 @@ TEST(RerunCommand, OfATimingRuleRunsTheReferenceBesideIt) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

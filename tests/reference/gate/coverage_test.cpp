@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 
 #include "core/types/check.h"
-#include "reference/gate/coverage.h"
+#include "reference/gate/gate.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -145,4 +145,4 @@ TEST(Baseline, RowThatFailedInItMayFailAgainOrBeNew) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -150,28 +150,29 @@ Json& row_of(Json& results, const std::string& scene, const std::string& detecto
   throw std::out_of_range(scene + " " + detector);
 }
 
-Policy policy_of(const std::string& rest) {
+gate::Policy policy_of(const std::string& rest) {
   std::string rule = "{'rule': 'R', " + rest + "}";
   std::replace(rule.begin(), rule.end(), '\'', '"');
   const Scratch scratch;
-  return read_policy(
+  return gate::read_policy(
       scratch.write("policy.json", R"({"schema": "contactcheck-policy/1", "id": "p", "title": "t",)"
                                    R"("rules": [)" +
                                        rule + "]}"));
 }
 
-std::vector<Check> checks_of(const std::string& rest, const Json& results, const Json* baseline) {
+std::vector<gate::Check> checks_of(const std::string& rest, const Json& results,
+                                   const Json* baseline) {
   const results::Results now = results::from_json(results);
   const results::Results before = baseline == nullptr ? now : results::from_json(*baseline);
-  return run_gate(policy_of(rest), now, baseline == nullptr ? nullptr : &before).checks;
+  return gate::run_gate(policy_of(rest), now, baseline == nullptr ? nullptr : &before).checks;
 }
 
-Check check_of(const std::string& detector, const std::string& measure, const Json& results,
-               const Json* baseline) {
+gate::Check check_of(const std::string& detector, const std::string& measure, const Json& results,
+                     const Json* baseline) {
   const auto checks = checks_of(
       "'scenes': ['touch'], 'detectors': ['" + detector + "'], " + measure, results, baseline);
   EXPECT_EQ(checks.size(), 1u);
-  return checks.empty() ? Check{} : checks.front();
+  return checks.empty() ? gate::Check{} : checks.front();
 }
 
 }  // namespace contactcheck::test

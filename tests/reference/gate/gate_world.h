@@ -20,16 +20,16 @@ nlohmann::ordered_json& row_of(nlohmann::ordered_json& results, const std::strin
                                const std::string& detector);
 
 /// The policy of one rule "R": `{"rule": "R", ` + rest + `}`, with quotes ' for ".
-Policy policy_of(const std::string& rest);
+gate::Policy policy_of(const std::string& rest);
 
 /// Its checks.
-std::vector<Check> checks_of(const std::string& rest, const nlohmann::ordered_json& results,
-                             const nlohmann::ordered_json* baseline = nullptr);
+std::vector<gate::Check> checks_of(const std::string& rest, const nlohmann::ordered_json& results,
+                                   const nlohmann::ordered_json* baseline = nullptr);
 
 /// The only check of a rule about scene "touch" and one detector; `measure` is the rest of the
 /// rule.
-Check check_of(const std::string& detector, const std::string& measure,
-               const nlohmann::ordered_json& results,
-               const nlohmann::ordered_json* baseline = nullptr);
+gate::Check check_of(const std::string& detector, const std::string& measure,
+                     const nlohmann::ordered_json& results,
+                     const nlohmann::ordered_json* baseline = nullptr);
 
 }  // namespace contactcheck::test

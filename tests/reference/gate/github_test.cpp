@@ -6,7 +6,7 @@
 
 #include "tests/reference/gate/sample_checks.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using test::broken_check;
@@ -65,4 +65,4 @@ TEST(GithubSummary, OfAGreenGateHasNoTable) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

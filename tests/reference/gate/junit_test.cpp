@@ -4,7 +4,7 @@
 
 #include "tests/reference/gate/sample_checks.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 TEST(Junit, IsASuitePerRuleAndACasePerCheck) {
@@ -46,4 +46,4 @@ TEST(XmlEscaped, LeavesNothingThatXmlTakesApartOrRefuses) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

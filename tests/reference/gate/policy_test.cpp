@@ -5,7 +5,7 @@
 #include "reference/scene/catalogue.h"
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 TEST(Policy, OfEveryKeyIsRead) {
@@ -70,4 +70,4 @@ TEST(CommittedPolicies, AreRead) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -10,12 +10,12 @@
 namespace contactcheck::test {
 
 /// In scene "touch": missed 3, at most 0 allowed, frame 7.
-inline Check broken_check(const std::string& rule, const std::string& detector) {
-  Check check;
+inline gate::Check broken_check(const std::string& rule, const std::string& detector) {
+  gate::Check check;
   check.rule = rule;
   check.scene = "touch";
   check.detector = detector;
-  check.verdict = Verdict::kFail;
+  check.verdict = gate::Verdict::kFail;
   check.red = true;
   check.measured = "missed 3";
   check.allowed = "at most 0";
@@ -24,17 +24,18 @@ inline Check broken_check(const std::string& rule, const std::string& detector) 
   return check;
 }
 
-inline Check passed_check(const std::string& rule, const std::string& detector) {
-  Check check = broken_check(rule, detector);
-  check.verdict = Verdict::kPass;
+inline gate::Check passed_check(const std::string& rule, const std::string& detector) {
+  gate::Check check = broken_check(rule, detector);
+  check.verdict = gate::Verdict::kPass;
   check.red = false;
   check.measured = "missed 0";
   return check;
 }
 
 /// In scene "touch", of detector "exact": neither passed nor failed.
-inline Check open_check(const std::string& rule, Verdict verdict, const std::string& reason) {
-  Check check;
+inline gate::Check open_check(const std::string& rule, gate::Verdict verdict,
+                              const std::string& reason) {
+  gate::Check check;
   check.rule = rule;
   check.scene = "touch";
   check.detector = "exact";
@@ -43,7 +44,7 @@ inline Check open_check(const std::string& rule, Verdict verdict, const std::str
   return check;
 }
 
-inline GateResult result_of(std::vector<Check> checks) {
+inline gate::GateResult result_of(std::vector<gate::Check> checks) {
   return {"ci", "A fast run", "contactcheck run", 2, std::move(checks)};
 }
 

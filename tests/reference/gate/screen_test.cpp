@@ -6,7 +6,7 @@
 
 #include "tests/reference/gate/sample_checks.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using test::broken_check;
@@ -75,4 +75,4 @@ TEST(Screen, IsColouredForATerminalAlone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

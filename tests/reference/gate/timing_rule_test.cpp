@@ -1,11 +1,11 @@
 // When a ratio of times is beyond its limit.
-#include "reference/gate/timing_rule.h"
+#include "reference/gate/timing_reading.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 constexpr TimingTolerance kTolerance{10.0, 0.1};  // 10 us, 10 %
@@ -68,24 +68,24 @@ TEST(Slowness, OfARangeBelowTheFloorPasses) {
 }
 
 TEST(Slowness, OfASpeedUpTurnsItsIntervalRound) {
-  const Ratio r = slowness_of({4.0, 2.0, 8.0}, 6.0);
+  const results::Ratio r = slowness_of({4.0, 2.0, 8.0}, 6.0);
   EXPECT_DOUBLE_EQ(r.value, 1.5);
   EXPECT_DOUBLE_EQ(r.low, 0.75);
   EXPECT_DOUBLE_EQ(r.high, 3.0);
 }
 
 TEST(Slowness, OfASpeedUpOfNothingHasNoEnd) {
-  const Ratio r = slowness_of({0.0, 0.0, 0.0}, 6.0);
+  const results::Ratio r = slowness_of({0.0, 0.0, 0.0}, 6.0);
   EXPECT_TRUE(std::isinf(r.low));
   EXPECT_EQ(judge_slowness({r, 100.0, 5}, kTolerance).verdict, Verdict::kFail);
 }
 
 TEST(Slowdown, OverItsLimitIsASlowness) {
-  const Ratio r = over_limit({2.2, 1.1, 3.3}, 1.1);
+  const results::Ratio r = over_limit({2.2, 1.1, 3.3}, 1.1);
   EXPECT_DOUBLE_EQ(r.value, 2.0);
   EXPECT_DOUBLE_EQ(r.low, 1.0);
   EXPECT_DOUBLE_EQ(r.high, 3.0);
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

@@ -4,7 +4,7 @@
 #include "reference/gate/timing_reading.h"
 #include "tests/reference/gate/gate_world.h"
 
-namespace contactcheck {
+namespace contactcheck::gate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -280,4 +280,4 @@ TEST(FewPasses, OfEitherSideMakeASlowdownARange) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::gate

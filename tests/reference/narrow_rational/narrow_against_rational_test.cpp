@@ -9,7 +9,7 @@
 #include "core/narrow/predicates.h"
 #include "core/narrow/triangle_box.h"
 #include "core/narrow/triangle_triangle.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/support/random_triangles.h"
 
 namespace contactcheck::test {
@@ -25,13 +25,13 @@ std::string describe(const TrianglePoints& t) {
 
 /// Compares one pair; returns the true answer.
 bool check_triangles(const TrianglePoints& p, const TrianglePoints& q) {
-  const bool expected = rational::triangles_intersect(p, q);
+  const bool expected = oracle::rational::triangles_intersect(p, q);
   EXPECT_EQ(triangles_intersect(p, q), expected) << describe(p) << '\n' << describe(q);
   return expected;
 }
 
 bool check_box(const TrianglePoints& t, const Aabb& box) {
-  const bool expected = rational::triangle_meets_box(t, box);
+  const bool expected = oracle::rational::triangle_meets_box(t, box);
   EXPECT_EQ(triangle_meets_box(t, box), expected) << describe(t) << '\n'
                                                   << describe({box.lo, box.hi, Vec3::Zero()});
   return expected;
@@ -61,11 +61,11 @@ TEST(PredicatesAgainstRational, GridWildAndNearDegeneratePoints) {
     const Vec3 d = i % 3 == 0   ? source.grid_point(2)
                    : i % 3 == 1 ? wild_point(source)
                                 : source.point_near_feature(t);
-    const int expected = rational::orient3d(t[0], t[1], t[2], d);
+    const int expected = oracle::rational::orient3d(t[0], t[1], t[2], d);
     zeros += expected == 0;
     ASSERT_EQ(orient3d(t[0], t[1], t[2], d), expected) << describe(t) << describe({d, d, d});
     for (int axis = 0; axis < 3; ++axis)
-      ASSERT_EQ(orient2d(t[0], t[1], d, axis), rational::orient2d(t[0], t[1], d, axis))
+      ASSERT_EQ(orient2d(t[0], t[1], d, axis), oracle::rational::orient2d(t[0], t[1], d, axis))
           << describe(t) << describe({d, d, d});
   }
   EXPECT_GT(zeros, 600);

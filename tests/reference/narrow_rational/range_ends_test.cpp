@@ -8,7 +8,7 @@
 
 #include "core/lazy/kernels.h"
 #include "core/narrow/predicates.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/support/range_ends.h"
 
 namespace contactcheck::test {
@@ -35,11 +35,11 @@ std::string describe_pair(const TrianglePair& pair) {
 int check_predicates(const TrianglePair& pair) {
   const auto& [a, b, c] = pair.first;
   const Vec3& d = pair.second[0];
-  const int expected = rational::orient3d(a, b, c, d);
+  const int expected = oracle::rational::orient3d(a, b, c, d);
   EXPECT_EQ(orient3d(a, b, c, d), expected) << describe_pair(pair);
   EXPECT_EQ(orient3d_exact(a, b, c, d), expected) << describe_pair(pair);
   for (int axis = 0; axis < 3; ++axis) {
-    const int area = rational::orient2d(a, b, d, axis);
+    const int area = oracle::rational::orient2d(a, b, d, axis);
     EXPECT_EQ(orient2d(a, b, d, axis), area) << axis << ' ' << describe_pair(pair);
     EXPECT_EQ(orient2d_exact(a, b, d, axis), area) << axis << ' ' << describe_pair(pair);
   }
@@ -52,7 +52,7 @@ class PairJudge {
  public:
   void check(const TrianglePair& pair) {
     const auto& [p, q] = pair;
-    const bool expected = rational::triangles_intersect(p, q);
+    const bool expected = oracle::rational::triangles_intersect(p, q);
     EXPECT_EQ(triangles_intersect(p, q), expected) << describe_pair(pair);
     EXPECT_EQ(triangles_intersect(q, p), expected) << describe_pair(pair);
     hits_ += expected;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
 
@@ -107,7 +107,7 @@ TEST(TrianglesIntersect, PointOffAFaceDoesNotCount) {
 
 // Compares both orders with the rational answer; returns that.
 bool check_pair(const Triangle3& p, const Triangle3& q) {
-  const bool expected = rational::triangles_intersect(p, q);
+  const bool expected = oracle::rational::triangles_intersect(p, q);
   EXPECT_EQ(oracle::triangles_intersect(p, q), expected) << hex_points(p) << '\n' << hex_points(q);
   EXPECT_EQ(oracle::triangles_intersect(q, p), expected) << hex_points(q) << '\n' << hex_points(p);
   return expected;
@@ -204,12 +204,12 @@ TEST(OrientationAgainstRational, GridUlpsAndTinyScales) {
     Vec3 d = grid ? source.grid_point(2) : source.point_near_feature(t);
     for (Vec3& c : t) c *= scale;
     d *= scale;
-    const int expected = rational::orient3d(t[0], t[1], t[2], d);
+    const int expected = oracle::rational::orient3d(t[0], t[1], t[2], d);
     zeros += expected == 0;
     ASSERT_EQ(oracle::orientation(t[0], t[1], t[2], d), expected) << hex_points(t);
     for (int axis = 0; axis < 3; ++axis)
       ASSERT_EQ(oracle::projected_orientation(t[0], t[1], d, axis),
-                rational::orient2d(t[0], t[1], d, axis))
+                oracle::rational::orient2d(t[0], t[1], d, axis))
           << hex_points(t);
   }
   EXPECT_GT(zeros, 300);

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "reference/rational/geometry.h"
-#include "reference/rational/simplex.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
 
@@ -27,7 +26,7 @@ bool hulls_overlap(const Corners& a, const Corners& b) {
 
 // Eight weights each, all >= 0, summing to 1, with equal weighted points.
 bool rational_overlap(const Corners& a, const Corners& b) {
-  std::vector<rational::Equation> equations;
+  std::vector<oracle::rational::Equation> equations;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<mpq_class> row(16);
     for (std::size_t i = 0; i < 8; ++i) {
@@ -41,7 +40,7 @@ bool rational_overlap(const Corners& a, const Corners& b) {
     for (std::size_t i = 0; i < 8; ++i) row[8 * side + i] = 1;
     equations.push_back({std::move(row), 1});
   }
-  return rational::has_nonnegative_solution(std::move(equations));
+  return oracle::rational::has_nonnegative_solution(std::move(equations));
 }
 
 bool check_pair(const Corners& a, const Corners& b) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "reference/oracle/exact_tests.h"
+#include "reference/oracle/rational_geometry.h"
 #include "reference/oracle/scaling.h"
-#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
 
@@ -16,32 +16,32 @@ namespace contactcheck::test {
 namespace {
 
 using Corners3 = oracle::TriangleCorners;
-using Polygon = std::vector<rational::Point>;
+using Polygon = std::vector<oracle::rational::Point>;
 
-mpq_class dot(const rational::Point& a, const rational::Point& b) {
+mpq_class dot(const oracle::rational::Point& a, const oracle::rational::Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-rational::Point minus(const rational::Point& a, const rational::Point& b) {
+oracle::rational::Point minus(const oracle::rational::Point& a, const oracle::rational::Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-rational::Point cross(const rational::Point& a, const rational::Point& b) {
+oracle::rational::Point cross(const oracle::rational::Point& a, const oracle::rational::Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 // What a convex polygon (or segment, or point) has on the side of `through` to which the normal
 // points, by Sutherland and Hodgman.
-Polygon clipped(const Polygon& polygon, const rational::Point& normal,
-                const rational::Point& through) {
+Polygon clipped(const Polygon& polygon, const oracle::rational::Point& normal,
+                const oracle::rational::Point& through) {
   Polygon out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const rational::Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const oracle::rational::Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const mpq_class at_p = dot(normal, minus(p, through)), at_q = dot(normal, minus(q, through));
     if (at_p >= 0) out.push_back(p);
     if (sgn(at_p) * sgn(at_q) >= 0) continue;
     const mpq_class s = at_p / (at_p - at_q);
-    rational::Point x;
+    oracle::rational::Point x;
     for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = p[axis] + s * (q[axis] - p[axis]);
     out.push_back(x);
   }
@@ -50,18 +50,19 @@ Polygon clipped(const Polygon& polygon, const rational::Point& normal,
 
 // The diameter, by clipping all of p as a polygon. @pre q is proper
 double rational_length(const Corners3& p, const Corners3& q) {
-  Polygon left{rational::to_rational(p[0]), rational::to_rational(p[1]),
-               rational::to_rational(p[2])};
-  const Polygon t{rational::to_rational(q[0]), rational::to_rational(q[1]),
-                  rational::to_rational(q[2])};
-  const rational::Point n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  Polygon left{oracle::rational::to_rational(p[0]), oracle::rational::to_rational(p[1]),
+               oracle::rational::to_rational(p[2])};
+  const Polygon t{oracle::rational::to_rational(q[0]), oracle::rational::to_rational(q[1]),
+                  oracle::rational::to_rational(q[2])};
+  const oracle::rational::Point n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   left = clipped(left, n, t[0]);
-  left = clipped(left, minus(rational::Point{0, 0, 0}, n), t[0]);
+  left = clipped(left, minus(oracle::rational::Point{0, 0, 0}, n), t[0]);
   for (std::size_t k = 0; k < 3; ++k)
     left = clipped(left, cross(n, minus(t[(k + 1) % 3], t[k])), t[k]);
   mpq_class best = 0;
-  for (const rational::Point& x : left)
-    for (const rational::Point& y : left) best = std::max(best, dot(minus(x, y), minus(x, y)));
+  for (const oracle::rational::Point& x : left)
+    for (const oracle::rational::Point& y : left)
+      best = std::max(best, dot(minus(x, y), minus(x, y)));
   return std::sqrt(best.get_d());
 }
 

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/rational_geometry.h"
 #include "reference/oracle/vertex_distance.h"
-#include "reference/rational/geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -28,9 +28,9 @@ double next_up(double x) { return std::nextafter(x, std::numeric_limits<double>:
 class RationalDistance {
  public:
   RationalDistance(const Vec3& vertex, const Corners3& t) {
-    const rational::Point v = rational::to_rational(vertex);
+    const oracle::rational::Point v = oracle::rational::to_rational(vertex);
     for (std::size_t k = 0; k < 3; ++k) {
-      corner_[k] = rational::to_rational(t[k]);
+      corner_[k] = oracle::rational::to_rational(t[k]);
       for (std::size_t axis = 0; axis < 3; ++axis) corner_[k][axis] -= v[axis];
     }
     for (std::size_t i = 0; i < 3; ++i)
@@ -50,7 +50,7 @@ class RationalDistance {
   }
 
  private:
-  static mpq_class dot(const rational::Point& a, const rational::Point& b) {
+  static mpq_class dot(const oracle::rational::Point& a, const oracle::rational::Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
   static void lower(mpq_class& best, const mpq_class& x) {
@@ -68,7 +68,7 @@ class RationalDistance {
     return gram_[i][i] - along * along / length2;
   }
 
-  std::array<rational::Point, 3> corner_;
+  std::array<oracle::rational::Point, 3> corner_;
   std::array<std::array<mpq_class, 3>, 3> gram_;
 };
 
@@ -126,14 +126,14 @@ TEST(RationalDistanceOfTheTest, AgreesWithTheSimplexMethod) {
   for (int i = 0; i < 150; ++i) {
     const Corners3 t = source.grid_triangle(2);
     const Vec3 v = source.grid_point(3);
-    EXPECT_EQ(RationalDistance(v, t).squared(), rational::squared_distance(t, {v, v, v}))
+    EXPECT_EQ(RationalDistance(v, t).squared(), oracle::rational::squared_distance(t, {v, v, v}))
         << hex_points(t) << hex_points({&v, 1});
   }
 }
 
 TEST(NearAgainstRational, RandomMeshesAllPairs) {
   const std::vector<Body> bodies = small_bodies();
-  Oracle oracle(bodies);
+  oracle::Oracle oracle(bodies);
   TriangleSource source(802);
   std::size_t found = 0;
   for (double margin : {1e-3, 0.02, 0.1, 0.4}) {
@@ -173,7 +173,7 @@ class NearOnAGrid : public testing::Test {
             scaled(moved(body.shape->mesh.vertices, Eigen::Matrix3d::Identity(), offset), scale));
       const FrameData data = frame_of(vertices);
       for (double margin : {1.0, 2.0, 3.0, 5.0}) {
-        const auto near = Oracle(bodies).near(data.frame(), margin * scale);
+        const auto near = oracle::Oracle(bodies).near(data.frame(), margin * scale);
         const BruteForce expected = brute_force(bodies, data, margin * scale);
         EXPECT_EQ(near, expected.near) << "margin " << margin << " scale " << scale << '\n'
                                        << described(near) << "expected\n"
@@ -228,7 +228,7 @@ TEST(Near, PythagoreanDistanceIsNearOnlyAboveIt) {
     const Body b = test::bare_body("b", {{t[0], t[1], t[2]}, {{0, 1, 2}}});
     const FrameData data =
         frame_of({{Vec3::Zero(), Vec3(-50, 0, 0)}, std::vector<Vec3>(t.begin(), t.end())});
-    Oracle oracle({a, b});
+    oracle::Oracle oracle({a, b});
     EXPECT_THAT(oracle.near(data.frame(), 5.0), IsEmpty()) << hex_points(t);
     EXPECT_THAT(oracle.near(data.frame(), next_up(5.0)), testing::Contains(NearPair{0, 1, 0, 0}))
         << hex_points(t);
@@ -258,7 +258,7 @@ TEST(Near, TouchingIsNearForEveryMarginButZero) {
       triangle_mesh(Vec3(0.25, 0.25, 0), Vec3(0.25, 0.25, 1), Vec3(0.5, 0.5, 1));
   const std::vector<Body> bodies{test::bare_body("a", one), test::bare_body("b", other)};
   const FrameData data = frame_of({one.vertices, other.vertices});
-  Oracle oracle(bodies);
+  oracle::Oracle oracle(bodies);
   EXPECT_THAT(oracle.near(data.frame(), 0.0), IsEmpty());
   EXPECT_THAT(oracle.near(data.frame(), 0x1p-1074), ElementsAre(NearPair{1, 0, 0, 0}));
 }
@@ -269,21 +269,21 @@ TEST(Near, VerticesWithoutTriangleCountAndOwnTrianglesDoNot) {
   const TriangleMesh far = triangle_mesh(Vec3(10, 0, 1), Vec3(11, 0, 1), Vec3(10, 1, 1));
   const std::vector<Body> bodies{test::bare_body("a", mesh), test::bare_body("b", far)};
   const FrameData data = frame_of({mesh.vertices, far.vertices});
-  Oracle oracle(bodies);
+  oracle::Oracle oracle(bodies);
   EXPECT_THAT(oracle.near(data.frame(), 1.5), ElementsAre(NearPair{0, 1, 3, 0}));
 }
 
 TEST(Near, FramesAndOtherQuestionsLeaveNoTrace) {
   const std::vector<Body> bodies = small_bodies();
   TriangleSource source(804);
-  Oracle used(bodies);
+  oracle::Oracle used(bodies);
   for (int i = 0; i < 5; ++i) {
     const FrameData data = random_frame(bodies, source);
     used.judge(data.frame(), {});
     used.distance(data.frame(), {0, 2});
-    EXPECT_EQ(used.near(data.frame(), 0.05), Oracle(bodies).near(data.frame(), 0.05));
+    EXPECT_EQ(used.near(data.frame(), 0.05), oracle::Oracle(bodies).near(data.frame(), 0.05));
     EXPECT_EQ(used.judge(data.frame(), {}).surface.triangles,
-              Oracle(bodies).judge(data.frame(), {}).surface.triangles);
+              oracle::Oracle(bodies).judge(data.frame(), {}).surface.triangles);
   }
 }
 
@@ -291,7 +291,7 @@ TEST(Near, RoundingModeDoesNotChangeTheTruth) {
   const std::vector<Body> bodies = small_bodies();
   TriangleSource source(805);
   const FrameData data = random_frame(bodies, source);
-  Oracle oracle(bodies);
+  oracle::Oracle oracle(bodies);
   const std::vector<NearPair> expected = oracle.near(data.frame(), 0.05);
   ASSERT_FALSE(expected.empty());
   for (int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
@@ -307,8 +307,8 @@ TEST(NearDeathTest, MarginsThatAreNoLengthAreRefused) {
   const std::vector<Body> bodies = small_bodies();
   TriangleSource source(806);
   const FrameData data = random_frame(bodies, source);
-  EXPECT_DEATH(Oracle(bodies).near(data.frame(), -1.0), "a margin is finite");
-  EXPECT_DEATH(Oracle(bodies).near(data.frame(), std::nan("")), "a margin is finite");
+  EXPECT_DEATH(oracle::Oracle(bodies).near(data.frame(), -1.0), "a margin is finite");
+  EXPECT_DEATH(oracle::Oracle(bodies).near(data.frame(), std::nan("")), "a margin is finite");
 }
 
 // lower^2 <= squared <= upper^2, exactly.

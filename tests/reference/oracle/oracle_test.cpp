@@ -11,7 +11,7 @@
 #include "core/deform/ffd_aabb.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/hull_overlap.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr WantedTruth kEverything{true, true, true, true};
+constexpr oracle::WantedTruth kEverything{true, true, true, true};
 
 FrameData rest_frame(const std::vector<Body>& bodies) {
   std::vector<std::vector<Vec3>> nodes;
@@ -29,14 +29,15 @@ FrameData rest_frame(const std::vector<Body>& bodies) {
   return make_frame(bodies, std::move(nodes));
 }
 
-Truth judge_at_rest(const std::vector<Body>& bodies, const WantedTruth& wanted = kEverything) {
-  Oracle oracle(bodies);
+oracle::Truth judge_at_rest(const std::vector<Body>& bodies,
+                            const oracle::WantedTruth& wanted = kEverything) {
+  oracle::Oracle oracle(bodies);
   const FrameData data = rest_frame(bodies);
   return oracle.judge(data.frame(), wanted);
 }
 
 TEST(Oracle, TouchingBoxesShareAFaceAndHoldNothing) {
-  const Truth truth =
+  const oracle::Truth truth =
       judge_at_rest({test::bare_body("a", unit_box_mesh(2)),
                      test::bare_body("b", box_mesh(Vec3(1, 0, 0), Vec3(2, 1, 1), 2))});
   EXPECT_THAT(truth.surface.bodies, ElementsAre(BodyPair{0, 1}));
@@ -48,7 +49,7 @@ TEST(Oracle, TouchingBoxesShareAFaceAndHoldNothing) {
 
 TEST(Oracle, OneUlpGapIsNoContact) {
   const double next = std::nextafter(1.0, 2.0);
-  const Truth truth =
+  const oracle::Truth truth =
       judge_at_rest({test::bare_body("a", unit_box_mesh(2)),
                      test::bare_body("b", box_mesh(Vec3(next, 0, 0), Vec3(2, 1, 1), 2))});
   EXPECT_THAT(truth.surface.bodies, IsEmpty());
@@ -58,7 +59,7 @@ TEST(Oracle, OneUlpGapIsNoContact) {
 TEST(Oracle, HeldBodyIsContainmentAndAllItsVerticesAreInside) {
   const Body inner = test::bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
   const Body outer = test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
-  const Truth truth = judge_at_rest({inner, outer});
+  const oracle::Truth truth = judge_at_rest({inner, outer});
   EXPECT_THAT(truth.surface.bodies, IsEmpty());
   EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1}));
   ASSERT_EQ(truth.surface.vertices.size(), 8u);
@@ -78,7 +79,7 @@ TEST(Oracle, EveryComponentMustBeHeld) {
 }
 
 TEST(Oracle, ContactRulesContainmentOut) {
-  const Truth truth = judge_at_rest(
+  const oracle::Truth truth = judge_at_rest(
       {test::bare_body("outer", unit_box_mesh(2)),
        test::bare_body("inner", box_mesh(Vec3(0, 0.2, 0.2), Vec3(0.5, 0.7, 0.7), 1))});
   EXPECT_THAT(truth.surface.bodies, ElementsAre(BodyPair{0, 1}));
@@ -86,7 +87,7 @@ TEST(Oracle, ContactRulesContainmentOut) {
   EXPECT_EQ(truth.surface.vertices.size(), 4u);  // the other four lie on the outer's face
   // Half out, with its components' first vertex inside.
   const Body half = test::bare_body("half", box_mesh(Vec3(0.5, 0.2, 0.2), Vec3(1.5, 0.7, 0.7), 1));
-  const Truth crossing = judge_at_rest({test::bare_body("outer", unit_box_mesh(2)), half});
+  const oracle::Truth crossing = judge_at_rest({test::bare_body("outer", unit_box_mesh(2)), half});
   EXPECT_THAT(crossing.surface.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_THAT(crossing.containment, IsEmpty());
   EXPECT_THAT(crossing.surface.vertices, testing::Contains(VertexInBody{1, 0, 0}));
@@ -96,7 +97,7 @@ TEST(Oracle, BodyInACavityIsNotHeld) {
   const Body shell =
       test::bare_body("shell", joined(box_mesh(Vec3(0, 0, 0), Vec3(5, 5, 5), 2),
                                       reversed(box_mesh(Vec3(1, 1, 1), Vec3(4, 4, 4), 2))));
-  const Truth truth =
+  const oracle::Truth truth =
       judge_at_rest({shell, test::bare_body("b", box_mesh(Vec3(2, 2, 2), Vec3(3, 3, 3), 1))});
   EXPECT_THAT(truth.containment, IsEmpty());
   EXPECT_THAT(truth.surface.vertices, IsEmpty());
@@ -106,12 +107,12 @@ TEST(Oracle, OpenBodiesHoldNothingButCanBeHeld) {
   TriangleMesh open = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
   open.triangles.pop_back();
   const Body inner = test::bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1));
-  const Truth in_open = judge_at_rest({test::bare_body("open", open), inner});
+  const oracle::Truth in_open = judge_at_rest({test::bare_body("open", open), inner});
   EXPECT_THAT(in_open.containment, IsEmpty());
   EXPECT_THAT(in_open.surface.vertices, IsEmpty());
   const Body patch =
       test::bare_body("patch", triangle_mesh(Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 1)));
-  const Truth held =
+  const oracle::Truth held =
       judge_at_rest({patch, test::bare_body("box", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2))});
   EXPECT_THAT(held.containment, ElementsAre(BodyPair{0, 1}));
   EXPECT_EQ(held.surface.vertices.size(), 3u);
@@ -121,12 +122,12 @@ TEST(Oracle, WhatIsNotWantedIsNotThere) {
   const std::vector<Body> bodies{
       make_body("a", unit_box_mesh(3), {2, 2, 2}),
       make_body("b", box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(2, 2, 2), 3), {2, 2, 2})};
-  const Truth none = judge_at_rest(bodies, {false, false, false, false});
+  const oracle::Truth none = judge_at_rest(bodies, {false, false, false, false});
   EXPECT_THAT(none.surface.bodies, IsEmpty());
   EXPECT_THAT(none.surface.triangles, IsEmpty());
   EXPECT_THAT(none.surface.vertices, IsEmpty());
   EXPECT_THAT(none.boxes, IsEmpty());
-  const Truth all = judge_at_rest(bodies);
+  const oracle::Truth all = judge_at_rest(bodies);
   EXPECT_THAT(judge_at_rest(bodies, {false, true, false, false}).surface.triangles, IsEmpty());
   EXPECT_EQ(judge_at_rest(bodies, {true, false, false, false}).surface.triangles,
             all.surface.triangles);
@@ -219,12 +220,12 @@ class OracleAgainstBruteForce : public testing::Test {
 };
 
 TEST_F(OracleAgainstBruteForce, TrianglesVerticesAndBoxes) {
-  Oracle oracle(bodies_);
+  oracle::Oracle oracle(bodies_);
   TriangleSource source(701);
   std::size_t triangles_found = 0, vertices_found = 0, boxes_found = 0;
   for (int i = 0; i < 8; ++i) {
     const FrameData data = random_frame(source);
-    const Truth truth = oracle.judge(data.frame(), kEverything);
+    const oracle::Truth truth = oracle.judge(data.frame(), kEverything);
     EXPECT_EQ(truth.surface.triangles, triangles(data));
     EXPECT_EQ(truth.surface.vertices, vertices(data));
     EXPECT_EQ(truth.boxes, boxes(data));
@@ -238,17 +239,17 @@ TEST_F(OracleAgainstBruteForce, TrianglesVerticesAndBoxes) {
 }
 
 TEST_F(OracleAgainstBruteForce, DistanceIsZeroExactlyForBodiesInContact) {
-  Oracle oracle(bodies_);
+  oracle::Oracle oracle(bodies_);
   TriangleSource source(702);
   int contacts = 0, apart = 0;
   for (int i = 0; i < 8; ++i) {
     const FrameData data = random_frame(source);
-    const Truth truth = oracle.judge(data.frame(), {});
+    const oracle::Truth truth = oracle.judge(data.frame(), {});
     for (const BodyPair& pair : {BodyPair{0, 1}, BodyPair{2, 1}, BodyPair{0, 2}}) {
       const BodyPair sorted{std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
       const auto& bodies = truth.surface.bodies;
       const bool contact = std::find(bodies.begin(), bodies.end(), sorted) != bodies.end();
-      const DistanceInterval d = oracle.distance(data.frame(), pair);
+      const oracle::DistanceInterval d = oracle.distance(data.frame(), pair);
       EXPECT_EQ(d.upper == 0, contact);
       EXPECT_LE(d.lower, d.upper);
       contact ? ++contacts : ++apart;
@@ -261,7 +262,7 @@ TEST_F(OracleAgainstBruteForce, DistanceIsZeroExactlyForBodiesInContact) {
 TEST_F(OracleAgainstBruteForce, OrderOfBodiesDoesNotMatter) {
   TriangleSource source(703);
   const FrameData data = random_frame(source);
-  const Truth truth = Oracle(bodies_).judge(data.frame(), kEverything);
+  const oracle::Truth truth = oracle::Oracle(bodies_).judge(data.frame(), kEverything);
   const std::uint32_t to[3] = {2, 0, 1};  // body i becomes body to[i]
   std::vector<Body> bodies(3);
   FrameData turned{std::vector<std::vector<Vec3>>(3), std::vector<std::vector<Vec3>>(3)};
@@ -277,7 +278,7 @@ TEST_F(OracleAgainstBruteForce, OrderOfBodiesDoesNotMatter) {
   for (VertexInBody& v : expected.vertices) v = {to[v.body], to[v.in], v.vertex};
   expected.bodies.clear();
   expected.canonicalize();
-  const Truth swapped = Oracle(bodies).judge(turned.frame(), kEverything);
+  const oracle::Truth swapped = oracle::Oracle(bodies).judge(turned.frame(), kEverything);
   EXPECT_EQ(swapped.surface.triangles, expected.triangles);
   EXPECT_EQ(swapped.surface.vertices, expected.vertices);
   EXPECT_EQ(swapped.boxes, expected.cells);
@@ -287,14 +288,14 @@ TEST_F(OracleAgainstBruteForce, OrderOfBodiesDoesNotMatter) {
 TEST(Oracle, PowersOfTwoGiveIdenticalSets) {
   const TriangleMesh torus = torus_mesh(1.0, 0.4, 16, 8);
   const TriangleMesh sphere = sphere_mesh(Vec3(1, 0.1, 0.2), 0.5, 2);
-  Truth expected;
+  oracle::Truth expected;
   for (int exponent : {0, -40, 30, 200, -530, -1000}) {
     std::vector<Body> bodies;
     for (TriangleMesh mesh : {torus, sphere}) {
       mesh.vertices = scaled(mesh.vertices, std::ldexp(1.0, exponent));
       bodies.push_back(test::bare_body("scaled", mesh));
     }
-    Truth truth = judge_at_rest(bodies);
+    oracle::Truth truth = judge_at_rest(bodies);
     if (exponent == 0) expected = truth;
     EXPECT_EQ(truth.surface.triangles, expected.surface.triangles) << exponent;
     EXPECT_EQ(truth.surface.vertices, expected.surface.vertices) << exponent;
@@ -310,7 +311,7 @@ TEST(Oracle, SubnormalCoordinates) {
     TriangleMesh b = box_mesh(Vec3(2, 2, 2), Vec3(6, 6, 6), 2);
     TriangleMesh c = box_mesh(Vec3(9, 0, 0), Vec3(17, 8, 8), 2);
     for (TriangleMesh* mesh : {&a, &b, &c}) mesh->vertices = scaled(mesh->vertices, scale);
-    const Truth truth =
+    const oracle::Truth truth =
         judge_at_rest({test::bare_body("a", a), test::bare_body("b", b), test::bare_body("c", c)});
     EXPECT_THAT(truth.surface.bodies, IsEmpty()) << scale;
     EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1})) << scale;
@@ -326,7 +327,7 @@ TEST(Oracle, FlattenedLatticeStillHasBoxes) {
   for (Vec3& p : nodes[0]) p.z() = 0.5;
   for (Vec3& p : nodes[1]) p.x() = p.y() = 0.25;
   const FrameData data = make_frame(bodies, std::move(nodes));
-  const Truth truth = Oracle(bodies).judge(data.frame(), kEverything);
+  const oracle::Truth truth = oracle::Oracle(bodies).judge(data.frame(), kEverything);
   EXPECT_THAT(truth.surface.bodies, ElementsAre(BodyPair{0, 1}));
   EXPECT_FALSE(truth.boxes.empty());
   EXPECT_THAT(truth.surface.vertices, IsEmpty());
@@ -344,14 +345,14 @@ class FloatingPointEnvironment : public testing::Test {
 
 TEST_F(FloatingPointEnvironment, RoundingModeIsAsBeforeAndDoesNotChangeTheTruth) {
   const FrameData data = rest_frame(bodies_);
-  Oracle oracle(bodies_);
-  const Truth expected = oracle.judge(data.frame(), kEverything);
-  const DistanceInterval distance = oracle.distance(data.frame(), {0, 2});
+  oracle::Oracle oracle(bodies_);
+  const oracle::Truth expected = oracle.judge(data.frame(), kEverything);
+  const oracle::DistanceInterval distance = oracle.distance(data.frame(), {0, 2});
   for (int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);
-    const Truth truth = oracle.judge(data.frame(), kEverything);
+    const oracle::Truth truth = oracle.judge(data.frame(), kEverything);
     EXPECT_EQ(std::fegetround(), mode);
-    const DistanceInterval again = oracle.distance(data.frame(), {0, 2});
+    const oracle::DistanceInterval again = oracle.distance(data.frame(), {0, 2});
     EXPECT_EQ(std::fegetround(), mode);
     std::fesetround(FE_TONEAREST);
     EXPECT_EQ(truth.surface.triangles, expected.surface.triangles);
@@ -371,12 +372,12 @@ TEST_F(FloatingPointEnvironment, FlushToZeroIsAsBeforeAndDoesNotChangeTheTruth) 
     body = test::bare_body(body.name, mesh);
   }
   const FrameData data = rest_frame(bodies_);
-  Oracle oracle(bodies_);
-  const Truth expected = oracle.judge(data.frame(), kEverything);
+  oracle::Oracle oracle(bodies_);
+  const oracle::Truth expected = oracle.judge(data.frame(), kEverything);
   ASSERT_THAT(expected.surface.bodies, ElementsAre(BodyPair{0, 1}));
   const unsigned changed = _mm_getcsr() | kFlushToZero | kDenormalsAreZero;
   _mm_setcsr(changed);
-  const Truth truth = oracle.judge(data.frame(), kEverything);
+  const oracle::Truth truth = oracle.judge(data.frame(), kEverything);
   const unsigned after = _mm_getcsr();
   std::fesetenv(FE_DFL_ENV);
   EXPECT_EQ(after & (kFlushToZero | kDenormalsAreZero), kFlushToZero | kDenormalsAreZero);
@@ -391,7 +392,7 @@ TEST(OracleDeathTest, FrameWithoutVerticesIsRefused) {
   FrameData data = rest_frame(bodies);
   Frame frame = data.frame();
   frame.bodies[1].vertices = {};
-  EXPECT_DEATH(Oracle(bodies).judge(frame, {}), "every deformed vertex");
+  EXPECT_DEATH(oracle::Oracle(bodies).judge(frame, {}), "every deformed vertex");
 }
 
 }  // namespace

@@ -34,12 +34,12 @@ class Spheres {
   std::vector<Body> bodies_;
 };
 
-DistanceInterval least_of_all_pairs(Oracle& oracle, const Frame& frame) {
-  DistanceInterval least{std::numeric_limits<double>::infinity(),
-                         std::numeric_limits<double>::infinity()};
+oracle::DistanceInterval least_of_all_pairs(oracle::Oracle& oracle, const Frame& frame) {
+  oracle::DistanceInterval least{std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::infinity()};
   for (std::uint32_t a = 0; a < frame.bodies.size(); ++a)
     for (std::uint32_t b = a + 1; b < frame.bodies.size(); ++b) {
-      const DistanceInterval d = oracle.distance(frame, {a, b});
+      const oracle::DistanceInterval d = oracle.distance(frame, {a, b});
       least.lower = std::min(least.lower, d.lower);
       least.upper = std::min(least.upper, d.upper);
     }
@@ -53,8 +53,8 @@ double largest_coordinate(const FrameData& data) {
   return largest;
 }
 
-void expect_same_distance(const DistanceInterval& found, const DistanceInterval& expected,
-                          double scale) {
+void expect_same_distance(const oracle::DistanceInterval& found,
+                          const oracle::DistanceInterval& expected, double scale) {
   EXPECT_EQ(found.upper == 0, expected.upper == 0);
   EXPECT_LE(found.lower, expected.upper);
   EXPECT_GE(found.upper, expected.lower);
@@ -64,13 +64,13 @@ void expect_same_distance(const DistanceInterval& found, const DistanceInterval&
 TEST(Separation, IsTheSmallestDistanceOfAllPairs) {
   const Spheres spheres(9);
   TriangleSource source(811);
-  Oracle oracle(spheres.bodies());
+  oracle::Oracle oracle(spheres.bodies());
   int contacts = 0;
   for (int i = 0; i < 30; ++i) {
     std::vector<Vec3> places;
     for (int k = 0; k < 9; ++k) places.push_back(source.point(Vec3::Zero(), 0.6));
     const FrameData data = spheres.at(places);
-    const DistanceInterval expected = least_of_all_pairs(oracle, data.frame());
+    const oracle::DistanceInterval expected = least_of_all_pairs(oracle, data.frame());
     expect_same_distance(oracle.separation(data.frame()), expected, largest_coordinate(data));
     if (expected.upper == 0) ++contacts;
   }
@@ -87,7 +87,7 @@ TEST(Separation, LooksBeyondTheNearestBoxes) {
   std::vector<std::vector<Vec3>> nodes;
   for (const Body& body : bodies) nodes.push_back(rest_nodes_at(*body.shape, Vec3::Zero()));
   const FrameData data = make_frame(bodies, std::move(nodes));
-  const DistanceInterval found = Oracle(bodies).separation(data.frame());
+  const oracle::DistanceInterval found = oracle::Oracle(bodies).separation(data.frame());
   EXPECT_LE(found.lower, 0.25);
   EXPECT_NEAR(found.upper, 0.25, 5e-9);
 }
@@ -98,7 +98,7 @@ TEST(Separation, OfAGridOfEqualGaps) {
   for (int i = 0; i < 27; ++i)
     places.push_back(0.25 * Vec3(i % 3, i / 3 % 3, static_cast<double>(i / 9)));
   const FrameData data = spheres.at(places);
-  Oracle oracle(spheres.bodies());
+  oracle::Oracle oracle(spheres.bodies());
   expect_same_distance(oracle.separation(data.frame()), least_of_all_pairs(oracle, data.frame()),
                        largest_coordinate(data));
 }
@@ -113,7 +113,7 @@ TEST(Separation, OneStepBetweenDoublesIsNoContact) {
     std::vector<std::vector<Vec3>> nodes;
     for (const Body& body : bodies) nodes.push_back(rest_nodes_at(*body.shape, Vec3::Zero()));
     const FrameData data = make_frame(bodies, std::move(nodes));
-    EXPECT_EQ(Oracle(bodies).separation(data.frame()).upper == 0, x == 1.0);
+    EXPECT_EQ(oracle::Oracle(bodies).separation(data.frame()).upper == 0, x == 1.0);
   }
 }
 
@@ -121,11 +121,11 @@ TEST(Separation, RoundingModeDoesNotChangeIt) {
   const Spheres spheres(4);
   const FrameData data =
       spheres.at({Vec3(0, 0, 0), Vec3(0.31, 0.1, 0.2), Vec3(0.9, 0.3, 0.1), Vec3(0.1, 0.8, 0.3)});
-  Oracle oracle(spheres.bodies());
-  const DistanceInterval expected = oracle.separation(data.frame());
+  oracle::Oracle oracle(spheres.bodies());
+  const oracle::DistanceInterval expected = oracle.separation(data.frame());
   for (int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);
-    const DistanceInterval again = oracle.separation(data.frame());
+    const oracle::DistanceInterval again = oracle.separation(data.frame());
     EXPECT_EQ(std::fegetround(), mode);
     std::fesetround(FE_TONEAREST);
     EXPECT_EQ(again.lower, expected.lower);

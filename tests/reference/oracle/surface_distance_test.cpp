@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -18,17 +18,17 @@ struct Surfaces {
   Surfaces(const TriangleMesh& mesh_a, const TriangleMesh& mesh_b)
       : a(mesh_a), b(mesh_b), tree_a(mesh_a), tree_b(mesh_b) {}
 
-  DistanceInterval between(const std::vector<Vec3>& va, const std::vector<Vec3>& vb) {
+  oracle::DistanceInterval between(const std::vector<Vec3>& va, const std::vector<Vec3>& vb) {
     ScaledSurface sa{&tree_a, va, {}}, sb{&tree_b, vb, {}};
     return oracle::surface_distance(sa, sb);
   }
-  DistanceInterval at_rest() { return between(a.vertices, b.vertices); }
+  oracle::DistanceInterval at_rest() { return between(a.vertices, b.vertices); }
   mpq_class rational_squared(const std::vector<Vec3>& va, const std::vector<Vec3>& vb) const {
     mpq_class best = -1;
     for (const Triangle& s : a.triangles)
       for (const Triangle& t : b.triangles) {
-        const mpq_class d = rational::squared_distance({va[s[0]], va[s[1]], va[s[2]]},
-                                                       {vb[t[0]], vb[t[1]], vb[t[2]]});
+        const mpq_class d = oracle::rational::squared_distance({va[s[0]], va[s[1]], va[s[2]]},
+                                                               {vb[t[0]], vb[t[1]], vb[t[2]]});
         if (best < 0 || d < best) best = d;
       }
     return best;
@@ -44,7 +44,7 @@ double largest(const std::vector<Vec3>& points) {
   return out;
 }
 
-void expect_contract(const DistanceInterval& d, const mpq_class& squared, double size) {
+void expect_contract(const oracle::DistanceInterval& d, const mpq_class& squared, double size) {
   const mpq_class low(d.lower), high(d.upper);
   EXPECT_LE(low * low, squared);
   EXPECT_GE(high * high, squared);
@@ -54,7 +54,7 @@ void expect_contract(const DistanceInterval& d, const mpq_class& squared, double
 
 TEST(SurfaceDistance, ParallelBoxes) {
   Surfaces s(unit_box_mesh(4), box_mesh(Vec3(1.5, 0.2, 0.2), Vec3(2, 0.7, 0.7), 4));
-  const DistanceInterval d = s.at_rest();
+  const oracle::DistanceInterval d = s.at_rest();
   EXPECT_LE(d.lower, 0.5);
   EXPECT_GE(d.upper, 0.5);
   EXPECT_LT(d.upper - d.lower, 1e-12);
@@ -71,7 +71,7 @@ TEST(SurfaceDistance, TouchingAndCrossingAreZero) {
 TEST(SurfaceDistance, OneUlpGapIsNotZero) {
   const double next = std::nextafter(1.0, 2.0);
   Surfaces s(unit_box_mesh(3), box_mesh(Vec3(next, 0, 0), Vec3(2, 1, 1), 3));
-  const DistanceInterval d = s.at_rest();
+  const oracle::DistanceInterval d = s.at_rest();
   EXPECT_LE(d.lower, 0x1p-52);
   EXPECT_GE(d.upper, 0x1p-52);
   EXPECT_LT(d.upper, 1e-9);
@@ -145,11 +145,11 @@ TEST(SurfaceDistanceAgainstRational, SliversAndDegenerateTriangles) {
 
 TEST(SurfaceDistance, PowersOfTwoScaleTheIntervalExactly) {
   Surfaces s(torus_mesh(1.0, 0.3, 16, 8), sphere_mesh(Vec3(2, 0.1, 0.2), 0.5, 2));
-  const DistanceInterval d = s.at_rest();
+  const oracle::DistanceInterval d = s.at_rest();
   EXPECT_GT(d.lower, 0.1);
   for (int exponent : {-900, -500, -3, 8, 700, 1000}) {
     const double factor = std::ldexp(1.0, exponent);
-    const DistanceInterval e =
+    const oracle::DistanceInterval e =
         s.between(scaled(s.a.vertices, factor), scaled(s.b.vertices, factor));
     EXPECT_EQ(e.lower, d.lower * factor) << exponent;
     EXPECT_EQ(e.upper, d.upper * factor) << exponent;
@@ -165,7 +165,7 @@ TEST(SurfaceDistanceAgainstRational, SubnormalCoordinates) {
       const auto va = scaled(moved(s.a.vertices, random_rotation(source), Vec3::Zero()), scale);
       const auto vb = scaled(s.b.vertices, scale);
       const mpq_class squared = s.rational_squared(va, vb);
-      const DistanceInterval d = s.between(va, vb);
+      const oracle::DistanceInterval d = s.between(va, vb);
       const mpq_class low(d.lower), high(d.upper);
       EXPECT_LE(low * low, squared);
       EXPECT_GE(high * high, squared);
@@ -178,7 +178,7 @@ TEST(SurfaceDistanceAgainstRational, SubnormalCoordinates) {
 TEST(SurfaceDistance, SwappedBodiesAgree) {
   Surfaces s(torus_mesh(1.0, 0.3, 24, 12), sphere_mesh(Vec3(2, 0, 0.2), 0.5, 3));
   Surfaces t(s.b, s.a);
-  const DistanceInterval d = s.at_rest(), e = t.at_rest();
+  const oracle::DistanceInterval d = s.at_rest(), e = t.at_rest();
   EXPECT_NEAR(d.lower, e.lower, 1e-9);
   EXPECT_NEAR(d.upper, e.upper, 1e-9);
   EXPECT_LE(std::max(d.lower, e.lower), std::min(d.upper, e.upper));

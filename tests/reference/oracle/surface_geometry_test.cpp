@@ -8,7 +8,7 @@
 #include "core/deform/ffd_aabb.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/oracle.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/shapes.h"
 #include "tests/support/wide.h"
@@ -41,7 +41,7 @@ struct Scene {
 
   std::vector<Body> bodies;
   FrameData data;
-  SurfaceGeometry geometry;
+  oracle::SurfaceGeometry geometry;
 };
 
 // ---- vertex to surface
@@ -51,17 +51,17 @@ Body points(std::vector<Vec3> at) {
   return test::bare_body("points", {std::move(at), {{0, 0, 0}}});
 }
 
-WayOut way_from(const Vec3& vertex, TriangleMesh mesh) {
+oracle::WayOut way_from(const Vec3& vertex, TriangleMesh mesh) {
   Scene scene({points({vertex}), test::bare_body("surface", std::move(mesh))});
   return scene.geometry.vertex_to_surface({0, 1, 0});
 }
 
 TEST(VertexToSurface, NearestFacesOfABoxAreAllTold) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
-  const WayOut one = way_from(Vec3(1, 1.5, 2), box);
+  const oracle::WayOut one = way_from(Vec3(1, 1.5, 2), box);
   EXPECT_DOUBLE_EQ(one.depth, 1.0);
   EXPECT_THAT(one.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0))));
-  const WayOut two = way_from(Vec3(1, 2, 3), box);
+  const oracle::WayOut two = way_from(Vec3(1, 2, 3), box);
   EXPECT_DOUBLE_EQ(two.depth, 1.0);
   EXPECT_THAT(two.directions, testing::UnorderedElementsAre(IsDirection(Vec3(-1, 0, 0)),
                                                             IsDirection(Vec3(0, 0, 1))));
@@ -76,7 +76,7 @@ TEST(VertexToSurface, WithinABillionthOfTheSizeIsAsNear) {
 
 TEST(VertexToSurface, OutsideTheNearestIsAnEdgeOrACorner) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
-  const WayOut edge = way_from(Vec3(-3, -4, 1.5), box);
+  const oracle::WayOut edge = way_from(Vec3(-3, -4, 1.5), box);
   EXPECT_DOUBLE_EQ(edge.depth, 5.0);
   EXPECT_THAT(edge.directions, testing::ElementsAre(IsDirection(Vec3(0.6, 0.8, 0))));
   EXPECT_DOUBLE_EQ(way_from(Vec3(-1, -2, -2), box).depth, 3.0);
@@ -85,11 +85,11 @@ TEST(VertexToSurface, OutsideTheNearestIsAnEdgeOrACorner) {
 TEST(VertexToSurface, OnTheSurfaceIsZeroWithoutDirections) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
   for (const Vec3& on : {Vec3(0, 1, 1.5), Vec3(0, 0, 3), Vec3(4, 4, 4)}) {
-    const WayOut way = way_from(on, box);
+    const oracle::WayOut way = way_from(on, box);
     EXPECT_EQ(way.depth, 0.0);
     EXPECT_TRUE(way.directions.empty());
   }
-  const WayOut off = way_from(Vec3(0x1p-70, 1, 1.5), box);
+  const oracle::WayOut off = way_from(Vec3(0x1p-70, 1, 1.5), box);
   EXPECT_EQ(off.depth, 0x1p-70);
   EXPECT_THAT(off.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0))));
 }
@@ -99,7 +99,7 @@ TEST(VertexToSurface, EveryScaleOfDoubles) {
   for (double scale : {0x1p-1060, 0x1p-600, 0x1p+600, 0x1p+1021}) {
     TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1);
     box.vertices = scaled(box.vertices, scale);
-    const WayOut way = way_from(Vec3(1, 1.5, 2) * scale, box);
+    const oracle::WayOut way = way_from(Vec3(1, 1.5, 2) * scale, box);
     EXPECT_EQ(way.depth, scale);
     EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0)))) << scale;
   }
@@ -168,7 +168,7 @@ class VertexToSurfaceAgainstBruteForce : public testing::Test {
 
   void check(Scene& scene, std::uint32_t vertex) {
     const Vec3& p = scene.data.vertices[0][vertex];
-    const WayOut way = scene.geometry.vertex_to_surface({0, 1, vertex});
+    const oracle::WayOut way = scene.geometry.vertex_to_surface({0, 1, vertex});
     EXPECT_NEAR(way.depth, brute_force_distance(scene, wide(p)), 3e-12) << hex_points({&p, 1});
     ASSERT_FALSE(way.directions.empty());
     if (vertex % 4 != 0) return;  // slow
@@ -213,7 +213,7 @@ class TwoTriangles {
                 test::bare_body("b", triangle_mesh(b[0], b[1], b[2]))}) {}
   double distance() const { return scene_.geometry.triangle_distance({0, 1, 0, 0}); }
   double length() const { return scene_.geometry.intersection_length({0, 1, 0, 0}); }
-  std::optional<WayOut> way() const { return scene_.geometry.part_triangles({0, 1, 0, 0}); }
+  std::optional<oracle::WayOut> way() const { return scene_.geometry.part_triangles({0, 1, 0, 0}); }
 
  private:
   Scene scene_;
@@ -228,7 +228,7 @@ TEST(TrianglePairs, DistanceIsTheUpperEndOfANarrowInterval) {
     const Corners3 p = source.triangle(Vec3::Zero(), 1);
     Corners3 q = source.triangle(Vec3(1, 0, 0), 1);
     if (i % 2) q = source.near_degenerate_partner(p, 1);
-    const mpq_class squared = rational::squared_distance(p, q);
+    const mpq_class squared = oracle::rational::squared_distance(p, q);
     const double distance = TwoTriangles(p, q).distance();
     EXPECT_EQ(distance == 0, squared == 0);
     EXPECT_GE(mpq_class(distance) * mpq_class(distance), squared);
@@ -344,9 +344,9 @@ TEST(PartBoxes, OverlapExactlyWhereTheOracleSaysSo) {
   const Body a = make_body("a", sphere_mesh(Vec3::Zero(), 0.6, 2), {3, 2, 3});
   const std::vector<Body> bodies{a, {"b", a.shape}};
   TriangleSource source(1105);
-  std::size_t parted = 0;
-  Oracle oracle(bodies);
-  SurfaceGeometry geometry(bodies);
+  std::size_t separated = 0;
+  oracle::Oracle oracle(bodies);
+  oracle::SurfaceGeometry geometry(bodies);
   for (int frame = 0; frame < 3; ++frame) {
     std::vector<std::vector<Vec3>> nodes;
     for (int b = 0; b < 2; ++b) {
@@ -355,7 +355,7 @@ TEST(PartBoxes, OverlapExactlyWhereTheOracleSaysSo) {
       for (Vec3& n : nodes.back()) n = source.point(n, 0.05);
     }
     const FrameData data = make_frame(bodies, nodes);
-    const Truth truth = oracle.judge(data.frame(), {false, false, false, true});
+    const oracle::Truth truth = oracle.judge(data.frame(), {false, false, false, true});
     geometry.set_frame(data.frame());
     const auto cells = static_cast<std::uint32_t>(a.shape->lattice->cells.size());
     std::vector<ElementPair> overlapping;
@@ -363,9 +363,9 @@ TEST(PartBoxes, OverlapExactlyWhereTheOracleSaysSo) {
       for (std::uint32_t j = 0; j < cells; ++j)
         if (geometry.part_boxes({0, 1, i, j})) overlapping.push_back({0, 1, i, j});
     EXPECT_EQ(overlapping, truth.boxes);
-    parted += overlapping.size();
+    separated += overlapping.size();
   }
-  EXPECT_GT(parted, 20u);
+  EXPECT_GT(separated, 20u);
 }
 
 // ---- frames
@@ -373,7 +373,7 @@ TEST(PartBoxes, OverlapExactlyWhereTheOracleSaysSo) {
 TEST(SurfaceGeometryFrames, EveryAnswerIsAboutTheFrameSet) {
   const std::vector<Body> bodies{make_body("a", unit_box_mesh(2), {1, 1, 1}),
                                  make_body("b", unit_box_mesh(2), {1, 1, 1})};
-  SurfaceGeometry geometry(bodies);
+  oracle::SurfaceGeometry geometry(bodies);
   for (double offset : {0.9, 0.6, 0.9}) {
     const FrameData data =
         make_frame(bodies, {rest_nodes_at(*bodies[0].shape, Vec3::Zero()),
@@ -395,7 +395,7 @@ TEST(SurfaceGeometryFrames, RoundingModeDoesNotChangeTheAnswers) {
   TriangleSource source(1106);
   Scene scene({test::bare_body("torus", crumpled_torus(source)),
                test::bare_body("ball", sphere_mesh(Vec3(1, 0, 0), 0.5, 1))});
-  const Truth truth = Oracle(scene.bodies).judge(scene.data.frame(), {});
+  const oracle::Truth truth = oracle::Oracle(scene.bodies).judge(scene.data.frame(), {});
   ASSERT_GT(truth.surface.triangles.size(), 20u);
   const auto sum = [&] {
     double out = 0;

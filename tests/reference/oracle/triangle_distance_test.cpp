@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
 
@@ -22,7 +22,7 @@ bool holds(const DistanceBounds& bounds, const mpq_class& squared) {
 
 // Checks both versions against the truth; returns the width in double.
 double check_bounds(const Triangle3& p, const Triangle3& q) {
-  const mpq_class squared = rational::squared_distance(p, q);
+  const mpq_class squared = oracle::rational::squared_distance(p, q);
   const DistanceBounds fast = oracle::distance_bounds(p, q);
   const DistanceBounds exact = oracle::exact_distance_bounds(p, q);
   EXPECT_TRUE(holds(fast, squared)) << hex_points(p) << '\n' << hex_points(q);

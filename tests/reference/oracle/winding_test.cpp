@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "reference/oracle/exact_tests.h"
-#include "reference/rational/geometry.h"
+#include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/shapes.h"
 
@@ -143,14 +143,14 @@ std::optional<int> slow_winding(const SurfaceTree& tree, std::uint32_t count, co
   int winding = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const oracle::TriangleCorners t = tree.corners(i);
-    if (rational::triangles_intersect(t, {p, p, p})) return std::nullopt;
-    const int from = rational::orient3d(t[0], t[1], t[2], p);
-    const int to = rational::orient3d(t[0], t[1], t[2], far);
+    if (oracle::rational::triangles_intersect(t, {p, p, p})) return std::nullopt;
+    const int from = oracle::rational::orient3d(t[0], t[1], t[2], p);
+    const int to = oracle::rational::orient3d(t[0], t[1], t[2], far);
     // A point in the triangle's plane, but not on it, is where the segment leaves that plane.
     if (from * to >= 0) continue;
     int positive = 0, negative = 0;
     for (int k = 0; k < 3; ++k) {
-      const int side = rational::orient3d(p, far, t[k], t[(k + 1) % 3]);
+      const int side = oracle::rational::orient3d(p, far, t[k], t[(k + 1) % 3]);
       positive += side > 0;
       negative += side < 0;
     }

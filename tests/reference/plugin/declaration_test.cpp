@@ -7,7 +7,7 @@
 
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using testing::HasSubstr;
@@ -27,7 +27,7 @@ const std::string& document() {
 }
 
 Declaration declaration_in(const std::string& text) {
-  const JsonValue value = parse_json(text, document());
+  const text::JsonValue value = text::parse_json(text, document());
   return read_declaration({value, document()});
 }
 
@@ -130,4 +130,4 @@ TEST(Declaration, TextsAreOneLine) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -4,7 +4,7 @@
 
 #include "tests/reference/plugin/plugin_run.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using nlohmann::json;
@@ -187,4 +187,4 @@ TEST(ListOfOwnDetectors, RefusesWhatCannotBeUsedInOneSentence) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "tests/reference/plugin/plugin_fault.h"
-#include "tests/reference/run/is_dead.h"
+#include "tests/reference/process/is_dead.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using test::kLeakingLong;
@@ -149,4 +149,4 @@ TEST(CommandAtWork, ItsChildrenEndWithTheWorker) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

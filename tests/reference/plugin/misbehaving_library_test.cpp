@@ -5,7 +5,7 @@
 #include "tests/reference/plugin/plugin_fault.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using test::kLeakingLong;
@@ -200,4 +200,4 @@ TEST(LibraryAtWork, WhatItPrintsIsANote) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

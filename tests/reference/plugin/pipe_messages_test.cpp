@@ -10,7 +10,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using nlohmann::json;
@@ -162,4 +162,4 @@ TEST(PipeMessages, OfErrorsAreThrownAsSuch) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -7,10 +7,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "reference/scene/shell_word.h"
-#include "tests/reference/run/is_dead.h"
+#include "reference/text/shell_word.h"
+#include "tests/reference/process/is_dead.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using testing::HasSubstr;
@@ -57,7 +57,7 @@ TEST(PipeProcess, LastWordsAreTheLastLineOfItsErrors) {
 }
 
 TEST(PipeProcess, LastWordsOfPythonSayWhere) {
-  PipeProcess process(in_shell(CONTACTCHECK_PYTHON) +
+  PipeProcess process(text::in_shell(CONTACTCHECK_PYTHON) +
                       " -c \"def answer(): return [][7]\nanswer()\"");
   const std::string said = complaint([&] { process.receive_line(); });
   EXPECT_THAT(said, HasSubstr("IndexError: list index out of range (File \"<string>\", line 1, in "
@@ -149,4 +149,4 @@ TEST(PipeProcess, ShellIsGoneWhereItStartsOneProgram) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
 
@@ -17,8 +17,8 @@ std::string misbehaving_library(const std::string& fault) {
 }
 
 std::string misbehaving_command(const std::string& fault) {
-  return in_shell(CONTACTCHECK_PYTHON) + " -B " + in_shell(CONTACTCHECK_MISBEHAVING_COMMAND) + " " +
-         fault;
+  return text::in_shell(CONTACTCHECK_PYTHON) + " -B " +
+         text::in_shell(CONTACTCHECK_MISBEHAVING_COMMAND) + " " + fault;
 }
 
 PluginRun::PluginRun(const std::vector<std::string>& words, const std::vector<std::string>& flags,

@@ -6,12 +6,12 @@
 
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
-#include "reference/run/job.h"
-#include "reference/scene/shell_word.h"
+#include "reference/suite/job.h"
+#include "reference/text/shell_word.h"
 #include "tests/reference/plugin/plugin_run.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using testing::HasSubstr;
@@ -49,26 +49,26 @@ TEST(Plugin, ContentFollowsTheFilesBytes) {
 TEST(Plugin, ContentFollowsAScriptWhoseNameIsQuoted) {
   const test::Scratch scratch;
   const std::string script = scratch.write("two words/mine.py", "one").string();
-  const PluginSource source = {PluginKind::kCommand, "python3 " + in_shell(script)};
+  const PluginSource source = {PluginKind::kCommand, "python3 " + text::in_shell(script)};
   const std::string first = content_of(source);
   scratch.write("two words/mine.py", "two");
   EXPECT_NE(content_of(source), first);
 }
 
 TEST(Plugin, ContentIsPartOfTheSettingsThatResumeCompares) {
-  RunSettings settings, other;
+  suite::RunSettings settings, other;
   settings.plugins = other.plugins = {to_json(command_plugin("mine")).dump()};
-  EXPECT_EQ(named_settings(settings), named_settings(other));
+  EXPECT_EQ(suite::named_settings(settings), suite::named_settings(other));
   Plugin changed = command_plugin("mine");
   changed.content = "0x2";
   other.plugins = {to_json(changed).dump()};
-  EXPECT_NE(named_settings(settings), named_settings(other));
+  EXPECT_NE(suite::named_settings(settings), suite::named_settings(other));
 }
 
 TEST(Plugin, TakesNoNameThatIsAnothers) {
   const auto sentence = [](const std::string& id) {
     return test::sentence_of([&] {
-      DetectorCatalog catalog = standard_catalog();
+      DetectorCatalog catalog = adapters::standard_catalog();
       add_plugin(command_plugin(id), catalog);
     });
   };
@@ -86,11 +86,12 @@ TEST(Plugin, NamedByItsIdTakesItsOptions) {
   leaf.min = 1;
   leaf.max = 8;
   plugin.declaration.options = {leaf};
-  const DetectorCatalog catalog = with_plugins(standard_catalog(), {to_json(plugin).dump()});
+  const DetectorCatalog catalog =
+      with_plugins(adapters::standard_catalog(), {to_json(plugin).dump()});
   EXPECT_EQ(catalog.parse("mine:leaf=8").name, "mine:leaf=8");
   EXPECT_EQ(catalog.parse("mine:leaf=4").name, "mine");
   EXPECT_THROW(catalog.parse("mine:leaf=9"), InputError);
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

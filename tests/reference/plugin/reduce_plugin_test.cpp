@@ -4,7 +4,7 @@
 #include "tests/reference/plugin/plugin_run.h"
 #include "tests/support/files.h"
 
-namespace contactcheck {
+namespace contactcheck::plugin {
 namespace {
 
 using test::contactcheck_program;
@@ -56,4 +56,4 @@ TEST(ReducePlugin, OfACaseThatDoesNotSayHowToMakeItIsRefused) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::plugin

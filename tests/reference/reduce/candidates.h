@@ -7,9 +7,9 @@
 namespace contactcheck::test {
 
 /// Two divided boxes at places of many digits that press into one another by a third.
-inline CaseCandidate two_boxes(int divisions = 2) {
+inline reduce::CaseCandidate two_boxes(int divisions = 2) {
   const Vec3 corner(0.1, 0.2, 0.3), size(1.0, 1.1, 0.9), shift(0.7, 0.31, 0.17);
-  CaseCandidate out;
+  reduce::CaseCandidate out;
   out.names = {"left", "right"};
   out.meshes = {box_mesh(corner, corner + size, divisions),
                 box_mesh(corner + shift, corner + shift + size, divisions)};
@@ -17,14 +17,14 @@ inline CaseCandidate two_boxes(int divisions = 2) {
 }
 
 /// Two triangles; coordinates x, y, z of the corners after one another.
-inline CaseCandidate two_triangles(const std::vector<double>& coordinates) {
-  CaseCandidate out;
+inline reduce::CaseCandidate two_triangles(const std::vector<double>& coordinates) {
+  reduce::CaseCandidate out;
   out.names = {"first", "second"};
   for (TriangleMesh& mesh : out.meshes) {
     mesh.vertices.resize(3, Vec3::Zero());
     mesh.triangles = {{0, 1, 2}};
   }
-  return with_coordinates(out, coordinates);
+  return reduce::with_coordinates(out, coordinates);
 }
 
 }  // namespace contactcheck::test

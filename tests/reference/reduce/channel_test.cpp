@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 TEST(Channel, CarriesMessagesInOrderWhateverTheyHold) {
@@ -44,4 +44,4 @@ TEST(Channel, SaysThatTheOtherSideIsGone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <limits>
 
-#include "reference/scene/id_check.h"
 #include "reference/scene/scene.h"
+#include "reference/text/id_check.h"
 #include "tests/reference/reduce/candidates.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using testing::ElementsAre;
@@ -48,7 +48,8 @@ TEST(FamilyText, ReadsBackAsTheSameBodiesBitForBit) {
   for (const bool on_nodes : {false, true}) {
     const MinimalCase minimal = minimal_case(on_nodes);
     const test::Scratch scratch;
-    const Scene scene = load_scene(scratch.write("min-test.json", family_text(minimal)));
+    const scene::Scene scene =
+        scene::load_scene(scratch.write("min-test.json", family_text(minimal)));
     EXPECT_EQ(scene.id, "min-test");
     EXPECT_EQ(scene.frames, 1u);
     EXPECT_THAT(scene.levels, ElementsAre(Level::kBody, Level::kTriangle));
@@ -73,8 +74,8 @@ TEST(IdFrom, IsAnIdWhateverTheWords) {
   EXPECT_EQ(id_from("min-libccd-gjk:iterations=5-a b"), "min-libccd-gjk-iterations-5-a-b");
   for (const std::string& words :
        {std::string(100, 'x'), std::string("--a/b@1"), std::string("0x1p-3 m")})
-    EXPECT_TRUE(is_id(id_from(words))) << words;
+    EXPECT_TRUE(text::is_id(id_from(words))) << words;
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

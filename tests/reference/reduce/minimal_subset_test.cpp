@@ -1,11 +1,11 @@
-#include "reference/reduce/minimal_subset.h"
+#include "reference/reduce/reduction.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <numeric>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using Items = std::vector<std::size_t>;
@@ -73,4 +73,4 @@ TEST(MinimalSubset, StopsWhereItMayNotGoOnWithWhatItHas) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

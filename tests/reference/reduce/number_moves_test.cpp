@@ -6,7 +6,7 @@
 
 #include "reference/reduce/simple_number.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using testing::Each;
@@ -114,4 +114,4 @@ TEST(Translations, TryExactOnesFirst) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

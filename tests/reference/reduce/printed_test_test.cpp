@@ -4,7 +4,7 @@
 
 #include "tests/reference/reduce/candidates.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 MinimalCase printed_case(const Finding& finding) {
@@ -21,7 +21,7 @@ MinimalCase printed_case(const Finding& finding) {
 
 ProbeVerdict verdict(const Finding& finding) {
   ProbeVerdict v;
-  Disagreement d;
+  judge::Disagreement d;
   d.level = finding.level;
   d.kind = finding.kind;
   d.pair = {0, 1, 0, 0};
@@ -89,4 +89,4 @@ TEST(AnswersOf, AnErrorSayHowItEnded) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

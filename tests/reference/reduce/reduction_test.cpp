@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include "reference/judge/judged_scene.h"
 #include "reference/oracle/oracle.h"
-#include "reference/run/judged_scene.h"
 #include "tests/reference/reduce/candidates.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using test::two_boxes;
@@ -20,7 +20,9 @@ ContactSet truth_of(const CaseCandidate& candidate) {
   const Snapshot snapshot = snapshot_of(candidate);
   std::vector<std::vector<Vec3>> vertices;
   for (const TriangleMesh& mesh : candidate.meshes) vertices.push_back(mesh.vertices);
-  return Oracle(snapshot.bodies).judge(make_frame(0, 0.0, snapshot.nodes, vertices), {}).surface;
+  return oracle::Oracle(snapshot.bodies)
+      .judge(judge::make_frame(0, 0.0, snapshot.nodes, vertices), {})
+      .surface;
 }
 
 bool touches(const CaseCandidate& candidate) { return !truth_of(candidate).triangles.empty(); }
@@ -188,12 +190,13 @@ TEST(Reduce, StartsWithTheCellsAloneAndKeepsAllTheirNodes) {
   const Snapshot cells = two_cells();
   const auto boxes_overlap = [](const CaseCandidate& c) {
     const Snapshot s = snapshot_of(c);
-    WantedTruth wanted;
+    oracle::WantedTruth wanted;
     wanted.boxes = true;
     std::vector<std::vector<Vec3>> vertices;
     for (const TriangleMesh& mesh : c.meshes) vertices.push_back(mesh.vertices);
-    return c.on_nodes &&
-           !Oracle(s.bodies).judge(make_frame(0, 0.0, s.nodes, vertices), wanted).boxes.empty();
+    return c.on_nodes && !oracle::Oracle(s.bodies)
+                              .judge(judge::make_frame(0, 0.0, s.nodes, vertices), wanted)
+                              .boxes.empty();
   };
   const auto reduction = reduce(candidate_of(cells), std::nullopt, boxes_overlap, kPlenty,
                                 cell_candidates(cells, {0, 0}));
@@ -215,4 +218,4 @@ TEST(GeneralPosition, IsLostWhereACornerLiesInTheOtherPlane) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using testing::AllOf;
@@ -85,4 +85,4 @@ TEST(SimplerNumbers, StayFiniteAtTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

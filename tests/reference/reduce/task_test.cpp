@@ -6,13 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/deform/recording.h"
-#include "reference/run/case_file.h"
-#include "reference/run/job.h"
+#include "reference/judge/accuracy.h"
+#include "reference/suite/case_file.h"
+#include "reference/suite/job.h"
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
 using nlohmann::json;
@@ -29,7 +30,7 @@ class Case : public testing::Test {
             test::make_body("", test::unit_box_mesh(1), {2, 2, 2}).shape,
             test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 1), {3, 3, 3}).shape,
             {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kTriangle})),
-        judged_(judge_scene(scene_, progress_)) {
+        judged_(judge::judge_scene(scene_, progress_)) {
     std::filesystem::create_directories(scratch_.folder() / "recordings");
     std::filesystem::create_directories(scratch_.folder() / "cases");
     write_recording(scratch_.folder() / "recordings/approach.ccr",
@@ -37,14 +38,14 @@ class Case : public testing::Test {
   }
 
   std::filesystem::path write(const std::string& level, ElementPair pair) {
-    Disagreement d;
+    judge::Disagreement d;
     d.scene = "approach";
     d.detector = "fcl-aabb";
     d.level = level;
     d.kind = "missed";
     d.frame = 2;
     d.pair = pair;
-    write_case(file_, judged_, d, "../recordings/approach.ccr");
+    suite::write_case(file_, judged_, d, "../recordings/approach.ccr");
     return file_;
   }
 
@@ -56,16 +57,16 @@ class Case : public testing::Test {
 
   /// The sentence that the case is refused with after `change`.
   std::string refusal(const std::function<void(json&)>& change) {
-    json c = json::parse(read_text_file(write("triangle", {0, 1, 5, 17})));
+    json c = json::parse(suite::read_text_file(write("triangle", {0, 1, 5, 17})));
     change(c);
     scratch_.write("cases/0001.json", c.dump());
     return sentence_of([&] { read_case(file_); });
   }
 
-  SharedProgress page_;
-  ProgressWriter progress_{&page_};
-  Scene scene_;
-  JudgedScene judged_;
+  process::SharedProgress page_;
+  process::ProgressWriter progress_{&page_};
+  scene::Scene scene_;
+  judge::JudgedScene judged_;
   Scratch scratch_;
   std::filesystem::path file_ = scratch_.folder() / "cases/0001.json";
 };
@@ -101,7 +102,7 @@ TEST_F(Case, OfCellsBringsThem) {
 TEST_F(Case, OfBodiesHasNoTriangles) { EXPECT_FALSE(read_case(write("body", {0, 1, 0, 0})).pair); }
 
 TEST_F(Case, WithoutARecordingIsItsTwoTriangles) {
-  json c = json::parse(read_text_file(write("triangle", {0, 1, 5, 17})));
+  json c = json::parse(suite::read_text_file(write("triangle", {0, 1, 5, 17})));
   c.erase("recording");
   scratch_.write("cases/0001.json", c.dump());
   const ReductionTask task = read_case(file_);
@@ -183,4 +184,4 @@ TEST(TasksOfScene, RefusesWhatHasNoSuchFrame) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::reduce {
 namespace {
 
-Disagreement disagreement(const std::string& level, const std::string& kind) {
-  Disagreement d;
+judge::Disagreement disagreement(const std::string& level, const std::string& kind) {
+  judge::Disagreement d;
   d.level = level;
   d.kind = kind;
   d.pair = {0, 1, 5, 17};
@@ -97,4 +97,4 @@ TEST(Shows, AnErrorOnlyOfTheSameWay) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reduce

@@ -4,7 +4,7 @@
 
 #include <regex>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(BarPlot, SaysWhatItIsTold) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,7 +8,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::from_json;
@@ -155,4 +155,4 @@ TEST(Csv, LinesEndInCrLfAndStartWithTheTitles) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

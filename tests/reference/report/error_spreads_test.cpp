@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::ElementsAre;
@@ -152,4 +152,4 @@ TEST(ErrorCharts, AreNoneWhereNothingWasJudged) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

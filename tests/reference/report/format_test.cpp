@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 TEST(FormatRate, IsOneOnlyWhenItIsOne) {
@@ -80,7 +80,7 @@ TEST(FormatCounts, ShowsOneNumberWhereAllAreTheSame) {
 }
 
 TEST(FormatRatio, ShowsWhatItsEndsAre) {
-  const Ratio ratio = {12.34, 11.8, 12.9};
+  const results::Ratio ratio = {12.34, 11.8, 12.9};
   EXPECT_EQ(format_ratio(ratio), "12.3x");
   EXPECT_EQ(format_ratio(ratio, 5), "12.3x [11.8, 12.9]");
   EXPECT_EQ(format_ratio(ratio, 4), "12.3x (11.8 to 12.9)");
@@ -102,4 +102,4 @@ TEST(EndsSentence, SaysIntervalFromFivePassesOnAlone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Counts = std::vector<std::pair<std::size_t, std::uint64_t>>;
@@ -98,4 +98,4 @@ TEST(FrameCosts, WithoutTimesOrDistancesThereAreErrorsAlone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

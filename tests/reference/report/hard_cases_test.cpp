@@ -13,7 +13,7 @@
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using ::testing::ElementsAre;
@@ -21,10 +21,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-results::Results hard_results() { return results::from_json(test::hard_results()); }
+results::Results read_hard_results() { return results::from_json(test::hard_results()); }
 
 TEST(HardCases, AreCountedPerDetector) {
-  const auto lines = hard_sums(hard_results()).rows;
+  const auto lines = hard_sums(read_hard_results()).rows;
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_THAT(lines[0], ElementsAre("exact", "triangle", "2 of 2", "6 of 6", "0", "0", "0", "0",
                                     "0.250", "5", "0.250 one"));
@@ -35,7 +35,7 @@ TEST(HardCases, AreCountedPerDetector) {
 }
 
 TEST(HardCases, NameTheFirstValueThatGoesWrong) {
-  const std::string text = hard_cases_markdown(hard_results());
+  const std::string text = hard_cases_markdown(read_hard_results());
   EXPECT_THAT(text, HasSubstr("| skin | 1e-9 | 0 missed, 3 spurious of 0 true | 2 of 3 | 0 | 5 |"));
   EXPECT_THAT(text, HasSubstr("| skin | 0 | 1 missed, 0 spurious of 4 true | 1 of 3 | 1 | 0 |"));
   EXPECT_THAT(text, HasSubstr("| crash | 1e-3 | signal 11 | - | - | - |"));
@@ -51,7 +51,7 @@ std::vector<std::string> texts_of(const std::vector<HeatCell>& row) {
 }
 
 TEST(HardCases, MatrixHasFamiliesAndDetectorsThatGoWrong) {
-  const HeatTable matrix = hard_matrix(hard_results());
+  const HeatTable matrix = hard_matrix(read_hard_results());
   EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "skin", "crash"));
   ASSERT_EQ(matrix.rows.size(), 2u);
   EXPECT_THAT(texts_of(matrix.rows[0]), ElementsAre("one", "3", "2", "error"));
@@ -66,7 +66,7 @@ TEST(HardCases, MatrixHasFamiliesAndDetectorsThatGoWrong) {
 }
 
 TEST(HardCases, MatrixTellsRightFromNotJudgedAndNotAsked) {
-  results::Results results = hard_results();
+  results::Results results = read_hard_results();
   results.runs[0].per_frame.missed[0] = 1;  // "exact" goes wrong, in family "one" alone
   HeatTable matrix = hard_matrix(results);
   EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "exact", "skin", "crash"));
@@ -81,7 +81,7 @@ TEST(HardCases, MatrixTellsRightFromNotJudgedAndNotAsked) {
 }
 
 TEST(HardCases, SayWhoGoesWrongAndWhereToLook) {
-  const results::Results results = hard_results();
+  const results::Results results = read_hard_results();
   const std::vector<WrongFamily> families = wrong_families(results);
   ASSERT_EQ(families.size(), 2u);
   EXPECT_EQ(families[0].scene.id, "one");
@@ -102,7 +102,7 @@ TEST(HardCases, SayWhoGoesWrongAndWhereToLook) {
 }
 
 TEST(HardCases, OfThePageAreThoseOfMarkdown) {
-  const results::Results results = hard_results();
+  const results::Results results = read_hard_results();
   const nlohmann::ordered_json hard = page_data(results, std::nullopt).at("hard");
   EXPECT_EQ(hard.at("sums").at("rows"), nlohmann::ordered_json(hard_sums(results).rows));
   EXPECT_EQ(hard.at("matrix").at("rows").at(1).dump(),
@@ -121,22 +121,22 @@ TEST(HardCases, OfThePageAreThoseOfMarkdown) {
 }
 
 TEST(HardCases, WithoutACaseThatIsToldAreRefused) {
-  results::Results results = hard_results();
+  results::Results results = read_hard_results();
   results.runs[2].failed_frame = 3;
   EXPECT_THROW(hard_cases_markdown(results), InputError);
-  results = hard_results();
+  results = read_hard_results();
   results.runs[1].per_frame.missed.pop_back();
   EXPECT_THROW(hard_cases_markdown(results), InputError);
 }
 
 TEST(HardCases, StandInBothReportsInPlaceOfASectionPerFamily) {
-  EXPECT_THAT(markdown_report(hard_results()), HasSubstr("### Where they go wrong"));
-  EXPECT_THAT(markdown_report(hard_results()), Not(HasSubstr("## one\n")));
-  EXPECT_THAT(terminal_tables(hard_results(), false), HasSubstr("hard cases"));
+  EXPECT_THAT(markdown_report(read_hard_results()), HasSubstr("### Where they go wrong"));
+  EXPECT_THAT(markdown_report(read_hard_results()), Not(HasSubstr("## one\n")));
+  EXPECT_THAT(terminal_tables(read_hard_results(), false), HasSubstr("hard cases"));
   const results::Results sample = results::from_json(test::sample_results());
   EXPECT_THAT(hard_sums(sample).rows, IsEmpty());
   EXPECT_EQ(hard_cases_markdown(sample), "");
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using results::Results, results::Run;
@@ -173,4 +173,4 @@ TEST(Headline, TheJudgeItselfIsJudged) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

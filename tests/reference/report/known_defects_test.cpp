@@ -9,7 +9,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -74,4 +74,4 @@ TEST(KnownDefectsReport, StandsInBothReportsWhereResultsHaveOne) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Places = std::vector<std::optional<LabelPlace>>;
@@ -106,4 +106,4 @@ TEST(LabelLayout, IsTheSameForTheSamePoints) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::HasSubstr;
@@ -44,4 +44,4 @@ TEST(LatticeFits, AreInTheReportOfScenesThatHaveThemAlone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -24,7 +24,7 @@ results::Results results_of_two_scenes(Level level) {
   return results;
 }
 
-Cells texts_of(const std::vector<HeatCell>& row) {
+Cells cell_texts(const std::vector<HeatCell>& row) {
   Cells out;
   for (const HeatCell& cell : row) out.push_back(cell.text);
   return out;
@@ -35,10 +35,10 @@ TEST(LevelTables, OfOneSceneHaveNoSum) {
   const LevelTables tables = level_tables(results::Index(results), {});
   EXPECT_EQ(tables.recall.columns, (Cells{"detector", "hello"}));
   ASSERT_EQ(tables.recall.rows.size(), 5u);
-  EXPECT_EQ(texts_of(tables.recall.rows[0]), (Cells{"fcl-aabb", "1"}));
-  EXPECT_EQ(texts_of(tables.recall.rows[1]), (Cells{"ffd-aabb-sphere2+tri", "0.99999"}));
-  EXPECT_EQ(texts_of(tables.spurious.rows[1]), (Cells{"ffd-aabb-sphere2+tri", "0.00001"}));
-  EXPECT_EQ(texts_of(tables.recall.rows[2]), (Cells{"fcl-obbrss", "error"}));
+  EXPECT_EQ(cell_texts(tables.recall.rows[0]), (Cells{"fcl-aabb", "1"}));
+  EXPECT_EQ(cell_texts(tables.recall.rows[1]), (Cells{"ffd-aabb-sphere2+tri", "0.99999"}));
+  EXPECT_EQ(cell_texts(tables.spurious.rows[1]), (Cells{"ffd-aabb-sphere2+tri", "0.00001"}));
+  EXPECT_EQ(cell_texts(tables.recall.rows[2]), (Cells{"fcl-obbrss", "error"}));
   EXPECT_EQ(tables.recall.rows[2][1].kind, "error");
 }
 
@@ -57,10 +57,10 @@ TEST(LevelTables, SumScenesOfOneLevel) {
   const results::Results results = results_of_two_scenes(Level::kTriangle);
   const LevelTables tables = level_tables(results::Index(results), {});
   EXPECT_EQ(tables.recall.columns, (Cells{"detector", "all scenes", "hello", "second"}));
-  EXPECT_EQ(texts_of(tables.recall.rows[0]), (Cells{"fcl-aabb", "1", "1", "1"}));
+  EXPECT_EQ(cell_texts(tables.recall.rows[0]), (Cells{"fcl-aabb", "1", "1", "1"}));
   EXPECT_EQ(tables.recall.rows[0][1].label,
             "fcl-aabb, all scenes: 400,000 true, 0 missed, 400,000 reported, 0 spurious");
-  EXPECT_EQ(texts_of(tables.recall.rows[1]),
+  EXPECT_EQ(cell_texts(tables.recall.rows[1]),
             (Cells{"ffd-aabb-sphere2+tri", "0.99999", "0.99999", ""}));
 }
 
@@ -78,10 +78,10 @@ TEST(LevelTables, LevelsThatAreNotClaimedAreNotThere) {
   EXPECT_EQ(judged_levels(results), (std::vector{Level::kBody, Level::kTriangle}));
   const LevelTables tables = level_tables(results::Index(results), Level::kBody);
   // Its row is gone; those that did not end well stay.
-  EXPECT_EQ(texts_of(tables.recall.rows[1]), (Cells{"fcl-obbrss", "error"}));
+  EXPECT_EQ(cell_texts(tables.recall.rows[1]), (Cells{"fcl-obbrss", "error"}));
   results.runs[0].levels.erase(Level::kBody);
   EXPECT_EQ(judged_levels(results), std::vector{Level::kTriangle});
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -9,7 +9,7 @@
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::AllOf;
@@ -128,4 +128,4 @@ TEST(LossCharts, TakeNoMarkupFromResults) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using test::sample_results;
@@ -207,4 +207,4 @@ TEST(Markdown, NeverShowsANumberThatIsNone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -11,7 +11,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::Contains;
@@ -96,4 +96,4 @@ TEST(TimingLine, SaysWhatShareOfTheTimeWasTakenOff) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -11,7 +11,7 @@
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -204,4 +204,4 @@ TEST(SpeedErrorCharts, LevelLeavesOutWhoDoesNotClaimIt) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::ElementsAre;
@@ -26,7 +26,7 @@ results::Run timed_run(const std::string& scene, const std::string& detector,
 }
 
 // "mapped" takes less than "lazy" where its mapping is left out.
-results::Results timed_results() {
+results::Results results_with_phases() {
   results::Results results;
   results.scenes.resize(2);
   results.scenes[0].id = "a";
@@ -41,7 +41,7 @@ std::vector<PhaseMeans> means_in(const results::Results& results, bool cold) {
 }
 
 TEST(PhaseTimes, AreMeansOverScenesTheFastestFirst) {
-  const std::vector<PhaseMeans> all = means_in(timed_results(), false);
+  const std::vector<PhaseMeans> all = means_in(results_with_phases(), false);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].detector, "lazy");
   EXPECT_EQ(all[1].detector, "mapped");
@@ -55,14 +55,14 @@ TEST(PhaseTimes, AreMeansOverScenesTheFastestFirst) {
 }
 
 TEST(PhaseTimes, LazyDetectorHasNoTimeOfMapping) {
-  const PhaseMeans lazy = means_in(timed_results(), false)[0];
+  const PhaseMeans lazy = means_in(results_with_phases(), false)[0];
   EXPECT_FALSE(lazy.map);
   EXPECT_EQ(lazy.total(), 6.0);
   EXPECT_EQ(lazy.without_map(), 6.0);
 }
 
 TEST(PhaseTimes, ColdCachesHaveTheirOwn) {
-  results::Results results = timed_results();
+  results::Results results = results_with_phases();
   const std::vector<PhaseMeans> all = means_in(results, true);
   EXPECT_EQ(all[0].query, 3.0);
   EXPECT_EQ(all[1].query, 8.0);
@@ -71,7 +71,7 @@ TEST(PhaseTimes, ColdCachesHaveTheirOwn) {
 }
 
 TEST(PhaseTimes, OnlyScenesInWhichADetectorWasTimedCount) {
-  results::Results results = timed_results();
+  results::Results results = results_with_phases();
   results.runs[0].status = results::Status::kError;
   results.runs[1].times.clear();
   std::vector<PhaseMeans> all = means_in(results, false);
@@ -85,7 +85,7 @@ TEST(PhaseTimes, OnlyScenesInWhichADetectorWasTimedCount) {
 }
 
 TEST(PhaseTimes, AreATableToo) {
-  const TitledTable table = phase_times_table(means_in(timed_results(), false));
+  const TitledTable table = phase_times_table(means_in(results_with_phases(), false));
   EXPECT_EQ(table.columns.size(), 8u);
   EXPECT_THAT(
       table.rows,
@@ -94,7 +94,7 @@ TEST(PhaseTimes, AreATableToo) {
 }
 
 TEST(PhaseTimes, TableSaysWhereFramesWereLeftOut) {
-  results::Results results = timed_results();
+  results::Results results = results_with_phases();
   for (results::Run& run : results.runs) run.frames = run.times[0].timed_frames = 60;
   results.runs[1].times[0].timed_frames = 4;
   results.runs[1].times[0].passes = 1;
@@ -104,4 +104,4 @@ TEST(PhaseTimes, TableSaysWhereFramesWereLeftOut) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -9,7 +9,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -61,4 +61,4 @@ TEST(RandomPairsReport, MarkdownShowsTheLineAndTheKinds) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

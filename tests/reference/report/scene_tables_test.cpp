@@ -9,7 +9,7 @@
 #include "reference/report/run_row.h"
 #include "reference/results/results_json.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -377,4 +377,4 @@ TEST(BulletFindings, AreSilentWithoutBullet) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

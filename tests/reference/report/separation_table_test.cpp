@@ -1,4 +1,4 @@
-#include "reference/report/separation_table.h"
+#include "reference/report/scene_tables.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 
 #include "reference/results/results_json.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -56,4 +56,4 @@ TEST(SeparationTables, LeaveOutWhatWasNotTimedOrDidNotRun) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

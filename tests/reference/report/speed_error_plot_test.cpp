@@ -15,7 +15,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -188,4 +188,4 @@ TEST(DetectorGroup, GoesByTheDetectorAndNotByItsOptions) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -9,7 +9,7 @@
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -22,7 +22,7 @@ using testing::IsEmpty;
 SpeedError speed_chart(const Json& results) { return speed_error(results::from_json(results)); }
 
 // The sample's two good runs, in a further scene.
-Json two_scenes() {
+Json two_scenes_json() {
   Json results = sample_results();
   results["scenes"].push_back(results["scenes"][0]);
   results["scenes"][1]["id"] = "second";
@@ -61,7 +61,7 @@ TEST(SpeedError, SaysWhoIsLeftOutAndWhy) {
 }
 
 TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
-  Json results = two_scenes();
+  Json results = two_scenes_json();
   results["runs"][5]["frames"] = 20;
   results["runs"][5]["time_ms"]["playback"]["frame"] = 10.0;
   const SpeedError chart = speed_chart(results);
@@ -71,7 +71,7 @@ TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
 }
 
 TEST(SpeedError, TakesOneSceneWhereMostDetectorsDidNotRunInAll) {
-  Json results = two_scenes();
+  Json results = two_scenes_json();
   for (const char* name : {"a", "b", "c"}) {
     Json run = results["runs"][0];
     run["detector"] = name;
@@ -97,7 +97,7 @@ TEST(SpeedError, LevelsThatAreNoClaimDoNotCount) {
 }
 
 TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
-  Json results = two_scenes();
+  Json results = two_scenes_json();
   Json& second = results["runs"][6];
   ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
   second["per_frame"]["level"] = "body";
@@ -113,7 +113,7 @@ TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
 
 // The judge's order, which is not that of the results: containment is never the finest.
 TEST(SpeedError, BodiesThatTouchComeBeforeBodiesThatHold) {
-  Json results = two_scenes();
+  Json results = two_scenes_json();
   for (const int i : {1, 6})
     results["runs"][i]["levels"]["containment"] = results["runs"][i]["levels"]["body"];
   results["runs"][6]["per_frame"]["level"] = "body";
@@ -122,7 +122,7 @@ TEST(SpeedError, BodiesThatTouchComeBeforeBodiesThatHold) {
 }
 
 TEST(SpeedError, ScenesWithNothingToJudgeDoNotCoarsenTheOthers) {
-  Json results = two_scenes();
+  Json results = two_scenes_json();
   results["runs"][6]["per_frame"].erase("level");
   results["runs"][6]["levels"] = Json::object();
   const SpeedErrorPoint p = speed_chart(results).points[1];
@@ -181,4 +181,4 @@ TEST(SpeedError, FrontIsWhatNoOtherBeats) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using testing::ElementsAre;
@@ -133,4 +133,4 @@ TEST(StageLosses, ShareOfNothingIsNone) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -5,7 +5,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using test::sample_results;
@@ -84,4 +84,4 @@ TEST(Summary, LevelsOfDifferentScenesAreNotAddedUp) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

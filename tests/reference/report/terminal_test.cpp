@@ -5,7 +5,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 
-namespace contactcheck {
+namespace contactcheck::report {
 namespace {
 
 using test::sample_results;
@@ -89,4 +89,4 @@ TEST(Terminal, ColumnsOfOneTableAreAligned) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::report

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <set>
 
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_field.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_field.h"
 #include "tests/reference/reproduce/sample_paper.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using test::real_paper;
@@ -25,14 +25,14 @@ using testing::IsEmpty;
 
 const std::string kCheckedName = "checked.json";
 
-JsonValue checked_figures() {
-  return parse_json(
-      read_file_bytes(std::filesystem::path(CONTACTCHECK_FIXTURES) / "paper" / kCheckedName,
-                      "checked file"),
+text::JsonValue checked_figures() {
+  return text::parse_json(
+      text::read_file_bytes(std::filesystem::path(CONTACTCHECK_FIXTURES) / "paper" / kCheckedName,
+                            "checked file"),
       kCheckedName);
 }
 
-std::string text_or_empty(const JsonField& object, const char* key) {
+std::string text_or_empty(const text::JsonField& object, const char* key) {
   return object.has(key) ? object.at(key).text() : "";
 }
 
@@ -53,7 +53,7 @@ const PaperFinding* picked(const std::vector<PaperFinding>& found, const std::st
                            : &*std::min_element(found.begin(), found.end(), less);
 }
 
-void expect_figure(const std::vector<PaperFinding>& findings, const JsonField& figure) {
+void expect_figure(const std::vector<PaperFinding>& findings, const text::JsonField& figure) {
   SCOPED_TRACE(figure.path());
   figure.only_keys({"topic", "table", "scene", "method", "pick", "value", "claimed", "agrees"});
   const std::vector<PaperFinding> found =
@@ -75,17 +75,17 @@ void expect_figure(const std::vector<PaperFinding>& findings, const JsonField& f
 }
 
 TEST(PaperArithmetic, GivesEveryFigureOfTheTranscription) {
-  const JsonValue value = checked_figures();
-  const JsonField root(value, kCheckedName);
+  const text::JsonValue value = checked_figures();
+  const text::JsonField root(value, kCheckedName);
   const std::vector<PaperFinding> findings = check_paper(real_paper());
-  const std::vector<JsonField> figures = root.at("figures").items(1);
-  for (const JsonField& figure : figures) expect_figure(findings, figure);
+  const std::vector<text::JsonField> figures = root.at("figures").items(1);
+  for (const text::JsonField& figure : figures) expect_figure(findings, figure);
 }
 
 TEST(PaperArithmetic, CountsPerObjectAreThoseOfTheTranscription) {
-  const JsonValue value = checked_figures();
-  const JsonField root(value, kCheckedName);
-  const std::vector<JsonField> wanted = root.at("per_object").items(1);
+  const text::JsonValue value = checked_figures();
+  const text::JsonField root(value, kCheckedName);
+  const std::vector<text::JsonField> wanted = root.at("per_object").items(1);
   const PaperTables tables = real_paper();
   ASSERT_EQ(wanted.size(), tables.scenes.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -265,4 +265,4 @@ TEST(PaperArithmetic, ASceneWithoutAnObjectCountInTheTextHasNoFinding) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

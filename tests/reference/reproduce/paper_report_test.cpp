@@ -6,7 +6,7 @@
 
 #include "tests/reference/reproduce/sample_paper.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using test::sample_paper_text;
@@ -135,7 +135,8 @@ TEST(PaperJson, IsThisDocument) {
 }
 
 TEST(PaperChecks, AreTheFiguresOfTheMarkdownEachWithItsSentence) {
-  const TitledTable checks = checks_table(paper_json(tables_of(sample_paper_text()), hand_made()));
+  const report::TitledTable checks =
+      checks_table(paper_json(tables_of(sample_paper_text()), hand_made()));
   EXPECT_EQ(checks.title, "Checks of the paper's own numbers");
   ASSERT_EQ(checks.columns.size(), 8u);
   EXPECT_EQ(checks.columns.back().title, "in words");
@@ -155,4 +156,4 @@ TEST(PaperChecks, OwnNumbersNameThePaperAndCountContradictions) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -4,7 +4,7 @@
 #include "tests/reference/reproduce/sample_paper.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using test::replaced;
@@ -168,4 +168,4 @@ TEST(PaperTables, AMissingFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

@@ -10,7 +10,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using test::Json;
@@ -156,7 +156,8 @@ TEST(ReproductionMarkdown, OfNothingIsTheIntroductionAlone) {
 }
 
 TEST(PaperPartOfThePage, OverviewHasARowPerSceneWithThePapersRatiosBesideOurs) {
-  const TitledTable overview = paper_part(reproduction_of(sample_reproduction_results())).overview;
+  const report::TitledTable overview =
+      paper_part(reproduction_of(sample_reproduction_results())).overview;
   EXPECT_EQ(overview.title, "Two levels of spheres over one: the paper's ratios beside ours");
   ASSERT_EQ(overview.columns.size(), 9u);
   EXPECT_EQ(overview.columns[1].title, "collision test: paper");
@@ -169,7 +170,7 @@ TEST(PaperPartOfThePage, OverviewHasARowPerSceneWithThePapersRatiosBesideOurs) {
 // What the page says of the sample's one scene, and of all scenes.
 TEST(PaperPartOfThePage, SentencesAreThoseOfTheMarkdown) {
   const Json reproduction = reproduction_of(sample_reproduction_results());
-  const PaperPart part = paper_part(reproduction);
+  const report::PaperPart part = paper_part(reproduction);
   const std::string markdown = reproduction_markdown(reproduction);
   EXPECT_EQ(part.readings.size(), kReadings.size());
   for (const std::string& sentence : part.readings)
@@ -189,9 +190,10 @@ TEST(PaperPartOfThePage, SentencesAreThoseOfTheMarkdown) {
 TEST(PaperPartOfThePage, SceneHasItsFourTablesUnderTitles) {
   Json results = sample_reproduction_results();
   results["runs"][1]["closed_loop"] = sample_closed_loop();
-  const std::vector<TitledTable> tables = paper_part(reproduction_of(results)).scenes.at(0).tables;
+  const std::vector<report::TitledTable> tables =
+      paper_part(reproduction_of(results)).scenes.at(0).tables;
   ASSERT_EQ(tables.size(), 4u);
-  for (const TitledTable& table : tables) {
+  for (const report::TitledTable& table : tables) {
     EXPECT_FALSE(table.title.empty());
     EXPECT_FALSE(table.rows.empty()) << table.title;
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.title;
@@ -206,7 +208,7 @@ TEST(PaperPartOfThePage, SceneHasItsFourTablesUnderTitles) {
 TEST(PaperPartOfThePage, HasThePapersOwnNumbersAndNoMeansOfNothing) {
   Json results = sample_reproduction_results();
   results["scenes"] = Json::array();
-  const PaperPart part = paper_part(reproduction_of(results));
+  const report::PaperPart part = paper_part(reproduction_of(results));
   EXPECT_EQ(part.checks.rows.size(), check_paper(paper_of_our_methods()).size());
   EXPECT_THAT(part.own_numbers, HasSubstr("; 0 contradict a claim or cannot be."));
   EXPECT_THAT(part.means, IsEmpty());
@@ -256,4 +258,4 @@ TEST(ReproductionTerminal, MissingReadingIsADashAndAMissingHeadlineNoLine) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

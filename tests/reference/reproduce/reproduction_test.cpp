@@ -7,7 +7,7 @@
 #include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
 
-namespace contactcheck {
+namespace contactcheck::reproduce {
 namespace {
 
 using test::Json;
@@ -271,4 +271,4 @@ TEST(Reproduction, MeansCountOnlyScenesThatWereTimed) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::reproduce

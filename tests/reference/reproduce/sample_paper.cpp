@@ -41,23 +41,24 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-PaperTables tables_of(const std::string& text) {
+reproduce::PaperTables tables_of(const std::string& text) {
   const Scratch scratch;
-  return load_paper_tables(scratch.write("tables.json", text));
+  return reproduce::load_paper_tables(scratch.write("tables.json", text));
 }
 
-PaperTables real_paper() {
-  return load_paper_tables(std::filesystem::path(CONTACTCHECK_FIXTURES) / "paper" / "tables.json");
+reproduce::PaperTables real_paper() {
+  return reproduce::load_paper_tables(std::filesystem::path(CONTACTCHECK_FIXTURES) / "paper" /
+                                      "tables.json");
 }
 
-std::vector<PaperFinding> select(const std::vector<PaperFinding>& findings,
-                                 const std::string& topic, const std::string& table,
-                                 const std::string& scene, const std::string& method) {
+std::vector<reproduce::PaperFinding> select(const std::vector<reproduce::PaperFinding>& findings,
+                                            const std::string& topic, const std::string& table,
+                                            const std::string& scene, const std::string& method) {
   const auto fits = [](const std::string& wanted, const std::string& word) {
     return wanted.empty() || wanted == word;
   };
-  std::vector<PaperFinding> out;
-  for (const PaperFinding& f : findings)
+  std::vector<reproduce::PaperFinding> out;
+  for (const reproduce::PaperFinding& f : findings)
     if (fits(topic, f.topic) && fits(table, f.table) && fits(scene, f.scene) &&
         fits(method, f.method))
       out.push_back(f);

@@ -13,13 +13,14 @@ std::string sample_paper_text();
 /// `text` with its first `from`, which must be there, replaced.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 /// The tables of a paper file with this text.
-PaperTables tables_of(const std::string& text);
+reproduce::PaperTables tables_of(const std::string& text);
 /// fixtures/paper/tables.json
-PaperTables real_paper();
+reproduce::PaperTables real_paper();
 
 /// The findings that match; an empty word matches all.
-std::vector<PaperFinding> select(const std::vector<PaperFinding>& findings,
-                                 const std::string& topic, const std::string& table = "",
-                                 const std::string& scene = "", const std::string& method = "");
+std::vector<reproduce::PaperFinding> select(const std::vector<reproduce::PaperFinding>& findings,
+                                            const std::string& topic, const std::string& table = "",
+                                            const std::string& scene = "",
+                                            const std::string& method = "");
 
 }  // namespace contactcheck::test

@@ -6,7 +6,7 @@
 
 namespace contactcheck::test {
 
-PaperTables paper_of_our_methods() {
+reproduce::PaperTables paper_of_our_methods() {
   std::string text = sample_paper_text();
   for (const auto& [word, method] :
        {std::pair{"\"none\"", "\"ffd-aabb\""}, std::pair{"\"one\"", "\"ffd-aabb-sphere\""},

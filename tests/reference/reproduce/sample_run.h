@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 /// The sample paper with methods that contactcheck knows: from one to two levels of spheres 40 to
 /// 20 ms of collision test (2.00x), 60 to 40 ms in all (1.500x).
-PaperTables paper_of_our_methods();
+reproduce::PaperTables paper_of_our_methods();
 
 /// Milliseconds per step of one detector; the test's and the total's median is the middle repeat's.
 struct SampleTimes {

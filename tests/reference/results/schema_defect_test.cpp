@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace contactcheck {
+namespace contactcheck::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -100,4 +100,4 @@ TEST(SchemaDefect, KeywordThatNothingChecksIsRefusedWhereverItStands) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::results

@@ -7,7 +7,7 @@
 #include "reference/scene/suite_file.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::Scratch;
@@ -350,4 +350,4 @@ TEST(SuiteFile, FindsSceneFilesAndRecordingsBesideItself) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

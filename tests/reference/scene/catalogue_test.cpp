@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <set>
 
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_value.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/suite_file.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_value.h"
 #include "tests/reference/scene/installed.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 
 // Names the test in place of its parameter's bytes.
 void PrintTo(const CatalogueEntry& entry, std::ostream* out) { *out << entry.id; }
@@ -44,7 +44,8 @@ std::vector<CatalogueEntry> scenes_that_are(bool simulated) {
   std::vector<CatalogueEntry> out;
   for (const CatalogueEntry& entry : list_scenes(kFixtures)) {
     if (measures_speed(entry.id)) continue;
-    const JsonValue scene = parse_json(read_file_bytes(entry.file, "scene file"), entry.id);
+    const text::JsonValue scene =
+        text::parse_json(text::read_file_bytes(entry.file, "scene file"), entry.id);
     if (scene.find("sweep") != nullptr) continue;  // poses, not a motion
     if ((scene.find("simulation") != nullptr) == simulated) out.push_back(entry);
   }
@@ -206,4 +207,4 @@ TEST(Catalogue, FolderFollowsTheEnvironment) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -4,7 +4,7 @@
 #include "reference/scene/scene.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::Scratch;
@@ -17,7 +17,7 @@ std::string scene_with(const std::string& copies, const std::string& more = "") 
              "motion": {"position": [[0, [5, 0, 0]], [2, [7, 0, 0]]]}}]})";
 }
 
-Scene load(const std::string& text) {
+Scene load_copies(const std::string& text) {
   const Scratch scratch;
   return load_scene(scratch.write("s.json", text));
 }
@@ -28,7 +28,7 @@ Vec3 center_at(const Scene& scene, std::size_t body, double time) {
 }
 
 TEST(Copies, StandInAGridAndShareTheShape) {
-  const Scene scene = load(scene_with(R"({"counts": [2, 3, 2], "spacing": [10, 20, 30]})"));
+  const Scene scene = load_copies(scene_with(R"({"counts": [2, 3, 2], "spacing": [10, 20, 30]})"));
   ASSERT_EQ(scene.bodies.size(), 12u);
   EXPECT_EQ(scene.bodies[0].name, "ball-1");
   EXPECT_EQ(scene.bodies[11].name, "ball-12");
@@ -41,8 +41,8 @@ TEST(Copies, StandInAGridAndShareTheShape) {
 }
 
 TEST(Copies, MoveLaterAndAreTurned) {
-  const Scene scene =
-      load(scene_with(R"({"counts": [3, 1, 1], "spacing": [10, 0, 0], "delay": 0.5, "turn": 90})"));
+  const Scene scene = load_copies(
+      scene_with(R"({"counts": [3, 1, 1], "spacing": [10, 0, 0], "delay": 0.5, "turn": 90})"));
   EXPECT_LT((center_at(scene, 2, 2.0) - Vec3(26, 0, 0)).norm(), 1e-12);
   const auto first_node = [&](std::size_t body) {
     const Vec3 node = nodes_at(*scene.bodies[body].shape, scene.motions[body], 0.0)[0];
@@ -54,7 +54,9 @@ TEST(Copies, MoveLaterAndAreTurned) {
 }
 
 TEST(Copies, RefuseWhatTheyCannotBe) {
-  const auto sentence = [](const std::string& text) { return sentence_of([&] { load(text); }); };
+  const auto sentence = [](const std::string& text) {
+    return sentence_of([&] { load_copies(text); });
+  };
   EXPECT_THAT(sentence(scene_with(R"({"counts": [2, 1], "spacing": [1, 1, 1]})")),
               ::testing::HasSubstr("bodies[0].copies.counts"));
   EXPECT_THAT(sentence(scene_with(R"({"counts": [1000, 1000, 1], "spacing": [1, 1, 1]})")),
@@ -72,4 +74,4 @@ TEST(Copies, RefuseWhatTheyCannotBe) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -6,7 +6,7 @@
 #include "reference/scene/scene.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::Scratch;
@@ -124,4 +124,4 @@ TEST(Amount, ReadsNumbersAndSums) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using ::testing::ElementsAre;
@@ -25,4 +25,4 @@ TEST(FixturesFolder, EmptyAndRelativeDataFoldersAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

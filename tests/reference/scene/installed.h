@@ -1,16 +1,17 @@
 // Whether the Debian packages with meshes are here: tests of what needs them are skipped elsewhere.
 #pragma once
 
-#include "reference/scene/data_package.h"
+#include "reference/mesh/data_package.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::test {
 
 inline bool data_installed() {
   return sentence_of([] {
-           find_package_file(data_roots(), "", "usr/share/doc/libcgal-demo/data.tar.gz");
-           find_package_file(data_roots(), "",
-                             "usr/share/doc/povray/examples/advanced/teapot/teapot.inc");
+           mesh::find_package_file(mesh::data_roots(), "",
+                                   "usr/share/doc/libcgal-demo/data.tar.gz");
+           mesh::find_package_file(mesh::data_roots(), "",
+                                   "usr/share/doc/povray/examples/advanced/teapot/teapot.inc");
          })
       .empty();
 }

@@ -8,7 +8,7 @@
 
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::sphere_mesh;
@@ -132,4 +132,4 @@ TEST(LatticeFit, AppendsOneErrorPerFrame) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "reference/scene/catalogue.h"
-#include "reference/scene/file_text.h"
-#include "reference/scene/json_field.h"
 #include "reference/scene/scene.h"
+#include "reference/text/file_text.h"
+#include "reference/text/json_field.h"
 #include "tests/reference/scene/installed.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
-const std::filesystem::path kFixtures = CONTACTCHECK_FIXTURES;
+const std::filesystem::path kPaperFixtures = CONTACTCHECK_FIXTURES;
 
 // How far ours may be from the paper's counts: its meshes and lattices are not published.
 constexpr double kMeshTolerance = 0.01, kCellTolerance = 0.05;
@@ -28,11 +28,12 @@ void PrintTo(const Counts& counts, std::ostream* out) { *out << counts.scene; }
 
 // The rows of Table 2.
 std::vector<Counts> paper_counts() {
-  const std::filesystem::path file = kFixtures / "paper" / "tables.json";
+  const std::filesystem::path file = kPaperFixtures / "paper" / "tables.json";
   const std::string document = file.string();
-  const JsonValue value = parse_json(read_file_bytes(file, "paper's tables"), document);
+  const text::JsonValue value =
+      text::parse_json(text::read_file_bytes(file, "paper's tables"), document);
   std::vector<Counts> out;
-  for (const JsonField& row : JsonField(value, document).at("table_2").items(1)) {
+  for (const text::JsonField& row : text::JsonField(value, document).at("table_2").items(1)) {
     out.push_back({row.at("scene").text(), row.at("objects").number(), row.at("vertices").number(),
                    row.at("triangles").number(), row.at("cells").number()});
   }
@@ -53,7 +54,7 @@ class PaperScene : public ::testing::TestWithParam<Counts> {
   }
 
   static Scene load(const std::string& suffix = "") {
-    return load_scene(find_scene("paper-" + GetParam().scene + suffix, kFixtures));
+    return load_scene(find_scene("paper-" + GetParam().scene + suffix, kPaperFixtures));
   }
 };
 
@@ -177,7 +178,7 @@ std::string readme_row(const std::string& id, const Counts& counts) {
 }
 
 TEST_P(PaperScene, HasTheCountsOfTheReadme) {
-  const std::string readme = read_file_bytes(kFixtures / "README.md", "README");
+  const std::string readme = text::read_file_bytes(kPaperFixtures / "README.md", "README");
   for (const std::string suffix : {"", "-full"}) {
     const Scene scene = load(suffix);
     EXPECT_THAT(readme, ::testing::HasSubstr(readme_row(scene.id, counts_of(scene))));
@@ -188,4 +189,4 @@ INSTANTIATE_TEST_SUITE_P(Table2, PaperScene, ::testing::ValuesIn(paper_counts())
                          [](const auto& test) { return test.param.scene; });
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

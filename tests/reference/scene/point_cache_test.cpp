@@ -8,7 +8,7 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/support/cache_bytes.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::CacheSamples;
@@ -82,7 +82,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 const std::string kPc2 = pc2_bytes(kSamples), kMdd = mdd_bytes(kSamples);
 
-std::string named(const testing::TestParamInfo<Wrong>& test) { return test.param.name; }
+std::string name_of_wrong(const testing::TestParamInfo<Wrong>& test) { return test.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(
     Pc2, WrongCache,
@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
               "sample 1, point 1: its y is not a finite number."},
         Wrong{"Infinite", "a.pc2", pc2_with(32 + 48 + 8, float_bytes(-kInfinite, false)),
               "sample 2, point 0: its z is not a finite number."}),
-    named);
+    name_of_wrong);
 
 INSTANTIATE_TEST_SUITE_P(
     Mdd, WrongCache,
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"Nan", "a.mdd", mdd_with(20, float_bytes(kNan, true)),
               "sample 0, point 0: its x is not a finite number."},
         Wrong{"OtherExtension", "a.abc", kMdd, "is neither .pc2 nor .mdd."}),
-    named);
+    name_of_wrong);
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

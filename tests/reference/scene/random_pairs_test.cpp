@@ -7,7 +7,7 @@
 #include "core/types/hash.h"
 #include "reference/scene/scene.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 constexpr PairSpec kThreeFrames = {3 * RandomPairs::kSlots, 1};
@@ -135,4 +135,4 @@ TEST(RandomPairs, AreAScene) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

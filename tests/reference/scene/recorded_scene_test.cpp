@@ -9,7 +9,7 @@
 #include "tests/support/mesh_text.h"
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::CacheSamples;
@@ -290,4 +290,4 @@ TEST_F(RecordedScene, RefusesASimulationAndOtherFrames) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

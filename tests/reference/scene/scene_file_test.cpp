@@ -7,7 +7,7 @@
 #include "reference/scene/scene.h"
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::Scratch;
@@ -156,4 +156,4 @@ TEST(SceneFile, RecordingBecomesAScene) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

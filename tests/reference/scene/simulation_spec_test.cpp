@@ -7,7 +7,7 @@
 
 #include "tests/reference/scene/scratch.h"
 
-namespace contactcheck {
+namespace contactcheck::scene {
 namespace {
 
 using test::Scratch;
@@ -16,7 +16,7 @@ using test::sentence_of;
 const std::string kSpring = R"({"model": "mass-spring", "mass": 10, "stiffness": 2000,
   "damping": 3, "restitution": 0.25, "friction": 0.5})";
 
-const std::string kGood = R"({
+const std::string kGoodSimulation = R"({
   "id": "s", "frames": 4, "levels": ["body"],
   "simulation": {"step": 0.01, "substeps": 7, "gravity": [0, 1, -2], "every": 3,
                  "ground": {"axis": "z", "height": -1.5, "restitution": 0.125, "friction": 0.75},
@@ -26,7 +26,7 @@ const std::string kGood = R"({
      "motion": {"position": [0, 2, 0], "spins": [{"axis": "z", "degrees": 90}],
                 "deformers": [{"bend": {"axis": "y", "toward": "x", "degrees": [[0, 20]]}}]},
      "material": )" + kSpring +
-                          R"(,
+                                    R"(,
      "velocity": [1, -2, 3]},
     {"name": "rests", "mesh": {"shape": "sphere", "divisions": 1}}
   ]
@@ -34,23 +34,23 @@ const std::string kGood = R"({
 
 // The good scene with one text replaced.
 std::string changed(const std::string& from, const std::string& to) {
-  std::string text = kGood;
+  std::string text = kGoodSimulation;
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-Scene load(const std::string& text, std::size_t frames = 0) {
+Scene load_simulated(const std::string& text, std::size_t frames = 0) {
   const Scratch scratch;
   return load_scene(scratch.write("s.json", text), frames);
 }
 
 Material material_of(const std::string& text) {
-  return *load(changed(kSpring, text)).simulation->materials[0];
+  return *load_simulated(changed(kSpring, text)).simulation->materials[0];
 }
 
 TEST(SimulationSpec, ReadsEveryKeyOfTheRoot) {
-  const Scene scene = load(kGood);
+  const Scene scene = load_simulated(kGoodSimulation);
   ASSERT_TRUE(scene.simulation.has_value());
   const SimulationSettings& settings = scene.simulation->settings;
   EXPECT_EQ(settings.time_step, 0.01);
@@ -66,9 +66,9 @@ TEST(SimulationSpec, ReadsEveryKeyOfTheRoot) {
 }
 
 TEST(SimulationSpec, FillsInTheDefaultsOfTheRoot) {
-  std::string text = kGood;
+  std::string text = kGoodSimulation;
   const std::size_t begin = text.find(R"({"step")"), end = text.find(R"("bodies")");
-  const Scene scene = load(text.replace(begin, end - begin, "{}, "));
+  const Scene scene = load_simulated(text.replace(begin, end - begin, "{}, "));
   const SimulationSettings& settings = scene.simulation->settings;
   EXPECT_EQ(settings.time_step, 1.0 / 60);
   EXPECT_EQ(settings.substeps, 0u);
@@ -80,7 +80,7 @@ TEST(SimulationSpec, FillsInTheDefaultsOfTheRoot) {
 }
 
 TEST(SimulationSpec, EmptyGroundLiesLevelAtTheOrigin) {
-  const Scene scene = load(
+  const Scene scene = load_simulated(
       changed(R"({"axis": "z", "height": -1.5, "restitution": 0.125, "friction": 0.75})", "{}"));
   ASSERT_TRUE(scene.simulation->settings.ground.has_value());
   EXPECT_EQ(scene.simulation->settings.ground->axis, 1);
@@ -88,7 +88,7 @@ TEST(SimulationSpec, EmptyGroundLiesLevelAtTheOrigin) {
 }
 
 TEST(SimulationSpec, ReadsBodiesInTheirOrder) {
-  const Scene scene = load(kGood);
+  const Scene scene = load_simulated(kGoodSimulation);
   ASSERT_EQ(scene.simulation->materials.size(), 2u);
   ASSERT_EQ(scene.simulation->velocities.size(), 2u);
   ASSERT_TRUE(scene.simulation->materials[0].has_value());
@@ -137,7 +137,7 @@ TEST(SimulationSpec, KeysLeftOutKeepTheMaterialsDefaults) {
 }
 
 TEST(SimulatedScene, FramesCountJudgedFramesAndStepsKeepTheirLength) {
-  const Scene scene = load(kGood), longer = load(kGood, 9);
+  const Scene scene = load_simulated(kGoodSimulation), longer = load_simulated(kGoodSimulation, 9);
   EXPECT_EQ(scene.frames, 4u);
   EXPECT_DOUBLE_EQ(scene.time_step, 0.03);
   EXPECT_EQ(longer.frames, 9u);
@@ -146,9 +146,9 @@ TEST(SimulatedScene, FramesCountJudgedFramesAndStepsKeepTheirLength) {
 }
 
 TEST(SimulatedScene, HasAStartAndIsNotScripted) {
-  const Scene scene = load(kGood);
+  const Scene scene = load_simulated(kGoodSimulation);
   EXPECT_FALSE(scene.scripted());
-  EXPECT_TRUE(load(R"({"id": "s", "frames": 1, "duration": 1, "levels": ["body"],
+  EXPECT_TRUE(load_simulated(R"({"id": "s", "frames": 1, "duration": 1, "levels": ["body"],
                        "bodies": [{"name": "a", "mesh": {"shape": "box"}}]})")
                   .scripted());
   const std::vector<std::vector<Vec3>> start = scene.nodes_at(0.0);
@@ -161,7 +161,7 @@ TEST(SimulatedScene, HasAStartAndIsNotScripted) {
 }
 
 TEST(SimulatedScene, FramesComeFromTheRunAlone) {
-  Scene scene = load(kGood);
+  Scene scene = load_simulated(kGoodSimulation);
   scene.recorded.assign(scene.frames, scene.nodes_at(0.0));
   scene.recorded[2][0][0] = Vec3(7, 8, 9);
   EXPECT_EQ(scene.nodes_of_frame(2)[0][0], Vec3(7, 8, 9));
@@ -169,7 +169,7 @@ TEST(SimulatedScene, FramesComeFromTheRunAlone) {
 }
 
 TEST(SimulatedSceneDeathTest, FramesBeforeTheRunAndLaterTimesAreABug) {
-  const Scene scene = load(kGood);
+  const Scene scene = load_simulated(kGoodSimulation);
   EXPECT_DEATH((void)scene.nodes_of_frame(0), "a simulated scene has been run");
   EXPECT_DEATH((void)scene.nodes_at(0.5), "neither has times");
 }
@@ -188,7 +188,9 @@ TEST_P(BadSimulation, IsRefusedWithOneSentence) {
             "scene file \"" + file.string() + "\": " + GetParam().sentence);
 }
 
-std::string named(const ::testing::TestParamInfo<Refusal>& test) { return test.param.name; }
+std::string name_of_refusal(const ::testing::TestParamInfo<Refusal>& test) {
+  return test.param.name;
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Root, BadSimulation,
@@ -232,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"GroundFriction", R"("friction": 0.75)", R"("friction": -1)",
                 "simulation.ground.friction is -1; it must be a number of at least 0 and at most "
                 "10."}),
-    named);
+    name_of_refusal);
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, BadSimulation,
@@ -276,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(
                 R"({"shape": "sphere"}, "motion": {"position": [[0, [0, 2, 0]], [1, [0, 0, 0]]]})",
                 "bodies[1].motion.position has keys over time; in a simulated scene a motion gives "
                 "the pose at time 0 alone."}),
-    named);
+    name_of_refusal);
 
 // A material that is refused, with the sentence after: bodies[0].material
 Refusal material(const std::string& name, const std::string& text, const std::string& sentence) {
@@ -304,7 +306,7 @@ INSTANTIATE_TEST_SUITE_P(
                  R"({"model": "shape-matching", "mass": 1, "youngs_modulus": 100})",
                  ".youngs_modulus is not a known key; allowed here: model, mass, restitution, "
                  "friction, relaxation_time, region.")),
-    named);
+    name_of_refusal);
 
 // A value that is refused: of "mass" and "KEY" for a model, with what is allowed.
 Refusal value(const std::string& name, const std::string& model, const std::string& key,
@@ -336,7 +338,7 @@ INSTANTIATE_TEST_SUITE_P(
         value("ZeroRelaxation", "shape-matching", "relaxation_time", "0",
               "a number above 0 and at most 100"),
         value("HalfRegion", "shape-matching", "region", "0.5", "a whole number from 0 to 128")),
-    named);
+    name_of_refusal);
 
 TEST(SimulationKeys, NeedASimulatedScene) {
   const Scratch scratch;
@@ -354,4 +356,4 @@ TEST(SimulationKeys, NeedASimulatedScene) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::scene

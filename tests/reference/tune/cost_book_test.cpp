@@ -1,11 +1,11 @@
 // Costs out of what several runs have timed, in several models.
-#include "reference/tune/cost_book.h"
+#include "reference/tune/measuring.h"
 
 #include <gmock/gmock.h>
 
 #include "reference/tune/search.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using ::testing::DoubleNear;
@@ -115,4 +115,4 @@ TEST_F(CostBooks, PriceNothingThatWasNeverTimed) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

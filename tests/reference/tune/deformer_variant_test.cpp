@@ -1,4 +1,4 @@
-#include "reference/tune/deformer_variant.h"
+#include "reference/tune/simulated_models.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include "tests/reference/scene/installed.h"
 #include "tests/reference/tune/falling_scene.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using test::falling_scene;
@@ -16,18 +16,20 @@ using ::testing::HasSubstr;
 
 class DeformerVariant : public ::testing::Test {
  protected:
-  Scene load(const std::string& text) { return load_scene(scratch_.write("falling.json", text)); }
+  scene::Scene load(const std::string& text) {
+    return scene::load_scene(scratch_.write("falling.json", text));
+  }
 
   Scratch scratch_;
 };
 
 TEST_F(DeformerVariant, HasTheEquivalentMaterialInEveryCopyAndLeavesWhatCannotBeMoved) {
-  const Scene scene = load(falling_scene());
+  const scene::Scene scene = load(falling_scene());
   for (const DeformableModel model :
        {DeformableModel::kFiniteElements, DeformableModel::kShapeMatching}) {
     const auto file =
         write_deformer_variant(scratch_.folder() / "falling.json", model, scratch_.folder());
-    const Scene variant = load_scene(file);
+    const scene::Scene variant = scene::load_scene(file);
     EXPECT_EQ(variant.bodies.size(), 3u);
     const Material wanted =
         equivalent_material(*scene.simulation->materials[0], model, *scene.bodies[0].shape);
@@ -50,13 +52,13 @@ TEST_F(DeformerVariant, HasTheEquivalentMaterialInEveryCopyAndLeavesWhatCannotBe
 
 TEST_F(DeformerVariant, KnowsTheScenesOwn) {
   EXPECT_EQ(deformer_of(load(falling_scene())), "mass-spring");
-  Scene mixed = load(falling_scene());
+  scene::Scene mixed = load(falling_scene());
   mixed.simulation->materials[1]->model = DeformableModel::kShapeMatching;
   EXPECT_EQ(deformer_of(mixed), "mixed");
-  Scene still = load(falling_scene());
+  scene::Scene still = load(falling_scene());
   for (auto& material : still.simulation->materials) material.reset();
   EXPECT_THAT(sentence_of([&] { deformer_of(still); }), HasSubstr("none of its bodies"));
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -8,26 +8,26 @@
 
 namespace contactcheck::test {
 
-inline Limits nothing_missed() {
-  Limits limits;
+inline tune::Limits nothing_missed() {
+  tune::Limits limits;
   limits.missed = 0;
   return limits;
 }
 
 struct Grid {
-  std::vector<TuneCandidate> candidates;
-  std::vector<Measurement> truth;  ///< of each
+  std::vector<tune::TuneCandidate> candidates;
+  std::vector<tune::Measurement> truth;  ///< of each
 
-  Measure measure() const {
+  tune::Measure measure() const {
     return [this](const std::vector<std::size_t>& batch) {
-      std::vector<Measurement> out;
+      std::vector<tune::Measurement> out;
       for (const std::size_t i : batch) out.push_back(truth[i]);
       return out;
     };
   }
 
   /// The cheapest that meets the limits: what measuring everything finds.
-  std::optional<std::size_t> best(const Limits& limits) const {
+  std::optional<std::size_t> best(const tune::Limits& limits) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < truth.size(); ++i)
       if (limits.met_by(truth[i]) && (!best || truth[i].cost().ms < truth[*best].cost().ms))
@@ -59,7 +59,7 @@ inline Grid random_grid(std::uint64_t seed) {
   Grid grid;
   for (std::size_t i = 0; i < 200; ++i) {
     const std::size_t value[] = {i / 40, i / 20 % 2, i / 4 % 5, i % 4};
-    TuneCandidate candidate;
+    tune::TuneCandidate candidate;
     double log_cost = own[value[0]][value[2]][value[1]] + 0.01 * normal(random);
     for (std::size_t a = 0; a < 4; ++a) {
       candidate.choices.push_back({names[a], axes[a][value[a]]});
@@ -67,7 +67,7 @@ inline Grid random_grid(std::uint64_t seed) {
     }
     candidate.detector = axes[0][value[0]] + ":" + std::to_string(i);
     candidate.usual = value[1] == 0 && value[2] == 0 && value[3] == 0;
-    Measurement m;
+    tune::Measurement m;
     const double cost = std::exp(log_cost);
     m.beside_anchor = {cost, cost, cost};
     m.missed = value[1] == 1 || value[0] >= 3 ? 7 : 0;

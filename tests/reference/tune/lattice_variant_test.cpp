@@ -1,4 +1,4 @@
-#include "reference/tune/lattice_variant.h"
+#include "reference/tune/measuring.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/scene/installed.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using test::Scratch;
@@ -19,7 +19,7 @@ TEST(LatticeVariant, HasOtherCellsAndTheSameMeshes) {
   const Scratch scratch;
   const auto file = scratch.write("tiny.json", tiny_scene());
   const auto finer_file = write_lattice_variant(file, 8.0, scratch.folder() / "variants");
-  const Scene scene = load_scene(file), finer = load_scene(finer_file);
+  const scene::Scene scene = scene::load_scene(file), finer = scene::load_scene(finer_file);
   EXPECT_EQ(finer.id, "tiny-lattice-800");
   EXPECT_GT(finer.bodies[0].shape->lattice->cells.size(),
             2 * scene.bodies[0].shape->lattice->cells.size());
@@ -30,10 +30,10 @@ TEST(LatticeVariant, HasOtherCellsAndTheSameMeshes) {
 TEST(LatticeVariant, DeviatesByWhatTheLatticeMakesOfTheDeformation) {
   const Scratch scratch;
   const auto file = scratch.write("tiny.json", tiny_scene());
-  const Scene scene = load_scene(file);
-  EXPECT_EQ(deviation(scene, load_scene(file)), 0.0);
+  const scene::Scene scene = scene::load_scene(file);
+  EXPECT_EQ(deviation(scene, scene::load_scene(file)), 0.0);
   const double by = deviation(
-      scene, load_scene(write_lattice_variant(file, 0.04, scratch.folder() / "variants")));
+      scene, scene::load_scene(write_lattice_variant(file, 0.04, scratch.folder() / "variants")));
   EXPECT_GT(by, 1e-4);
   EXPECT_LT(by, 0.5);
 }
@@ -46,8 +46,8 @@ TEST(LatticeVariant, FindsMeshFilesFromItsNewFolder) {
     "levels": ["body"], "bodies": [
       {"name": "a", "mesh": {"file": "box.obj"}, "lattice": {"kept": 8}},
       {"name": "b", "mesh": {"file": "box.obj"}, "lattice": {"kept": 8}}]})");
-  const Scene variant =
-      load_scene(write_lattice_variant(file, 2.0, scratch.folder() / "elsewhere"));
+  const scene::Scene variant =
+      scene::load_scene(write_lattice_variant(file, 2.0, scratch.folder() / "elsewhere"));
   EXPECT_EQ(variant.bodies[0].shape->mesh.triangles.size(), 4u);
 }
 
@@ -77,4 +77,4 @@ TEST(FrameSplit, RefusesWhatHasTooFewFrames) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -55,9 +55,9 @@ class NoisyMachine {
       : grid_(grid), passes_(passes), clock_(noise, seed) {}
 
   /// One run: samples of each that is named.
-  std::map<std::size_t, QuestionSamples> run(const std::vector<std::size_t>& entries) {
+  std::map<std::size_t, timing::QuestionSamples> run(const std::vector<std::size_t>& entries) {
     clock_.new_run();
-    std::map<std::size_t, QuestionSamples> samples;
+    std::map<std::size_t, timing::QuestionSamples> samples;
     for (std::size_t pass = 0; pass < passes_; ++pass)
       for (std::size_t i = 0; i < entries.size(); ++i) {
         const std::size_t entry = entries[(i + pass) % entries.size()];
@@ -67,8 +67,8 @@ class NoisyMachine {
   }
 
  private:
-  Pass playback(std::size_t entry) {
-    Pass pass;
+  timing::Pass playback(std::size_t entry) {
+    timing::Pass pass;
     for (std::size_t frame = 0; frame < kFrames; ++frame) {
       const double start = clock_.now_ms();
       clock_.work(true_ms(entry, frame));

@@ -1,11 +1,11 @@
 // The search on a machine that spoils times, whose true costs are known.
 #include <gtest/gtest.h>
 
-#include "reference/tune/cost_book.h"
+#include "reference/tune/measuring.h"
 #include "tests/reference/tune/grids.h"
 #include "tests/reference/tune/noisy_machine.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using test::Grid;
@@ -16,7 +16,7 @@ constexpr std::size_t kPasses = 5;  ///< what `tune` does unless it is told othe
 constexpr std::uint64_t kGrids = 25;
 constexpr double kSame = 1.02;  ///< times the true cost of the cheapest: not worth a search
 
-using Samples = std::map<std::size_t, QuestionSamples>;
+using Samples = std::map<std::size_t, timing::QuestionSamples>;
 
 // One run of a batch beside the first candidate, which costs are taken against.
 Samples run_beside_anchor(NoisyMachine& machine, const std::vector<std::size_t>& batch) {
@@ -26,7 +26,7 @@ Samples run_beside_anchor(NoisyMachine& machine, const std::vector<std::size_t>&
   return machine.run(entries);
 }
 
-Measurement with_cost(Measurement m, const Ratio& cost) {
+Measurement with_cost(Measurement m, const results::Ratio& cost) {
   m.beside_anchor = cost;
   return m;
 }
@@ -51,10 +51,11 @@ Measure paired(const Grid& grid, NoisyMachine& machine) {
 Measure apart(const Grid& grid, NoisyMachine& machine) {
   return [&](const std::vector<std::size_t>& batch) {
     const Samples samples = run_beside_anchor(machine, batch);
-    const TimedFrames no_contact = {std::vector<bool>(NoisyMachine::kFrames), {}};
+    const timing::TimedFrames no_contact = {std::vector<bool>(NoisyMachine::kFrames), {}};
     std::vector<Measurement> found;
     for (const std::size_t i : batch) {
-      const Ratio r = compute_speedup(samples.at(0), samples.at(i), no_contact).playback;
+      const results::Ratio r =
+          timing::compute_speedup(samples.at(0), samples.at(i), no_contact).playback;
       found.push_back(with_cost(grid.truth[i], {1.0 / r.value, 1.0 / r.high, 1.0 / r.low}));
     }
     return found;
@@ -114,4 +115,4 @@ TEST(NoisySearch, IsRightOnAQuietMachine) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

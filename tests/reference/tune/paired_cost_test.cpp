@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 // Three frames of five passes: the detector costs twice the anchor, which takes 10, 20 and 30.
@@ -21,7 +21,7 @@ PairedRun twice() {
 }
 
 TEST(PairedCost, IsTheQuotient) {
-  const Ratio cost = relative_cost({twice()});
+  const results::Ratio cost = relative_cost({twice()});
   EXPECT_NEAR(cost.value, 2.0, 1e-12);
   EXPECT_NEAR(cost.low, 2.0, 1e-12);
   EXPECT_NEAR(cost.high, 2.0, 1e-12);
@@ -57,19 +57,19 @@ TEST(PairedCost, KnowsNothingOfAMachineThatSlowsDown) {
 TEST(PairedCost, OfOnePassHasAnIntervalStill) {
   PairedRun run;
   for (std::size_t f = 0; f < 9; ++f) run[f] = {{f % 3 == 0 ? 30.0 : 10.0}, {10.0}};
-  const Ratio cost = relative_cost({run});
+  const results::Ratio cost = relative_cost({run});
   EXPECT_LT(cost.low, cost.value);
   EXPECT_GT(cost.high, cost.value);
 }
 
 TEST(PairedCost, OfOnePairMightBeAnything) {
   const PairedRun run = {{0, {{30.0}, {10.0}}}}, other = {{0, {{20.0}, {10.0}}}};
-  const Ratio cost = relative_cost({run});
+  const results::Ratio cost = relative_cost({run});
   EXPECT_NEAR(cost.value, 3.0, 1e-12);
   EXPECT_EQ(cost.low, 0.0);
   EXPECT_EQ(cost.high, std::numeric_limits<double>::infinity());
-  EXPECT_EQ(product({2.0, 1.0, 3.0}, cost).low, 0.0);
-  EXPECT_EQ(product({2.0, 1.0, 3.0}, cost).high, cost.high);
+  EXPECT_EQ(results::product({2.0, 1.0, 3.0}, cost).low, 0.0);
+  EXPECT_EQ(results::product({2.0, 1.0, 3.0}, cost).high, cost.high);
   EXPECT_LE(relative_cost({run, other}).high, 3.0) << "two of them show how far they are apart";
 }
 
@@ -77,7 +77,7 @@ TEST(PairedCost, OfMoreRunsIsNarrower) {
   PairedRun run = twice();
   for (auto& [frame, pairs] : run)
     for (std::size_t r = 0; r < 5; ++r) pairs.own[r] *= 1.0 + 0.1 * static_cast<double>(r);
-  const Ratio once = relative_cost({run}), often = relative_cost({run, run, run, run});
+  const results::Ratio once = relative_cost({run}), often = relative_cost({run, run, run, run});
   EXPECT_NEAR(often.value, once.value, 1e-12);
   EXPECT_LT(often.high - often.low, 0.8 * (once.high - once.low));
 }
@@ -90,8 +90,8 @@ TEST(PairedCost, OfRunsThatTimedDifferentFramesIsThatOfTheSharedOnes) {
   EXPECT_NEAR(relative_cost({more, less}).value, 2.0, 1e-12);
 }
 
-QuestionSamples played(const std::vector<std::vector<double>>& nanoseconds) {
-  QuestionSamples samples;
+timing::QuestionSamples played(const std::vector<std::vector<double>>& nanoseconds) {
+  timing::QuestionSamples samples;
   for (const std::vector<double>& pass : nanoseconds) {
     samples.playback.emplace_back();
     for (const double ns : pass) samples.playback.back().push_back({0.0, 0.0, ns});
@@ -123,4 +123,4 @@ TEST(PairUp, OfASceneOfOneFrameIsThatFrame) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -12,8 +12,9 @@
 namespace contactcheck::test {
 
 /// The choices that a name stands for are read off the catalogue.
-inline TuneCandidate recorded_candidate(const nlohmann::json& row, const DetectorCatalog& catalog) {
-  TuneCandidate candidate;
+inline tune::TuneCandidate recorded_candidate(const nlohmann::json& row,
+                                              const DetectorCatalog& catalog) {
+  tune::TuneCandidate candidate;
   candidate.detector = row.at("detector");
   candidate.lattice = row.at("lattice");
   const DetectorSpec spec = catalog.parse(candidate.detector);
@@ -24,8 +25,8 @@ inline TuneCandidate recorded_candidate(const nlohmann::json& row, const Detecto
   return candidate;
 }
 
-inline Measurement recorded_measurement(const nlohmann::json& row) {
-  Measurement m;
+inline tune::Measurement recorded_measurement(const nlohmann::json& row) {
+  tune::Measurement m;
   m.failure = row.value("failure", "");
   if (!m.failure.empty()) return m;
   m.beside_anchor = {row.at("cost_ms"), row.at("cost_ms_low"), row.at("cost_ms_high")};

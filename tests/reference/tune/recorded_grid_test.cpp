@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 const test::Grid& grid() {
@@ -100,4 +100,4 @@ TEST_P(RecordedGrid, IsNotSolvedByTryingEveryDetectorAsItIs) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -5,7 +5,7 @@
 
 #include "tests/reference/tune/grids.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using ::testing::ElementsAre;
@@ -184,4 +184,4 @@ TEST(Limits, EachOfThemCounts) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

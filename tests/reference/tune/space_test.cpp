@@ -6,7 +6,7 @@
 
 #include "core/types/check.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using ::testing::Contains;
@@ -119,4 +119,4 @@ TEST(Space, RefusesWhatDoesNotAnswer) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -1,11 +1,11 @@
-#include "reference/tune/step_cost.h"
+#include "reference/tune/simulated_models.h"
 
 #include <gmock/gmock.h>
 
 #include "tests/reference/scene/installed.h"
 #include "tests/reference/tune/falling_scene.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using ::testing::Each;
@@ -15,8 +15,8 @@ using ::testing::Gt;
 // Some hundred times the work of a step can be told apart on any machine.
 TEST(StepCost, OfManySubstepsIsHigherThanOfFew) {
   const test::Scratch scratch;
-  const Scene few = load_scene(scratch.write("few.json", test::falling_scene()));
-  Scene many = few;
+  const scene::Scene few = scene::load_scene(scratch.write("few.json", test::falling_scene()));
+  scene::Scene many = few;
   many.simulation->settings.substeps = 500;
   DetectorCatalog catalog;
   register_core_detectors(catalog);
@@ -52,7 +52,8 @@ class MadeUpClock {
 
 TEST(StepCost, IsToldFromTheFirstScenesOnAMachineThatSlowsDown) {
   const test::Scratch scratch;
-  const Scene scene = load_scene(scratch.write("falling.json", test::falling_scene()));
+  const scene::Scene scene =
+      scene::load_scene(scratch.write("falling.json", test::falling_scene()));
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   StepCostSettings settings;
@@ -66,4 +67,4 @@ TEST(StepCost, IsToldFromTheFirstScenesOnAMachineThatSlowsDown) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

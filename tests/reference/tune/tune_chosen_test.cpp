@@ -1,5 +1,5 @@
 // The file that contactcheck tune writes of its choice, as contactcheck run takes it.
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "reference/tune/chosen_file.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/tune/falling_scene.h"
@@ -7,7 +7,7 @@
 #include "tests/support/mesh_text.h"
 #include "tests/support/shapes.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,14 +164,14 @@ TEST_F(TuneChosen, NamesARecording) {
 }
 
 TEST_F(TuneChosen, SaysThatADetectorFromOutsideMustBeBroughtAlong) {
-  const std::string own = "python3 -B " + in_shell(CONTACTCHECK_PIPE_EXAMPLE);
+  const std::string own = "python3 -B " + text::in_shell(CONTACTCHECK_PIPE_EXAMPLE);
   const Outcome tuned = tune({"--detector-cmd", own, "--question", "triangles", "--frames", "4"});
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
   EXPECT_THAT(tuned.out, HasSubstr("a file cannot bring in a detector from outside"));
   const std::string detector = result()["chosen"]["detector"];
-  EXPECT_THAT(tuned.out,
-              HasSubstr("contactcheck run " + in_shell(chosen().string()) + " --detector-cmd " +
-                        in_shell(own) + " --detector " + detector + "\n"));
+  EXPECT_THAT(tuned.out, HasSubstr("contactcheck run " + text::in_shell(chosen().string()) +
+                                   " --detector-cmd " + text::in_shell(own) + " --detector " +
+                                   detector + "\n"));
   const Json row = row_of({chosen().string(), "--detector-cmd", own, "--detector", detector});
   EXPECT_EQ(row.at("scene"), "tiny");
   EXPECT_EQ(row.at("detector"), detector);
@@ -222,4 +222,4 @@ TEST_F(TuneChosen, TablesMarkTheAnchorThatCostsAreRatiosTo) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

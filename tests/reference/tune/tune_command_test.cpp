@@ -1,11 +1,11 @@
 // contactcheck tune, as it is run.
 #include <sstream>
 
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/reference/tune/tune_program.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -29,7 +29,8 @@ TEST_F(TuneCommand, ChoosesAConfigurationThatRunConfirms) {
   EXPECT_EQ(json["held_out_frames"], 8);
   const std::string chosen = json["chosen"]["detector"];
   EXPECT_EQ(json["chosen"]["missed"], 0);
-  const std::string command = "contactcheck run " + in_shell(scene_) + " --detector " + chosen;
+  const std::string command =
+      "contactcheck run " + text::in_shell(scene_) + " --detector " + chosen;
   EXPECT_THAT(tuned.out, HasSubstr(command));
   EXPECT_THAT(page(), HasSubstr(command));
   const Outcome run = contactcheck_program(
@@ -115,10 +116,11 @@ TEST_F(TuneCommand, KeepsLatticesApartThatDifferByLessThanAPercent) {
 }
 
 TEST_F(TuneCommand, NamesACommandThatRunsADetectorFromOutside) {
-  const std::string own = "python3 -B " + in_shell(CONTACTCHECK_PIPE_EXAMPLE);
+  const std::string own = "python3 -B " + text::in_shell(CONTACTCHECK_PIPE_EXAMPLE);
   const Outcome tuned = tune({"--detector-cmd", own, "--question", "triangles", "--frames", "4"});
   ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
-  EXPECT_THAT(tuned.out, HasSubstr("--detector-cmd " + in_shell(own) + " --detector python-sweep"));
+  EXPECT_THAT(tuned.out,
+              HasSubstr("--detector-cmd " + text::in_shell(own) + " --detector python-sweep"));
 }
 
 TEST_F(TuneCommand, TakesARecordingEveryOtherFrameOfWhichIsHeldOut) {
@@ -164,4 +166,4 @@ TEST_F(TuneCommand, RefusesBadWordsWithOneSentence) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

@@ -1,11 +1,11 @@
 // contactcheck tune of simulated scenes, as it is run.
 #include <map>
 
-#include "reference/scene/shell_word.h"
+#include "reference/text/shell_word.h"
 #include "tests/reference/tune/falling_scene.h"
 #include "tests/reference/tune/tune_program.h"
 
-namespace contactcheck {
+namespace contactcheck::tune {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -25,7 +25,7 @@ TEST_F(TuneSimulated, SimulatesTheSceneAndHoldsOutEveryOtherFrame) {
   EXPECT_EQ(result()["held_out_frames"], 6);
   EXPECT_FALSE(result().contains("deformers")) << "the deformer is the scene's, and costs nothing";
   EXPECT_THAT(tuned.out,
-              HasSubstr("contactcheck run " + in_shell(scene_) + " --detector ffd-aabb+tri"));
+              HasSubstr("contactcheck run " + text::in_shell(scene_) + " --detector ffd-aabb+tri"));
   ASSERT_EQ(tune({"--detector", "ffd-aabb+tri:cell=1", "--frames", "4"}).exit_code, 0);
   EXPECT_EQ(result()["frames"], 4);
 }
@@ -97,4 +97,4 @@ TEST_F(TuneSimulated, SaysWhichDeformerCouldNotBeSimulated) {
 }
 
 }  // namespace
-}  // namespace contactcheck
+}  // namespace contactcheck::tune

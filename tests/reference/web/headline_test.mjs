@@ -116,7 +116,7 @@ const merged = useReport("two_scenes.json", {
   },
 });
 
-test("results that were put together from shards say so", async () => {
+test("merged results say so", async () => {
   const {page} = await merged.shared();
   assert.match(
     await page.locator("header").textContent(),

@@ -18,7 +18,7 @@ export async function readPage(): Promise<Page> {
   return JSON.parse(new TextDecoder().decode(bytes)) as Page;
 }
 
-/** The bytes described in reference/view/view_bytes.h; null when the report has no recordings. */
+/** The bytes described in reference/report/view_bytes.h; null when the report has no recordings. */
 export function readView(): Promise<ArrayBuffer | null> {
   return unpacked("contactcheck-view");
 }

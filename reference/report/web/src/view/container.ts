@@ -1,4 +1,4 @@
-// Reads the container of reference/view/view_bytes.h. Arrays are views into it: nothing is copied.
+// Reads the container of reference/report/view_bytes.h. Arrays are views into it: nothing is copied.
 import type {ArrayReference, Numbers, SceneHeader} from "./types";
 
 const kMagic = "CCVIEW1\n";

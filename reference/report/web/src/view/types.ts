@@ -1,4 +1,4 @@
-// The container of reference/view/view_bytes.h, and what the page says about it.
+// The container of reference/report/view_bytes.h, and what the page says about it.
 
 export interface ArrayReference {
   type: "f32" | "u16" | "u32";

@@ -359,7 +359,7 @@ function leftOut({leftOut: scenes}: Container): HTMLElement[] {
 }
 
 /**
- * Fills `place` with the view. `bytes`: the container of reference/view/view_bytes.h.
+ * Fills `place` with the view. `bytes`: the container of reference/report/view_bytes.h.
  * @returns null when none of its scenes could be taken in; `place` then says why
  * @throws Error when the bytes are damaged
  */

@@ -1,0 +1,21 @@
+// What each family of core's detectors adds to the catalogue.
+#pragma once
+
+#include "core/detect/registry.h"
+
+namespace contactcheck {
+
+/// The FFD-AABB family: ffd-grid, ffd-aabb, ffd-aabb-sphere, -sphere2, -sphereN, each with `+tri`.
+void register_ffd_detectors(DetectorCatalog& catalog);
+
+/// Adds aabb-tree, spatial-hash and sphere-tree: historic broad phases over triangles, each with
+/// core's exact test of two triangles behind it.
+void register_triangle_detectors(DetectorCatalog& catalog);
+
+/// Adds bd-tree.
+void register_bd_tree(DetectorCatalog& catalog);
+
+/// ffd-lazy and full-refit.
+void register_lazy_detectors(DetectorCatalog& catalog);
+
+}  // namespace contactcheck

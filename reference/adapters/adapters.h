@@ -1,0 +1,25 @@
+// What each .cpp file of an adapted library gives to register.cpp. The library's types stay in
+// there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/detect/registry.h"
+
+namespace contactcheck::adapters {
+
+/// The detectors made of one library.
+struct Adapter {
+  std::string library;  ///< first word of its detectors' names
+  std::string version;  ///< of the library
+  std::vector<DetectorInfo> detectors;
+};
+
+Adapter bullet_gimpact_adapter();
+Adapter bullet_soft_adapter();
+Adapter embree_adapter();
+Adapter fcl_adapter();
+Adapter libccd_adapter();
+
+}  // namespace contactcheck::adapters

@@ -1,0 +1,230 @@
+// FCL's mesh collision as detectors.
+//
+//   fcl-aabb     axis-aligned boxes, traversed directly: FCL at its best
+//   fcl-obbrss   oriented boxes and swept spheres, through fcl::collide
+//   fcl-collide  axis-aligned boxes through fcl::collide, the documented call
+//
+// All three hold one hierarchy per body, replace its vertices and refit it bottom-up on every
+// update, and skip body pairs whose boxes do not meet. They answer about surfaces, closed
+// (touching is contact), in double; a body within another is no contact. They claim no exactness:
+// FCL's triangle test rounds, and its oriented boxes miss pairs by rounding.
+//
+// Seen in FCL 0.7.0 (Debian 12), November 2026:
+// - fcl::collide copies both models on every call for boxes that are not oriented
+//   (BVHCollideImpl::run): milliseconds per pair whatever the answer. fcl-aabb starts the same
+//   traversal without the copies; the specialisations for oriented boxes do not copy.
+// - A request without contact points (enable_contact = false) still records the two triangles of
+//   every pair, each once, by the same separating-axis test, and does not build the planes that
+//   degenerate triangles lack.
+// - A request with contact points takes a pair's depth along one of the two face normals, the
+//   smaller one, out of the many directions in which two triangles may part; for a triangle
+//   without area the normal is whatever was in memory: no depth is passed on for it.
+// - Errors are return codes, and a call out of sequence leaves the old geometry in place.
+// - The Replace calls fit boxes to the new vertices; the Update calls would fit them to old and new
+//   ones, for continuous collision.
+#include <fcl/config.h>
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/AABB.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "core/types/check.h"
+#include "reference/adapters/adapters.h"
+
+namespace contactcheck::adapters {
+namespace {
+
+void require_ok(int code, const char* call) {
+  if (code == fcl::BVH_OK) return;
+  throw std::runtime_error(std::string("FCL's ") + call + " returned " + std::to_string(code));
+}
+
+Semantics fcl_semantics() {
+  Semantics semantics;
+  semantics.levels = {Level::kBody, Level::kTriangle};
+  semantics.questions = {Question::kTriangles, Question::kBody, Question::kContacts};
+  semantics.closed = true;
+  semantics.depth = DepthKind::kConvexPair;
+  return semantics;
+}
+
+fcl::CollisionRequestd request_for(Question question) {
+  fcl::CollisionRequestd request;
+  request.num_max_contacts =
+      question == Question::kBody ? 1 : std::numeric_limits<std::size_t>::max();
+  request.enable_contact = question == Question::kContacts;
+  return request;
+}
+
+template <typename BV>
+using CollideFunction = void (*)(fcl::BVHModel<BV>&, fcl::BVHModel<BV>&,
+                                 const fcl::CollisionRequestd&, fcl::CollisionResultd&);
+
+template <typename BV>
+void collide_documented(fcl::BVHModel<BV>& a, fcl::BVHModel<BV>& b,
+                        const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
+  const fcl::Transform3d identity = fcl::Transform3d::Identity();
+  const std::size_t count = fcl::collide(&a, identity, &b, identity, request, result);
+  if (count != result.numContacts()) {
+    throw std::runtime_error("FCL's collide returned " + std::to_string(count) + " with " +
+                             std::to_string(result.numContacts()) + " contacts");
+  }
+}
+
+template <typename BV>
+void collide_directly(fcl::BVHModel<BV>& a, fcl::BVHModel<BV>& b,
+                      const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
+  fcl::detail::MeshCollisionTraversalNode<BV> node;
+  // Not const: initialize() would apply and reset them, which identities spare it.
+  fcl::Transform3d transform_a = fcl::Transform3d::Identity();
+  fcl::Transform3d transform_b = fcl::Transform3d::Identity();
+  if (!fcl::detail::initialize(node, a, transform_a, b, transform_b, request, result)) {
+    throw std::runtime_error("FCL's initialize of the mesh traversal returned false");
+  }
+  fcl::detail::collide(&node);
+}
+
+/// One body: its hierarchy, refitted to the vertices of the last update, and their box.
+template <typename BV>
+class FclBody {
+ public:
+  explicit FclBody(const TriangleMesh& mesh) : vertices_(mesh.vertices) {
+    std::vector<fcl::Triangle> triangles;
+    triangles.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    const int triangle_count = static_cast<int>(mesh.triangles.size());
+    const int vertex_count = static_cast<int>(mesh.vertices.size());
+    require_ok(model_.beginModel(triangle_count, vertex_count), "beginModel");
+    require_ok(model_.addSubModel(vertices_, triangles), "addSubModel");
+    require_ok(model_.endModel(), "endModel");
+    box_ = bounding_box(vertices_);
+  }
+
+  void update(std::span<const Vec3> vertices) {
+    CONTACTCHECK_INVARIANT(vertices.size() == vertices_.size(), "one position per vertex");
+    box_ = Aabb();
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      vertices_[v] = vertices[v];
+      box_.extend(vertices[v]);
+    }
+    require_ok(model_.beginReplaceModel(), "beginReplaceModel");
+    require_ok(model_.replaceSubModel(vertices_), "replaceSubModel");
+    require_ok(model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true), "endReplaceModel");
+  }
+
+  /// By FCL's own test: without area it leaves the triangle's normal as it was in memory, which may
+  /// be one of an earlier triangle.
+  bool has_normal(std::uint32_t triangle) const {
+    const fcl::Triangle& t = model_.tri_indices[triangle];
+    const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+    return (b - a).cross(c - a).squaredNorm() > 0.0;
+  }
+
+  fcl::BVHModel<BV>& model() { return model_; }
+  const Aabb& box() const { return box_; }
+
+ private:
+  fcl::BVHModel<BV> model_;
+  std::vector<Vec3> vertices_;
+  Aabb box_;
+};
+
+template <typename BV>
+class FclDetector final : public Detector {
+ public:
+  explicit FclDetector(CollideFunction<BV> collide) : collide_(collide) {}
+
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return true; }
+
+  void prepare(const std::vector<Body>& bodies) override {
+    bodies_.clear();
+    for (const Body& body : bodies)
+      bodies_.push_back(std::make_unique<FclBody<BV>>(body.shape->mesh));
+  }
+
+  void update(const Frame& frame) override {
+    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->update(frame.bodies[b].vertices);
+  }
+
+  void query(Question question, ContactSet& out) override {
+    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+    const fcl::CollisionRequestd request = request_for(question);
+    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
+      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
+        if (!bodies_[a]->box().overlaps(bodies_[b]->box())) continue;
+        result_.clear();
+        collide_(bodies_[a]->model(), bodies_[b]->model(), request, result_);
+        append(question, {a, b}, out);
+      }
+    }
+  }
+
+ private:
+  void append(Question question, const BodyPair& pair, ContactSet& out) const {
+    if (question == Question::kBody) {
+      if (result_.isCollision()) out.bodies.push_back(pair);
+      return;
+    }
+    for (std::size_t i = 0; i < result_.numContacts(); ++i) {
+      const fcl::Contactd& contact = result_.getContact(i);
+      const ElementPair triangles{pair.a, pair.b, static_cast<std::uint32_t>(contact.b1),
+                                  static_cast<std::uint32_t>(contact.b2)};
+      out.triangles.push_back(triangles);
+      if (question == Question::kContacts) append_depth(triangles, contact, out);
+    }
+  }
+
+  void append_depth(const ElementPair& triangles, const fcl::Contactd& contact,
+                    ContactSet& out) const {
+    if (!bodies_[triangles.body_a]->has_normal(triangles.a) ||
+        !bodies_[triangles.body_b]->has_normal(triangles.b))
+      return;
+    const bool unit = std::abs(contact.normal.norm() - 1.0) < 1e-6;  // false for NaN
+    if (!unit || !(contact.penetration_depth >= 0.0)) return;
+    out.piece_contacts.push_back({triangles, contact.penetration_depth, contact.normal});
+  }
+
+  const Semantics semantics_ = fcl_semantics();
+  CollideFunction<BV> collide_;
+  // Models cannot be moved; FCL holds raw arrays.
+  std::vector<std::unique_ptr<FclBody<BV>>> bodies_;
+  fcl::CollisionResultd result_;  ///< kept for its capacity
+};
+
+template <typename BV>
+DetectorInfo info(std::string id, std::string summary, CollideFunction<BV> collide) {
+  DetectorInfo out;
+  out.id = std::move(id);
+  out.summary = std::move(summary);
+  out.make = [collide](const Options&) { return std::make_unique<FclDetector<BV>>(collide); };
+  return out;
+}
+
+}  // namespace
+
+Adapter fcl_adapter() {
+  using Box = fcl::AABBd;
+  using OrientedBox = fcl::OBBRSSd;
+  return {
+      "fcl",
+      FCL_VERSION,
+      {info<Box>("fcl-aabb",
+                 "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
+                 &collide_directly<Box>),
+       info<OrientedBox>("fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
+                         &collide_documented<OrientedBox>),
+       info<Box>("fcl-collide",
+                 "FCL's axis-aligned box tree through fcl::collide, which copies both models",
+                 &collide_documented<Box>)}};
+}
+
+}  // namespace contactcheck::adapters

@@ -1,0 +1,81 @@
+#include "reference/judge/answer_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace contactcheck::judge {
+
+void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet& contacts) {
+  const auto fail = [frame](const std::string& what) {
+    throw std::runtime_error("frame " + std::to_string(frame) + ": the answer " + what);
+  };
+  const auto shape = [&scene](std::uint32_t body) -> const BodyShape& {
+    return *scene.bodies[body].shape;
+  };
+  const auto check_pair = [&](std::uint32_t a, std::uint32_t b) {
+    const std::size_t count = scene.bodies.size();
+    if (a >= count || b >= count)
+      fail("names body " + std::to_string(std::max(a, b)) + " of " + std::to_string(count) +
+           " bodies");
+    if (a == b) fail("names body \"" + scene.bodies[a].name + "\" in contact with itself");
+  };
+  const auto check_element = [&](const char* kind, std::uint32_t body, std::uint32_t id,
+                                 std::size_t count) {
+    if (id < count) return;
+    fail("names " + std::string(kind) + " " + std::to_string(id) + " of body \"" +
+         scene.bodies[body].name + "\", which has " + std::to_string(count));
+  };
+  const auto check_triangle = [&](std::uint32_t body, std::uint32_t id) {
+    check_element("triangle", body, id, shape(body).mesh.triangles.size());
+  };
+  const auto check_triangles = [&](const ElementPair& pair) {
+    check_triangle(pair.body_a, pair.a);
+    check_triangle(pair.body_b, pair.b);
+  };
+  const auto check_cells = [&](const ElementPair& pair) {
+    for (const auto& [body, id] : {std::pair(pair.body_a, pair.a), std::pair(pair.body_b, pair.b)})
+      check_element("cell", body, id, shape(body).lattice ? shape(body).lattice->cells.size() : 0);
+  };
+  const auto check_vertex = [&](const VertexInBody& v) {
+    check_pair(v.body, v.in);
+    check_element("vertex", v.body, v.vertex, shape(v.body).mesh.vertices.size());
+  };
+  const auto check_depth = [&](double depth, const Vec3& normal) {
+    if (!std::isfinite(depth) || depth < 0.0 || !normal.allFinite())
+      fail("holds a depth or normal that is negative or no number");
+  };
+
+  for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
+  for (const ElementPair& p : contacts.triangles) check_triangles(p);
+  for (const ElementPair& p : contacts.cells) check_cells(p);
+  for (const VertexInBody& v : contacts.vertices) check_vertex(v);
+  for (const NearPair& p : contacts.near) {
+    check_vertex({p.body, p.other, p.vertex});
+    check_triangle(p.other, p.triangle);
+  }
+  for (const PieceContact& c : contacts.piece_contacts) {
+    check_pair(c.pieces.body_a, c.pieces.body_b);
+    if (std::binary_search(contacts.cells.begin(), contacts.cells.end(), c.pieces)) {
+      check_cells(c.pieces);
+    } else {
+      check_triangles(c.pieces);
+    }
+    check_depth(c.depth, c.normal);
+  }
+  for (const VertexContact& c : contacts.vertex_contacts) {
+    check_vertex(c.where);
+    check_depth(c.depth, c.normal);
+  }
+}
+
+void ask(Detector& detector, Question question, const scene::Scene& scene, std::size_t frame,
+         ContactSet& out) {
+  out.clear();
+  detector.query(question, out);
+  out.canonicalize();
+  check_answer(scene, frame, out);
+}
+
+}  // namespace contactcheck::judge

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Checks what `contactcheck export` wrote: which triangles of different bodies touch, and that no
+others do. Exact; only this script has to be trusted.   python3 check.py [FOLDER...]   (its own)
+Exit code 0: every proof holds; 1: one line names the first that does not.
+scene.json             bodies, frames, counts, and the CRC-32 of every file below
+bodies/B/frame_N.ply   the deformed surface of a body: doubles, metres; what was judged, to the bit
+bodies/B/order.json    a permutation of the body's triangles; a range is a stretch of it
+truth/frame_N.json     "contacts": [body, body, triangle, triangle, weights, weights], all pairs of
+    triangles that share a point, with one: the corners of either times their weights (hexadecimal
+    integers, not negative) over the sum of the weights. "body_pairs": the bodies of contacts.
+    "gaps": [body, body, triangle, triangle, [x, y, z, offset]], the other pairs whose boxes meet,
+    each with a plane: normal * corner <= offset for the corners of the first triangle, > offset for
+    the second's. A number is that double; a text is a rational, "n" or "n/d", hexadecimal.
+    "decisions": a letter each, for the pairs of bodies (0,1), (0,2), ... (1,2), ... in turn. Begin
+    with all triangles of the one and all of the other: every pair of them is in question.
+      a, b    split the first or second range i .. j at i + (j - i) // 2; lower half first
+      x, y, z the boxes of the two ranges are apart along this axis: no pair of them touches
+      t, s    one triangle and one triangle, that touch ("contacts") or do not ("gaps")
+Not certified: containment, vertices inside, cells, margins, lengths and depths, nor that the
+vertices are what the scene's lattices make of its meshes.
+"""
+import json, math, pathlib, struct, sys, zlib  # noqa: E401
+from fractions import Fraction
+from itertools import combinations
+
+HEADER = """ply\nformat binary_little_endian 1.0\nelement vertex {vertices}
+property double x\nproperty double y\nproperty double z
+element face {triangles}\nproperty list uchar int vertex_indices"""
+
+
+class Wrong(Exception):
+    pass
+
+
+def require(condition, sentence):
+    if not condition:
+        raise Wrong(sentence)
+
+
+def read(folder, index, name):
+    require((folder / name).is_file(), f"{name} is missing")
+    data = (folder / name).read_bytes()
+    require(f"{zlib.crc32(data):08x}" == index["crc32"].get(name),
+            f"{name} ({len(data)} bytes) is not the file that was exported: another CRC-32")
+    return data
+
+
+class Body:  # in one frame after the other; the extents of its boxes are doubles, only compared
+    def __init__(self, entry, order):
+        self.entry, self.order, self.faces = entry, json.loads(order), None
+        require(self.order and sorted(self.order) == list(range(entry["triangles"])),
+                f"{entry['folder']}/order.json is no permutation of the triangles")
+
+    def load(self, name, ply):
+        header, _, data = ply.partition(b"end_header\n")
+        lines = [x for x in header.decode().splitlines() if not x.startswith("comment ")]
+        require("\n".join(lines) == HEADER.format(**self.entry), f"{name}: another header")
+        vertices, split = self.entry["vertices"], 24 * self.entry["vertices"]
+        require(len(data) == split + 13 * self.entry["triangles"], f"{name}: another length")
+        self.vertices = list(struct.iter_unpack("<3d", data[:split]))
+        require(all(math.isfinite(x) for v in self.vertices for x in v), f"{name}: not finite")
+        self.faces = self.faces or data[split:]
+        require(data[split:] == self.faces, f"{name}: other triangles than in earlier frames")
+        self.triangles = list(struct.iter_unpack("<B3i", self.faces))
+        require(all(t[0] == 3 and min(t[1:]) >= 0 and max(t[1:]) < vertices
+                    for t in self.triangles), f"{name}: faces that are no triangles")
+        places = [self.corners(t) for t in self.order]
+        self.low = [[min(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
+        self.high = [[max(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
+        self.known = {}
+
+    def corners(self, triangle):
+        return [self.vertices[v] for v in self.triangles[triangle][1:]]
+
+    def extent(self, axis, i, j):
+        if (axis, i, j) not in self.known:
+            self.known[axis, i, j] = min(self.low[axis][i:j]), max(self.high[axis][i:j])
+        return self.known[axis, i, j]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def whole(numbers):
+    """Rationals times the least integer that makes integers of them all; and that integer."""
+    unit = math.lcm(*(x.denominator for x in numbers))
+    return [x.numerator * (unit // x.denominator) for x in numbers], unit
+
+
+def whole_corners(p, q):
+    values, unit = whole([Fraction(x) for corner in p + q for x in corner])
+    return [values[i:i + 3] for i in (0, 3, 6)], [values[i:i + 3] for i in (9, 12, 15)], unit
+
+
+def is_common_point(p, q, weights_p, weights_q):
+    p, q, _ = whole_corners(p, q)
+    u, v = [int(w, 16) for w in weights_p], [int(w, 16) for w in weights_q]
+    return (len(u) == len(v) == 3 and min(u + v) >= 0 and sum(u) > 0 and sum(v) > 0 and
+            all(dot(u, x) * sum(v) == dot(v, y) * sum(u) for x, y in zip(zip(*p), zip(*q))))
+
+
+def separates(p, q, plane):
+    p, q, unit = whole_corners(p, q)
+    (*normal, offset), _ = whole([
+        Fraction(*(int(part, 16) for part in n.split("/"))) if isinstance(n, str) else Fraction(n)
+        for n in plane])
+    return (len(normal) == 3 and all(dot(normal, corner) <= offset * unit for corner in p) and
+            all(dot(normal, corner) > offset * unit for corner in q))
+
+
+def replay(decisions, bodies, listed):
+    """Follows the decisions. Pairs that they call contacts or gaps are checked and unlisted."""
+    at = 0
+    for a, b in combinations(range(len(bodies)), 2):
+        one, other = bodies[a], bodies[b]
+        todo = [(0, len(one.order), 0, len(other.order))]
+        while todo:
+            i, j, k, l = todo.pop()
+            step, at = decisions[at:at + 1], at + 1
+            where = f"decision {at} (\"{step}\": {i} .. {j} of body {a}, {k} .. {l} of body {b})"
+            require(step, f"{where}: the decisions end before all pairs are covered")
+            if step == "a" and j - i > 1:
+                todo += [(i + (j - i) // 2, j, k, l), (i, i + (j - i) // 2, k, l)]
+            elif step == "b" and l - k > 1:
+                todo += [(i, j, k + (l - k) // 2, l), (i, j, k, k + (l - k) // 2)]
+            elif step in "xyz":
+                low, high = one.extent("xyz".index(step), i, j)
+                other_low, other_high = other.extent("xyz".index(step), k, l)
+                require(high < other_low or other_high < low, f"{where}: the boxes are not apart")
+            else:
+                require(step in "ts" and j - i == l - k == 1, f"{where}: cannot be decided so")
+                s, t = one.order[i], other.order[k]
+                where = f"triangle {s} of body {a} and triangle {t} of body {b}"
+                kind, holds, fault = (
+                    ("contacts", is_common_point, "the witness is no point of both") if step == "t"
+                    else ("gaps", separates, "the plane does not separate them"))
+                proof = listed[kind].pop((a, b, s, t), None)
+                require(proof, f"{where}: \"{step}\" was decided, but {kind} do not list them")
+                require(holds(one.corners(s), other.corners(t), *proof), f"{where}: {fault}")
+    require(at == len(decisions), "the decisions go on when all pairs are covered")
+
+
+def chain_hash(previous, frame, body_pairs, contacts):
+    """The contact_hash of results.json: 64-bit FNV-1a over sets that have no cells or vertices."""
+    data = struct.pack("<QQQ", previous, frame, len(body_pairs))
+    data += b"".join(struct.pack("<2I", *p) for p in body_pairs)
+    data += struct.pack("<QQ", 0, len(contacts))
+    state = 0xcbf29ce484222325
+    for byte in data + b"".join(struct.pack("<4I", *c[:4]) for c in contacts) + bytes(8):
+        state = (state ^ byte) * 0x100000001b3 & 0xffffffffffffffff
+    return state
+
+
+def check_frame(entry, truth, bodies):
+    listed = {kind: {tuple(x[:4]): x[4:] for x in truth[kind]} for kind in ("contacts", "gaps")}
+    for kind, pairs in listed.items():
+        require(sorted(pairs) == [tuple(x[:4]) for x in truth[kind]],
+                f"{kind} are not in order, each once")
+    require(truth["body_pairs"] == sorted(map(list, {pair[:2] for pair in listed["contacts"]})),
+            "body_pairs are not those of the contacts")
+    for key in ("body_pairs", "contacts", "gaps"):
+        require(len(truth[key]) == entry[key], f"scene.json has another number of {key}")
+    replay(truth["decisions"], bodies, listed)
+    for kind, rest in listed.items():
+        require(not rest, f"{kind} list {next(iter(rest), ())}, which nothing decided to be one")
+
+
+def check_export(folder):
+    require((folder / "scene.json").is_file(), "scene.json is missing: this is no whole export")
+    index, chained = json.loads((folder / "scene.json").read_bytes()), 0
+    require(index["schema"] == "contactcheck-certificates/1", "scene.json: another schema")
+    frames, every = index["frames"], index["every"]
+    require([f["frame"] for f in frames] == list(range(0, index["scene_frames"], every)),
+            f"scene.json: not every frame out of {every} is there")
+    bodies = [Body(b, read(folder, index, b["folder"] + "/order.json")) for b in index["bodies"]]
+    for entry in frames:
+        try:
+            for body in bodies:
+                name = f"{body.entry['folder']}/frame_{entry['frame']:04}.ply"
+                body.load(name, read(folder, index, name))
+            truth = json.loads(read(folder, index, f"truth/frame_{entry['frame']:04}.json"))
+            check_frame(entry, truth, bodies)
+        except Wrong as wrong:
+            raise Wrong(f"frame {entry['frame']}: {wrong}") from None
+        chained = chain_hash(chained, truth["frame"], truth["body_pairs"], truth["contacts"])
+    require(index["contact_hash"] == f"0x{chained:016x}", "scene.json: another contact_hash")
+    contacts, gaps = (sum(f[key] for f in frames) for key in ("contacts", "gaps"))
+    return (f"{index['scene']}: {len(frames)} frames proven: {contacts} pairs of triangles share a "
+            f"point; {gaps} are separated by a plane, all others by boxes")
+
+
+if __name__ == "__main__":
+    for place in sys.argv[1:] or [pathlib.Path(__file__).resolve().parent]:
+        try:
+            print(check_export(pathlib.Path(place)), flush=True)
+        except Wrong as wrong:
+            sys.exit(f"{place}: {wrong}")
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            sys.exit(f"{place}: not as exports are written: {type(error).__name__}: {error}")

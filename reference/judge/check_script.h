@@ -1,0 +1,10 @@
+// The text of check.py, which goes into every export.
+#pragma once
+
+#include <string_view>
+
+namespace contactcheck::judge {
+
+extern const std::string_view kCheckScript;
+
+}  // namespace contactcheck::judge

@@ -1,0 +1,18 @@
+// How far apart two bodies truly are when a detector first reports them in contact.
+#pragma once
+
+#include <cstdint>
+
+#include "core/detect/detector.h"
+#include "reference/judge/rounded_scene.h"
+#include "reference/process/shared_progress.h"
+#include "reference/results/results.h"
+
+namespace contactcheck::judge {
+
+/// Sets the hover gaps of the run's episodes and sums them up, bisecting time (scripted) or by
+/// frames (recorded).
+void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& detector,
+                        process::ProgressWriter& progress, results::Run& run);
+
+}  // namespace contactcheck::judge

@@ -1,0 +1,243 @@
+#include "reference/judge/judge.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/types/check.h"
+
+namespace contactcheck::judge {
+namespace {
+
+bool all_solid(const std::vector<Body>& bodies) {
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [](const Body& b) { return b.shape->topology.solid; });
+}
+
+bool all_in_lattices(const std::vector<Body>& bodies) {
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [](const Body& b) { return b.shape->lattice.has_value(); });
+}
+
+// Pairs of any level as pairs of elements, in the same order.
+const std::vector<ElementPair>& as_pairs(const std::vector<ElementPair>& pairs) { return pairs; }
+std::vector<ElementPair> as_pairs(const std::vector<BodyPair>& pairs) {
+  std::vector<ElementPair> out;
+  for (const BodyPair& p : pairs) out.push_back({p.a, p.b, 0, 0});
+  return out;
+}
+std::vector<ElementPair> as_pairs(const std::vector<VertexInBody>& vertices) {
+  std::vector<ElementPair> out;
+  for (const VertexInBody& v : vertices) out.push_back({v.body, v.in, v.vertex, 0});
+  return out;
+}
+std::vector<ElementPair> as_pairs(const std::vector<NearPair>& pairs) {
+  std::vector<ElementPair> out;
+  for (const NearPair& p : pairs) out.push_back({p.body, p.other, p.vertex, p.triangle});
+  return out;
+}
+
+bool contains(const std::vector<Level>& levels, Level level) {
+  return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+LevelComparison compare_sets(const std::vector<ElementPair>& truth,
+                             const std::vector<ElementPair>& reported) {
+  LevelComparison out;
+  std::set_difference(truth.begin(), truth.end(), reported.begin(), reported.end(),
+                      std::back_inserter(out.missed));
+  std::set_difference(reported.begin(), reported.end(), truth.begin(), truth.end(),
+                      std::back_inserter(out.spurious));
+  return out;
+}
+
+// Do the true triangles of a pair get past this stage?
+bool covers(const std::vector<Body>& bodies, const StageTrace& trace, const StageRecord& stage,
+            const ElementPair& pair) {
+  switch (stage.kind) {
+    case StageRecord::Kind::kBodies:
+      return std::find(stage.bodies.begin(), stage.bodies.end(),
+                       BodyPair{pair.body_a, pair.body_b}) != stage.bodies.end();
+    case StageRecord::Kind::kLabelCells:
+      return covered_by_cells(bodies, stage.elements, pair);
+    case StageRecord::Kind::kOwnerCells: {
+      const ElementPair owners{pair.body_a, pair.body_b, trace.owner[pair.body_a][pair.a],
+                               trace.owner[pair.body_b][pair.b]};
+      return std::binary_search(stage.elements.begin(), stage.elements.end(), owners);
+    }
+    case StageRecord::Kind::kTriangles:
+      return std::binary_search(stage.elements.begin(), stage.elements.end(), pair);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies) {
+  const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
+  if (needs_solid && !all_solid(bodies)) return "not judged: open";
+  const bool needs_lattice = level == Level::kCell || level == Level::kBox;
+  if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
+  return "";
+}
+
+std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+                                 const std::vector<Level>& wanted,
+                                 std::map<Level, std::string>* not_judged) {
+  std::vector<Level> out;
+  std::vector<Level> levels = semantics.levels;
+  levels.insert(levels.end(), semantics.informative.begin(), semantics.informative.end());
+  for (Level level : levels) {
+    if (!contains(wanted, level)) continue;
+    const std::string why = obstacle_to_judging(level, bodies);
+    if (why.empty()) {
+      out.push_back(level);
+    } else if (not_judged != nullptr) {
+      (*not_judged)[level] = why;
+    }
+  }
+  return out;
+}
+
+LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
+                           const oracle::Truth& truth, const ContactSet& reported,
+                           const std::vector<NearPair>& near) {
+  LevelComparison out;
+  const auto compare = [&out](const auto& true_set, const auto& reported_set) {
+    out = compare_sets(as_pairs(true_set), as_pairs(reported_set));
+    out.counts.truth = true_set.size();
+    out.counts.reported = reported_set.size();
+  };
+  switch (level) {
+    case Level::kBody: {
+      std::vector<BodyPair> in_contact = truth.surface.bodies;
+      if (semantics.solid) {
+        in_contact.insert(in_contact.end(), truth.containment.begin(), truth.containment.end());
+        std::sort(in_contact.begin(), in_contact.end());
+      }
+      compare(in_contact, reported.bodies);
+      break;
+    }
+    case Level::kContainment: {
+      // A solid detector has one list for both kinds of contact. Level `body` judges the pairs
+      // whose surfaces truly touch.
+      std::vector<BodyPair> contained;
+      std::set_difference(reported.bodies.begin(), reported.bodies.end(),
+                          truth.surface.bodies.begin(), truth.surface.bodies.end(),
+                          std::back_inserter(contained));
+      compare(truth.containment, contained);
+      break;
+    }
+    case Level::kCell: {
+      // Truth, hit and missed count triangle pairs; reported and spurious count cell pairs.
+      std::vector<char> covering(reported.cells.size(), 0);
+      for (const ElementPair& pair : truth.surface.triangles)
+        if (!covered_by_cells(bodies, reported.cells, pair, &covering)) out.missed.push_back(pair);
+      for (std::size_t i = 0; i < covering.size(); ++i)
+        if (covering[i] == 0) out.spurious.push_back(reported.cells[i]);
+      out.counts.truth = truth.surface.triangles.size();
+      out.counts.reported = reported.cells.size();
+      break;
+    }
+    case Level::kBox:
+      compare(truth.boxes, reported.cells);
+      break;
+    case Level::kTriangle:
+      compare(truth.surface.triangles, reported.triangles);
+      break;
+    case Level::kVertex:
+      compare(truth.surface.vertices, reported.vertices);
+      break;
+    case Level::kNear:
+      compare(near, reported.near);
+      break;
+  }
+  out.counts.missed = out.missed.size();
+  out.counts.spurious = out.spurious.size();
+  out.counts.hit = out.counts.truth - out.counts.missed;
+  return out;
+}
+
+LevelTotals::LevelTotals(const Semantics& semantics, const std::vector<Level>& compared,
+                         std::size_t listed)
+    : informative_(semantics.informative), listed_(listed) {
+  for (const Level level : compared) {
+    levels[level].informative = !semantics.claims(level);
+    if (level == Level::kNear) levels[level].margin = semantics.margin;
+  }
+  if (compared.empty()) return;
+  const auto finest = std::find_if(kFineToCoarse.begin(), kFineToCoarse.end(), [&](Level level) {
+    return contains(compared, level) && !contains(informative_, level);
+  });
+  per_frame.level = finest == kFineToCoarse.end() ? Level::kBody : *finest;
+}
+
+void LevelTotals::add(std::size_t frame, Level level, const LevelComparison& comparison) {
+  results::LevelCounts& sums = levels.at(level);
+  sums += comparison.counts;
+  sums.set_rates();
+  const auto note_first = [&](const char* kind, const std::vector<ElementPair>& pairs) {
+    if (pairs.empty() || contains(informative_, level)) return;
+    for (const Disagreement& d : disagreements)
+      if (d.level == name_of(level) && d.kind == kind) return;
+    Disagreement& d = disagreements.emplace_back();
+    d.level = name_of(level);
+    d.kind = kind;
+    d.frame = frame;
+    d.pair = pairs.front();
+  };
+  note_first("missed", comparison.missed);
+  note_first("spurious", comparison.spurious);
+  if (per_frame.level != level) return;
+  per_frame.truth.push_back(comparison.counts.truth);
+  per_frame.missed.push_back(comparison.counts.missed);
+  per_frame.spurious.push_back(comparison.counts.spurious);
+  if (listed_ == 0 || (comparison.missed.empty() && comparison.spurious.empty())) return;
+  const auto first_of = [this](const std::vector<ElementPair>& pairs) {
+    const std::size_t count = std::min(listed_, pairs.size());
+    return ListedPairs{pairs.size(), {pairs.data(), pairs.data() + count}};
+  };
+  differences.push_back({frame, first_of(comparison.missed), first_of(comparison.spurious)});
+}
+
+void add_stages(const std::vector<Body>& bodies, const StageTrace& trace,
+                const std::vector<ElementPair>& true_triangles,
+                std::vector<results::Stage>& stages) {
+  if (stages.empty()) {
+    for (const StageRecord& record : trace.stages) {
+      results::Stage& stage = stages.emplace_back();
+      stage.name = record.name;
+      stage.unit = record.unit;
+      stage.visited_unit = record.visited_unit;
+      if (!record.visited_unit.empty()) stage.visited = 0;
+    }
+  }
+  CONTACTCHECK_INVARIANT(stages.size() == trace.stages.size(), "stages do not change over frames");
+  std::vector<ElementPair> covered = true_triangles;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const StageRecord& record = trace.stages[i];
+    stages[i].in += record.in;
+    stages[i].out += record.out;
+    if (stages[i].visited) *stages[i].visited += record.visited;
+    stages[i].missed += std::erase_if(
+        covered, [&](const ElementPair& pair) { return !covers(bodies, trace, record, pair); });
+  }
+}
+
+bool covered_by_cells(const std::vector<Body>& bodies, const std::vector<ElementPair>& cells,
+                      const ElementPair& triangles, std::vector<char>* covering) {
+  bool covered = false;
+  const Embedding& first = bodies[triangles.body_a].shape->embedding;
+  const Embedding& second = bodies[triangles.body_b].shape->embedding;
+  for (std::uint32_t a : first.cells_of_triangle(triangles.a)) {
+    for (std::uint32_t b : second.cells_of_triangle(triangles.b)) {
+      const ElementPair pair{triangles.body_a, triangles.body_b, a, b};
+      const auto it = std::lower_bound(cells.begin(), cells.end(), pair);
+      if (it == cells.end() || *it != pair) continue;
+      covered = true;
+      if (covering != nullptr) (*covering)[static_cast<std::size_t>(it - cells.begin())] = 1;
+    }
+  }
+  return covered;
+}
+
+}  // namespace contactcheck::judge

@@ -1,0 +1,93 @@
+// Compares a detector's answers with the ground truth, at each level and stage by stage.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/detect/detector.h"
+#include "core/types/contact_set.h"
+#include "core/types/semantics.h"
+#include "reference/oracle/oracle.h"
+#include "reference/results/results.h"
+
+namespace contactcheck::judge {
+
+/// How many missed and how many spurious pairs of a frame are listed: what a picture can show.
+inline constexpr std::size_t kListedPairs = 500;
+
+/// How many of a frame's pairs there are, and the first of them in canonical order.
+struct ListedPairs {
+  std::uint64_t count = 0;
+  std::vector<ElementPair> pairs;
+};
+
+/// The missed and spurious contacts of a frame, at the level of results::PerFrame. A pair names the
+/// elements that the level counts: triangles where level `cell` misses them, only the first element
+/// at level `vertex`, and no elements at levels of bodies. An element that is not named is 0.
+struct FrameDifferences {
+  std::size_t frame = 0;
+  ListedPairs missed, spurious;
+};
+
+/// With its contact, which the case file shows.
+struct Disagreement : results::Disagreement {
+  ElementPair pair;
+};
+
+/// Why a level cannot be judged on these bodies ("not judged: open"), or "".
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
+
+/// The levels at which an answer is compared: claimed (or informative) and wanted by the scene.
+/// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
+std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+                                 const std::vector<Level>& wanted,
+                                 std::map<Level, std::string>* not_judged);
+
+/// An answer to one frame compared with the ground truth at one level.
+struct LevelComparison {
+  results::LevelCounts counts;  ///< without rates
+  /// In canonical order; they name the elements that FrameDifferences names.
+  std::vector<ElementPair> missed, spurious;
+};
+
+/// `near`: the true pairs nearer than the margin of the semantics, for the level `near`.
+/// @pre all sets are canonical
+LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
+                           const oracle::Truth& truth, const ContactSet& reported,
+                           const std::vector<NearPair>& near = {});
+
+/// The comparisons of one detector's answers, summed over the frames of a scene.
+class LevelTotals {
+ public:
+  /// `listed`: how many pairs of each kind and frame `differences` keeps; 0: it stays empty.
+  LevelTotals(const Semantics& semantics, const std::vector<Level>& compared,
+              std::size_t listed = 0);
+  /// @pre frames come in order
+  void add(std::size_t frame, Level level, const LevelComparison& comparison);
+
+  results::Levels levels;                     ///< with rates, and the margin of level near
+  results::PerFrame per_frame;                ///< at the finest level claimed
+  std::vector<FrameDifferences> differences;  ///< of the frames that have any
+  /// The first missed and the first spurious contact of each level claimed; scene and detector left
+  /// empty.
+  std::vector<Disagreement> disagreements;
+
+ private:
+  std::vector<Level> informative_;
+  std::size_t listed_;
+};
+
+/// Adds a frame to the sums of a detector's stages. A stage's `missed` are the true pairs that all
+/// stages before it covered and that its own output does not cover.
+void add_stages(const std::vector<Body>& bodies, const StageTrace& trace,
+                const std::vector<ElementPair>& true_triangles,
+                std::vector<results::Stage>& stages);
+
+/// Does some pair of cells in `cells` (canonical) belong to the labels of the two triangles?
+/// Marks each such pair in `covering`, by its index in `cells`.
+bool covered_by_cells(const std::vector<Body>& bodies, const std::vector<ElementPair>& cells,
+                      const ElementPair& triangles, std::vector<char>* covering = nullptr);
+
+}  // namespace contactcheck::judge

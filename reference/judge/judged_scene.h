@@ -1,0 +1,64 @@
+// A scene with the ground truth of every frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/judge/judge.h"
+#include "reference/oracle/oracle.h"
+#include "reference/scene/frame_positions.h"
+#include "reference/scene/random_pairs.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck::judge {
+
+/// What rational arithmetic says of a scene's random pairs, and where the oracle differs from it.
+struct PairTally {
+  struct Kind {
+    std::uint64_t pairs = 0, touching = 0;
+  };
+  std::array<Kind, scene::kPairKinds> kinds;  ///< touching by rational arithmetic
+  /// Pairs on which the oracle differs, including reported pairs of triangles in two slots, which
+  /// cannot touch.
+  std::uint64_t oracle_wrong = 0;
+  /// The first pair that the oracle missed and its first spurious one, level `triangle`; scene and
+  /// detector left empty.
+  std::vector<Disagreement> disagreements;
+
+  std::uint64_t checked() const;
+  std::uint64_t touching() const;
+};
+
+/// Judges a frame's random pairs a second time, in rational arithmetic. `vertices`: of both bodies;
+/// `truth`: the oracle's. `threads` share the pairs; 0: one per CPU. The tally is the same for any
+/// number of them.
+void check_pairs(const scene::RandomPairs& pairs, std::size_t frame,
+                 const std::vector<std::vector<Vec3>>& vertices, const oracle::Truth& truth,
+                 PairTally& tally, unsigned threads = 0);
+
+/// Filled by judge_scene() (accuracy.h).
+struct JudgedScene {
+  const scene::Scene* scene = nullptr;
+  scene::FramePositions positions;
+  std::vector<oracle::Truth> truth;  ///< per frame
+  /// Per frame: length of each true triangle pair; empty where the scene does not grade lengths.
+  std::vector<std::vector<double>> contour;
+  std::vector<bool> contact_frames;  ///< some surfaces touch
+  std::optional<PairTally> pairs;    ///< of a scene of random pairs
+  std::string refused;  ///< not empty: which body and frame have a NaN or infinite node
+
+  /// Valid until another frame is asked for.
+  Frame frame(std::size_t index) const;
+};
+
+/// What the scene asks the oracle for.
+oracle::WantedTruth wanted_truth(const scene::Scene& scene);
+
+/// A frame of given nodes and vertices, which must outlive it.
+Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
+                 const std::vector<std::vector<Vec3>>& vertices);
+
+}  // namespace contactcheck::judge

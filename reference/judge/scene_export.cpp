@@ -1,0 +1,255 @@
+#include "reference/judge/scene_export.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/deform/atomic_file.h"
+#include "core/deform/byte_stream.h"
+#include "core/types/check.h"
+#include "core/types/mesh.h"
+#include "reference/judge/check_script.h"
+#include "reference/oracle/frame_certificate.h"
+#include "reference/oracle/oracle.h"
+#include "reference/results/results.h"
+#include "reference/text/file_text.h"
+
+namespace contactcheck::judge {
+namespace {
+
+// A surface as PLY, in doubles: the bits of the vertices that were judged.
+
+// A binary little-endian PLY file: x, y, z as doubles in metres, faces as lists of three ints.
+// `comment`, one line, says what it is.
+std::string ply_bytes(std::span<const Vec3> vertices, const std::vector<Triangle>& triangles,
+                      const std::string& comment) {
+  ByteWriter out;
+  out.raw("ply\nformat binary_little_endian 1.0\ncomment " + comment + "\nelement vertex " +
+          std::to_string(vertices.size()) +
+          "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+          std::to_string(triangles.size()) +
+          "\nproperty list uchar int vertex_indices\nend_header\n");
+  for (const Vec3& v : vertices)
+    for (int axis = 0; axis < 3; ++axis) out.f64(v[axis]);
+  for (const Triangle& t : triangles) {
+    out.raw("\3");
+    for (std::uint32_t corner : t) out.u32(corner);
+  }
+  return out.bytes();
+}
+
+// The certificate of a frame as JSON: truth/frame_NNNN.json of an export.
+
+std::string pair_text(const BodyPair& pair) { return fmt::format("[{},{}]", pair.a, pair.b); }
+
+std::string triangles_text(const ElementPair& t) {
+  return fmt::format("{},{},{},{}", t.body_a, t.body_b, t.a, t.b);
+}
+
+std::string weights_text(const std::array<std::string, 3>& w) {
+  return fmt::format(R"(["{}","{}","{}"])", w[0], w[1], w[2]);
+}
+
+// fmt writes the shortest decimal that reads back as the same double.
+std::string number_text(const oracle::certify::ExactNumber& number) {
+  if (const auto* value = std::get_if<double>(&number)) return fmt::format("{}", *value);
+  return '"' + std::get<std::string>(number) + '"';
+}
+
+std::string contact_text(const oracle::certify::CertifiedContact& contact) {
+  return fmt::format("[{},{},{}]", triangles_text(contact.triangles),
+                     weights_text(contact.witness.p), weights_text(contact.witness.q));
+}
+
+std::string gap_text(const oracle::certify::CertifiedGap& gap) {
+  const auto& n = gap.plane.normal;
+  return fmt::format("[{},[{},{},{},{}]]", triangles_text(gap.triangles), number_text(n[0]),
+                     number_text(n[1]), number_text(n[2]), number_text(gap.plane.offset));
+}
+
+// One item a line.
+template <typename Items, typename Text>
+std::string list_text(const Items& items, const Text& text) {
+  std::string out = "[";
+  for (const auto& item : items) out += (out.size() > 1 ? ",\n  " : "\n  ") + text(item);
+  return out + (items.empty() ? "]" : "\n ]");
+}
+
+// One contact or gap a line. `bodies`: the pairs of bodies in contact, canonical.
+std::string frame_text(std::size_t frame, const std::vector<BodyPair>& bodies,
+                       const oracle::certify::FrameCertificate& certificate) {
+  return fmt::format(
+      "{{\"frame\": {},\n \"body_pairs\": {},\n \"contacts\": {},\n \"gaps\": {},\n"
+      " \"decisions\": \"{}\"}}\n",
+      frame, list_text(bodies, pair_text), list_text(certificate.contacts, contact_text),
+      list_text(certificate.gaps, gap_text), certificate.decisions);
+}
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char *kSchema = "contactcheck-certificates/1", *kIndex = "scene.json";
+
+// Names of bodies may hold anything; the number keeps those apart that end up alike.
+std::string folder_of_body(std::size_t index, const std::string& name) {
+  constexpr std::size_t kLongest = 60;
+  std::string out = "bodies/" + std::to_string(index) + "-";
+  for (char c : name.substr(0, kLongest)) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                       c == '-' || c == '_';
+    out += plain ? c : '_';
+  }
+  return out;
+}
+
+std::string frame_name(std::size_t frame) {
+  const std::string digits = std::to_string(frame);
+  return "frame_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+}
+
+std::string crc32_of(const std::string& bytes) {
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  char text[9];
+  std::snprintf(text, sizeof text, "%08lx", crc32_z(crc32_z(0, nullptr, 0), data, bytes.size()));
+  return text;
+}
+
+class Exporter {
+ public:
+  Exporter(const scene::Scene& scene, fs::path folder)
+      : scene_(scene), folder_(std::move(folder)), oracle_(scene.bodies), certifier_(scene.bodies) {
+    make_folder("truth");
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) add_body(b);
+    write_file_atomically(folder_ / "check.py", kCheckScript);
+  }
+
+  void add_frame(std::size_t index) {
+    const auto nodes = scene_.nodes_of_frame(index);
+    const auto vertices = map_bodies(index, nodes);
+    Frame frame{index, scene_.time_of(index), {}};
+    for (std::size_t b = 0; b < nodes.size(); ++b) frame.bodies.push_back({nodes[b], vertices[b]});
+    const ContactSet truth = oracle_.judge(frame, {}).surface;
+    const oracle::certify::FrameCertificate certificate =
+        certifier_.certify(frame, truth.triangles);
+    write_surfaces(index, vertices);
+    write("truth/" + frame_name(index) + ".json", frame_text(index, truth.bodies, certificate));
+    list_frame(index, truth, certificate);
+  }
+
+  ExportSummary finish(std::size_t every) {
+    const Json index = {{"schema", kSchema},
+                        {"version", CONTACTCHECK_VERSION},
+                        {"scene", scene_.id},
+                        {"title", scene_.title},
+                        {"scene_frames", scene_.frames},
+                        {"every", every},
+                        {"contact_hash", results::hex(summary_.contact_hash)},
+                        {"bodies", bodies_},
+                        {"frames", frames_},
+                        {"crc32", checksums_}};
+    write_file_atomically(folder_ / kIndex, index.dump(1) + "\n");
+    return summary_;
+  }
+
+ private:
+  void add_body(std::size_t b) {
+    const Body& body = scene_.bodies[b];
+    const std::string folder = folder_of_body(b, body.name);
+    make_folder(folder);
+    bodies_.push_back({{"name", body.name},
+                       {"folder", folder},
+                       {"vertices", body.shape->mesh.vertices.size()},
+                       {"triangles", body.shape->mesh.triangles.size()}});
+    write(folder + "/order.json", Json(certifier_.order(b)).dump() + "\n");
+  }
+
+  std::vector<std::vector<Vec3>> map_bodies(std::size_t frame,
+                                            const std::vector<std::vector<Vec3>>& nodes) const {
+    std::vector<std::vector<Vec3>> out;
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+      const BodyShape& shape = *scene_.bodies[b].shape;
+      out.emplace_back(shape.mesh.vertices.size());
+      require_finite(frame, b, "node", nodes[b]);
+      map_body(shape, nodes[b], out.back());
+      require_finite(frame, b, "vertex", out.back());
+    }
+    return out;
+  }
+
+  void require_finite(std::size_t frame, std::size_t body, const char* kind,
+                      const std::vector<Vec3>& points) const {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!points[i].allFinite())
+        throw InputError("scene " + text::in_quotes(scene_.id) + ", frame " +
+                         std::to_string(frame) + ", body " +
+                         text::in_quotes(scene_.bodies[body].name) + ": " + kind + " " +
+                         std::to_string(i) + " is not finite");
+  }
+
+  void write_surfaces(std::size_t frame, const std::vector<std::vector<Vec3>>& vertices) {
+    for (std::size_t b = 0; b < vertices.size(); ++b)
+      write(bodies_[b].at("folder").get<std::string>() + "/" + frame_name(frame) + ".ply",
+            ply_bytes(vertices[b], scene_.bodies[b].shape->mesh.triangles,
+                      "contactcheck export: vertices in metres"));
+  }
+
+  void list_frame(std::size_t index, const ContactSet& truth,
+                  const oracle::certify::FrameCertificate& certificate) {
+    summary_.frames += 1;
+    summary_.contacts += certificate.contacts.size();
+    summary_.gaps += certificate.gaps.size();
+    summary_.contact_hash = chain_hash(summary_.contact_hash, index, truth);
+    Json entry = {{"frame", index}, {"time", scene_.time_of(index)}};
+    if (scene_.family) entry["case"] = scene_.family->values[index];
+    entry["body_pairs"] = truth.bodies.size();
+    entry["contacts"] = certificate.contacts.size();
+    entry["gaps"] = certificate.gaps.size();
+    frames_.push_back(std::move(entry));
+  }
+
+  void write(const std::string& name, const std::string& bytes) {
+    write_file_atomically(folder_ / name, bytes);
+    checksums_[name] = crc32_of(bytes);
+  }
+
+  void make_folder(const std::string& name) const {
+    std::error_code error;
+    fs::create_directories(folder_ / name, error);
+    if (error)
+      throw InputError("cannot create " + text::in_quotes((folder_ / name).string()) + ": " +
+                       error.message());
+  }
+
+  const scene::Scene& scene_;
+  const fs::path folder_;
+  oracle::Oracle oracle_;
+  oracle::certify::Certifier certifier_;
+  Json bodies_ = Json::array(), frames_ = Json::array(), checksums_ = Json::object();
+  ExportSummary summary_;
+};
+
+}  // namespace
+
+ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const fs::path& folder,
+                           const std::function<void()>& before_frame) {
+  CONTACTCHECK_INVARIANT(every > 0, "every frame, every second, ...");
+  Exporter exporter(scene, folder);
+  for (std::size_t f = 0; f < scene.frames; f += every) {
+    before_frame();
+    exporter.add_frame(f);
+  }
+  return exporter.finish(every);
+}
+
+bool is_export(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(folder / kIndex, ignored)) return false;
+  const Json index = Json::parse(text::read_file_bytes(folder / kIndex, "export"), nullptr, false);
+  return index.is_object() && index.value("schema", Json()) == kSchema;
+}
+
+}  // namespace contactcheck::judge

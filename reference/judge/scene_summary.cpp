@@ -1,0 +1,105 @@
+#include "reference/judge/scene_summary.h"
+
+#include <algorithm>
+#include <map>
+
+#include "reference/judge/judge.h"
+
+namespace contactcheck::judge {
+namespace {
+
+using LevelTruth = std::map<Level, std::variant<std::uint64_t, std::string>>;
+
+// Summed over frames; levels that the scene does not ask for are absent.
+LevelTruth truth_of(const JudgedScene& judged) {
+  std::map<Level, std::uint64_t> sums;
+  for (const oracle::Truth& t : judged.truth) {
+    sums[Level::kBody] += t.surface.bodies.size();
+    sums[Level::kContainment] += t.containment.size();
+    sums[Level::kBox] += t.boxes.size();
+    sums[Level::kTriangle] += t.surface.triangles.size();
+    sums[Level::kVertex] += t.surface.vertices.size();
+  }
+  LevelTruth out;
+  for (const auto& [level, sum] : sums) {
+    if (!judged.scene->judges(level)) continue;
+    const std::string why = obstacle_to_judging(level, judged.scene->bodies);
+    if (why.empty()) {
+      out[level] = sum;
+    } else {
+      out[level] = why;
+    }
+  }
+  return out;
+}
+
+std::uint64_t truth_hash(const JudgedScene& judged) {
+  std::uint64_t hash = 0;
+  for (std::size_t f = 0; f < judged.truth.size(); ++f) {
+    ContactSet surface = judged.truth[f].surface;
+    surface.vertices.clear();  // triangle detectors report none
+    hash = chain_hash(hash, f, surface);
+  }
+  return hash;
+}
+
+// Per value, so that a report can set answers beside it.
+results::Family family_of(const JudgedScene& judged) {
+  const scene::CaseFamily& family = *judged.scene->family;
+  results::Family out{family.parameter, family.origin, family.stresses, family.values,
+                      /*true_pairs=*/{}};
+  for (const oracle::Truth& t : judged.truth) out.true_pairs.push_back(t.surface.triangles.size());
+  return out;
+}
+
+results::RandomPairs pairs_of(const scene::PairSpec& spec, const PairTally& tally) {
+  results::RandomPairs out{spec.count, spec.seed,       tally.touching(),
+                           {},         tally.checked(), tally.oracle_wrong};
+  for (std::size_t k = 0; k < scene::kPairKinds; ++k)
+    out.per_kind.emplace_back(
+        scene::name_of(static_cast<scene::PairKind>(k)),
+        results::PairKindTally{tally.kinds[k].pairs, tally.kinds[k].touching});
+  return out;
+}
+
+std::vector<results::SceneBody> bodies_of(const scene::Scene& scene) {
+  std::vector<results::SceneBody> bodies;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyShape& shape = *scene.bodies[b].shape;
+    bodies.push_back({scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
+                      shape.mesh.vertices.size(), shape.mesh.triangles.size(),
+                      shape.lattice ? shape.lattice->cells.size() : 0, shape.topology.solid});
+  }
+  return bodies;
+}
+
+}  // namespace
+
+results::Scene scene_summary(const JudgedScene& judged, const std::vector<double>& separations) {
+  const scene::Scene& scene = *judged.scene;
+  const std::vector<bool>& contact = judged.contact_frames;
+  results::Scene out;
+  out.id = scene.id;
+  out.title = scene.title;
+  out.frames = scene.frames;
+  out.time_step = scene.time_step;
+  out.size = scene.size();
+  out.contact_frames = static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
+  out.truth = truth_of(judged);
+  out.truth_hash = results::hex(truth_hash(judged));
+  out.bodies = bodies_of(scene);
+  out.separation = separations;
+  if (scene.family) out.family = family_of(judged);
+  if (scene.sweep)
+    out.sweep = {scene.sweep->separations, scene.sweep->orientations, scene.sweep->seed,
+                 scene::kSweepTolerance * scene.size()};
+  for (const scene::FitError& fit : scene.fits)
+    out.fits.push_back({scene.bodies[fit.body].name, fit.rms, fit.max});
+  if (judged.pairs) out.pairs = pairs_of(scene.pairs->spec(), *judged.pairs);
+  if (scene.simulation)
+    out.simulation = {scene.simulation->driver, scene.simulation->settings.time_step,
+                      scene.simulation->every};
+  return out;
+}
+
+}  // namespace contactcheck::judge

@@ -1,0 +1,199 @@
+#include "reference/mesh/mesh_spec.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/types/check.h"
+#include "reference/mesh/datasets.h"
+#include "reference/mesh/shapes.h"
+#include "reference/mesh/simplify.h"
+#include "reference/mesh/subdivide.h"
+#include "reference/text/file_text.h"
+
+namespace contactcheck::mesh {
+namespace {
+
+// Sizes beyond these are typing errors sooner than scenes, and would drown in rounding.
+constexpr double kLargestLength = 1e6;  // metres
+constexpr double kLargestScale = 1e9;
+constexpr std::size_t kMostTriangles = 10'000'000;
+constexpr std::size_t kMostSubdivisions = 6;
+constexpr text::NumberRange kLength = {0.0, true, kLargestLength, false};
+
+struct ShapeRule {
+  const char* name;
+  std::vector<std::string> own_keys;  // besides "divisions"
+  std::size_t fewest, most, usual;    // divisions
+};
+
+const std::vector<ShapeRule>& shape_rules() {
+  static const std::vector<ShapeRule> rules = {{"box", {"sides"}, 1, 256, 1},
+                                               {"sphere", {}, 0, 7, 3},
+                                               {"torus", {"tube"}, 3, 512, 16},
+                                               {"letter", {"letter", "depth"}, 1, 32, 4},
+                                               {"teapot", {}, 1, 64, 10}};
+  return rules;
+}
+
+const ShapeRule& rule_of(const text::JsonField& shape) {
+  std::vector<std::string> names;
+  for (const ShapeRule& rule : shape_rules()) names.emplace_back(rule.name);
+  const std::string name = shape.one_of(names);
+  const auto rule = std::find_if(shape_rules().begin(), shape_rules().end(),
+                                 [&](const ShapeRule& r) { return name == r.name; });
+  CONTACTCHECK_INVARIANT(rule != shape_rules().end(), "one_of allows known shapes alone");
+  return *rule;
+}
+
+char parse_letter(const text::JsonField& field) {
+  std::vector<std::string> letters;
+  for (const char c : known_letters()) letters.emplace_back(1, c);
+  return field.one_of(letters)[0];
+}
+
+void parse_shape(const text::JsonField& field, const ShapeRule& rule, MeshSpec& spec) {
+  spec.name = rule.name;
+  spec.divisions = rule.usual;
+  if (field.has("divisions")) {
+    spec.divisions = field.at("divisions").whole(rule.fewest, rule.most);
+  }
+  if (spec.name == "box") {
+    const Vec3 sides = field.has("sides") ? field.at("sides").vector(kLength) : Vec3::Ones();
+    spec.sides = {sides.x(), sides.y(), sides.z()};
+  } else if (spec.name == "torus") {
+    spec.tube = field.has("tube") ? field.at("tube").number({0.0, true, 1.0, true}) : 0.4;
+  } else if (spec.name == "letter") {
+    spec.letter = parse_letter(field.at("letter"));
+    spec.depth = field.has("depth") ? field.at("depth").number({0.0, true, 4.0, false}) : 0.2;
+  }
+}
+
+void parse_placing(const text::JsonField& field, MeshSpec& spec) {
+  if (field.has("triangles")) spec.triangles = field.at("triangles").whole(4, kMostTriangles);
+  if (field.has("subdivide")) spec.subdivide = field.at("subdivide").whole(0, kMostSubdivisions);
+  if (field.has("size") && field.has("scale")) {
+    field.fail("has both \"size\" and \"scale\"; at most one of them is allowed");
+  }
+  if (field.has("size")) spec.size = field.at("size").number(kLength);
+  if (field.has("scale")) spec.scale = field.at("scale").number({0.0, true, kLargestScale, false});
+  if (field.has("center")) {
+    const Vec3 c = field.at("center").vector({-kLargestLength, false, kLargestLength, false});
+    spec.center = std::array<double, 3>{c.x(), c.y(), c.z()};
+  }
+}
+
+TriangleMesh make_builtin(const MeshSpec& spec) {
+  if (spec.name == "box") return make_box(Vec3(spec.sides.data()), spec.divisions);
+  if (spec.name == "sphere") return make_sphere(spec.divisions);
+  if (spec.name == "torus") return make_torus(spec.tube, spec.divisions);
+  if (spec.name == "letter") return make_letter(spec.letter, spec.depth, spec.divisions);
+  return make_teapot(spec.divisions);
+}
+
+LoadedMesh load_source(const MeshSpec& spec) {
+  switch (spec.source) {
+    case MeshSpec::Source::kDataset:
+      return load_dataset(spec.name);
+    case MeshSpec::Source::kFile:
+      return read_mesh_file(spec.name);
+    case MeshSpec::Source::kShape:
+      break;
+  }
+  return {make_builtin(spec), ""};
+}
+
+void simplify_to(std::size_t wanted, const text::JsonField& field, LoadedMesh& loaded) {
+  const std::size_t given = loaded.mesh.triangles.size();
+  if (wanted > given) {
+    field.at("triangles").refuse("at most " + std::to_string(given) + ", the mesh's own number");
+  }
+  loaded.mesh = simplify(loaded.mesh, wanted);
+  const std::size_t reached = loaded.mesh.triangles.size();
+  if (reached != wanted) {
+    add_note(loaded.notes, "simplified to " + std::to_string(reached) + " triangles, asked for " +
+                               std::to_string(wanted));
+  }
+}
+
+void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mesh) {
+  const double side = bounding_box(mesh.vertices).extent().maxCoeff();
+  if (spec.size && !(side > 0.0)) field.at("size").fail("cannot be reached: the mesh is a point");
+  const double factor = spec.size ? *spec.size / side : spec.scale.value_or(1.0);
+  if (spec.size || spec.scale) {
+    for (Vec3& v : mesh.vertices) v *= factor;
+  }
+  if (spec.center) {
+    const Vec3 shift = Vec3(spec.center->data()) - bounding_box(mesh.vertices).center();
+    for (Vec3& v : mesh.vertices) v += shift;
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (mesh.vertices[i].allFinite()) continue;
+    field.fail("makes vertex " + std::to_string(i) + " overflow; coordinates must stay finite");
+  }
+}
+
+}  // namespace
+
+MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::path& folder) {
+  const std::string source = field.exactly_one_of({"dataset", "file", "shape"});
+  std::vector<std::string> keys = {source, "triangles", "subdivide", "size", "scale", "center"};
+  MeshSpec spec;
+  if (source == "shape") {
+    const ShapeRule& rule = rule_of(field.at("shape"));
+    keys.emplace_back("divisions");
+    keys.insert(keys.end(), rule.own_keys.begin(), rule.own_keys.end());
+    field.only_keys(keys);
+    parse_shape(field, rule, spec);
+  } else {
+    field.only_keys(keys);
+    spec.source = source == "file" ? MeshSpec::Source::kFile : MeshSpec::Source::kDataset;
+    spec.name = field.at(source).text();
+    if (source == "file") spec.name = (folder / spec.name).lexically_normal().string();
+  }
+  parse_placing(field, spec);
+  return spec;
+}
+
+LoadedMesh build_mesh(const MeshSpec& spec, const text::JsonField& field) {
+  LoadedMesh loaded;
+  try {
+    loaded = load_source(spec);
+  } catch (const InputError& error) {
+    // The sentence goes on after the field that asked for the mesh.
+    field.fail("cannot be loaded: " + text::without_full_stop(error.what()));
+  }
+  if (spec.triangles) simplify_to(*spec.triangles, field, loaded);
+  const std::size_t finer = loaded.mesh.triangles.size() << (2 * spec.subdivide);
+  if (finer > kMostTriangles) {
+    field.at("subdivide")
+        .fail("makes " + std::to_string(finer) + " triangles; at most " +
+              std::to_string(kMostTriangles) + " are allowed");
+  }
+  loaded.mesh = subdivide(std::move(loaded.mesh), spec.subdivide);
+  place(spec, field, loaded.mesh);
+  return loaded;
+}
+
+std::string described_source(const MeshSpec& spec) {
+  std::string out;
+  switch (spec.source) {
+    case MeshSpec::Source::kDataset:
+      out = "libcgal-demo:" + spec.name + ".off";
+      break;
+    case MeshSpec::Source::kFile:
+      out = spec.name;
+      break;
+    case MeshSpec::Source::kShape:
+      out = spec.name == "teapot" ? "povray-examples:teapot.inc" : spec.name;
+      if (spec.letter != '\0') out += std::string(" ") + spec.letter;
+      out += ", " + std::to_string(spec.divisions) + " divisions";
+      break;
+  }
+  if (spec.triangles) out += ", simplified to " + std::to_string(*spec.triangles) + " triangles";
+  if (spec.subdivide > 0) out += ", subdivided " + std::to_string(spec.subdivide) + " times";
+  return out;
+}
+
+}  // namespace contactcheck::mesh

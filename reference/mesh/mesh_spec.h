@@ -1,0 +1,47 @@
+// How a scene file describes a body's mesh, and building it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "reference/mesh/mesh_file.h"
+#include "reference/text/json_field.h"
+
+namespace contactcheck::mesh {
+
+/// The "mesh" of a body, all defaults filled in. Equal specs give equal meshes, so bodies with
+/// equal specs share one shape.
+struct MeshSpec {
+  enum class Source { kDataset, kFile, kShape };
+
+  Source source = Source::kShape;
+  std::string name;                      ///< dataset, path of the file as resolved, or shape
+  std::size_t divisions = 0;             ///< shapes only
+  std::array<double, 3> sides = {};      ///< box only, metres
+  double tube = 0.0;                     ///< torus only
+  char letter = '\0';                    ///< letters only
+  double depth = 0.0;                    ///< letters only
+  std::optional<std::size_t> triangles;  ///< simplify to this many
+  std::size_t subdivide = 0;             ///< split every triangle into four, so many times
+  std::optional<double> size;            ///< scale so that the largest side has this length, metres
+  std::optional<double> scale;           ///< or multiply all coordinates by this
+  std::optional<std::array<double, 3>> center;  ///< then move the box's centre here
+
+  bool operator==(const MeshSpec&) const = default;
+};
+
+/// `folder`: where relative "file" paths start.
+MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::path& folder);
+
+/// Loads, simplifies, scales and moves. `field` is the place that is named when the mesh does not
+/// fit the spec (simplifying to more triangles than there are).
+/// @throws InputError
+LoadedMesh build_mesh(const MeshSpec& spec, const text::JsonField& field);
+
+/// One line for the results: "libcgal-demo:bunny00.off, simplified to 5914 triangles".
+std::string described_source(const MeshSpec& spec);
+
+}  // namespace contactcheck::mesh

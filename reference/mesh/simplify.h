@@ -1,0 +1,21 @@
+// Fewer triangles, through meshoptimizer.
+#pragma once
+
+#include <cstddef>
+
+#include "core/types/mesh.h"
+
+namespace contactcheck::mesh {
+
+/// At most `triangles` triangles (edge collapses stop at or just below the wish, or above it where
+/// the surface's topology allows no more). Kept vertices keep their doubles: meshoptimizer picks
+/// among the given vertices, and floats serve its error measure alone. Vertices without a triangle
+/// are dropped; the order of the rest is kept. Deterministic.
+///
+/// meshoptimizer 0.18 may fold thin parts together into a non-manifold edge. For a solid mesh, when
+/// the direct way does so, a few ways over a larger count in between are tried, and the first solid
+/// result of the same size is taken; without one, the direct result stands.
+/// @pre no fatal defect; triangles >= 1. A mesh with no more than `triangles` is returned as it is.
+TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles);
+
+}  // namespace contactcheck::mesh

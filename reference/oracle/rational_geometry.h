@@ -1,0 +1,40 @@
+// Slow, exact answers in rational arithmetic (GMP), to judge the fast ones.
+//
+// Independent on purpose: intersections are linear programs over barycentric coordinates, solved by
+// the simplex method with Bland's rule, so that touching, coplanar and degenerate input is no
+// special case. Nothing here calls core's predicates. @pre all coordinates finite
+#pragma once
+
+#include <gmpxx.h>
+#include <vector>
+
+#include "core/types/vec3.h"
+#include "reference/oracle/rational_vectors.h"
+
+namespace contactcheck::oracle::rational {
+
+/// One equation: the coefficients of all unknowns, and the right-hand side.
+struct Equation {
+  std::vector<mpq_class> coefficients;
+  mpq_class right;
+};
+
+/// True when the equations have a solution in which no unknown is negative. Exact; phase one of the
+/// simplex method, which cannot cycle under Bland's rule.
+/// @pre every equation has the same number of coefficients
+bool has_nonnegative_solution(std::vector<Equation> equations);
+
+/// The sign that the predicates of core/narrow/predicates.h promise.
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
+
+/// True when the closed triangles share a point; degenerate ones are segments or points.
+bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
+
+/// True when the closed triangle and the closed box share a point; an empty box shares none.
+bool triangle_meets_box(const TriangleCorners& triangle, const Aabb& box);
+
+/// Exact squared distance in square metres; 0 exactly when the closed triangles share a point.
+mpq_class squared_distance(const TriangleCorners& p, const TriangleCorners& q);
+
+}  // namespace contactcheck::oracle::rational

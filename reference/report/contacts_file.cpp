@@ -1,0 +1,121 @@
+#include "reference/report/contacts_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/types/check.h"
+
+namespace contactcheck::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "contactcheck-contacts/1";
+
+enum class Element { kTriangle, kCell, kVertex, kNone };
+
+struct PairKind {
+  Element first, second;
+};
+
+// Of the differences at a level; what `missed` and `spurious` mean there is in fixtures/README.md,
+// "Contacts".
+PairKind pair_kind(const std::string& level, bool missed) {
+  if (level == "triangle") return {Element::kTriangle, Element::kTriangle};
+  if (level == "cell" && missed) return {Element::kTriangle, Element::kTriangle};
+  if (level == "cell" || level == "box") return {Element::kCell, Element::kCell};
+  if (level == "near") return {Element::kVertex, Element::kTriangle};
+  if (level == "vertex") return {Element::kVertex, Element::kNone};
+  if (level == "body" || level == "containment") return {Element::kNone, Element::kNone};
+  throw InputError("the level \"" + level + "\" is not known");
+}
+
+class ContactsCheck {
+ public:
+  explicit ContactsCheck(const Recording& recording) : recording_(recording) {}
+
+  void check_frame(const Json& frame) const {
+    const auto number = frame.at("frame").get<std::uint64_t>();
+    if (number >= recording_.frames.size())
+      throw InputError("frame " + std::to_string(number) + " is not among the " +
+                       std::to_string(recording_.frames.size()) + " recorded ones");
+  }
+
+  void check_pairs(const Json& listed, PairKind kind) const {
+    listed.at("count").get<std::uint64_t>();
+    const auto pairs = listed.at("pairs").get<std::vector<std::int64_t>>();
+    if (pairs.size() % 4 != 0)
+      throw InputError("a list of pairs has " + std::to_string(pairs.size()) +
+                       " numbers, which is no multiple of 4");
+    for (std::size_t i = 0; i < pairs.size(); i += 4) {
+      check_element(pairs[i], pairs[i + 1], kind.first);
+      check_element(pairs[i + 2], pairs[i + 3], kind.second);
+    }
+  }
+
+ private:
+  void check_element(std::int64_t body, std::int64_t element, Element kind) const {
+    if (body < 0 || body >= static_cast<std::int64_t>(recording_.bodies.size()))
+      throw InputError("body " + std::to_string(body) + " is not recorded");
+    if (kind == Element::kNone && element == -1) return;
+    if (element < 0 || element >= count_of(*recording_.bodies[body].shape, kind))
+      throw InputError("body " + std::to_string(body) + " has no element " +
+                       std::to_string(element));
+  }
+
+  static std::int64_t count_of(const BodyShape& shape, Element kind) {
+    switch (kind) {
+      case Element::kTriangle:
+        return static_cast<std::int64_t>(shape.mesh.triangles.size());
+      case Element::kCell:
+        return shape.lattice ? static_cast<std::int64_t>(shape.lattice->cells.size()) : 0;
+      case Element::kVertex:
+        return static_cast<std::int64_t>(shape.mesh.vertices.size());
+      case Element::kNone:
+        break;
+    }
+    return 0;
+  }
+
+  const Recording& recording_;
+};
+
+void check_contacts(const Json& contacts, const Recording& recording) {
+  if (contacts.at("schema") != kSchema)
+    throw InputError("its schema is not \"" + std::string(kSchema) + "\"");
+  if (contacts.at("scene") != recording.scene)
+    throw InputError("it is not of the scene \"" + recording.scene + "\"");
+  const ContactsCheck check(recording);
+  for (const Json& frame : contacts.at("truth")) {
+    check.check_frame(frame);
+    check.check_pairs(frame, pair_kind("triangle", true));
+  }
+  for (const Json& detector : contacts.at("detectors")) {
+    const auto level = detector.at("level").get<std::string>();
+    detector.at("detector").get<std::string>();
+    for (const Json& frame : detector.at("frames")) {
+      check.check_frame(frame);
+      check.check_pairs(frame.at("missed"), pair_kind(level, true));
+      check.check_pairs(frame.at("spurious"), pair_kind(level, false));
+    }
+  }
+}
+
+}  // namespace
+
+Json read_contacts(const std::string& text, const std::string& name, const Recording& recording) {
+  std::string fault;
+  try {
+    Json contacts = Json::parse(text);
+    check_contacts(contacts, recording);
+    return contacts;
+  } catch (const Json::parse_error& e) {  // its words repeat the bytes, whatever they are
+    fault = "it is no JSON (at byte " + std::to_string(e.byte) + ")";
+  } catch (const Json::exception& e) {
+    fault = e.what();
+  } catch (const InputError& e) {
+    fault = e.what();
+  }
+  throw InputError("contacts \"" + name + "\": " + fault + ".");
+}
+
+}  // namespace contactcheck::report

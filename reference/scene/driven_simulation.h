@@ -1,0 +1,58 @@
+// A simulation with a detector in the loop: the paper's whole step, part by part, so that each part
+// can be timed on its own.
+// Source: Jeon, Hong, Choi, Jeong 2013, Tables 1 and 3 ("Updating MSS", "Updating CELL", collision
+// test, response).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/dynamics/simulation.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck::scene {
+
+/// Why a detector cannot drive a simulation (it says neither which cells nor which triangles are in
+/// contact), or "".
+std::string why_no_driver(const Semantics& semantics);
+
+/// The nodes of all bodies where they begin, with their velocities.
+/// @pre scene.simulation has a value
+std::vector<NodeState> start_of(const Scene& scene);
+
+class DrivenSimulation {
+ public:
+  /// Prepares the detector. Scene and detector outlive this.
+  /// @pre scene.simulation has a value
+  /// @throws InputError when the detector cannot drive, or a body is too stiff
+  DrivenSimulation(const Scene& scene, Detector& detector);
+
+  /// The four parts of a step, in this order.
+  void deform();  ///< MSS: springs, gravity, ground. @throws Diverged
+  void
+  update_cells();  ///< CELL: maps every vertex, as a viewer needs them, and updates the detector
+  void test();     ///< the detector's own question
+  void respond();  ///< impulses and corrections at what it reported
+  void step();     ///< all four
+
+  /// What the detector was given in the last step: the state after deform() and before respond().
+  const std::vector<std::vector<Vec3>>& nodes() const { return nodes_; }
+  /// What it answered, canonical.
+  const ContactSet& contacts() const { return contacts_; }
+
+  Simulation& simulation() { return simulation_; }
+  const Simulation& simulation() const { return simulation_; }
+
+ private:
+  const Scene& scene_;
+  Detector& detector_;
+  Question question_;
+  Simulation simulation_;
+  ContactPoints points_;
+  std::vector<std::vector<Vec3>> nodes_, vertices_;
+  Frame frame_;
+  ContactSet contacts_;
+};
+
+}  // namespace contactcheck::scene

@@ -1,0 +1,348 @@
+#include "reference/scene/mesh_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/deform/name_check.h"
+#include "core/types/check.h"
+#include "core/types/semantics.h"
+#include "core/types/vec3.h"
+#include "reference/scene/approach.h"
+#include "reference/text/file_text.h"
+#include "reference/text/id_check.h"
+#include "reference/text/json_field.h"
+#include "reference/text/json_value.h"
+
+namespace contactcheck::scene {
+namespace {
+
+// The text of a scene made of meshes, laid out as a person would write it.
+
+/// One body of the scene to be written.
+struct BodyPlan {
+  struct Key {
+    double time = 0.0;  ///< seconds
+    Vec3 position = Vec3::Zero();
+  };
+  struct Deformation {
+    std::string kind;    ///< "twist" or "stretch"
+    std::string amount;  ///< its key of the curve: "degrees" or "amount"
+    int axis = 0;
+    std::vector<std::pair<double, double>> keys;  ///< time and value
+  };
+
+  std::string name, path;
+  std::optional<double> size;  ///< metres
+  std::vector<Key> keys;       ///< empty: it stays in the origin
+  std::optional<int> turned_about;
+  std::vector<Deformation> deformations;
+};
+
+struct ScenePlan {
+  std::string id, title;
+  std::size_t frames = 60;
+  double duration = 2.0;  ///< seconds
+  bool lattices = true;
+  std::vector<BodyPlan> bodies;
+};
+
+// As many kept cells as the paper's objects have (97 to 224).
+constexpr const char* kLattice = R"("lattice": {"kept": 150})";
+
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+
+std::string axis_name(int axis) { return std::string("\"") + "xyz"[axis] + "\""; }
+
+std::string joined_lines(const std::vector<std::string>& parts, const std::string& indent) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : ",") + indent + part;
+  return out;
+}
+
+std::string vector_text(const Vec3& v) {
+  return "[" + text::shown(v.x()) + ", " + text::shown(v.y()) + ", " + text::shown(v.z()) + "]";
+}
+
+std::string mesh_text(const BodyPlan& body) {
+  std::string out = "\"mesh\": {\"file\": " + quoted(body.path);
+  if (body.size) out += ", \"size\": " + text::shown(*body.size);
+  return out + ", \"center\": [0, 0, 0]}";
+}
+
+std::string position_text(const std::vector<BodyPlan::Key>& keys) {
+  std::vector<std::string> lines;
+  for (const BodyPlan::Key& key : keys)
+    lines.push_back("[" + text::shown(key.time) + ", " + vector_text(key.position) + "]");
+  return "\"position\": [" + joined_lines(lines, "\n          ") + "\n        ]";
+}
+
+std::string deformation_text(const BodyPlan::Deformation& d) {
+  std::vector<std::string> keys;
+  for (const auto& [time, value] : d.keys)
+    keys.push_back("[" + text::shown(time) + ", " + text::shown(value) + "]");
+  return "{" + quoted(d.kind) + ": {\"axis\": " + axis_name(d.axis) + ", " + quoted(d.amount) +
+         ": [" + joined_lines(keys, " ").substr(1) + "]}}";
+}
+
+// Empty for a body that rests.
+std::string motion_text(const BodyPlan& body) {
+  std::vector<std::string> parts;
+  if (!body.keys.empty()) parts.push_back(position_text(body.keys));
+  if (body.turned_about)
+    parts.push_back("\"spins\": [{\"axis\": " + axis_name(*body.turned_about) +
+                    ", \"degrees\": 90}]");
+  std::vector<std::string> deformers;
+  for (const BodyPlan::Deformation& d : body.deformations) deformers.push_back(deformation_text(d));
+  if (!deformers.empty())
+    parts.push_back("\"deformers\": [" + joined_lines(deformers, "\n          ") + "\n        ]");
+  if (parts.empty()) return "";
+  parts.insert(parts.begin(), "\"ease\": \"smooth\"");
+  return "\"motion\": {" + joined_lines(parts, "\n        ") + "\n      }";
+}
+
+std::string body_text(const BodyPlan& body, bool lattices) {
+  std::vector<std::string> parts = {"\"name\": " + quoted(body.name), mesh_text(body)};
+  if (lattices) parts.emplace_back(kLattice);
+  if (const std::string motion = motion_text(body); !motion.empty()) parts.push_back(motion);
+  return "{" + joined_lines(parts, "\n      ") + "\n    }";
+}
+
+std::string scene_text(const ScenePlan& plan) {
+  std::vector<std::string> bodies;
+  for (const BodyPlan& body : plan.bodies) bodies.push_back(body_text(body, plan.lattices));
+  const std::vector<std::string> parts = {
+      "\"id\": " + quoted(plan.id),
+      "\"title\": " + quoted(plan.title),
+      "\"frames\": " + std::to_string(plan.frames),
+      "\"duration\": " + text::shown(plan.duration),
+      "\"levels\": " + nlohmann::json(level_names()).dump(),
+      "\"bodies\": [" + joined_lines(bodies, "\n    ") + "\n  ]"};
+  return "{" + joined_lines(parts, "\n  ") + "\n}\n";
+}
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDocument = "the scene of --mesh";
+constexpr double kLargest = 1e6;  // metres, of a mesh as it is in its file
+// Of the smaller body's largest side, metres: the way out of contact, how much deeper press goes.
+constexpr double kGap = 0.35, kDeeper = 0.1;
+constexpr double kStretch = -0.15, kTwist = 30.0;  // at the deepest; degrees over the body
+// Seconds: out of contact, in it, at the deepest, and the same way back. (pass: a shorter stay.)
+constexpr double kMeet = 0.8, kDeepest = 1.0, kPart = 1.2, kEnd = 2.0;
+constexpr double kPassMeet = 0.9, kPassPart = 1.1;
+
+std::string stem_of(const fs::path& mesh) {
+  const std::string stem = mesh.stem().string();
+  return name_fault(stem).empty() ? stem : "mesh";
+}
+
+std::string free_name(const std::string& wanted, const std::vector<BodyPlan>& bodies) {
+  const auto taken = [&](const std::string& name) {
+    return std::any_of(bodies.begin(), bodies.end(),
+                       [&](const BodyPlan& body) { return body.name == name; });
+  };
+  std::string name = wanted;
+  for (std::size_t i = 2; taken(name); ++i) name = wanted + "-" + std::to_string(i);
+  return name;
+}
+
+// From the folder, through no link: a link's ".." is not the folder that names it.
+std::string path_from(const fs::path& folder, const fs::path& mesh) {
+  std::error_code ignored, error;
+  const fs::path to = fs::weakly_canonical(fs::absolute(mesh), error);
+  if (error)
+    throw InputError("--mesh " + text::in_quotes(mesh.string()) +
+                     " cannot be followed to a file: " + error.message());
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
+  return to.lexically_proximate(from).string();
+}
+
+// What an id allows of it, and 64 characters in all.
+std::string id_of(const MeshSceneRequest& request) {
+  constexpr std::size_t kLongestPart = 20;
+  std::string id;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, request.meshes.size()); ++i) {
+    std::string part;
+    for (const char c : stem_of(request.meshes[i]))
+      if (part.size() < kLongestPart) part += text::is_id(std::string("a") + c) ? c : '_';
+    id += part + "-";
+  }
+  if (request.meshes.size() > 2)
+    id += "and-" + std::to_string(request.meshes.size() - 2) + "-more-";
+  id += request.motion;
+  return text::is_id(id) ? id : "m" + id;
+}
+
+void check(const MeshSceneRequest& request) {
+  std::vector<std::string> names;
+  for (const NamedMotion& motion : named_motions()) names.emplace_back(motion.name);
+  if (std::find(names.begin(), names.end(), request.motion) == names.end())
+    throw InputError("--motion: " + text::in_quotes(request.motion) + " is not one of " +
+                     text::joined(names));
+  if (request.meshes.size() < 2)
+    throw InputError("--mesh " + text::in_quotes(request.meshes.front().string()) +
+                     ": one mesh meets nothing; name a second, or the same once more");
+  const std::size_t most = request.motion == "pass" ? 2 : MeshSceneRequest::kMostMeshes;
+  if (request.meshes.size() > most)
+    throw InputError("--mesh is given " + std::to_string(request.meshes.size()) +
+                     " times; --motion " + request.motion + " is for at most " +
+                     std::to_string(most));
+}
+
+double half_side(const TriangleMesh& mesh) {
+  return 0.5 * bounding_box(mesh.vertices).extent().maxCoeff();
+}
+
+class Planner {
+ public:
+  Planner(const MeshSceneRequest& request, const fs::path& folder) : motion_(request.motion) {
+    plan_.id = id_of(request);
+    for (const fs::path& mesh : request.meshes) {
+      BodyPlan body;
+      body.name = free_name(stem_of(mesh), plan_.bodies);
+      body.path = path_from(folder, mesh);
+      body.size = request.size;
+      plan_.title += (plan_.title.empty() ? "" : ", ") + body.name;
+      plan_.bodies.push_back(std::move(body));
+    }
+    plan_.title += ": " + motion_;
+    load_meshes(folder);
+  }
+
+  std::string text() {
+    find_approaches();
+    for (std::size_t i = 1; i < meshes_.size(); ++i) move_body(i);
+    if (!plan_.bodies[1].keys.empty()) deform(approaches_.front().from.axis, -1.0, plan_.bodies[0]);
+    return scene_text(plan_);
+  }
+
+ private:
+  // As every other scene gets them: first without lattices and motions.
+  void load_meshes(const fs::path& folder) {
+    ScenePlan bare = plan_;
+    bare.lattices = false;
+    const Scene scene = load_scene_text({scene_text(bare), kDocument, folder});
+    for (const Body& body : scene.bodies) {
+      const double side = 2.0 * half_side(body.shape->mesh);
+      const std::string what =
+          std::string(kDocument) + ": the mesh of body " + text::in_quotes(body.name);
+      if (!(side > 0.0)) throw InputError(what + " is a point and can meet nothing");
+      if (!(side <= kLargest))
+        throw InputError(what + " is " + text::shown(side) +
+                         " m large; --size file allows at most 1000000 m");
+      meshes_.push_back(body.shape->mesh);
+    }
+  }
+
+  void find_approaches() {
+    std::vector<AxisDirection> free;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {1.0, -1.0}) free.push_back({axis, sign});
+    for (std::size_t i = 1; i < meshes_.size(); ++i) {
+      const auto found = find_approach(meshes_[0], meshes_[i], free);
+      if (!found)
+        throw InputError(std::string(kDocument) + ": no axis on which body " +
+                         text::in_quotes(plan_.bodies[i].name) + " comes leads into contact with " +
+                         text::in_quotes(plan_.bodies[0].name) +
+                         "; a scene file of your own can place them");
+      free.erase(std::find(free.begin(), free.end(), found->from));
+      approaches_.push_back(*found);
+    }
+  }
+
+  double smaller_side(std::size_t i) const {
+    return 2.0 * std::min(half_side(meshes_[0]), half_side(meshes_[i]));
+  }
+
+  // With more than two bodies each one starts beyond all others, on its own side.
+  double reach() const {
+    double out = 0.0;
+    for (std::size_t i = 1; i < meshes_.size(); ++i) {
+      const Approach& way = approaches_[i - 1];
+      Vec3 aside = way.meeting;
+      aside[way.from.axis] = 0.0;
+      out = std::max(out, half_side(meshes_[i]) + aside.cwiseAbs().maxCoeff());
+    }
+    return meshes_.size() > 2 ? out : 0.0;
+  }
+
+  Vec3 start_of(std::size_t i) const {
+    const Approach& way = approaches_[i - 1];
+    const Vec3 from = way.from.vector();
+    const double gap = kGap * smaller_side(i), along = way.apart.dot(from) + gap;
+    const double beyond = reach() > 0.0 ? reach() + half_side(meshes_[i]) + gap : along;
+    return way.apart + (std::max(along, beyond) - way.apart.dot(from)) * from;
+  }
+
+  void move_body(std::size_t i) {
+    const Approach& way = approaches_[i - 1];
+    BodyPlan& body = plan_.bodies[i];
+    body.turned_about = way.turned_about;
+    body.keys = motion_ == "pass" ? keys_of_pass(i) : keys_of_approach(i);
+    // Deformers come before the turn, which leads one axis of the body to that of the way.
+    int own = way.from.axis;
+    if (way.turned_about && own != *way.turned_about) own = 3 - own - *way.turned_about;
+    deform(own, 1.0, body);
+  }
+
+  std::vector<BodyPlan::Key> keys_of_approach(std::size_t i) const {
+    const Approach& way = approaches_[i - 1];
+    const Vec3 start = start_of(i);
+    std::vector<BodyPlan::Key> keys = {{0.0, start}, {kMeet, way.meeting}};
+    if (motion_ == "press")
+      keys.push_back({kDeepest, way.meeting - kDeeper * smaller_side(i) * way.from.vector()});
+    keys.push_back({kPart, way.meeting});
+    keys.push_back({kEnd, start});
+    return keys;
+  }
+
+  // Across the way of the approach, from beyond the resting body to beyond it.
+  std::vector<BodyPlan::Key> keys_of_pass(std::size_t i) const {
+    const Approach& way = approaches_[i - 1];
+    const int across = (way.from.axis + 1) % 3;
+    const double reach = half_side(meshes_[0]) + half_side(meshes_[i]) +
+                         std::abs(way.meeting[across]) + kGap * smaller_side(i);
+    const Vec3 out = reach * Vec3::Unit(across);
+    return {{0.0, way.meeting + out},
+            {kPassMeet, way.meeting},
+            {kPassPart, way.meeting},
+            {kEnd, way.meeting - out}};
+  }
+
+  void deform(int axis, double sign, BodyPlan& body) const {
+    if (motion_ == "press")
+      body.deformations.push_back(
+          {"stretch", "amount", axis, {{kMeet, 0.0}, {kDeepest, kStretch}, {kPart, 0.0}}});
+    if (motion_ == "twist")
+      body.deformations.push_back(
+          {"twist", "degrees", axis, {{kMeet, 0.0}, {kDeepest, sign * kTwist}, {kPart, 0.0}}});
+  }
+
+  const std::string motion_;
+  ScenePlan plan_;
+  std::vector<TriangleMesh> meshes_;
+  std::vector<Approach> approaches_;  // of the second body and those after it
+};
+
+}  // namespace
+
+const std::vector<NamedMotion>& named_motions() {
+  static const std::vector<NamedMotion> motions = {
+      {"approach", "the others come to the first mesh, touch it and leave again"},
+      {"press", "the same, going deeper, and all are squashed along the way"},
+      {"twist", "the same, and all are twisted about the way while they touch"},
+      {"pass", "the second mesh slides past the first, touching it"}};
+  return motions;
+}
+
+SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
+  check(request);
+  return {Planner(request, folder).text(), kDocument, folder};
+}
+
+}  // namespace contactcheck::scene

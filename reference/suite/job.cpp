@@ -1,0 +1,234 @@
+#include "reference/suite/job.h"
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/deform/atomic_file.h"
+#include "core/types/check.h"
+#include "core/types/input_file.h"
+#include "reference/results/results_json.h"
+
+namespace contactcheck::suite {
+namespace {
+using json = nlohmann::ordered_json;
+
+RunSettings settings_from(const json& j) {
+  RunSettings s;
+  j.at("detectors").get_to(s.detectors);
+  j.at("plugins").get_to(s.plugins);
+  j.at("frames").get_to(s.frames);
+  j.at("processes").get_to(s.processes);
+  j.at("one_pass_beyond").get_to(s.one_pass_beyond);
+  j.at("seed").get_to(s.seed);
+  j.at("step_repeats").get_to(s.step_repeats);
+  j.at("timing").get_to(s.timing);
+  j.at("closed_loop").get_to(s.closed_loop);
+  j.at("threads").get_to(s.threads);
+  j.at("call_limit").get_to(s.call_limit);
+  j.at("memory_limit").get_to(s.memory_limit);
+  return s;
+}
+
+json to_json(const RunSettings& s) {
+  return {{"detectors", s.detectors},
+          {"plugins", s.plugins},
+          {"frames", s.frames},
+          {"processes", s.processes},
+          {"one_pass_beyond", s.one_pass_beyond},
+          {"seed", s.seed},
+          {"step_repeats", s.step_repeats},
+          {"timing", s.timing},
+          {"closed_loop", s.closed_loop},
+          {"threads", s.threads},
+          {"call_limit", s.call_limit},
+          {"memory_limit", s.memory_limit}};
+}
+
+// Of the records of each list that has any.
+json to_json(const judge::JudgedAnswers& answers) {
+  json out = json::array();
+  for (const judge::JudgedQuestion& question : answers) {
+    json frames = json::array();
+    for (const judge::AnswerFingerprint& print : question.frames) {
+      json lists = json::array();
+      for (std::size_t list = 0; list < judge::kAnswerLists; ++list)
+        if (print.sizes[list] > 0) lists.push_back({list, print.sizes[list], print.hashes[list]});
+      frames.push_back(std::move(lists));
+    }
+    out.push_back({{"question", static_cast<int>(question.question)}, {"frames", frames}});
+  }
+  return out;
+}
+
+judge::JudgedAnswers judged_answers_from(const json& answers) {
+  judge::JudgedAnswers out;
+  for (const json& question : answers) {
+    judge::JudgedQuestion& read = out.emplace_back();
+    read.question = static_cast<Question>(question.at("question").get<int>());
+    for (const json& frame : question.at("frames")) {
+      judge::AnswerFingerprint& print = read.frames.emplace_back();
+      for (const json& list : frame) {
+        const auto number = list.at(0).get<std::size_t>();
+        print.sizes.at(number) = list.at(1).get<std::uint64_t>();
+        print.hashes.at(number) = list.at(2).get<std::uint64_t>();
+      }
+    }
+  }
+  return out;
+}
+
+json to_json(const Turn& turn) {
+  return {turn.position, static_cast<int>(turn.question), turn.cold};
+}
+
+Turn turn_from(const json& turn) {
+  return {turn.at(0).get<std::uint32_t>(), static_cast<Question>(turn.at(1).get<int>()),
+          turn.at(2).get<bool>()};
+}
+
+json to_json(const TurnAnswer& answer) {
+  json frames = json::array();
+  for (const timing::PhaseSample& s : answer.samples) {
+    frames.push_back({s.map, s.update, s.query, s.cpu, s.taken});
+    if (s.reported) frames.back().push_back(*s.reported);
+  }
+  json out = {{"turn", to_json(answer.turn)},
+              {"error", answer.error},
+              {"lazy_map", answer.lazy_map},
+              {"notes", answer.notes},
+              {"frames", std::move(frames)}};
+  if (answer.failed_frame) out["failed_frame"] = *answer.failed_frame;
+  return out;
+}
+
+TurnAnswer turn_answer_from(const json& j) {
+  TurnAnswer answer;
+  answer.turn = turn_from(j.at("turn"));
+  j.at("error").get_to(answer.error);
+  j.at("lazy_map").get_to(answer.lazy_map);
+  j.at("notes").get_to(answer.notes);
+  if (j.contains("failed_frame")) answer.failed_frame = j.at("failed_frame").get<std::size_t>();
+  for (const json& s : j.at("frames")) {
+    timing::PhaseSample& frame = answer.samples.emplace_back();
+    frame = {s.at(0).get<double>(), s.at(1).get<double>(), s.at(2).get<double>()};
+    frame.cpu = s.at(3).get<double>();
+    frame.taken = s.at(4).get<double>();
+    if (s.size() > 5) frame.reported = s.at(5).get<double>();
+  }
+  return answer;
+}
+
+// Texts of libraries may hold anything; JSON takes UTF-8 alone.
+std::string text_of(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> named_settings(const RunSettings& settings) {
+  const json all = to_json(settings);
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const auto& [name, value] : all.items())
+    if (name != "detectors") out.emplace_back(name, text_of(value));
+  return out;
+}
+
+void write_job(const std::filesystem::path& file, const Job& job) {
+  json j = {{"scene_file", job.scene_file.string()},
+            {"settings", to_json(job.settings)},
+            {"skip", job.skip},
+            {"turns", json::array()},
+            {"cold_frames", job.cold_frames},
+            {"answers", json::array()},
+            {"answer_file", job.answer_file.string()},
+            {"recording_file", job.recording_file.string()},
+            {"temporary", job.temporary.string()}};
+  for (const Turn& turn : job.turns) j["turns"].push_back(to_json(turn));
+  for (const judge::JudgedAnswers& answers : job.answers) j["answers"].push_back(to_json(answers));
+  if (job.text)
+    j["text"] = {
+        {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
+  if (job.unjudged) j["unjudged"] = {{"why", job.unjudged->why}, {"frame", job.unjudged->frame}};
+  if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
+  write_file_atomically(file, j.dump());
+}
+
+Job read_job(const std::filesystem::path& file) {
+  const json j = json::parse(read_text_file(file));
+  Job job;
+  job.scene_file = j.at("scene_file").get<std::string>();
+  if (j.contains("pairs"))
+    job.pairs = scene::PairSpec{j.at("pairs").at("count").get<std::uint64_t>(),
+                                j.at("pairs").at("seed").get<std::uint64_t>()};
+  if (j.contains("text"))
+    job.text = scene::SceneText{j.at("text").at("text").get<std::string>(),
+                                j.at("text").at("name").get<std::string>(),
+                                j.at("text").at("folder").get<std::string>()};
+  if (j.contains("unjudged"))
+    job.unjudged = Unjudged{j.at("unjudged").at("why").get<std::string>(),
+                            j.at("unjudged").at("frame").get<std::uint32_t>()};
+  job.settings = settings_from(j.at("settings"));
+  j.at("skip").get_to(job.skip);
+  for (const json& turn : j.at("turns")) job.turns.push_back(turn_from(turn));
+  j.at("cold_frames").get_to(job.cold_frames);
+  for (const json& answers : j.at("answers")) job.answers.push_back(judged_answers_from(answers));
+  job.answer_file = j.at("answer_file").get<std::string>();
+  job.recording_file = j.at("recording_file").get<std::string>();
+  job.temporary = j.at("temporary").get<std::string>();
+  return job;
+}
+
+// Scene, rows and disagreements are written as results.json has them. Moved and not copied: the
+// contacts of all detectors may be the largest thing that a worker holds.
+void write_answer(const std::filesystem::path& file, SceneAnswer answer) {
+  results::Results found;
+  found.scenes.push_back(std::move(answer.scene));
+  found.disagreements = std::move(answer.disagreements);
+  json detectors = json::array();
+  for (DetectorAnswer& d : answer.detectors) {
+    found.runs.push_back(std::move(d.run));
+    detectors.push_back({{"position", d.position},
+                         {"answers", to_json(d.answers)},
+                         {"contacts", std::move(d.contacts)}});
+  }
+  json timed = json::array();
+  for (const TurnAnswer& turn : answer.timed) timed.push_back(to_json(turn));
+  const json out = {{"results", results::to_json(found)},
+                    {"contact_frames", answer.contact_frames},
+                    {"truth_contacts", std::move(answer.truth_contacts)},
+                    {"detectors", std::move(detectors)},
+                    {"timed", std::move(timed)}};
+  write_file_atomically(file, text_of(out));
+}
+
+SceneAnswer read_answer(const std::filesystem::path& file) {
+  const json j = json::parse(read_text_file(file));
+  results::Results found = results::from_json(j.at("results"));
+  SceneAnswer answer;
+  answer.scene = std::move(found.scenes.at(0));
+  answer.disagreements = std::move(found.disagreements);
+  j.at("contact_frames").get_to(answer.contact_frames);
+  j.at("truth_contacts").get_to(answer.truth_contacts);
+  for (const json& d : j.at("detectors")) {
+    DetectorAnswer& read = answer.detectors.emplace_back();
+    d.at("position").get_to(read.position);
+    read.run = std::move(found.runs.at(answer.detectors.size() - 1));
+    read.answers = judged_answers_from(d.at("answers"));
+    d.at("contacts").get_to(read.contacts);
+  }
+  for (const json& turn : j.at("timed")) answer.timed.push_back(turn_answer_from(turn));
+  return answer;
+}
+
+std::string read_text_file(const std::filesystem::path& file) {
+  const std::string name = "file \"" + file.string() + "\"";
+  std::ifstream in = open_input_file(file, name);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw InputError(name + " cannot be read: " + std::strerror(errno) + ".");
+  return text.str();
+}
+
+}  // namespace contactcheck::suite

@@ -1,0 +1,67 @@
+#include "reference/suite/run_identity.h"
+
+#include "core/types/hash.h"
+#include "reference/adapters/register.h"
+#include "reference/results/results.h"
+#include "reference/suite/machine.h"
+
+namespace contactcheck::suite {
+namespace {
+
+void add_file(const std::filesystem::path& file, Fnv1a& hash) {
+  const std::string bytes = read_text_file(file);
+  hash.bytes(bytes.data(), bytes.size());
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return name + ": " + value + "\n";
+}
+
+}  // namespace
+
+std::string content_of(const std::filesystem::path& file, const scene::Scene& scene) {
+  return content_of(scene::SceneText{read_text_file(file), "", ""}, scene);
+}
+
+std::string content_of(const scene::SceneText& text, const scene::Scene& scene) {
+  Fnv1a hash;
+  hash.bytes(text.text.data(), text.text.size());
+  for (const Body& body : scene.bodies) {
+    const std::uint64_t mesh = content_hash(body.shape->mesh);
+    hash.bytes(&mesh, sizeof mesh);
+  }
+  for (const auto& frame : scene.recorded)
+    for (const std::vector<Vec3>& nodes : frame)
+      hash.bytes(nodes.data(), sizeof(Vec3) * nodes.size());
+  return results::hex(hash.digest());
+}
+
+std::string content_of(const scene::PairSpec& pairs) {
+  return std::to_string(pairs.count) + " random pairs, seed " + std::to_string(pairs.seed);
+}
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  Fnv1a hash;
+  add_file(file, hash);
+  return results::hex(hash.digest());
+}
+
+RunIdentity::RunIdentity(const SuiteRequest& request) {
+  common_ =
+      line("version", CONTACTCHECK_VERSION) + line("program", hash_of_file(request.executable));
+  for (const auto& [library, version] : adapters::library_versions())
+    common_ += line(library, version);
+  for (const auto& [member, value] : results::members_of(describe_machine()))
+    common_ += line(member, value);
+  for (const auto& [setting, value] : named_settings(request.settings))
+    common_ += line(setting, value);
+}
+
+std::string RunIdentity::of(const SceneTask& task) const {
+  std::string identity = common_ + line("content", task.content);
+  for (const std::string& name : task.detectors) identity += line("detector", name);
+  for (const std::string& name : task.references) identity += line("reference", name);
+  return identity;
+}
+
+}  // namespace contactcheck::suite

@@ -1,0 +1,39 @@
+// What the results of a scene depend on, so that a later run can tell whether they are still its
+// own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "reference/scene/scene.h"
+#include "reference/suite/suite_run.h"
+
+namespace contactcheck::suite {
+
+/// Hash of a scene's file and of the meshes and recordings that it names, as hexadecimal text.
+/// `scene` is what `file` was read as. @throws InputError when the file cannot be read again
+std::string content_of(const std::filesystem::path& file, const scene::Scene& scene);
+
+/// The same of a scene that lies in no file.
+std::string content_of(const scene::SceneText& text, const scene::Scene& scene);
+
+/// The same of random pairs: their number and their seed; the program makes the rest.
+std::string content_of(const scene::PairSpec& pairs);
+
+/// Of its bytes, as hexadecimal text. @throws InputError when it cannot be read
+std::string hash_of_file(const std::filesystem::path& file);
+
+/// The program (by the bytes of its file: a detector that was rebuilt is another one), the
+/// libraries, the machine, the settings, the detectors and the scene's content.
+class RunIdentity {
+ public:
+  /// @throws InputError when the program's file cannot be read
+  explicit RunIdentity(const SuiteRequest& request);
+  /// The same text for the same results.
+  std::string of(const SceneTask& task) const;
+
+ private:
+  std::string common_;
+};
+
+}  // namespace contactcheck::suite

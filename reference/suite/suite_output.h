@@ -1,0 +1,43 @@
+// What finished scenes become: results.json and the files that it names.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "reference/results/results.h"
+#include "reference/suite/partial_results.h"
+#include "reference/suite/suite_run.h"
+
+namespace contactcheck::suite {
+
+// What a suite hoped to measure, beside what it measured.
+
+/// One entry per goal: what was measured, with its interval where it has one, in "x" or "us"; or
+/// why it could not be.
+std::vector<results::MeasuredGoal> measure_goals(const std::vector<results::Goal>& goals,
+                                                 const results::Results& results);
+
+class SuiteOutput {
+ public:
+  /// `out`: with the folders of make_out_folders; `scratch`: with a folder `contacts`.
+  SuiteOutput(std::filesystem::path out, std::filesystem::path scratch);
+
+  /// In the order of the run. Its recording is in `out`, its case files where its disagreements
+  /// say. @throws InputError when its contacts cannot be written
+  void add(FinishedScene scene);
+
+  /// Completes `results`, which say what has no scene, and writes results.json, cases/ and
+  /// contacts/; those of an earlier run go at the last moment. A shard gets the hashes of all files
+  /// that it names, the whole of a run what `goals` come to. Returns the results.
+  /// @throws InputError when something cannot be written
+  results::Results write(results::Results results, const std::vector<results::Goal>& goals,
+                         const results::KnownDefects& known_defects, SuiteOutcome* outcome);
+
+ private:
+  std::filesystem::path out_, scratch_;
+  std::vector<results::Scene> scenes_;
+  std::vector<results::Run> runs_;
+  std::vector<results::Disagreement> disagreements_;
+};
+
+}  // namespace contactcheck::suite

@@ -1,0 +1,25 @@
+// Empties the caches before a cold frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace contactcheck::timing {
+
+/// Twice the largest cache of this machine's first core, by the kernel's word, and at most 64 MiB,
+/// which is also what a machine gets that does not say.
+std::size_t sweep_bytes();
+
+/// Reads a buffer, so that the next call finds little of its data in the caches.
+class CacheSweep {
+ public:
+  explicit CacheSweep(std::size_t bytes) : buffer_(bytes / sizeof(std::uint64_t), 1) {}
+  void run();
+
+ private:
+  std::vector<std::uint64_t> buffer_;
+  std::uint64_t sum_ = 0;
+};
+
+}  // namespace contactcheck::timing

@@ -1,0 +1,72 @@
+// What a detector's calls take by the wall clock, and what they cost in CPU time, whoever works for
+// it: its threads and its processes too.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace contactcheck::timing {
+
+/// Whether this process has any that it has started and not waited for.
+bool has_children();
+
+/// Times a call by the wall clock, without what the machine has taken away: on one that others use
+/// too, a call of a millisecond may be held up for seven. A process that has not waited for
+/// anything (no thread of it has given up its CPU by itself) and has started no other would have
+/// run all the time; what its CPU time is short of the wall clock has been given to others. Of
+/// calls that wait, for a thread or a pipe, nothing is taken off.
+class CallClock {
+ public:
+  void start();
+  /// Nanoseconds since start().
+  double stop();
+  /// Nanoseconds that have been taken off, of all calls.
+  double taken() const { return taken_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point from_;
+  double cpu_ = 0.0, taken_ = 0.0;
+  long waits_ = 0;
+};
+
+/// Adds up one pass: the CPU time of the process in calls of the detector, and what others than
+/// the calling thread use while it is not called. Nanoseconds.
+class CpuBook {
+ public:
+  /// `threads`: that the detector may use. `children`: count the processes that this one has
+  /// started too, at some 100 us a call where there are any.
+  CpuBook(std::size_t threads, bool children) : threads_(threads), children_(children) {}
+
+  void before_call();
+  /// `wall`: nanoseconds that the call took. Gives its CPU time.
+  double after_call(double wall);
+  /// After the last call: waits until nobody works on, at most 2 s, and says now and then that it
+  /// does.
+  void settle(const std::function<void()>& still_here);
+
+  /// "" where all is well. A sentence where the detector has used more CPU time in its calls than
+  /// its threads can in that time, or has worked on between them: then the time of its calls is not
+  /// what it costs.
+  std::string complaint() const;
+
+ private:
+  struct Reading {
+    double process = 0.0, thread = 0.0, children = 0.0;
+    double others() const { return process + children - thread; }
+  };
+  using Clock = std::chrono::steady_clock;
+  Reading read(bool calls_next) const;
+  double nanoseconds_since_call();
+
+  std::size_t threads_, calls_ = 0;
+  bool children_;
+  Reading last_;
+  Clock::time_point last_end_;
+  double time_between_ = 0.0, in_calls_ = 0.0, of_children_ = 0.0, between_calls_ = 0.0,
+         wall_ = 0.0;
+};
+
+}  // namespace contactcheck::timing

@@ -1,0 +1,299 @@
+#include "reference/judge/judge.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/reference/judge/labelled_bodies.h"
+
+namespace contactcheck::judge {
+namespace {
+
+using test::labelled_bodies;
+using test::labelled_body;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::vector<std::uint64_t> numbers(const results::LevelCounts& c) {
+  return {c.truth, c.reported, c.hit, c.missed, c.spurious};
+}
+
+ElementPair pair(std::uint32_t a, std::uint32_t b) { return {0, 1, a, b}; }
+
+ContactSet answer_of(std::vector<ElementPair> triangles) {
+  ContactSet answer;
+  answer.triangles = std::move(triangles);
+  answer.canonicalize();
+  return answer;
+}
+
+ContactSet cells_of(std::vector<ElementPair> cells) {
+  ContactSet answer;
+  answer.cells = std::move(cells);
+  answer.canonicalize();
+  return answer;
+}
+
+ContactSet bodies_of(std::vector<BodyPair> bodies) {
+  ContactSet answer;
+  answer.bodies = std::move(bodies);
+  answer.canonicalize();
+  return answer;
+}
+
+results::LevelCounts judged(Level level, const oracle::Truth& truth, const ContactSet& answer,
+                            Semantics semantics = {}) {
+  return compare_at(level, labelled_bodies(), semantics, truth, answer).counts;
+}
+
+TEST(Judge, EqualCountsOfDifferentPairsAreMissedAndSpurious) {
+  const results::LevelCounts counts =
+      judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
+             answer_of({pair(0, 0), pair(2, 3)}));
+  EXPECT_THAT(numbers(counts), ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, AnsweringTheTruthIsPerfectAtEveryLevel) {
+  const oracle::Truth truth = test::truth_of({pair(0, 0), pair(2, 3)});
+  EXPECT_THAT(numbers(judged(Level::kTriangle, truth, truth.surface)), ElementsAre(2, 2, 2, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, truth.surface)), ElementsAre(1, 1, 1, 0, 0));
+}
+
+TEST(Judge, SilenceMissesAllAndIsNotSpurious) {
+  const results::LevelCounts counts =
+      judged(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}), ContactSet{});
+  EXPECT_THAT(numbers(counts), ElementsAre(3, 0, 0, 3, 0));
+}
+
+TEST(Judge, CellLevelCountsTrianglePairsOfTruthAndCellPairsOfTheAnswer) {
+  // Cells (0, 0) cover the pairs (0, 0), (0, 1) and (1, 1); cells (0, 1) cover (0, 1), (1, 1) and
+  // nothing else of the truth; (1, 0) covers (1, 1). (2, 2) needs cells (1, 1).
+  const oracle::Truth truth = test::truth_of({pair(0, 0), pair(0, 1), pair(1, 1), pair(2, 2)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0)}))),
+              ElementsAre(4, 1, 3, 1, 0));
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
+              ElementsAre(4, 2, 4, 0, 0));
+}
+
+TEST(Judge, CellPairThatCoversNoTruePairIsSpurious) {
+  const oracle::Truth truth = test::truth_of({pair(0, 0)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({pair(0, 0), pair(1, 1)}))),
+              ElementsAre(1, 2, 1, 0, 1));
+}
+
+TEST(Judge, CellPairOfOtherBodiesCoversNothing) {
+  const oracle::Truth truth = test::truth_of({pair(0, 0)});
+  EXPECT_THAT(numbers(judged(Level::kCell, truth, cells_of({ElementPair{0, 2, 0, 0}}))),
+              ElementsAre(1, 1, 0, 1, 1));
+}
+
+TEST(Judge, BoxLevelComparesCellPairsWithOverlappingBoxes) {
+  oracle::Truth truth;
+  truth.boxes = {pair(0, 1), pair(1, 0)};
+  EXPECT_THAT(numbers(judged(Level::kBox, truth, cells_of({pair(0, 1), pair(1, 1)}))),
+              ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, VertexLevelComparesBodyHolderAndVertex) {
+  oracle::Truth truth;
+  truth.surface.vertices = {{0, 1, 5}, {1, 0, 5}};
+  ContactSet answer;
+  answer.vertices = {{0, 1, 5}, {1, 2, 5}};
+  EXPECT_THAT(numbers(judged(Level::kVertex, truth, answer)), ElementsAre(2, 2, 1, 1, 1));
+}
+
+TEST(Judge, SurfaceDetectorThatReportsContainmentIsSpurious) {
+  oracle::Truth truth;
+  truth.containment = {{0, 2}};
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 2}}))),
+              ElementsAre(0, 1, 0, 0, 1));
+}
+
+TEST(Judge, SolidDetectorMustReportContainmentToo) {
+  oracle::Truth truth;
+  truth.surface.bodies = {{0, 1}};
+  truth.containment = {{0, 2}};
+  Semantics solid;
+  solid.solid = true;
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 1}, {0, 2}}), solid)),
+              ElementsAre(2, 2, 2, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kBody, truth, bodies_of({{0, 1}}), solid)),
+              ElementsAre(2, 1, 1, 1, 0));
+}
+
+TEST(Judge, SurfaceContactIsNotSpuriousAtContainment) {
+  oracle::Truth truth;
+  truth.surface.bodies = {{0, 1}};
+  truth.containment = {{0, 2}};
+  EXPECT_THAT(numbers(judged(Level::kContainment, truth, bodies_of({{0, 1}, {0, 2}}))),
+              ElementsAre(1, 1, 1, 0, 0));
+  EXPECT_THAT(numbers(judged(Level::kContainment, truth, bodies_of({{0, 1}, {1, 2}}))),
+              ElementsAre(1, 1, 0, 1, 1));
+}
+
+TEST(Judge, CountsAreSumsOverFrames) {
+  LevelTotals totals({}, {Level::kTriangle});
+  test::add_frame(totals, {}, 0, test::truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  test::add_frame(totals, {}, 1, test::truth_of({pair(0, 0), pair(1, 1)}), answer_of({pair(1, 1)}));
+  test::add_frame(totals, {}, 2, test::truth_of({}), answer_of({pair(3, 3)}));
+  EXPECT_THAT(numbers(totals.levels.at(Level::kTriangle)), ElementsAre(3, 3, 2, 1, 1));
+  EXPECT_THAT(totals.per_frame.truth, ElementsAre(1, 2, 0));
+  EXPECT_THAT(totals.per_frame.missed, ElementsAre(0, 1, 0));
+  EXPECT_THAT(totals.per_frame.spurious, ElementsAre(0, 0, 1));
+}
+
+TEST(Judge, SeriesPerFrameIsOfTheFinestLevel) {
+  EXPECT_EQ(LevelTotals({}, {Level::kBody, Level::kTriangle}).per_frame.level, Level::kTriangle);
+  EXPECT_EQ(LevelTotals({}, {Level::kBody, Level::kBox, Level::kCell}).per_frame.level,
+            Level::kCell);
+  EXPECT_EQ(LevelTotals({}, {Level::kBody}).per_frame.level, Level::kBody);
+  LevelTotals totals({}, {Level::kBody, Level::kTriangle});
+  test::add_frame(totals, {}, 0, test::truth_of({pair(0, 0), pair(1, 1), pair(2, 2)}),
+                  answer_of({pair(0, 0)}));
+  EXPECT_THAT(totals.per_frame.truth, ElementsAre(3));
+  EXPECT_THAT(totals.per_frame.missed, ElementsAre(2));
+}
+
+TEST(Judge, KeepsTheFirstDisagreementOfEachKindAndLevel) {
+  LevelTotals totals({}, {Level::kBody, Level::kTriangle});
+  test::add_frame(totals, {}, 3, test::truth_of({pair(0, 0)}), answer_of({pair(0, 0)}));
+  test::add_frame(totals, {}, 4, test::truth_of({pair(0, 0), pair(1, 2)}), answer_of({pair(0, 0)}));
+  test::add_frame(totals, {}, 5, test::truth_of({pair(0, 0), pair(2, 2)}),
+                  answer_of({pair(0, 0), pair(3, 1)}));
+  test::add_frame(totals, {}, 6, test::truth_of({pair(0, 0)}), answer_of({}));
+  ASSERT_EQ(totals.disagreements.size(), 3u);
+  const auto& d = totals.disagreements;
+  EXPECT_EQ(d[0].level + " " + d[0].kind, "triangle missed");
+  EXPECT_EQ(d[0].frame, 4u);
+  EXPECT_EQ(d[0].pair, pair(1, 2));
+  EXPECT_EQ(d[1].level + " " + d[1].kind, "triangle spurious");
+  EXPECT_EQ(d[1].frame, 5u);
+  EXPECT_EQ(d[1].pair, pair(3, 1));
+  EXPECT_EQ(d[2].level + " " + d[2].kind, "body missed");
+  EXPECT_EQ(d[2].frame, 6u);
+  EXPECT_EQ(d[2].pair, pair(0, 0));
+}
+
+TEST(Judge, MissedAtCellLevelNamesTrianglesAndSpuriousNamesCells) {
+  LevelTotals totals({}, {Level::kCell});
+  test::add_frame(totals, {}, 0, test::truth_of({pair(3, 3)}), cells_of({pair(0, 1)}));
+  ASSERT_EQ(totals.disagreements.size(), 2u);
+  EXPECT_EQ(totals.disagreements[0].kind, "missed");
+  EXPECT_EQ(totals.disagreements[0].pair, pair(3, 3));
+  EXPECT_EQ(totals.disagreements[1].kind, "spurious");
+  EXPECT_EQ(totals.disagreements[1].pair, pair(0, 1));
+}
+
+TEST(Judge, NearLevelComparesWithThePairsBelowTheMargin) {
+  LevelTotals totals({}, {Level::kNear});
+  ContactSet answer;
+  answer.near = {{0, 1, 5, 2}, {1, 0, 5, 2}};
+  answer.canonicalize();
+  test::add_frame(totals, {}, 0, oracle::Truth{}, answer,
+                  {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}});
+  EXPECT_THAT(numbers(totals.levels.at(Level::kNear)), ElementsAre(3, 2, 1, 2, 1));
+  EXPECT_EQ(totals.per_frame.level, Level::kNear);
+  ASSERT_EQ(totals.disagreements.size(), 2u);
+  EXPECT_EQ(totals.disagreements[0].pair, (ElementPair{0, 1, 5, 3}));
+}
+
+TEST(Judge, InformativeLevelIsCountedButNeverADisagreementNorTheFinest) {
+  Semantics semantics;
+  semantics.levels = {Level::kBody};
+  semantics.informative = {Level::kVertex};
+  LevelTotals totals(semantics, {Level::kBody, Level::kVertex});
+  EXPECT_EQ(totals.per_frame.level, Level::kBody);
+  oracle::Truth truth;
+  truth.surface.vertices = {{0, 1, 5}};
+  ContactSet answer;
+  answer.vertices = {{1, 2, 5}};
+  test::add_frame(totals, semantics, 0, truth, answer);
+  EXPECT_THAT(numbers(totals.levels.at(Level::kVertex)), ElementsAre(1, 1, 0, 1, 1));
+  EXPECT_THAT(totals.disagreements, IsEmpty());
+}
+
+TEST(JudgedLevels, HoldWhatIsInformativeToo) {
+  Semantics semantics;
+  semantics.levels = {Level::kBody};
+  semantics.informative = {Level::kVertex};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(labelled_bodies(), semantics,
+                            {Level::kBody, Level::kVertex, Level::kTriangle}, &not_judged),
+              ElementsAre(Level::kBody, Level::kVertex));
+}
+
+TEST(JudgedLevels, AreThoseClaimedAndWanted) {
+  Semantics semantics;
+  semantics.levels = {Level::kBody, Level::kTriangle};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(
+      judged_levels(labelled_bodies(), semantics, {Level::kTriangle, Level::kCell}, &not_judged),
+      ElementsAre(Level::kTriangle));
+  EXPECT_THAT(not_judged, IsEmpty());
+}
+
+TEST(JudgedLevels, OneOpenBodyStopsContainmentAndVertexWithAReason) {
+  std::vector<Body> bodies = labelled_bodies();
+  bodies.push_back(labelled_body("open", false));
+  Semantics semantics;
+  semantics.levels = {Level::kBody, Level::kContainment, Level::kVertex, Level::kCell};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+              ElementsAre(Level::kBody, Level::kCell));
+  EXPECT_EQ(not_judged.size(), 2u);
+  EXPECT_EQ(not_judged[Level::kContainment], "not judged: open");
+  EXPECT_EQ(not_judged[Level::kVertex], "not judged: open");
+}
+
+TEST(JudgedLevels, OneBodyWithoutLatticeStopsCellAndBoxWithAReason) {
+  std::vector<Body> bodies = labelled_bodies();
+  bodies.push_back(labelled_body("bare", true, false));
+  Semantics semantics;
+  semantics.levels = {Level::kCell, Level::kBox, Level::kTriangle};
+  std::map<Level, std::string> not_judged;
+  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+              ElementsAre(Level::kTriangle));
+  EXPECT_EQ(not_judged[Level::kCell], "not judged: a body has no lattice");
+  EXPECT_EQ(not_judged[Level::kBox], "not judged: a body has no lattice");
+}
+
+std::vector<FrameDifferences> differences_of(Level level, const oracle::Truth& truth,
+                                             const ContactSet& answer, std::size_t listed) {
+  LevelTotals totals({}, {Level::kBody, level}, listed);
+  test::add_frame(totals, {}, 4, truth, answer);
+  return totals.differences;
+}
+
+TEST(Judge, ListsTheDifferencesOfItsFinestLevel) {
+  const auto frames = differences_of(Level::kTriangle, test::truth_of({pair(0, 0), pair(1, 1)}),
+                                     answer_of({pair(1, 1), pair(2, 3)}), 9);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].frame, 4u);
+  EXPECT_EQ(frames[0].missed.count, 1u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(0, 0)));
+  EXPECT_EQ(frames[0].spurious.count, 1u);
+  EXPECT_THAT(frames[0].spurious.pairs, ElementsAre(pair(2, 3)));
+}
+
+TEST(Judge, ListsTheFirstDifferencesAndCountsAll) {
+  const auto frames = differences_of(
+      Level::kTriangle, test::truth_of({pair(3, 3), pair(0, 0), pair(1, 1)}), ContactSet{}, 2);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0].missed.count, 3u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(0, 0), pair(1, 1)));
+}
+
+TEST(Judge, ListsMissedTrianglesAndSpuriousCells) {
+  const auto frames = differences_of(Level::kCell, test::truth_of({pair(0, 0), pair(2, 2)}),
+                                     cells_of({pair(0, 0), pair(1, 0)}), 9);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_THAT(frames[0].missed.pairs, ElementsAre(pair(2, 2)));
+  EXPECT_THAT(frames[0].spurious.pairs, ElementsAre(pair(1, 0)));
+}
+
+TEST(Judge, ListsNothingOfPerfectFramesNorUnlessAsked) {
+  const oracle::Truth truth = test::truth_of({pair(0, 0)});
+  EXPECT_THAT(differences_of(Level::kTriangle, truth, truth.surface, 9), IsEmpty());
+  EXPECT_THAT(differences_of(Level::kTriangle, truth, ContactSet{}, 0), IsEmpty());
+}
+
+}  // namespace
+}  // namespace contactcheck::judge

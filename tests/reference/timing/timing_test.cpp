@@ -1,0 +1,244 @@
+#include "reference/timing/timing.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "reference/timing/cpu_time.h"
+#include "tests/support/approach_scene.h"
+#include "tests/support/shapes.h"
+
+namespace contactcheck::timing {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr judge::Asked kBody = {Question::kBody, true};
+
+// Writes down the frames that it is updated with; in frame 1 it throws where its word is "throws",
+// and answers otherwise where it is "less" or "other".
+class Diary : public Detector {
+ public:
+  explicit Diary(bool vertices = true, std::string word = "")
+      : needs_vertices_(vertices), word_(std::move(word)) {
+    semantics_.questions = {Question::kBody};
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return needs_vertices_; }
+  void prepare(const std::vector<Body>&) override {}
+  void update(const Frame& frame) override {
+    frames.push_back(frame.index);
+    if (word_ == "throws" && frame.index == 1) throw std::runtime_error("out of order");
+  }
+  void query(Question, ContactSet& out) override {
+    EXPECT_TRUE(out.bodies.empty()) << "an answer begins empty";
+    if (word_ == "less" && frames.back() == 1) return;
+    out.bodies = {{1, 0}, {0, 1}};  // of a repeat nobody is told
+    if (word_ == "other" && frames.back() == 1) out.bodies = {{0, 2}};
+  }
+
+  std::vector<std::size_t> frames;
+
+ private:
+  bool needs_vertices_;
+  std::string word_;
+  Semantics semantics_;
+};
+
+// Writes down what a supervisor sees while it is called.
+class Watched : public Diary {
+ public:
+  Watched(const process::SharedProgress& page, bool vertices) : Diary(vertices), page_(page) {}
+  void update(const Frame& frame) override {
+    Diary::update(frame);
+    look();
+  }
+  void query(Question question, ContactSet& out) override {
+    Diary::query(question, out);
+    look();
+  }
+
+  std::vector<process::Phase> phases;
+  std::vector<std::uint64_t> ticks;
+
+ private:
+  void look() {
+    phases.push_back(page_.phase);
+    ticks.push_back(page_.ticks);
+  }
+  const process::SharedProgress& page_;
+};
+
+class Timing : public testing::Test {
+ protected:
+  Timing()
+      : scene_(test::approach_scene(test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
+                                    test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape,
+                                    {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody})) {
+    ContactSet judged;
+    judged.bodies = {{0, 1}};
+    prints_.assign(3, judge::fingerprint_of(judged, kBody));
+  }
+
+  Pass pass(Detector& detector, std::vector<std::size_t> frames = {0, 1, 2}) {
+    return time_pass(scene_, {0, kBody, std::move(frames), &prints_}, detector, progress_);
+  }
+
+  // What is wrong with it.
+  std::string error_of(const std::string& word) {
+    Diary detector(true, word);
+    try {
+      pass(detector);
+    } catch (const std::runtime_error& e) {
+      EXPECT_THAT(detector.frames, ElementsAre(0, 1)) << "it is not called again";
+      return e.what();
+    }
+    return "";
+  }
+
+  process::SharedProgress page_;
+  process::ProgressWriter progress_{&page_};
+  scene::Scene scene_;
+  std::vector<judge::AnswerFingerprint> prints_;
+};
+
+TEST_F(Timing, AsksEveryFrameOnceInOrder) {
+  Diary detector;
+  const Pass samples = pass(detector);
+  EXPECT_THAT(detector.frames, ElementsAre(0, 1, 2));
+  EXPECT_EQ(samples.size(), 3u);
+  EXPECT_GT(samples[1].cpu, 0.0);
+}
+
+TEST_F(Timing, OfColdFramesThoseAlone) {
+  Diary detector;
+  CacheSweep sweep(1 << 12);
+  const Pass samples = time_pass(scene_, {0, kBody, {0, 2}, &prints_, &sweep}, detector, progress_);
+  EXPECT_THAT(detector.frames, ElementsAre(0, 2));
+  EXPECT_EQ(samples.size(), 2u);
+}
+
+TEST_F(Timing, SupervisorSeesThePhaseOfEveryCallAndThatItIsANewOne) {
+  for (const bool vertices : {true, false}) {
+    Watched detector(page_, vertices);
+    pass(detector, {0, 1});
+    EXPECT_THAT(detector.phases, ElementsAre(process::Phase::kUpdate, process::Phase::kQuery,
+                                             process::Phase::kUpdate, process::Phase::kQuery));
+    for (std::size_t i = 1; i < detector.ticks.size(); ++i)
+      EXPECT_GT(detector.ticks[i], detector.ticks[i - 1]) << "call " << i;
+  }
+}
+
+// No call of the detector happens meanwhile, so that another thread looks; the detector may use
+// it, then.
+TEST_F(Timing, SupervisorSeesMapping) {
+  const auto fine = test::make_body("", test::unit_box_mesh(40), {1, 1, 1}).shape;
+  const scene::Scene scene =
+      test::approach_scene(fine, fine, {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody});
+  std::atomic<bool> seen = false, done = false;
+  std::thread supervisor([&] {
+    while (!done) {
+      seen = seen || page_.phase == process::Phase::kMap;
+      std::this_thread::yield();
+    }
+  });
+  Diary detector;
+  for (int i = 0; i < 10'000 && !seen; ++i) {
+    // The other thread's work is taken for the detector's, which may have two.
+    time_pass(scene, {0, kBody, {0}, &prints_, nullptr, 2}, detector, progress_);
+  }
+  done = true;
+  supervisor.join();
+  EXPECT_TRUE(seen);
+}
+
+TEST_F(Timing, MapsForThoseWhoNeedVerticesAlone) {
+  Diary eager(true), lazy(false);
+  EXPECT_GT(pass(eager).at(0).map, 0.0);
+  EXPECT_EQ(pass(lazy).at(0).map, 0.0);
+}
+
+TEST_F(Timing, AnswerThatWasJudgedMayRepeatItself) { EXPECT_EQ(error_of(""), ""); }
+
+TEST_F(Timing, WhatItThrowsEndsThePass) { EXPECT_EQ(error_of("throws"), "out of order"); }
+
+TEST_F(Timing, AnswerThatWasNotJudgedEndsThePass) {
+  EXPECT_EQ(error_of("less"), "it answered 0 pairs of bodies and not the 1 that were judged");
+  EXPECT_EQ(error_of("other"),
+            "it answered 1 pairs of bodies, and others than those that were judged");
+}
+
+// ---- CPU time ----------------------------------------------------------------------------------
+
+constexpr double kMilliseconds = 1e6;
+
+void work(double milliseconds) {
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
+TEST(CpuBook, OfCallsThatWorkIsTheirTime) {
+  CpuBook book(1, false);
+  double in_calls = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    book.before_call();
+    const auto start = std::chrono::steady_clock::now();
+    work(5.0);
+    in_calls += book.after_call(
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
+    work(5.0);  // the caller's own
+  }
+  book.settle([] {});
+  EXPECT_EQ(book.complaint(), "");
+  EXPECT_LT(in_calls, 16.0 * kMilliseconds);
+}
+
+TEST(CpuBook, ComplainsOfMoreThreadsThanItMayUse) {
+  for (const std::size_t threads : {1, 4}) {
+    CpuBook book(threads, false);
+    book.before_call();
+    std::thread other([] { work(20.0); });
+    other.join();
+    book.after_call(5.0 * kMilliseconds);  // as if it had waited no longer
+    book.settle([] {});
+    if (threads == 1) {
+      EXPECT_THAT(book.complaint(), testing::HasSubstr("it may use 1 thread (--threads)"));
+    } else {
+      EXPECT_EQ(book.complaint(), "");
+    }
+  }
+}
+
+TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
+  CpuBook book(1, false);
+  book.before_call();
+  book.after_call(1.0 * kMilliseconds);
+  std::thread other([] { work(20.0); });
+  book.settle([] {});
+  other.join();
+  EXPECT_THAT(book.complaint(), testing::HasSubstr("while it was not called"));
+}
+
+TEST(CpuBook, CountsProcessesThatWereStarted) {
+  CpuBook book(1, true);
+  book.before_call();
+  book.after_call(1.0 * kMilliseconds);
+  const pid_t child = fork();
+  if (child == 0) {
+    work(40.0);
+    _exit(0);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  book.settle([] {});
+  waitpid(child, nullptr, 0);
+  EXPECT_THAT(book.complaint(), testing::HasSubstr("while it was not called"));
+}
+
+}  // namespace
+}  // namespace contactcheck::timing

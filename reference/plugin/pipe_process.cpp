@@ -133,10 +133,10 @@ std::string traceback_place(const std::string& text) {
 }
 
 // Between fork and exec: system calls alone. A library may have changed what is inherited.
-[[noreturn]] void become(const char* command, char** environment, int input, int output, int errors,
-                         pid_t parent) {
+[[noreturn]] void become(const char* command, int input, int output, int errors, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
+  process::adopt_orphans();  // they end with it, and not with another command
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
@@ -146,7 +146,7 @@ std::string traceback_place(const std::string& text) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  execle("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr), environment);
+  execl("/bin/sh", "sh", "-c", command, static_cast<char*>(nullptr));
   _exit(127);
 }
 
@@ -165,25 +165,26 @@ PipeProcess::PipeProcess(const std::string& command, const PipeLimits& limits)
 void PipeProcess::start(const std::string& command, int input, int output) {
   const pid_t parent = getpid();
   const std::string text = for_shell(command);
-  pid_ = fork();
-  if (pid_ == 0) become(text.c_str(), mark_.environment(), input, output, errors_.fd(), parent);
-  if (pid_ < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
+  const pid_t pid = fork();
+  if (pid == 0) become(text.c_str(), input, output, errors_.fd(), parent);
+  if (pid < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
+  child_.is(pid);
 }
 
 PipeProcess::~PipeProcess() {
   close_input();
   if (!ends_within(kLeaveMilliseconds)) kill();
-  mark_.kill_bearers();  // what it has left behind
+  child_.end_orphans();  // what it has left behind
   close(output_);
 }
 
 void PipeProcess::kill() {
   if (reaped_) return;
-  process::kill_tree(pid_);
-  mark_.kill_bearers();  // those that left the tree
-  while (waitpid(pid_, &status_, 0) < 0 && errno == EINTR) {
+  process::kill_tree(child_.pid());
+  while (waitpid(child_.pid(), &status_, 0) < 0 && errno == EINTR) {
   }
   reaped_ = true;
+  child_.end_orphans();
 }
 
 void PipeProcess::close_input() {
@@ -194,7 +195,7 @@ bool PipeProcess::ends_within(int milliseconds) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::milliseconds(milliseconds);
   while (!reaped_) {
-    reaped_ = waitpid(pid_, &status_, WNOHANG) == pid_;
+    reaped_ = waitpid(child_.pid(), &status_, WNOHANG) == child_.pid();
     if (reaped_ || Clock::now() > end) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -260,7 +261,7 @@ void PipeProcess::read_more() {
 }
 
 void PipeProcess::check_limits() const {
-  if (process::resident_bytes_of_tree(pid_) > limits_.memory)
+  if (process::resident_bytes_of_tree(child_.pid()) > limits_.memory)
     fail("has more than " + std::to_string(limits_.memory >> 20) + " MiB resident (memory limit)");
   if (errors_.size() > limits_.errors)
     fail("wrote more than " + std::to_string(limits_.errors >> 20) +

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "reference/process/process_mark.h"
+#include "reference/process/process_tree.h"
 #include "reference/process/worker_process.h"
 
 namespace contactcheck::plugin {
@@ -57,8 +57,7 @@ class PipeProcess {
 
   PipeLimits limits_;
   process::MemoryFile errors_;
-  process::ProcessMark mark_;
-  pid_t pid_ = 0;
+  process::Child child_;
   int input_ = -1, output_ = -1;  ///< of the command: written and read here
   int status_ = 0;
   bool reaped_ = false;

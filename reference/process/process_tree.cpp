@@ -1,8 +1,12 @@
 #include "reference/process/process_tree.h"
 
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -13,6 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostProcesses = 4096;  // one that forks without end is not followed
+constexpr int kMostRounds = 100;  // then one that forks faster than it is killed is given up
+
+std::vector<const Child*>& all_of_this_process() {
+  static std::vector<const Child*> all;
+  return all;
+}
 
 void add_children(pid_t process, std::vector<pid_t>& out) {
   std::error_code gone;
@@ -21,6 +31,13 @@ void add_children(pid_t process, std::vector<pid_t>& out) {
     std::ifstream children(task.path() / "children");
     for (pid_t child = 0; children >> child && out.size() < kMostProcesses;) out.push_back(child);
   }
+}
+
+std::vector<pid_t> children_of_this_process() {
+  std::vector<pid_t> out;
+  add_children(getpid(), out);
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace
@@ -46,6 +63,35 @@ std::uint64_t resident_bytes_of_tree(pid_t root) {
 
 void kill_tree(pid_t root) {
   for (const pid_t process : process_tree(root)) kill(process, SIGKILL);
+}
+
+void adopt_orphans() { prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
+Child::Child() : before_(children_of_this_process()) {
+  adopt_orphans();
+  all_of_this_process().push_back(this);
+}
+
+Child::~Child() { std::erase(all_of_this_process(), this); }
+
+// What a killed orphan has started becomes a child in its turn, so a round follows until there is
+// none. Nothing else can have the number of a child that has not been reaped.
+void Child::end_orphans() const {
+  for (int round = 0; round < kMostRounds; ++round) {
+    bool any = false;
+    for (const pid_t child : children_of_this_process()) {
+      if (std::binary_search(before_.begin(), before_.end(), child) ||
+          std::ranges::any_of(all_of_this_process(), [&](const Child* each) {
+            return each != this && each->pid_ == child;
+          }))
+        continue;
+      if (kill(child, SIGKILL) != 0) continue;  // another user's
+      any = true;
+      while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }
+    if (!any) return;
+  }
 }
 
 }  // namespace contactcheck::process

@@ -17,6 +17,7 @@
 #include <iostream>
 #include <locale>
 
+#include "reference/process/process_tree.h"
 #include "reference/text/printable.h"
 
 namespace contactcheck::process {
@@ -231,6 +232,7 @@ void volunteer_for_the_oom_killer() { std::ofstream("/proc/self/oom_score_adj") 
 
 void end_with_supervisor() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  adopt_orphans();
   volunteer_for_the_oom_killer();
 }
 

@@ -76,7 +76,8 @@ class ProcessGuard {
   sigset_t blocked_ = {};
 };
 
-/// Makes this process end with its supervisor, and before it where memory ends.
+/// Makes this process end with its supervisor, and before it where memory ends, and adopt orphans
+/// (process_tree.h).
 void end_with_supervisor();
 
 /// Maps the supervisor's page, for this process and no copy of it, and makes this process end with

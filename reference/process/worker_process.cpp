@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/types/check.h"
-#include "reference/process/process_tree.h"
 
 namespace contactcheck::process {
 namespace {
@@ -105,9 +104,11 @@ void WorkerProcess::start(const std::filesystem::path& executable,
   plan.move(output_.fd(), STDOUT_FILENO);
   plan.move(errors_.fd(), STDERR_FILENO);
   plan.move(inherited_fd, kInheritedFd);
-  const int error = plan.spawn(words.data(), mark_.environment(), &pid_);
+  pid_t pid = 0;
+  const int error = plan.spawn(words.data(), environ, &pid);
   if (error != 0)
     throw InputError("cannot start the worker " + program + ": " + std::strerror(error));
+  child_.is(pid);
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -118,31 +119,28 @@ WorkerProcess::~WorkerProcess() {
 
 bool WorkerProcess::has_ended() const {
   siginfo_t info = {};
-  return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-         info.si_pid == pid_;
+  return waitid(P_PID, static_cast<id_t>(child_.pid()), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == child_.pid();
 }
 
 void WorkerProcess::kill() {
-  ::kill(-pid_, SIGKILL);
-  ::kill(pid_, SIGKILL);  // a library may have moved it to another group
+  ::kill(-child_.pid(), SIGKILL);
+  ::kill(child_.pid(), SIGKILL);  // a library may have moved it to another group
 }
 
 int WorkerProcess::reap() {
   siginfo_t info = {};
-  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+  while (waitid(P_PID, static_cast<id_t>(child_.pid()), &info, WEXITED | WNOWAIT) != 0 &&
+         errno == EINTR) {
   }
   // As long as it is a zombie its number, and so the group's, belongs to nobody else.
   kill();
   int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(child_.pid(), &status, 0) < 0 && errno == EINTR) {
   }
-  mark_.kill_bearers();  // those that have left the group
+  child_.end_orphans();
   reaped_ = true;
   return status;
-}
-
-std::uint64_t WorkerProcess::resident_bytes() const {
-  return contactcheck::process::resident_bytes(pid_);
 }
 
 std::string describe_status(int status) {

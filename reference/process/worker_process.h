@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/process/process_mark.h"
+#include "reference/process/process_tree.h"
 
 namespace contactcheck::process {
 
@@ -55,11 +55,12 @@ class WorkerProcess {
 
   bool has_ended() const;
   void kill();
-  /// Waits for its end, ends what is left of its group and what has left it, and gives its status
-  /// as waitpid does.
+  /// Waits for its end, ends what is left of its group and of all that it has started, and gives
+  /// its status as waitpid does.
   int reap();
 
-  std::uint64_t resident_bytes() const;
+  /// With all that it has started.
+  std::uint64_t resident_bytes() const { return resident_bytes_of_tree(child_.pid()); }
   /// What it has written and not taken back, both streams together.
   std::uint64_t output_bytes() const { return output_.size() + errors_.size(); }
   /// What stands on its standard error.
@@ -70,8 +71,7 @@ class WorkerProcess {
              int inherited_fd);
 
   MemoryFile output_, errors_;
-  ProcessMark mark_;
-  pid_t pid_ = 0;
+  Child child_;
   bool reaped_ = false;
 };
 

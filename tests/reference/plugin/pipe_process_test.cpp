@@ -80,12 +80,12 @@ TEST(PipeProcess, EndsWithWhatItHasStarted) {
   EXPECT_TRUE(test::dies(child));
 }
 
-// An orphan in a session of its own: no tree and no group holds it any more.
+// An orphan in a session of its own, in an empty environment.
 TEST(PipeProcess, EndsWithWhatHasLeftItsTree) {
   for (const char* then : {"wait; cat", "exit 0"}) {
     int child = 0;
     {
-      PipeProcess process(std::string("(setsid sleep 300 >/dev/null 2>&1 & echo $!); ") + then);
+      PipeProcess process(std::string("(env -i setsid sleep 300 >/dev/null 2>&1 & echo $!); ") + then);
       child = std::atoi(process.receive_line().c_str());
       ASSERT_GT(child, 0);
       EXPECT_EQ(kill(child, 0), 0);

@@ -153,8 +153,7 @@ Pids pids_beside(const std::filesystem::path& job) {
   return pids;
 }
 
-// Also one in a session of its own, whom no signal to the worker's group reaches. (A child of fork
-// alone still has the worker's environment.)
+// Also one in a session of its own, whom no signal to the worker's group reaches.
 TEST(Supervisor, ChildrenOfADeadWorkerAreEnded) {
   for (const char* what : {"crash with child", "crash with child away"}) {
     const Scratch scratch;

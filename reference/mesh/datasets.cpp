@@ -1,9 +1,8 @@
 #include "reference/mesh/datasets.h"
 
-#include <zlib.h>
+#include <archive.h>
+#include <archive_entry.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,93 +11,33 @@
 #include "reference/text/file_text.h"
 
 namespace contactcheck::mesh {
-namespace {
 
-constexpr std::size_t kBlock = 512;
-constexpr std::uint64_t kLargestMember = 1ull << 30;  // bytes; the largest real one has 4 MB
-using Block = std::array<char, kBlock>;
-
-class Archive {
- public:
-  explicit Archive(const std::filesystem::path& file)
-      : name_("archive " + text::in_quotes(file.string())),
-        stream_(gzopen(file.c_str(), "rb"), gzclose) {
-    if (!stream_) throw InputError(name_ + " cannot be read.");
-    gzbuffer(stream_.get(), 1u << 17);
-  }
-
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + " " + what); }
-
-  void read(char* out, std::uint64_t size) {
-    while (size > 0) {
-      const auto piece = static_cast<unsigned>(std::min<std::uint64_t>(size, 1u << 20));
-      const int got = gzread(stream_.get(), out, piece);
-      if (got <= 0) fail("is damaged or ends early.");
-      out += got;
-      size -= static_cast<std::uint64_t>(got);
-    }
-  }
-
-  void skip(std::uint64_t size) {
-    std::array<char, 1 << 16> scratch;
-    for (; size > 0; size -= std::min<std::uint64_t>(size, scratch.size())) {
-      read(scratch.data(), std::min<std::uint64_t>(size, scratch.size()));
-    }
-  }
-
- private:
-  std::string name_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile)> stream_;
-};
-
-std::string field(const Block& header, std::size_t begin, std::size_t size) {
-  const char* first = header.data() + begin;
-  return std::string(first, std::find(first, first + size, '\0'));
-}
-
-std::uint64_t octal(const Block& header, std::size_t begin, std::size_t size, const Archive& tar) {
-  std::uint64_t value = 0;
-  for (const char c : field(header, begin, size)) {
-    if (c == ' ') continue;
-    if (c < '0' || c > '7') tar.fail("is not a tar archive of a known form.");
-    value = 8 * value + static_cast<std::uint64_t>(c - '0');
-  }
-  return value;
-}
-
-// The header's own sum counts its eight bytes as blanks.
-bool checksum_agrees(const Block& header, const Archive& tar) {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    sum += i >= 148 && i < 156 ? ' ' : static_cast<unsigned char>(header[i]);
-  }
-  return sum == octal(header, 148, 8, tar);
-}
-
-std::string full_name(const Block& header) {
-  const std::string prefix = field(header, 257, 5) == "ustar" ? field(header, 345, 155) : "";
-  return (prefix.empty() ? "" : prefix + "/") + field(header, 0, 100);
-}
-
-}  // namespace
-
-std::optional<std::string> read_tar_member(const std::filesystem::path& archive,
+std::optional<std::string> read_tar_member(const std::filesystem::path& file,
                                            const std::string& member) {
-  Archive tar(archive);
-  Block header;
-  for (;;) {
-    tar.read(header.data(), kBlock);
-    if (header[0] == '\0') return std::nullopt;  // the end mark: blocks of zeros
-    if (!checksum_agrees(header, tar)) tar.fail("is damaged: a header's checksum is wrong.");
-    const std::uint64_t size = octal(header, 124, 12, tar);
-    if (size > kLargestMember) tar.fail("has a member of more than 1 GiB.");
-    const bool regular = header[156] == '0' || header[156] == '\0';
-    if (regular && full_name(header) == member) {
-      std::string bytes(size, '\0');
-      tar.read(bytes.data(), size);
-      return bytes;
-    }
-    tar.skip((size + kBlock - 1) / kBlock * kBlock);
+  constexpr std::int64_t kLargest = std::int64_t{1} << 30;  // bytes; the largest real one has 4 MB
+  constexpr std::size_t kBlock = std::size_t{1} << 17;
+  const std::string name = "archive " + text::in_quotes(file.string());
+  const std::unique_ptr<archive, int (*)(archive*)> tar(archive_read_new(), archive_read_free);
+  archive_read_support_filter_gzip(tar.get());
+  archive_read_support_format_tar(tar.get());
+  if (archive_read_open_filename(tar.get(), file.c_str(), kBlock) != ARCHIVE_OK)
+    throw InputError(name + " cannot be read.");
+  const auto damaged = [&] {
+    const char* why = archive_error_string(tar.get());
+    return InputError(name + " is damaged or ends early" +
+                      (why == nullptr ? "." : std::string(": ") + why + "."));
+  };
+  for (archive_entry* entry = nullptr;;) {
+    const int found = archive_read_next_header(tar.get(), &entry);
+    if (found == ARCHIVE_EOF) return std::nullopt;
+    if (found != ARCHIVE_OK) throw damaged();
+    const char* path = archive_entry_pathname(entry);
+    if (path == nullptr || path != member || archive_entry_filetype(entry) != AE_IFREG) continue;
+    const std::int64_t size = archive_entry_size(entry);
+    if (size > kLargest) throw InputError(name + " has a member of more than 1 GiB.");
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    if (archive_read_data(tar.get(), bytes.data(), bytes.size()) != size) throw damaged();
+    return bytes;
   }
 }
 

@@ -11,9 +11,8 @@
 
 namespace contactcheck::mesh {
 
-// One file out of a .tar.gz archive (POSIX ustar, zlib), in memory, without unpacking the rest.
-
-/// The bytes of the regular file `member`, or nothing when the archive has none of that name.
+/// The bytes of the regular file `member` of a tar archive, packed by gzip or
+/// not, or nothing when the archive has none of that name.
 /// @throws InputError when the archive cannot be read, is damaged or ends early
 std::optional<std::string> read_tar_member(const std::filesystem::path& archive,
                                            const std::string& member);

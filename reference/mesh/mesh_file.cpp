@@ -21,8 +21,9 @@
 #include "core/types/check.h"
 #include "core/types/input_file.h"
 #include "reference/mesh/mesh_check.h"
+#include "reference/mesh/off_guard.h"
+#include "reference/mesh/ply.h"
 #include "reference/mesh/polygon_split.h"
-#include "reference/mesh/soup_guard.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::mesh {
@@ -260,11 +261,19 @@ PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::st
   const std::string index_fault = face_index_fault(format, bytes);
   if (!index_fault.empty()) throw InputError(name + ": " + index_fault + ".");
   PolygonSoup soup;
-  std::string guard_fault;
-  const std::optional<std::string> guarded = guarded_bytes(format, bytes, guard_fault);
-  if (!guard_fault.empty()) throw InputError(name + guard_fault + ".");
-  if (!guarded || !read_polygon_soup(format, *guarded, soup)) {
-    const std::string fault = coordinate_fault(format, bytes);
+  std::string fault;
+  bool read = false;
+  if (format == SoupFormat::kPly) {
+    read = read_ply(bytes, soup, fault);
+  } else if (format == SoupFormat::kOff) {
+    const std::optional<std::string> plain = plain_off(bytes, fault);
+    read = plain && read_polygon_soup(format, *plain, soup);
+  } else {
+    read = read_polygon_soup(format, bytes, soup);
+  }
+  if (!fault.empty()) throw InputError(name + fault + ".");
+  if (!read) {
+    fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
     throw InputError(name + " cannot be read as " + name_of(format) + ".");
   }

@@ -1,7 +1,8 @@
-#include "reference/mesh/soup_guard.h"
+#include "reference/mesh/ply.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -19,9 +20,6 @@
 
 namespace contactcheck::mesh {
 namespace {
-
-// What CGAL's PLY reader may be given. That of CGAL 5.5.1 reads a length and allocates it, goes on
-// with the next element after a list that it could not read, and casts by a property's name.
 
 enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
@@ -114,12 +112,13 @@ bool is_coordinate(const Element& element, const Property& property) {
          (property.name == "x" || property.name == "y" || property.name == "z");
 }
 
+bool is_face(const Element& element) { return element.name == "face" || element.name == "faces"; }
+
 bool is_corners(const Element& element, const Property& property) {
-  return (element.name == "face" || element.name == "faces") &&
-         (property.name == "vertex_indices" || property.name == "vertex_index");
+  return is_face(element) && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-// The reader casts what has these names to these types, unchecked in a build without assertions.
+// Coordinates are floating, corners are lists of 32 bits.
 bool names_have_their_types(const Header& header) {
   for (const Element& element : header.elements)
     for (const Property& property : element.properties) {
@@ -144,44 +143,21 @@ std::string missing_coordinate(const Header& header) {
   return "";
 }
 
-std::string plain_header(const Header& header) {
-  std::string out = "ply\nformat " + header.format + " 1.0\n";
-  for (const Element& element : header.elements) {
-    const bool known = element.name == "vertex" || element.name == "vertices" ||
-                       element.name == "face" || element.name == "faces";
-    out += "element " + (known ? element.name : "other") + ' ' + std::to_string(element.count);
-    out += '\n';
-    for (const Property& property : element.properties) {
-      out += "property ";
-      if (property.length) out += std::string("list ") + property.length->name + ' ';
-      const bool wanted = is_coordinate(element, property) || is_corners(element, property);
-      out += std::string(property.item->name) + ' ' + (wanted ? property.name : "other") + '\n';
-    }
-  }
-  return out + "end_header\n";
-}
-
-template <typename Integer>
-std::optional<std::int64_t> in_range(const std::string& word) {
-  return text::whole_number<Integer>(word);
-}
-
-// Nothing unless all of the word is a number of the type: the reader would go on behind the part
-// that is one, or go on without reading.
-std::optional<std::int64_t> integer(const std::string& word, Type type) {
+// Nothing unless all of the word is a number of the type.
+std::optional<double> integer(const std::string& word, Type type) {
   switch (type) {
     case Type::kInt8:
-      return in_range<std::int8_t>(word);
+      return text::whole_number<std::int8_t>(word);
     case Type::kUint8:
-      return in_range<std::uint8_t>(word);
+      return text::whole_number<std::uint8_t>(word);
     case Type::kInt16:
-      return in_range<std::int16_t>(word);
+      return text::whole_number<std::int16_t>(word);
     case Type::kUint16:
-      return in_range<std::uint16_t>(word);
+      return text::whole_number<std::uint16_t>(word);
     case Type::kInt32:
-      return in_range<std::int32_t>(word);
+      return text::whole_number<std::int32_t>(word);
     case Type::kUint32:
-      return in_range<std::uint32_t>(word);
+      return text::whole_number<std::uint32_t>(word);
     case Type::kFloat:
     case Type::kDouble:
       break;
@@ -189,16 +165,38 @@ std::optional<std::int64_t> integer(const std::string& word, Type type) {
   return std::nullopt;
 }
 
-bool is_finite_decimal(const std::string& word, Type type) {
-  if (word.find_first_not_of("+-.0123456789eE") != std::string::npos) return false;
+// The double that a word of a text gives, or the float where the property says float.
+std::optional<double> finite_decimal(const std::string& word, Type type) {
+  if (word.find_first_not_of("+-.0123456789eE") != std::string::npos) return std::nullopt;
   char* end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
   const double largest =
       type == Type::kFloat ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
-  return end == word.c_str() + word.size() && std::abs(value) <= largest;
+  if (end != word.c_str() + word.size() || std::abs(value) > largest) return std::nullopt;
+  return type == Type::kFloat ? std::strtof(word.c_str(), nullptr) : value;
 }
 
-// Steps over the values of a file; false where one is missing or is none of its type.
+double number_of(std::uint64_t bits, Type type) {
+  switch (type) {
+    case Type::kInt8:
+      return static_cast<std::int8_t>(bits);
+    case Type::kInt16:
+      return static_cast<std::int16_t>(bits);
+    case Type::kInt32:
+      return static_cast<std::int32_t>(bits);
+    case Type::kUint8:
+    case Type::kUint16:
+    case Type::kUint32:
+      return static_cast<double>(bits);
+    case Type::kFloat:
+      return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    case Type::kDouble:
+      return std::bit_cast<double>(bits);
+  }
+  return 0.0;
+}
+
+// The values of a file, one after the other.
 class Values {
  public:
   Values(std::istream& in, const std::string& format)
@@ -222,34 +220,34 @@ class Values {
     return " goes on after the last element of its header: " + text::in_quotes(line, 40);
   }
 
-  bool skip(const Property& property) {
-    if (!property.length) return skip_item(*property.item);
-    const auto length =
-        ascii_ ? next_integer(property.length->type) : next_binary(*property.length);
-    if (!length) return false;
-    for (std::int64_t i = 0; i < *length; ++i)
-      if (!skip_item(*property.item)) return false;
-    return *length >= 0;
+  // False where one is missing or is none of its type.
+  bool read(const Property& property, std::vector<double>& out) {
+    out.clear();
+    double items = 1.0;
+    if (property.length && (!read_item(*property.length, items) || items < 0.0)) return false;
+    for (double value = 0.0; items > 0.0; --items) {
+      if (!read_item(*property.item, value)) return false;
+      out.push_back(value);
+    }
+    return true;
   }
 
  private:
-  std::optional<std::int64_t> next_integer(Type type) {
-    return in_ >> word_ ? integer(word_, type) : std::nullopt;
-  }
-  // A negative length, here a huge one, is longer than any file.
-  std::optional<std::int64_t> next_binary(const TypeNames& type) {
+  bool read_item(const TypeNames& type, double& out) {
+    if (ascii_) {
+      if (!(in_ >> word_)) return false;
+      const std::optional<double> value =
+          is_floating(type) ? finite_decimal(word_, type.type) : integer(word_, type.type);
+      out = value.value_or(0.0);
+      return value.has_value();
+    }
     std::array<char, 8> bytes{};
-    if (!in_.read(bytes.data(), static_cast<std::streamsize>(type.size))) return std::nullopt;
-    std::int64_t value = 0;
+    if (!in_.read(bytes.data(), static_cast<std::streamsize>(type.size))) return false;
+    std::uint64_t bits = 0;
     for (std::size_t i = 0; i < type.size; ++i)
-      value = value << 8 | static_cast<unsigned char>(bytes[big_ ? i : type.size - 1 - i]);
-    return value;
-  }
-  bool skip_item(const TypeNames& type) {
-    std::array<char, 8> bytes{};
-    if (!ascii_) return !!in_.read(bytes.data(), static_cast<std::streamsize>(type.size));
-    if (!is_floating(type)) return next_integer(type.type).has_value();
-    return in_ >> word_ && is_finite_decimal(word_, type.type);
+      bits = bits << 8 | static_cast<unsigned char>(bytes[big_ ? i : type.size - 1 - i]);
+    out = number_of(bits, type.type);
+    return true;
   }
 
   std::istream& in_;
@@ -257,12 +255,34 @@ class Values {
   std::string word_;
 };
 
-// Steps over the elements of one kind. False where a value is missing or is none of its type, or,
-// with a fault, where a line holds more.
-bool holds_elements(const Element& element, Values& values, std::string& fault) {
+// An index below 0 names no vertex, as the largest does.
+std::uint32_t corner_of(double index) {
+  return index < 0.0 ? std::numeric_limits<std::uint32_t>::max()
+                     : static_cast<std::uint32_t>(index);
+}
+
+// False where a value is missing or is none of its type, or, with a fault, where a line holds more.
+bool read_elements(const Element& element, Values& values, PolygonSoup& soup, std::string& fault) {
+  const std::vector<Property>& properties = element.properties;
+  const auto first = [&](const char* name) {
+    const auto named = [&](const Property& property) { return property.name == name; };
+    return static_cast<std::size_t>(std::ranges::find_if(properties, named) - properties.begin());
+  };
+  const bool vertex = is_vertex(element), face = is_face(element);
+  const std::size_t x = first("x"), y = first("y"), z = first("z"),
+                    indices = first("vertex_indices");
+  const std::size_t corners = indices < properties.size() ? indices : first("vertex_index");
+  if (face && corners == properties.size()) return false;
+  std::vector<double> read;
   for (std::size_t i = 0; i < element.count; ++i) {
-    for (const Property& property : element.properties)
-      if (!values.skip(property)) return false;
+    Vec3 point = Vec3::Zero();
+    for (std::size_t p = 0; p < properties.size(); ++p) {
+      if (!values.read(properties[p], read)) return false;
+      if (vertex && (p == x || p == y || p == z)) point[p == x ? 0 : p == y ? 1 : 2] = read[0];
+      if (face && p == corners)
+        std::ranges::transform(read, std::back_inserter(soup.polygons.emplace_back()), corner_of);
+    }
+    if (vertex) soup.points.push_back(point);
     const std::string rest = values.rest_of_line();
     if (rest.empty()) continue;
     fault = ": " + element.name + " " + std::to_string(i) +
@@ -272,126 +292,20 @@ bool holds_elements(const Element& element, Values& values, std::string& fault) 
   return true;
 }
 
-bool holds_its_values(const Header& header, std::istream& in, std::size_t size,
-                      std::string& fault) {
-  Values values(in, header.format);
-  for (const Element& element : header.elements)
-    if (element.count > size || !holds_elements(element, values, fault)) return false;
-  fault = values.beyond();
-  return fault.empty();
-}
-
-// The same values under a header of our own, in which only x, y, z and the vertex indices keep
-// their names. Nothing when a value is missing or does not fit its type, a coordinate is not
-// float or double, or vertex indices are not int or uint; and when x, y or z is missing or the
-// file goes on after its values, which `fault` then says as guarded_bytes does. In text each
-// element has a line of its own.
-std::optional<std::string> plain_ply(const std::string& bytes, std::string& fault) {
-  std::istringstream in(bytes, std::ios::in | std::ios::binary);
-  const std::optional<Header> header = read_header(in);
-  if (!header || !names_have_their_types(*header)) return std::nullopt;
-  fault = missing_coordinate(*header);
-  if (!fault.empty()) return std::nullopt;
-  // Where the file ends with its header and no line end, tellg() has no answer.
-  const std::size_t body = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg());
-  if (!holds_its_values(*header, in, bytes.size(), fault)) return std::nullopt;
-  return plain_header(*header) + bytes.substr(body);
-}
-
-using Words = std::vector<std::string>;
-
-// The words of the next line that has some before '#'; empty at the end.
-Words next_words(std::istream& in) {
-  Words words;
-  for (std::string line; words.empty() && std::getline(in, line);)
-    words = text::words_of(line.substr(0, line.find('#')));
-  return words;
-}
-
-// "OFF" behind what says that a vertex line goes on after x, y, z.
-bool is_plain_keyword(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N"})
-    if (word.substr(0, prefix.size()) == prefix) word.remove_prefix(prefix.size());
-  return word == "OFF";
-}
-
-// Numbers of vertices and faces; the keyword may be missing.
-std::optional<std::array<std::size_t, 2>> off_header(std::istream& in) {
-  Words words = next_words(in);
-  if (!words.empty() && is_plain_keyword(words[0])) words.erase(words.begin());
-  if (words.empty()) words = next_words(in);
-  if (words.size() < 2) return std::nullopt;
-  const auto vertices = text::whole_number<std::size_t>(words[0]),
-             faces = text::whole_number<std::size_t>(words[1]);
-  if (!vertices || !faces) return std::nullopt;
-  return std::array{*vertices, *faces};
-}
-
-void append_line(const Words& words, std::size_t count, std::string& out) {
-  for (std::size_t i = 0; i < std::min(count, words.size()); ++i) out += words[i] + ' ';
-  out += '\n';
-}
-
-// A face is as many whole numbers as its first word says, and that word.
-std::optional<std::size_t> face_words(const Words& words) {
-  const auto corners = text::whole_number<std::size_t>(words[0]);
-  if (!corners || *corners >= words.size()) return std::nullopt;
-  for (std::size_t i = 1; i <= *corners; ++i)
-    if (!text::whole_number<std::size_t>(words[i])) return std::nullopt;
-  return *corners + 1;
-}
-
-std::string index_fault(const Words& words, std::size_t count, std::size_t face,
-                        std::size_t vertices) {
-  for (std::size_t i = 1; i < count; ++i)
-    if (text::whole_number<std::size_t>(words[i]).value_or(vertices) >= vertices)
-      return ": face " + std::to_string(face) + " names the vertex " + words[i] +
-             "; the file has " + std::to_string(vertices) + ", counted from 0";
-  return "";
-}
-
-// What follows the last face; white space and comments may.
-std::string lines_beyond(std::istream& in, std::size_t vertices, std::size_t faces) {
-  const Words first = next_words(in);
-  if (first.empty()) return "";
-  std::size_t count = 1;
-  while (!next_words(in).empty()) ++count;
-  std::string line;
-  for (const std::string& word : first) line += (line.empty() ? "" : " ") + word;
-  return " has " + std::to_string(count) + (count == 1 ? " line" : " lines") +
-         " more than its header's " + std::to_string(vertices) + " vertices and " +
-         std::to_string(faces) + " faces: " + text::in_quotes(line, 40);
-}
-
-std::optional<std::string> plain_off(const std::string& bytes, std::string& fault) {
-  std::istringstream in(bytes);
-  const auto header = off_header(in);
-  if (!header) return std::nullopt;
-  const auto [vertices, faces] = *header;
-  if (std::max(vertices, faces) > bytes.size()) return std::nullopt;
-  std::string out = "OFF\n" + std::to_string(vertices) + ' ' + std::to_string(faces) + " 0\n";
-  for (std::size_t line = 0; line < vertices + faces; ++line) {
-    const Words words = next_words(in);
-    if (words.empty()) return out;  // the reader finds that the end is missing
-    const std::optional<std::size_t> count = line < vertices ? 3 : face_words(words);
-    if (!count) return std::nullopt;
-    if (line >= vertices) fault = index_fault(words, *count, line - vertices, vertices);
-    if (!fault.empty()) return std::nullopt;
-    append_line(words, *count, out);
-  }
-  fault = lines_beyond(in, vertices, faces);
-  if (!fault.empty()) return std::nullopt;
-  return out;
-}
-
 }  // namespace
 
-std::optional<std::string> guarded_bytes(SoupFormat format, const std::string& bytes,
-                                         std::string& fault) {
-  fault.clear();
-  if (format == SoupFormat::kOff) return plain_off(bytes, fault);
-  if (format == SoupFormat::kPly) return plain_ply(bytes, fault);
-  return bytes;
+bool read_ply(const std::string& bytes, PolygonSoup& out, std::string& fault) {
+  out = {};
+  std::istringstream in(bytes, std::ios::in | std::ios::binary);
+  const std::optional<Header> header = read_header(in);
+  if (!header || !names_have_their_types(*header)) return false;
+  fault = missing_coordinate(*header);
+  if (!fault.empty()) return false;
+  Values values(in, header->format);
+  for (const Element& element : header->elements)
+    if (element.count > bytes.size() || !read_elements(element, values, out, fault)) return false;
+  fault = values.beyond();
+  return fault.empty();
 }
 
 }  // namespace contactcheck::mesh

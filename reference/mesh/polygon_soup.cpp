@@ -5,7 +5,6 @@
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
-#include <CGAL/IO/PLY.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Simple_cartesian.h>
 
@@ -45,7 +44,7 @@ bool read(SoupFormat format, const std::string& bytes, Points& points, Polygons&
     case SoupFormat::kOff:
       return CGAL::IO::read_OFF(in, points, polygons);
     case SoupFormat::kPly:
-      return CGAL::IO::read_PLY(in, points, polygons);
+      return false;
     case SoupFormat::kStl:
       return CGAL::IO::read_STL(in, points, polygons);
   }

@@ -1,5 +1,5 @@
-// Polygon soups out of the bytes of OBJ, OFF, PLY and STL files, through CGAL's readers (LGPL),
-// which keep doubles and indices. The only translation unit with CGAL in this folder.
+// Polygon soups out of the bytes of OBJ, OFF and STL files, through CGAL's readers (LGPL), which
+// keep doubles and indices (PLY: ply.h). The only translation unit with CGAL in this folder.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct PolygonSoup {
   std::vector<std::vector<std::uint32_t>> polygons;
 };
 
-/// False when the reader refuses the bytes; it does not say why. For STL, corners at equal
-/// coordinates become one point.
+/// False when the reader refuses the bytes, and for PLY; it does not say why. For STL, corners at
+/// equal coordinates become one point.
 bool read_polygon_soup(SoupFormat format, const std::string& bytes, PolygonSoup& out);
 
 }  // namespace contactcheck::mesh

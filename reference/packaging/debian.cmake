@@ -29,5 +29,5 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libhwy-dev, libtbb-dev")
 # What contactcheck::reference needs beside them; contactcheck::core alone does not.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "libassimp-dev, libbullet-dev, libccd-dev, libcgal-dev, libcli11-dev, libembree-dev, libfcl-dev, libfmt-dev, libgmp-dev, libmeshoptimizer-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
+    "libarchive-dev, libassimp-dev, libbullet-dev, libccd-dev, libcgal-dev, libcli11-dev, libembree-dev, libfcl-dev, libfmt-dev, libgmp-dev, libmeshoptimizer-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
 include(CPack)

@@ -85,10 +85,11 @@ void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib) {
       ->check(number_in(0.1, 1e6, "0.1 to 1000000"))
       ->type_name("SECONDS");
   command
-      .add_option("--memory-limit", mib,
-                  fmt::format("resident memory of a worker process (default {}); a detector that "
-                              "exceeds it gets status error",
-                              mib))
+      .add_option(
+          "--memory-limit", mib,
+          fmt::format("resident memory of a worker process and what it starts (default {}); "
+                      "a detector that exceeds it gets status error",
+                      mib))
       ->check(whole_in(64, 1 << 30))
       ->type_name("MIB");
 }

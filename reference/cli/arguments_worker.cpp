@@ -22,7 +22,6 @@ struct ProbeWords {
 
 struct ExamineWords {
   std::string kind, text;
-  std::uint64_t memory_limit = 0;
   int fd = -1;
 };
 
@@ -54,11 +53,10 @@ void add_examine(CommandLine& line) {
   CLI::App* examine = line.app.add_subcommand("examine", "")->group("");
   examine->add_option("kind", words->kind)->required();
   examine->add_option("--text", words->text)->required();
-  examine->add_option("--memory-limit", words->memory_limit)->required();
   examine->add_option("--answer-fd", words->fd)->required();
   choose(*examine, line, [words] {
     return plugin::run_examination({plugin::plugin_kind_from_name(words->kind), words->text},
-                                   words->memory_limit, words->fd);
+                                   words->fd);
   });
 }
 

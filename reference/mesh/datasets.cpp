@@ -20,23 +20,23 @@ std::optional<std::string> read_tar_member(const std::filesystem::path& file,
   const std::unique_ptr<archive, int (*)(archive*)> tar(archive_read_new(), archive_read_free);
   archive_read_support_filter_gzip(tar.get());
   archive_read_support_format_tar(tar.get());
-  if (archive_read_open_filename(tar.get(), file.c_str(), kBlock) != ARCHIVE_OK)
-    throw InputError(name + " cannot be read.");
-  const auto damaged = [&] {
+  const auto fault = [&](const char* what) {
     const char* why = archive_error_string(tar.get());
-    return InputError(name + " is damaged or ends early" +
-                      (why == nullptr ? "." : std::string(": ") + why + "."));
+    return InputError(name + what + (why == nullptr ? "." : std::string(": ") + why + "."));
   };
+  if (archive_read_open_filename(tar.get(), file.c_str(), kBlock) != ARCHIVE_OK)
+    throw fault(" cannot be read");
   for (archive_entry* entry = nullptr;;) {
     const int found = archive_read_next_header(tar.get(), &entry);
     if (found == ARCHIVE_EOF) return std::nullopt;
-    if (found != ARCHIVE_OK) throw damaged();
+    if (found != ARCHIVE_OK) throw fault(" is damaged or ends early");
     const char* path = archive_entry_pathname(entry);
     if (path == nullptr || path != member || archive_entry_filetype(entry) != AE_IFREG) continue;
     const std::int64_t size = archive_entry_size(entry);
     if (size > kLargest) throw InputError(name + " has a member of more than 1 GiB.");
     std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (archive_read_data(tar.get(), bytes.data(), bytes.size()) != size) throw damaged();
+    if (archive_read_data(tar.get(), bytes.data(), bytes.size()) != size)
+      throw fault(" is damaged or ends early");
     return bytes;
   }
 }

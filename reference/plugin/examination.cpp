@@ -42,8 +42,8 @@ class Examination {
         process_(executable,
                  {"examine", name_of(source.kind),
                   // A word of its own that begins with '-' would be a flag.
-                  "--text=" + source.text, "--memory-limit", std::to_string(memory_limit_),
-                  "--answer-fd", std::to_string(process::WorkerProcess::kInheritedFd)},
+                  "--text=" + source.text, "--answer-fd",
+                  std::to_string(process::WorkerProcess::kInheritedFd)},
                  answer_.fd()) {}
 
   std::string answer() {
@@ -100,14 +100,14 @@ class Examination {
   process::WorkerProcess process_;
 };
 
-Declaration declaration_of(const PluginSource& source, std::uint64_t memory_limit) {
+Declaration declaration_of(const PluginSource& source) {
   return source.kind == PluginKind::kLibrary ? PluginLibrary(source.text).declare()
-                                             : declare_command(source.text, memory_limit);
+                                             : declare_command(source.text);
 }
 
-Json answer_of(const PluginSource& source, std::uint64_t memory_limit) {
+Json answer_of(const PluginSource& source) {
   try {
-    return {{"declaration", to_json(declaration_of(source, memory_limit))}};
+    return {{"declaration", to_json(declaration_of(source))}};
   } catch (...) {
     return {{"fault", text::current_exception_text()}};
   }
@@ -135,7 +135,6 @@ Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& e
   Plugin plugin;
   plugin.source = source;
   plugin.content = content_of(source);
-  plugin.memory_limit = settings.memory_limit;
   const std::string text = Examination(source, executable, settings).answer();
   // What the child has written was in reach of the plug-in.
   const std::string document = described(source);
@@ -147,10 +146,9 @@ Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& e
   return plugin;
 }
 
-int run_examination(const PluginSource& source, std::uint64_t memory_limit, int answer_fd) {
+int run_examination(const PluginSource& source, int answer_fd) {
   process::end_with_supervisor();
-  write_all(answer_fd,
-            answer_of(source, memory_limit).dump(-1, ' ', false, Json::error_handler_t::replace));
+  write_all(answer_fd, answer_of(source).dump(-1, ' ', false, Json::error_handler_t::replace));
   _exit(0);  // its destructors may hang
 }
 

@@ -18,6 +18,6 @@ Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& e
 
 /// The child's side: writes what the plug-in says, or what is wrong with it, to the descriptor
 /// `answer_fd`. Returns the exit code.
-int run_examination(const PluginSource& source, std::uint64_t memory_limit, int answer_fd);
+int run_examination(const PluginSource& source, int answer_fd);
 
 }  // namespace contactcheck::plugin

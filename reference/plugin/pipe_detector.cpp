@@ -10,18 +10,10 @@
 namespace contactcheck::plugin {
 namespace {
 
-PipeLimits limits_with(std::uint64_t memory) {
-  PipeLimits limits;
-  limits.memory = memory;
-  return limits;
-}
-
 class PipeDetector : public Detector {
  public:
-  PipeDetector(const std::string& command, const Options& options, std::uint64_t memory_limit)
-      : name_("command \"" + command + "\""),
-        options_(options),
-        process_(command, limits_with(memory_limit)) {
+  PipeDetector(const std::string& command, const Options& options)
+      : name_("command \"" + command + "\""), options_(options), process_(command) {
     process_.send(hello_message());
     const Reply hello(process_.receive_line(), name_, "hello");
     hello.root().at("protocol").one_of({kPipeProtocol});
@@ -92,13 +84,13 @@ class PipeDetector : public Detector {
 
 }  // namespace
 
-Declaration declare_command(const std::string& command, std::uint64_t memory_limit) {
-  return PipeDetector(command, {}, memory_limit).declaration();
+Declaration declare_command(const std::string& command) {
+  return PipeDetector(command, {}).declaration();
 }
 
 std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const std::string& id,
-                                             const Options& options, std::uint64_t memory_limit) {
-  auto detector = std::make_unique<PipeDetector>(command, options, memory_limit);
+                                             const Options& options) {
+  auto detector = std::make_unique<PipeDetector>(command, options);
   if (detector->declaration().id != id)
     throw InputError(detector->name() + " calls itself \"" + detector->declaration().id +
                      "\" now; when the run began it was \"" + id + "\"");

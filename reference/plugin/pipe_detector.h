@@ -1,7 +1,6 @@
 // A detector in a process of its own, talked to over pipes.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,13 +11,12 @@ namespace contactcheck::plugin {
 
 /// Starts the command and reads its handshake.
 /// @throws InputError, std::runtime_error when it does not speak the protocol
-Declaration declare_command(const std::string& command, std::uint64_t memory_limit);
+Declaration declare_command(const std::string& command);
 
 /// Starts the command; it ends with the detector. It must call itself `id`: a command that has
 /// changed since it was asked is another detector. `options` has a value for each that it declares.
-/// `memory_limit`: bytes.
 /// @throws InputError, std::runtime_error when it does not speak the protocol
 std::unique_ptr<Detector> make_pipe_detector(const std::string& command, const std::string& id,
-                                             const Options& options, std::uint64_t memory_limit);
+                                             const Options& options);
 
 }  // namespace contactcheck::plugin

@@ -261,8 +261,6 @@ void PipeProcess::read_more() {
 }
 
 void PipeProcess::check_limits() const {
-  if (process::resident_bytes_of_tree(child_.pid()) > limits_.memory)
-    fail("has more than " + std::to_string(limits_.memory >> 20) + " MiB resident (memory limit)");
   if (errors_.size() > limits_.errors)
     fail("wrote more than " + std::to_string(limits_.errors >> 20) +
          " MiB to standard error (output limit)");

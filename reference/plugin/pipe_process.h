@@ -15,7 +15,6 @@
 namespace contactcheck::plugin {
 
 struct PipeLimits {
-  std::uint64_t memory = std::uint64_t{4} << 30;   ///< bytes resident, with all that it starts
   std::size_t line = std::size_t{1} << 20;         ///< bytes of a line that it writes
   std::size_t unasked = std::size_t{1} << 20;      ///< bytes that it writes before it is asked
   std::uint64_t errors = std::uint64_t{64} << 20;  ///< bytes on its standard error
@@ -23,7 +22,8 @@ struct PipeLimits {
 
 /// Runs `/bin/sh -c COMMAND` in this process's group and working directory: whoever ends the group
 /// ends it too, and it ends with this process. Its standard error is a file of its own. There is no
-/// limit of time here: a worker that waits makes no progress, and its supervisor ends it.
+/// limit of time or memory here: a worker that waits makes no progress, and its supervisor, who
+/// counts the memory of all that a worker has started, ends it.
 class PipeProcess {
  public:
   /// @throws InputError when there are no pipes or processes to be had

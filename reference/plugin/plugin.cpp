@@ -57,8 +57,8 @@ DetectorInfo info_of(const Plugin& plugin) {
       return make_library_detector(PluginLibrary(text), options);
     };
   } else {
-    info.make = [text, id = info.id, memory_limit = plugin.memory_limit](const Options& options) {
-      return make_pipe_detector(text, id, options, memory_limit);
+    info.make = [text, id = info.id](const Options& options) {
+      return make_pipe_detector(text, id, options);
     };
   }
   return info;
@@ -92,7 +92,6 @@ nlohmann::ordered_json to_json(const Plugin& plugin) {
   return {{"kind", name_of(plugin.source.kind)},
           {"source", plugin.source.text},
           {"content", plugin.content},
-          {"memory_limit", plugin.memory_limit},
           {"declaration", to_json(plugin.declaration)}};
 }
 
@@ -103,7 +102,6 @@ Plugin plugin_from_text(const std::string& json) {
   Plugin plugin;
   plugin.source = {plugin_kind_from_name(field.at("kind").text()), field.at("source").text()};
   plugin.content = field.at("content").text();
-  plugin.memory_limit = field.at("memory_limit").whole(0, std::size_t{1} << 52);
   plugin.declaration = read_declaration(field.at("declaration"));
   return plugin;
 }

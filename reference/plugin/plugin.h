@@ -34,8 +34,6 @@ std::string content_of(const PluginSource& source);
 struct Plugin {
   PluginSource source;
   std::string content;
-  std::uint64_t memory_limit =
-      suite::RunSettings{}.memory_limit;  ///< bytes, of a command's processes
   Declaration declaration;
 };
 

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no-semantics", {"semantics is missing"}},
         Fault{"endless-line", {"a line of more than 1024 KiB"}},
         Fault{"eats-memory-at-once",
-              {"more than 400 MiB resident (memory limit)"},
+              {"more than 400 MiB (memory limit)"},
               "",
               {"--memory-limit", "400"}}),
     test::name_of_test);

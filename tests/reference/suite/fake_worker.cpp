@@ -38,6 +38,19 @@ void allocate_for_ever() {
   }
 }
 
+// In an orphan in a session of its own.
+void allocate_away() {
+  if (fork() == 0) {
+    if (fork() == 0) {
+      setsid();
+      allocate_for_ever();
+      sleep(300);
+    }
+    _exit(0);
+  }
+  sleep(300);
+}
+
 void step_for_a_second(process::ProgressWriter& progress) {
   for (int i = 0; i < 20; ++i) {
     progress.enter(1, 7, process::Phase::kUpdate);
@@ -159,6 +172,7 @@ int act(const std::string& what, process::ProgressWriter& progress) {
   if (what == "abort") die(SIGABRT);
   if (what == "hang") sleep(60);
   if (what == "allocate") allocate_for_ever();
+  if (what == "allocate away") allocate_away();
   if (what == "refuse") return 2;
   if (what == "leave") return 0;  // as a library that calls exit(0)
   if (what == "outside") {

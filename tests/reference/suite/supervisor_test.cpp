@@ -71,9 +71,11 @@ TEST(Supervisor, SteadyStepsAreNoHangHoweverLongTheyTake) {
 }
 
 TEST(Supervisor, MemoryBeyondTheLimitIsStoppedAndNamed) {
-  const WorkerOutcome outcome = outcome_of("allocate");
-  expect_booked_on_detector_one(outcome);
-  EXPECT_EQ(outcome.reason, "more than 300 MiB resident (memory limit)");
+  for (const char* what : {"allocate", "allocate away"}) {
+    const WorkerOutcome outcome = outcome_of(what);
+    expect_booked_on_detector_one(outcome);
+    EXPECT_EQ(outcome.reason, "more than 300 MiB resident (memory limit)") << what;
+  }
 }
 
 TEST(Supervisor, ExitCodeOfAWorkerThatRefusesIsKept) {

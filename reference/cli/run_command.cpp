@@ -156,7 +156,7 @@ class TaskMaker {
       if (wanted.kind != scene::SuiteGoal::Kind::kOver) continue;
       goal.over = catalog_.parse(wanted.other).name;
       for (suite::SceneTask& task : tasks_.scenes)
-        if (task.file == scene::find_scene(goal.scene, fixtures_))
+        if (is_file(task, scene::find_scene(goal.scene, fixtures_)))
           add_new(goal.over, task.references);
     }
   }
@@ -165,7 +165,7 @@ class TaskMaker {
     const Names& chosen = arguments_.detectors.empty() ? detectors : arguments_.detectors;
     const Names resolved = names_.resolved(chosen);
     for (const suite::SceneTask& task : tasks_.scenes)
-      if (task.file == file) return;
+      if (is_file(task, file)) return;
     tasks_.scenes.push_back({"", file, resolved, {}});
   }
 
@@ -174,7 +174,7 @@ class TaskMaker {
     const fs::path& kept = arguments_.save_scene;
     suite::SceneTask task;
     task.detectors = names_.resolved(given_or_of("default"));
-    task.text = scene::mesh_scene(
+    task.source = scene::mesh_scene(
         arguments_.meshes, kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path());
     tasks_.scenes.push_back(std::move(task));
   }
@@ -182,8 +182,13 @@ class TaskMaker {
   void add_pairs(const scene::PairSpec& pairs) {
     suite::SceneTask task;
     task.detectors = names_.resolved(given_or_of("hard"));
-    task.pairs = pairs;
+    task.source = pairs;
     tasks_.scenes.push_back(std::move(task));
+  }
+
+  static bool is_file(const suite::SceneTask& task, const fs::path& file) {
+    const auto* own = std::get_if<fs::path>(&task.source);
+    return own != nullptr && *own == file;
   }
 
   const RunArguments& arguments_;
@@ -199,37 +204,21 @@ RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalo
   return TaskMaker(arguments, catalog).make();
 }
 
-void check_simulation_of(const suite::SceneTask& task, const DetectorCatalog& catalog,
-                         const scene::Scene& scene) {
-  try {
-    scene::check_simulation(catalog, scene);
-  } catch (const InputError& e) {
-    throw InputError((task.file.empty() ? "" : task.file.string() + ": ") + e.what());
-  }
-}
-
-void read_scene(std::size_t frames, const DetectorCatalog& catalog, suite::SceneTask& task) {
-  if (task.pairs) {
-    task.id = scene::kPairsSceneId;
-    task.content = suite::content_of(*task.pairs);
-    task.frames = scene::RandomPairs(*task.pairs).frames();
-    return;
-  }
-  const scene::Scene scene = task.text ? scene::load_scene_text(*task.text, frames)
-                                       : scene::load_any_scene(task.file, frames);
-  check_simulation_of(task, catalog, scene);
-  task.id = scene.id;
-  task.frames = scene.frames;
-  task.content =
-      task.text ? suite::content_of(*task.text, scene) : suite::content_of(task.file, scene);
-}
-
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.
 void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
                   std::vector<suite::SceneTask>& tasks) {
   std::set<std::string> ids;
   for (suite::SceneTask& task : tasks) {
-    read_scene(frames, catalog, task);
+    const scene::Scene scene = scene::load_any_scene(task.source, frames);
+    try {
+      scene::check_simulation(catalog, scene);
+    } catch (const InputError& e) {
+      const auto* file = std::get_if<fs::path>(&task.source);
+      throw InputError((file == nullptr ? "" : file->string() + ": ") + e.what());
+    }
+    task.id = scene.id;
+    task.frames = scene.frames;
+    task.content = suite::content_of(task.source, scene);
     if (!ids.insert(task.id).second)
       throw InputError("two scenes of this run have the id \"" + task.id + "\"");
   }
@@ -322,10 +311,11 @@ RunArguments with_names(RunArguments arguments, const std::vector<std::string>& 
 void save_scene(const fs::path& file, const std::vector<suite::SceneTask>& tasks) {
   if (file.empty()) return;
   for (const suite::SceneTask& task : tasks) {
-    if (!task.text) continue;
+    const auto* scene = std::get_if<scene::SceneText>(&task.source);
+    if (scene == nullptr) continue;
     if (!fs::exists(file)) {
-      write_file_atomically(file, task.text->text);
-    } else if (suite::read_text_file(file) != task.text->text) {
+      write_file_atomically(file, scene->text);
+    } else if (suite::read_text_file(file) != scene->text) {
       throw InputError("--save-scene: \"" + file.string() +
                        "\" is there already and is not written over");
     }

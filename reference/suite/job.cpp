@@ -120,6 +120,23 @@ TurnAnswer turn_answer_from(const json& j) {
   return answer;
 }
 
+json to_json(const scene::SceneSource& source) {
+  if (const auto* pairs = std::get_if<scene::PairSpec>(&source))
+    return {{"count", pairs->count}, {"seed", pairs->seed}};
+  if (const auto* text = std::get_if<scene::SceneText>(&source))
+    return {{"text", text->text}, {"name", text->name}, {"folder", text->folder.string()}};
+  return std::get<std::filesystem::path>(source).string();
+}
+
+scene::SceneSource source_from(const json& j) {
+  if (j.contains("count"))
+    return scene::PairSpec{j.at("count").get<std::uint64_t>(), j.at("seed").get<std::uint64_t>()};
+  if (j.contains("text"))
+    return scene::SceneText{j.at("text").get<std::string>(), j.at("name").get<std::string>(),
+                            j.at("folder").get<std::string>()};
+  return std::filesystem::path(j.get<std::string>());
+}
+
 // Texts of libraries may hold anything; JSON takes UTF-8 alone.
 std::string text_of(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -136,7 +153,7 @@ std::vector<std::pair<std::string, std::string>> named_settings(const RunSetting
 }
 
 void write_job(const std::filesystem::path& file, const Job& job) {
-  json j = {{"scene_file", job.scene_file.string()},
+  json j = {{"scene", to_json(job.scene)},
             {"settings", to_json(job.settings)},
             {"skip", job.skip},
             {"turns", json::array()},
@@ -147,25 +164,14 @@ void write_job(const std::filesystem::path& file, const Job& job) {
             {"temporary", job.temporary.string()}};
   for (const Turn& turn : job.turns) j["turns"].push_back(to_json(turn));
   for (const judge::JudgedAnswers& answers : job.answers) j["answers"].push_back(to_json(answers));
-  if (job.text)
-    j["text"] = {
-        {"text", job.text->text}, {"name", job.text->name}, {"folder", job.text->folder.string()}};
   if (job.unjudged) j["unjudged"] = {{"why", job.unjudged->why}, {"frame", job.unjudged->frame}};
-  if (job.pairs) j["pairs"] = {{"count", job.pairs->count}, {"seed", job.pairs->seed}};
   write_file_atomically(file, j.dump());
 }
 
 Job read_job(const std::filesystem::path& file) {
   const json j = json::parse(read_text_file(file));
   Job job;
-  job.scene_file = j.at("scene_file").get<std::string>();
-  if (j.contains("pairs"))
-    job.pairs = scene::PairSpec{j.at("pairs").at("count").get<std::uint64_t>(),
-                                j.at("pairs").at("seed").get<std::uint64_t>()};
-  if (j.contains("text"))
-    job.text = scene::SceneText{j.at("text").at("text").get<std::string>(),
-                                j.at("text").at("name").get<std::string>(),
-                                j.at("text").at("folder").get<std::string>()};
+  job.scene = source_from(j.at("scene"));
   if (j.contains("unjudged"))
     job.unjudged = Unjudged{j.at("unjudged").at("why").get<std::string>(),
                             j.at("unjudged").at("frame").get<std::uint32_t>()};

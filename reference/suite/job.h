@@ -11,8 +11,7 @@
 
 #include "reference/judge/answer_fingerprint.h"
 #include "reference/results/results.h"
-#include "reference/scene/random_pairs.h"
-#include "reference/scene/scene.h"
+#include "reference/scene/any_scene.h"
 #include "reference/timing/speedup.h"
 
 namespace contactcheck::suite {
@@ -56,9 +55,7 @@ struct Turn {
 
 /// One worker's job: one scene, to be judged by all detectors, or turns of some to be timed.
 struct Job {
-  std::filesystem::path scene_file;      ///< scene (.json) or recording (.ccr)
-  std::optional<scene::PairSpec> pairs;  ///< random pairs in place of a file
-  std::optional<scene::SceneText> text;  ///< a scene's text in place of a file
+  scene::SceneSource scene;
   RunSettings settings;
   std::vector<std::uint32_t> skip;  ///< positions of detectors that broke an earlier try
   /// Where an earlier try has shown that the oracle cannot judge the scene: it is not asked again,

@@ -19,13 +19,15 @@ std::string line(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-std::string content_of(const std::filesystem::path& file, const scene::Scene& scene) {
-  return content_of(scene::SceneText{read_text_file(file), "", ""}, scene);
-}
-
-std::string content_of(const scene::SceneText& text, const scene::Scene& scene) {
+std::string content_of(const scene::SceneSource& source, const scene::Scene& scene) {
+  if (const auto* pairs = std::get_if<scene::PairSpec>(&source))
+    return std::to_string(pairs->count) + " random pairs, seed " + std::to_string(pairs->seed);
   Fnv1a hash;
-  hash.bytes(text.text.data(), text.text.size());
+  if (const auto* text = std::get_if<scene::SceneText>(&source)) {
+    hash.bytes(text->text.data(), text->text.size());
+  } else {
+    add_file(std::get<std::filesystem::path>(source), hash);
+  }
   for (const Body& body : scene.bodies) {
     const std::uint64_t mesh = content_hash(body.shape->mesh);
     hash.bytes(&mesh, sizeof mesh);
@@ -34,10 +36,6 @@ std::string content_of(const scene::SceneText& text, const scene::Scene& scene) 
     for (const std::vector<Vec3>& nodes : frame)
       hash.bytes(nodes.data(), sizeof(Vec3) * nodes.size());
   return results::hex(hash.digest());
-}
-
-std::string content_of(const scene::PairSpec& pairs) {
-  return std::to_string(pairs.count) + " random pairs, seed " + std::to_string(pairs.seed);
 }
 
 std::string hash_of_file(const std::filesystem::path& file) {

@@ -10,15 +10,10 @@
 
 namespace contactcheck::suite {
 
-/// Hash of a scene's file and of the meshes and recordings that it names, as hexadecimal text.
-/// `scene` is what `file` was read as. @throws InputError when the file cannot be read again
-std::string content_of(const std::filesystem::path& file, const scene::Scene& scene);
-
-/// The same of a scene that lies in no file.
-std::string content_of(const scene::SceneText& text, const scene::Scene& scene);
-
-/// The same of random pairs: their number and their seed; the program makes the rest.
-std::string content_of(const scene::PairSpec& pairs);
+/// Hash of a scene's text and of the meshes and recordings that it names, as hexadecimal text; of
+/// random pairs their number and their seed, since the program makes the rest. `scene` is what
+/// `source` was read as. @throws InputError when a file cannot be read again
+std::string content_of(const scene::SceneSource& source, const scene::Scene& scene);
 
 /// Of its bytes, as hexadecimal text. @throws InputError when it cannot be read
 std::string hash_of_file(const std::filesystem::path& file);

@@ -265,10 +265,7 @@ class SceneRun {
         listener_(listener),
         on_progress_(on_progress) {
     // The worker's working directory is for libraries to change.
-    if (!task.file.empty()) job_.scene_file = fs::absolute(task.file);
-    job_.pairs = task.pairs;
-    job_.text = task.text;
-    if (job_.text) job_.text->folder = fs::absolute(task.text->folder);
+    job_.scene = scene::absolute(task.source);
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }
@@ -411,7 +408,8 @@ class SceneRun {
   // are made to be judged, and a process that only times does not judge.
   bool is_too_much_to_judge(const WorkerOutcome& outcome) const {
     return outcome.over_limit && outcome.phase == process::Phase::kTruth &&
-           !outcome.last_detector && job_.turns.empty() && !job_.pairs && !job_.unjudged;
+           !outcome.last_detector && job_.turns.empty() && !job_.unjudged &&
+           !std::holds_alternative<scene::PairSpec>(job_.scene);
   }
 
   void book(const WorkerOutcome& outcome) {

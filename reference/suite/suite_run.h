@@ -17,14 +17,12 @@ namespace contactcheck::suite {
 
 struct SceneTask {
   std::string id;
-  std::filesystem::path file;          ///< .json or .ccr
+  scene::SceneSource source;
   std::vector<std::string> detectors;  ///< canonical names
   /// Of these, whom speed-ups are given against beside the usual references.
   std::vector<std::string> references;
-  std::optional<scene::PairSpec> pairs = {};  ///< random pairs in place of a file
-  std::optional<scene::SceneText> text = {};  ///< a scene's text in place of a file
-  std::size_t frames = 0;                     ///< that will be judged
-  std::string content = "";  ///< hash of the scene's file and meshes: the same, the same scene
+  std::size_t frames = 0;    ///< that will be judged
+  std::string content = "";  ///< hash of the scene's text and meshes: the same, the same scene
 };
 
 /// Which part of which run.

@@ -280,12 +280,6 @@ void write_answer(WorkerState& worker) {
   write_answer(worker.job.answer_file, std::move(answer));
 }
 
-scene::Scene load(const Job& job) {
-  if (job.pairs) return scene::make_pairs_scene(*job.pairs);
-  if (job.text) return scene::load_scene_text(*job.text, job.settings.frames);
-  return scene::load_any_scene(job.scene_file, job.settings.frames);
-}
-
 // Simulated motions and swept poses become frames here, as the scene's own work. A worker that
 // times takes those that were judged: to make them again takes longer, and shows them to the
 // scene's driver before it is timed.
@@ -294,7 +288,7 @@ void arrange_scene(WorkerState& worker) {
   const auto at = [&worker](std::size_t number) {
     worker.progress.enter(process::SharedProgress::kNoDetector, number, process::Phase::kScene);
   };
-  scene = load(worker.job);
+  scene = scene::load_any_scene(worker.job.scene, worker.job.settings.frames);
   if (scene.simulation) scene.simulation->settings.threads = worker.job.settings.threads;
   if (!worker.judges() && !worker.job.recording_file.empty()) {
     replay_recording(worker.job.recording_file, scene);

@@ -188,7 +188,7 @@ suite::SceneTask Measuring::task_of(const ModelKey& key,
                                     const std::vector<std::size_t>& batch) const {
   suite::SceneTask task;
   task.id = models_.at(key).id;
-  task.file = models_.at(key).file;
+  task.source = models_.at(key).file;
   std::set<std::string> names;
   const auto add = [&](const std::string& name) {
     if (names.insert(name).second) task.detectors.push_back(name);
@@ -196,7 +196,7 @@ suite::SceneTask Measuring::task_of(const ModelKey& key,
   if (!anchor_.empty()) add(anchor_);
   for (const std::size_t i : batch)
     if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
-  task.frames = scene::load_any_scene(task.file, request_.settings.frames).frames;
+  task.frames = scene::load_any_scene(task.source, request_.settings.frames).frames;
   return task;
 }
 

@@ -211,7 +211,7 @@ int act_as_oracle(const std::string& what, const Job& job, process::ProgressWrit
 // given other answers than those of its turns, "refuse" says that the input is bad, "oracle" and
 // "judge" take too much memory and die where the oracle works, before any detector.
 int act_for_suite(const Job& job, process::ProgressWriter& progress) {
-  const std::string what = job.scene_file.stem().string();
+  const std::string what = std::get<std::filesystem::path>(job.scene).stem().string();
   if (what == "refuse") {
     progress.enter(process::SharedProgress::kNoDetector, 0, process::Phase::kScene);
     std::fputs("contactcheck: the scene is bad\n", stderr);

@@ -15,8 +15,7 @@ using testing::HasSubstr;
 // Every field differs from its default.
 Job full_job() {
   Job job;
-  job.scene_file = "/a folder/scene \"x\".json";
-  job.text = scene::SceneText{"{\"id\": \"x\"}", "the scene \"x\"", "/a folder"};
+  job.scene = scene::SceneText{"{\"id\": \"x\"}", "the scene \"x\"", "/a folder"};
   job.settings.detectors = {"fcl-aabb", "ffd-aabb:bounds=safe"};
   job.settings.frames = 7;
   job.settings.processes = 9;
@@ -45,11 +44,10 @@ TEST(Job, ReadsBackAsItWasWritten) {
   const Job out = full_job();
   write_job(scratch.folder() / "job", out);
   const Job in = read_job(scratch.folder() / "job");
-  EXPECT_EQ(in.scene_file, out.scene_file);
-  ASSERT_TRUE(in.text);
-  EXPECT_EQ(in.text->text, out.text->text);
-  EXPECT_EQ(in.text->name, out.text->name);
-  EXPECT_EQ(in.text->folder, out.text->folder);
+  const auto& text = std::get<scene::SceneText>(in.scene);
+  EXPECT_EQ(text.text, "{\"id\": \"x\"}");
+  EXPECT_EQ(text.name, "the scene \"x\"");
+  EXPECT_EQ(text.folder, "/a folder");
   EXPECT_EQ(in.settings.detectors, out.settings.detectors);
   ASSERT_TRUE(in.unjudged);
   EXPECT_EQ(in.unjudged->why, out.unjudged->why);
@@ -80,17 +78,20 @@ TEST(Job, ReadsBackAsItWasWritten) {
   EXPECT_EQ(in.temporary, "/tmp/own");
 }
 
-TEST(Job, RandomPairsReadBackInPlaceOfAFile) {
+TEST(Job, EachSourceOfASceneReadsBack) {
   const Scratch scratch;
-  Job out = full_job();
-  EXPECT_FALSE(
-      (write_job(scratch.folder() / "job", out), read_job(scratch.folder() / "job").pairs));
-  out.pairs = scene::PairSpec{10'000'000, scene::kLargestPairSeed};
-  write_job(scratch.folder() / "job", out);
-  const Job in = read_job(scratch.folder() / "job");
-  ASSERT_TRUE(in.pairs);
-  EXPECT_EQ(in.pairs->count, 10'000'000u);
-  EXPECT_EQ(in.pairs->seed, scene::kLargestPairSeed);
+  const auto reread = [&](const scene::SceneSource& source) {
+    Job job = full_job();
+    job.scene = source;
+    write_job(scratch.folder() / "job", job);
+    return read_job(scratch.folder() / "job").scene;
+  };
+  const std::filesystem::path file = "/a folder/scene \"x\".json";
+  EXPECT_EQ(std::get<std::filesystem::path>(reread(file)), file);
+  const auto pairs =
+      std::get<scene::PairSpec>(reread(scene::PairSpec{10'000'000, scene::kLargestPairSeed}));
+  EXPECT_EQ(pairs.count, 10'000'000u);
+  EXPECT_EQ(pairs.seed, scene::kLargestPairSeed);
 }
 
 TEST(Job, TextOfAMissingFileIsRefusedWithItsPath) {

@@ -49,7 +49,7 @@ class Replay : public testing::TestWithParam<MadeScene> {
  protected:
   Job job(const fs::path& scene) const {
     Job job;
-    job.scene_file = scene;
+    job.scene = scene;
     job.settings.detectors = {"aabb-tree"};
     job.answer_file = scratch_.folder() / "answer";
     return job;

@@ -231,7 +231,7 @@ constexpr const char* kScene = R"({"id": "tiny", "frames": 3, "duration": 1, "le
 
 Job job_in(const Scratch& scratch, const std::filesystem::path& scene) {
   Job job;
-  job.scene_file = scene;
+  job.scene = scene;
   job.settings.detectors = {"fcl-aabb"};
   job.settings.timing = false;
   job.answer_file = scratch.folder() / "answer";

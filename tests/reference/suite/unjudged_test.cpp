@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 SceneAnswer answer_of(const Scratch& scratch) {
   Job job;
-  job.scene_file = scratch.write("tiny.json", test::tiny_scene());
+  job.scene = scratch.write("tiny.json", test::tiny_scene());
   job.settings.detectors = {"ffd-lazy", "fcl-aabb"};
   job.unjudged = Unjudged{"the oracle, frame 3", 3};
   job.answer_file = scratch.folder() / "answer";

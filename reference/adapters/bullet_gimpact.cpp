@@ -2,8 +2,8 @@
 //
 //   bullet-gimpact  quantised box trees, refitted; triangles clipped against each other in pairs
 //
-// Options: `margin` (metres, per mesh; two triangles count from twice that apart), `scale` (world
-// units per metre; 0: from the scene, see bullet.h).
+// Options: `margin` (metres, per mesh; two triangles count below twice that distance), `scale`
+// (world units per metre; 0: from the scene, see bullet.h).
 //
 // Seen in Bullet 3.24 (Debian 12, single precision), November 2026:
 // - contactPairTest asks for algorithms of closest points; registerAlgorithm() sets those of
@@ -15,7 +15,7 @@
 // - The clip test: each triangle must have a part within the other's prism (its edges swept along
 //   its normal) that reaches the other's plane or lies behind it, however far. Triangles back to
 //   back are reported; so are, with a depth of no meaning, many neighbours of a true pair.
-// - A margin shifts the planes and not the prisms' sides: triangles apart are found by it only
+// - A margin shifts the planes and not the prisms' sides: disjoint triangles are found by it only
 //   where their prisms meet, and the depth is that of the shifted planes.
 // - A pair is reported once per corner of the clipped polygon, always with the pair's own depth;
 //   the normal points from the second triangle to the first. Depths are never negative.

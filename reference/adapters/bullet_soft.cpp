@@ -176,7 +176,7 @@ class SoftBody {
     return triangle_of_face_[static_cast<std::size_t>(&face - &body_->m_faces[0])];
   }
 
-  /// True when a triangle that has area is none to Bullet where it was last fed.
+  /// True when Bullet takes a triangle with area for degenerate at its last positions.
   bool has_invisible_triangle() const {
     for (int f = 0; f < body_->m_faces.size(); ++f) {
       const auto& corners = body_->m_faces[f].m_n;
@@ -189,7 +189,7 @@ class SoftBody {
   }
 
  private:
-  /// Groups of so many leaves are merged pair by pair, in time of order n^3; above, boxes are
+  /// Groups of at most this many leaves are merged pair by pair, in O(n^3); above, boxes are
   /// halved. Bullet's default is 128: three times the set-up for queries that take as long; with
   /// 16, queries of 40,000 to 100,000 vertices took 1.3 to 2 times as long.
   static constexpr int kLeavesToMergeBottomUp = 64;

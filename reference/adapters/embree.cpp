@@ -149,7 +149,7 @@ class EmbreeBody {
   Aabb box_;
 };
 
-// Not the settings of whoever runs the program (.embree3 files beside it and at home).
+// Not the user's settings (.embree3 files beside the program and at home).
 constexpr const char* kDeviceConfiguration = "ignore_config_files=1,set_affinity=0";
 
 /// The bodies' scenes on a device of their own; the broad phase of a TrianglePairDetector.

@@ -157,7 +157,7 @@ std::vector<results::AbRound> run_rounds(const std::vector<AbSide>& sides,
   return rounds;
 }
 
-// Before anything runs: a summary that nobody can write would be noticed too late.
+// Before anything runs: a summary that cannot be written would be noticed too late.
 fs::path required_summary_file() {
   fs::path file = github_summary_file();
   if (file.empty())

@@ -26,7 +26,7 @@ struct RunArguments {
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
   std::uint64_t seed = suite::RunSettings{}.seed;
   std::filesystem::path out = "out";
-  std::optional<scene::PairSpec> pairs;  ///< a scene of so many random pairs, beside the targets
+  std::optional<scene::PairSpec> pairs;  ///< adds a scene of random pairs to the targets
   std::optional<suite::Shard> shard;     ///< run this part alone
   scene::MeshSceneRequest meshes;        ///< a scene of these, beside the targets; no mesh: none
   std::filesystem::path save_scene;      ///< where that scene is kept as a file; empty: nowhere
@@ -104,7 +104,7 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
-/// Searches the cheapest configuration within limits; 1 when there is none.
+/// Searches the cheapest configuration within limits; 1 when it finds none.
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
 /// Prints the exact answers to families of hard cases (all, if none is named); `write` puts them

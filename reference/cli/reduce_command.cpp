@@ -180,7 +180,7 @@ class ReduceCommand {
     return minimal;
   }
 
-  // In a fresh process, as whoever is given the case will see it.
+  // In a fresh process, as a user of the case will see it.
   reduce::ProbeVerdict verified(const reduce::MinimalCase& minimal) {
     probe_->restart();
     reduce::ProbeVerdict verdict =

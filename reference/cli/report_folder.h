@@ -15,7 +15,7 @@ namespace contactcheck::cli {
 /// What `report` makes when it is not told, of "csv", "html" and "md".
 std::vector<std::string> all_report_formats();
 
-/// @throws InputError for a format that is none
+/// @throws InputError for an unknown format
 void check_report_formats(const std::vector<std::string>& formats);
 
 /// Texts by path below the report's folder; pictures (plots/*.svg) come with "md". "html" gives

@@ -71,7 +71,7 @@ class DetectorNames {
     return out;
   }
 
-  // An option that nobody takes would be a silent lie about what ran.
+  // An option that no detector takes would be a silent lie about what ran.
   void require_use_of_isas() const {
     if (!arguments_.isas.empty() && !isas_used_)
       throw InputError("--isa " + arguments_.isas.front() +
@@ -307,7 +307,7 @@ RunArguments with_names(RunArguments arguments, const std::vector<std::string>& 
   return arguments;
 }
 
-// Somebody may have worked on a file that is there.
+// The user may have edited a file that exists.
 void save_scene(const fs::path& file, const std::vector<suite::SceneTask>& tasks) {
   if (file.empty()) return;
   for (const suite::SceneTask& task : tasks) {

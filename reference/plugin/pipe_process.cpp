@@ -140,7 +140,8 @@ std::string traceback_place(const std::string& text) {
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-  close_range(STDERR_FILENO + 1, ~0u, 0);  // what this process holds is none of its business
+  close_range(STDERR_FILENO + 1, ~0u,
+              0);  // the command must not inherit what this process has open
   signal(SIGPIPE, SIG_DFL);
   signal(SIGXFSZ, SIG_DFL);
   sigset_t none;

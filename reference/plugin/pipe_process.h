@@ -20,8 +20,8 @@ struct PipeLimits {
   std::uint64_t errors = std::uint64_t{64} << 20;  ///< bytes on its standard error
 };
 
-/// Runs `/bin/sh -c COMMAND` in this process's group and working directory: whoever ends the group
-/// ends it too, and it ends with this process. Its standard error is a file of its own. There is no
+/// Runs `/bin/sh -c COMMAND` in this process's group and working directory. It ends with the group
+/// and with this process. Its standard error is a file of its own. There is no
 /// limit of time or memory here: a worker that waits makes no progress, and its supervisor, who
 /// counts the memory of all that a worker has started, ends it.
 class PipeProcess {
@@ -41,7 +41,7 @@ class PipeProcess {
   std::string receive_line();  ///< without its end
   std::string receive(std::size_t bytes);
 
-  /// The first line that it wrote on its standard error; "" when there is none.
+  /// The first line that it wrote on its standard error, or "".
   std::string first_error_line() const;
 
  private:

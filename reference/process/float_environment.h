@@ -16,7 +16,7 @@ class FloatEnvironmentGuard {
   std::string check_and_restore() const;
 
  private:
-  unsigned first_;   ///< watched bits of MXCSR; where there is none, what fegetround says
+  unsigned first_;   ///< watched bits of MXCSR; on other processors the result of fegetround
   unsigned second_;  ///< watched bits of the x87 control word; there, what fegetexcept says
 };
 

@@ -20,7 +20,7 @@ void remember(int number) { interrupt = number; }
 // handler is used once; what it raises ends the process when it returns.
 void say_and_die(int number) {
   if (write(STDERR_FILENO, last_line, std::strlen(last_line)) < 0) {
-    // Nobody listens; the end is the same.
+    // Nothing can be reported; the process ends all the same.
   }
   raise(number);
 }
@@ -47,7 +47,7 @@ InterruptGuard::InterruptGuard() {
 
 InterruptGuard::~InterruptGuard() {
   restore();
-  if (interrupted()) raise(interrupt);  // it came when nobody looked any more
+  if (interrupted()) raise(interrupt);  // it came after the last check
 }
 
 bool InterruptGuard::interrupted() const { return interrupt != 0; }

@@ -143,7 +143,7 @@ bool stop_timers() {
   return any;
 }
 
-// glibc's sigaction (2.36, x86-64) sets this flag for itself, and shows it to whoever asks; it is
+// glibc's sigaction (2.36, x86-64) sets this flag for itself, and returns it when asked; it is
 // in no header.
 constexpr int kRestorer = 0x04000000;
 

@@ -133,7 +133,7 @@ int WorkerProcess::reap() {
   while (waitid(P_PID, static_cast<id_t>(child_.pid()), &info, WEXITED | WNOWAIT) != 0 &&
          errno == EINTR) {
   }
-  // As long as it is a zombie its number, and so the group's, belongs to nobody else.
+  // While it is a zombie, no other process or group can have its number.
   kill();
   int status = 0;
   while (waitpid(child_.pid(), &status, 0) < 0 && errno == EINTR) {

@@ -16,7 +16,7 @@ namespace contactcheck::process {
 /// A file without a name, in memory.
 class MemoryFile {
  public:
-  /// @throws InputError when there is none to be had
+  /// @throws InputError when it cannot be made
   explicit MemoryFile(const char* label);
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;

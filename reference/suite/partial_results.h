@@ -34,7 +34,7 @@ class PartialResults {
   /// @throws InputError when it cannot be written
   void keep(const std::string& id, const std::string& identity, const FinishedScene& scene) const;
   void drop(const std::string& id) const;
-  /// Drops all, and the folder unless somebody else has put something there.
+  /// Removes all of it, and the folder unless other files are in it.
   void clear() const;
 
  private:

@@ -38,24 +38,9 @@ std::string place_of(const std::string& scene, const WorkerOutcome& outcome) {
 using BrokenDetectors = std::map<std::uint32_t, WorkerOutcome>;
 
 /// The turns of all passes, by the detector's position in the task.
-class TakenTurns {
- public:
-  /// Of the process that has taken them. A detector that fails in one has no times at all.
-  void add(const std::vector<TurnAnswer>& answers);
+using TakenTurns = std::map<std::uint32_t, std::vector<TurnAnswer>>;
 
-  /// Seconds of its playbacks so far, in all questions.
-  double seconds(std::uint32_t position) const;
-  /// The first turn that failed; null: none did.
-  const TurnAnswer* failure(std::uint32_t position) const;
-  /// Of all turns, each once.
-  std::vector<std::string> notes(std::uint32_t position) const;
-  /// One per question, in the order of `questions`. @pre none of its turns failed
-  std::vector<timing::QuestionSamples> samples(std::uint32_t position,
-                                               const std::vector<Question>& questions) const;
-
- private:
-  std::map<std::uint32_t, std::vector<TurnAnswer>> turns_;
-};
+using Samples = std::vector<timing::QuestionSamples>;  // one per question
 
 using SampleListener = decltype(SuiteListener::samples);
 
@@ -66,219 +51,169 @@ struct SceneAnswers {
   const TakenTurns& turns;
   const std::vector<std::size_t>& cold_frames;
   const BrokenDetectors& broken;
-  bool recorded = false;  ///< the scene's recording stands in its place
+  bool recorded = false;  ///< the scene's recording is in its place
 };
 
-bool contains(const std::vector<std::string>& notes, const std::string& note) {
-  return std::find(notes.begin(), notes.end(), note) != notes.end();
+const std::vector<TurnAnswer>& turns_of(const TakenTurns& turns, std::uint32_t position) {
+  static const std::vector<TurnAnswer> none;
+  const auto found = turns.find(position);
+  return found == turns.end() ? none : found->second;
+}
+
+// A detector that fails in one turn has no times at all. Null: none failed.
+const TurnAnswer* failed_turn(const TakenTurns& turns, std::uint32_t position) {
+  for (const TurnAnswer& answer : turns_of(turns, position))
+    if (!answer.error.empty()) return &answer;
+  return nullptr;
+}
+
+template <typename Value>
+bool contains(const std::vector<Value>& values, const Value& value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+// The result of judging, and what the turns add to it but times. Fills `samples` where the detector
+// was timed without a failure.
+results::Run judged_row(const SceneAnswers& scene, const DetectorAnswer& detector,
+                        Samples& samples) {
+  results::Run run = detector.run;
+  if (scene.recorded) run.recording = "recordings/" + scene.task.id + ".ccr";
+  const std::vector<TurnAnswer>& turns = turns_of(scene.turns, detector.position);
+  std::vector<std::string> notes;
+  for (const TurnAnswer& answer : turns)
+    for (const std::string& note : answer.notes)
+      if (!contains(notes, note)) notes.push_back(note);
+  for (const std::string& note : notes)
+    if (!contains(detector.run.notes, note)) run.notes.push_back(note + " (while timed)");
+  if (!run.ok() || turns.empty()) return run;
+  if (const TurnAnswer* failed = failed_turn(scene.turns, detector.position)) {
+    // It was judged well and fails now: that is its result.
+    run.status = results::Status::kError;
+    run.message = failed->error;
+    run.failed_frame = failed->failed_frame;
+    return run;
+  }
+  for (const Question question : run.semantics.questions) {
+    timing::QuestionSamples& of_question = samples.emplace_back();
+    of_question.question = question;
+    for (const TurnAnswer& answer : turns) {
+      if (answer.turn.question != question) continue;
+      of_question.lazy_map = answer.lazy_map;
+      (answer.turn.cold ? of_question.cold : of_question.playback).push_back(answer.samples);
+    }
+  }
+  return run;
+}
+
+results::Run broken_row(const SceneAnswers& scene, std::uint32_t position) {
+  const WorkerOutcome& outcome = scene.broken.at(position);
+  results::Run run;
+  run.scene = scene.task.id;
+  run.detector = scene.task.detectors[position];
+  run.status = results::Status::kError;
+  run.failed_frame = outcome.frame;
+  run.message = place_of(scene.task.id, outcome) +
+                (outcome.detector ? "" : " in the suite's own code, after this detector had run");
+  run.frames = scene.judged.scene.frames;
+  run.contact_frames = scene.judged.scene.contact_frames;
+  return run;
 }
 
 // Contacts are the same question only where they are of one kind: depth of vertices, of triangles
 // or of boxes.
 bool same_contacts(const Semantics& semantics, const Semantics& other) {
-  const auto of_triangles = [](const Semantics& s) {
-    return std::find(s.levels.begin(), s.levels.end(), Level::kTriangle) != s.levels.end();
-  };
-  return semantics.depth == other.depth && of_triangles(semantics) == of_triangles(other);
-}
-
-// The rows of the process that judged, and what later processes say of them.
-class Rows {
- public:
-  explicit Rows(const SceneAnswers& scene) : scene_(scene) {
-    for (const DetectorAnswer& detector : scene.judged.detectors)
-      if (!scene.broken.contains(detector.position)) add(detector);
-  }
-
-  // One per detector of the task.
-  std::vector<results::Run> finish(const SampleListener& tell) {
-    for (auto& [position, run] : runs_)
-      if (samples_.contains(position)) add_times(position, run);
-    for (const auto& [position, questions] : samples_)
-      for (const timing::QuestionSamples& question : questions)
-        tell(task().id, task().detectors[position], question);
-    std::vector<results::Run> out;
-    for (std::uint32_t i = 0; i < task().detectors.size(); ++i) {
-      if (scene_.broken.contains(i)) {
-        out.push_back(broken_row(i));
-      } else {
-        out.push_back(std::move(runs_.at(i)));
-      }
-    }
-    return out;
-  }
-
- private:
-  void add(const DetectorAnswer& detector) {
-    const std::uint32_t position = detector.position;
-    results::Run& run = runs_[position] = detector.run;
-    if (scene_.recorded) run.recording = "recordings/" + task().id + ".ccr";
-    for (const std::string& note : scene_.turns.notes(position))
-      if (!contains(detector.run.notes, note)) run.notes.push_back(note + " (while timed)");
-    if (!run.ok()) return;
-    if (const TurnAnswer* failed = scene_.turns.failure(position)) {
-      // It was judged well and fails now: that is its result.
-      run.status = results::Status::kError;
-      run.message = failed->error;
-      run.failed_frame = failed->failed_frame;
-      return;
-    }
-    std::vector<timing::QuestionSamples> samples =
-        scene_.turns.samples(position, run.semantics.questions);
-    if (!samples.empty()) samples_[position] = std::move(samples);
-  }
-
-  void add_times(std::uint32_t position, results::Run& run) const {
-    const timing::TimedFrames frames = {scene_.judged.contact_frames, scene_.cold_frames};
-    const std::vector<timing::QuestionSamples>& own = samples_.at(position);
-    run.per_frame.frame_ms = timing::frame_ms(own.front());
-    for (const timing::QuestionSamples& question : own) {
-      run.times.push_back(timing::summarize_times(question, frames));
-      for (const auto& [other, theirs] : samples_)
-        if (is_reference(task().detectors[other])) add_speedup(other, theirs, question, run);
-    }
-  }
-
-  void add_speedup(std::uint32_t other, const std::vector<timing::QuestionSamples>& theirs,
-                   const timing::QuestionSamples& own, results::Run& run) const {
-    const results::Run& reference = runs_.at(other);
-    if (own.question == Question::kContacts && !same_contacts(run.semantics, reference.semantics))
-      return;
-    for (const timing::QuestionSamples& samples : theirs) {
-      if (samples.question != own.question) continue;
-      results::Speedup speedup =
-          timing::compute_speedup(samples, own, {scene_.judged.contact_frames, scene_.cold_frames});
-      speedup.reference_options = reference.options;
-      run.speedup[own.question][task().detectors[other]] = std::move(speedup);
-    }
-  }
-
-  bool is_reference(const std::string& name) const {
-    return std::find(std::begin(results::kReferences), std::end(results::kReferences), name) !=
-               std::end(results::kReferences) ||
-           std::find(task().references.begin(), task().references.end(), name) !=
-               task().references.end();
-  }
-
-  results::Run broken_row(std::uint32_t position) const {
-    const WorkerOutcome& o = scene_.broken.at(position);
-    results::Run run;
-    run.scene = task().id;
-    run.detector = task().detectors[position];
-    run.status = results::Status::kError;
-    run.failed_frame = o.frame;
-    run.message = place_of(task().id, o) +
-                  (o.detector ? "" : " in the suite's own code, after this detector had run");
-    run.frames = scene_.judged.scene.frames;
-    run.contact_frames = scene_.judged.scene.contact_frames;
-    return run;
-  }
-
-  const SceneTask& task() const { return scene_.task; }
-
-  const SceneAnswers& scene_;
-  std::map<std::uint32_t, results::Run> runs_;
-  std::map<std::uint32_t, std::vector<timing::QuestionSamples>> samples_;
-};
-
-void TakenTurns::add(const std::vector<TurnAnswer>& answers) {
-  for (const TurnAnswer& answer : answers) turns_[answer.turn.position].push_back(answer);
-}
-
-double TakenTurns::seconds(std::uint32_t position) const {
-  double nanoseconds = 0.0;
-  if (const auto found = turns_.find(position); found != turns_.end())
-    for (const TurnAnswer& answer : found->second)
-      for (const timing::PhaseSample& frame : answer.samples)
-        if (!answer.turn.cold) nanoseconds += frame.total();
-  return 1e-9 * nanoseconds;
-}
-
-const TurnAnswer* TakenTurns::failure(std::uint32_t position) const {
-  if (const auto found = turns_.find(position); found != turns_.end())
-    for (const TurnAnswer& answer : found->second)
-      if (!answer.error.empty()) return &answer;
-  return nullptr;
-}
-
-std::vector<std::string> TakenTurns::notes(std::uint32_t position) const {
-  std::vector<std::string> out;
-  if (const auto found = turns_.find(position); found != turns_.end())
-    for (const TurnAnswer& answer : found->second)
-      for (const std::string& note : answer.notes)
-        if (!contains(out, note)) out.push_back(note);
-  return out;
-}
-
-std::vector<timing::QuestionSamples> TakenTurns::samples(
-    std::uint32_t position, const std::vector<Question>& questions) const {
-  std::vector<timing::QuestionSamples> out;
-  const auto found = turns_.find(position);
-  if (found == turns_.end()) return out;
-  for (const Question question : questions) {
-    timing::QuestionSamples& samples = out.emplace_back();
-    samples.question = question;
-    for (const TurnAnswer& answer : found->second) {
-      if (answer.turn.question != question) continue;
-      samples.lazy_map = answer.lazy_map;
-      (answer.turn.cold ? samples.cold : samples.playback).push_back(answer.samples);
-    }
-  }
-  return out;
+  return semantics.depth == other.depth &&
+         contains(semantics.levels, Level::kTriangle) == contains(other.levels, Level::kTriangle);
 }
 
 // The scene with one row per detector, in the task's order. A detector that broke a worker, or
 // was judged well and fails in a turn, has an error's row and no times. `tell` is given each
 // detector's samples before they are summed up.
 FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
-  const SceneAnswer& first = scene.judged;
+  const SceneAnswer& judged = scene.judged;
   const std::vector<std::string>& names = scene.task.detectors;
+  std::map<std::uint32_t, Samples> samples;
+  std::map<std::uint32_t, results::Run> runs;
+  for (const DetectorAnswer& detector : judged.detectors) {
+    if (scene.broken.contains(detector.position)) continue;
+    Samples own;
+    runs[detector.position] = judged_row(scene, detector, own);
+    if (!own.empty()) samples[detector.position] = std::move(own);
+  }
+
+  // Times, and speed-ups over the references in the same question.
+  const timing::TimedFrames frames = {judged.contact_frames, scene.cold_frames};
+  for (const auto& [position, own] : samples) {
+    results::Run& run = runs.at(position);
+    run.per_frame.frame_ms = timing::frame_ms(own.front());
+    for (const timing::QuestionSamples& question : own) {
+      run.times.push_back(timing::summarize_times(question, frames));
+      for (const auto& [other, theirs] : samples) {
+        const std::string& name = names[other];
+        const bool is_reference =
+            std::ranges::find(results::kReferences, name) != std::end(results::kReferences) ||
+            contains(scene.task.references, name);
+        const auto same =
+            std::ranges::find(theirs, question.question, &timing::QuestionSamples::question);
+        if (!is_reference || same == theirs.end()) continue;
+        const results::Run& reference = runs.at(other);
+        if (question.question == Question::kContacts &&
+            !same_contacts(run.semantics, reference.semantics))
+          continue;
+        results::Speedup speedup = timing::compute_speedup(*same, question, frames);
+        speedup.reference_options = reference.options;
+        run.speedup[question.question][name] = std::move(speedup);
+      }
+    }
+  }
+  for (const auto& [position, questions] : samples)
+    for (const timing::QuestionSamples& question : questions)
+      tell(scene.task.id, names[position], question);
+
   FinishedScene finished;
-  finished.scene = first.scene;
+  finished.scene = judged.scene;
   finished.scene.cold_frames = scene.cold_frames;
-  finished.runs = Rows(scene).finish(tell);
-  for (const results::Disagreement& d : first.disagreements) {
+  for (std::uint32_t i = 0; i < names.size(); ++i)
+    finished.runs.push_back(scene.broken.contains(i) ? broken_row(scene, i)
+                                                     : std::move(runs.at(i)));
+  for (const results::Disagreement& d : judged.disagreements) {
     const auto broke = [&](const auto& broken) { return names[broken.first] == d.detector; };
     if (std::none_of(scene.broken.begin(), scene.broken.end(), broke))
       finished.disagreements.push_back(d);
   }
-  if (first.truth_contacts.empty()) return finished;
+  if (judged.truth_contacts.empty()) return finished;
   // Of those whose answers count: one that broke later, in another process, has no contacts either.
   std::vector<std::string> contacts;
-  for (const DetectorAnswer& detector : first.detectors)
+  for (const DetectorAnswer& detector : judged.detectors)
     if (finished.runs.at(detector.position).ok() && !detector.contacts.empty())
       contacts.push_back(detector.contacts);
   finished.scene.contacts = judge::contacts_path(scene.task.id);
-  finished.contacts = judge::contacts_text(scene.task.id, first.truth_contacts, contacts);
+  finished.contacts = judge::contacts_text(scene.task.id, judged.truth_contacts, contacts);
   return finished;
 }
 
 namespace fs = std::filesystem;
 
+// The processes of one scene: one that judges, then those of each pass.
 class SceneRun {
  public:
   SceneRun(const SuiteRequest& request, const SceneTask& task, const fs::path& scratch,
-           const SuiteListener& listener, const ProgressCallback& on_progress)
-      : request_(request),
-        task_(task),
-        scratch_(scratch),
-        listener_(listener),
-        on_progress_(on_progress) {
+           const ProgressCallback& on_progress)
+      : request_(request), task_(task), scratch_(scratch), on_progress_(on_progress) {
     // The worker's working directory is for libraries to change.
     job_.scene = scene::absolute(task.source);
     job_.settings = request.settings;
     job_.settings.detectors = task.detectors;
   }
 
-  FinishedScene finish() {
+  FinishedScene finish(const SampleListener& tell) {
     const fs::path recording = request_.out / "recordings" / (task_.id + ".ccr");
     job_.recording_file = fs::absolute(recording);
     const SceneAnswer judged = run_process();
     const bool recorded = !judged.truth_contacts.empty() && fs::exists(recording);
     if (!recorded) job_.recording_file.clear();  // there may be one of an earlier run
     if (job_.settings.timing) time(judged);
-    return assemble({task_, judged, turns_, job_.cold_frames, broken_, recorded},
-                    listener_.samples);
+    return assemble({task_, judged, turns_, job_.cold_frames, broken_, recorded}, tell);
   }
 
  private:
@@ -293,20 +228,24 @@ class SceneRun {
                  static_cast<double>(i) / static_cast<double>(processes.size()));
         part_ = 1.0 / static_cast<double>(processes.size());
         job_.turns = std::move(processes[i]);
-        hand_answers_over(judged);
-        turns_.add(run_process().timed);
+        // What was judged, of the detectors that have a turn: of all together it is long.
+        job_.answers.assign(task_.detectors.size(), {});
+        for (const DetectorAnswer& detector : judged.detectors)
+          if (std::ranges::find(job_.turns, detector.position, &Turn::position) != job_.turns.end())
+            job_.answers.at(detector.position) = detector.answers;
+        for (const TurnAnswer& answer : run_process().timed)
+          turns_[answer.turn.position].push_back(answer);
       }
-      if (pass == 0) find_slow_ones(judged);
+      // By the first pass alone: pass p of one detector is set beside pass p of another.
+      if (pass > 0 || s.one_pass_beyond == 0.0) continue;
+      for (const auto& [position, answers] : turns_) {
+        double nanoseconds = 0.0;  // of its playbacks, in all questions
+        for (const TurnAnswer& answer : answers)
+          for (const timing::PhaseSample& frame : answer.samples)
+            if (!answer.turn.cold) nanoseconds += frame.total();
+        if (1e-9 * nanoseconds > s.one_pass_beyond) slow_.insert(position);
+      }
     }
-  }
-
-  // What was judged, of the detectors that have a turn: of all together it is long.
-  void hand_answers_over(const SceneAnswer& judged) {
-    job_.answers.assign(task_.detectors.size(), {});
-    for (const DetectorAnswer& detector : judged.detectors)
-      if (std::any_of(job_.turns.begin(), job_.turns.end(),
-                      [&](const Turn& turn) { return turn.position == detector.position; }))
-        job_.answers.at(detector.position) = detector.answers;
   }
 
   // The turns of one pass in an order drawn by seed, by the process that takes them: each turn of a
@@ -314,16 +253,24 @@ class SceneRun {
   std::vector<std::vector<Turn>> processes_of(const SceneAnswer& judged, std::size_t pass) const {
     std::vector<Turn> turns;
     for (const DetectorAnswer& detector : judged.detectors) {
-      if (!is_timed(detector, pass)) continue;
+      const std::uint32_t position = detector.position;
+      if (!detector.run.ok() || broken_.contains(position) ||
+          failed_turn(turns_, position) != nullptr || (pass > 0 && slow_.contains(position)))
+        continue;
       const std::vector<Question>& questions = detector.run.semantics.questions;
-      for (const Question question : questions)
-        turns.push_back({detector.position, question, false});
-      turns.push_back({detector.position, questions.front(), true});
+      for (const Question question : questions) turns.push_back({position, question, false});
+      turns.push_back({position, questions.front(), true});
     }
+    // Another order in every scene, or one detector would always follow the same other.
+    Fnv1a seed;
+    seed.bytes(task_.id.data(), task_.id.size());
+    const std::uint64_t numbers[] = {job_.settings.seed, pass};
+    seed.bytes(numbers, sizeof numbers);
     std::vector<std::vector<Turn>> out;
     std::optional<std::size_t> own;  // the process of our detectors
-    for (const std::size_t i : timing::draw_order(turns.size(), order_seed(pass))) {
-      if (is_from_outside(turns[i].position)) {
+    for (const std::size_t i : timing::draw_order(turns.size(), seed.digest())) {
+      const std::string& name = task_.detectors[turns[i].position];
+      if (contains(job_.settings.plugin_ids, name.substr(0, name.find(':')))) {
         out.push_back({turns[i]});
         continue;
       }
@@ -336,40 +283,18 @@ class SceneRun {
     return out;
   }
 
-  // By the first pass alone: pass p of one detector is set beside pass p of another.
-  void find_slow_ones(const SceneAnswer& judged) {
-    const double limit = job_.settings.one_pass_beyond;
-    if (limit == 0.0) return;
-    for (const DetectorAnswer& detector : judged.detectors)
-      if (turns_.seconds(detector.position) > limit) slow_.insert(detector.position);
-  }
-
-  bool is_timed(const DetectorAnswer& detector, std::size_t pass) const {
-    const std::uint32_t position = detector.position;
-    return detector.run.ok() && !broken_.contains(position) &&
-           turns_.failure(position) == nullptr && (pass == 0 || !slow_.contains(position));
-  }
-
-  // Another one in every scene, or one detector would always follow the same other.
-  std::uint64_t order_seed(std::size_t pass) const {
-    Fnv1a hash;
-    hash.bytes(task_.id.data(), task_.id.size());
-    const std::uint64_t numbers[] = {job_.settings.seed, pass};
-    hash.bytes(numbers, sizeof numbers);
-    return hash.digest();
-  }
-
-  bool is_from_outside(std::uint32_t position) const {
-    const std::vector<std::string>& ids = job_.settings.plugin_ids;
-    const std::string& name = task_.detectors[position];
-    return std::find(ids.begin(), ids.end(), name.substr(0, name.find(':'))) != ids.end();
-  }
-
-  // Runs one process; whoever dies in a detector runs again without it.
+  // Runs one process, and after each death in a detector another one without that detector.
   SceneAnswer run_process() {
     const std::string name = task_.id + "." + std::to_string(processes_++);
     job_.answer_file = scratch_ / (name + ".answer");
     const fs::path job_file = scratch_ / (name + ".job");
+    // Judging and each pass count alike.
+    const double parts =
+        job_.settings.timing ? 1.0 + static_cast<double>(job_.settings.processes) : 1.0;
+    const auto report = [&](WorkerProgress worker) {
+      worker.share = (done_ + part_ * worker.share) / parts;
+      on_progress_(worker);
+    };
     while (true) {
       std::erase_if(job_.turns, [&](const Turn& turn) { return broken_.contains(turn.position); });
       if (job_.turns.empty() && processes_ > 1) return {};
@@ -378,9 +303,7 @@ class SceneRun {
       write_job(job_file, job_);
       RunSettings limits = job_.settings;
       if (limits.timing) limits.memory_limit += timing::sweep_bytes();  // which is ours
-      const WorkerOutcome outcome =
-          run_supervised(request_.executable, job_file, limits,
-                         [&](const WorkerProgress& worker) { report(worker); });
+      const WorkerOutcome outcome = run_supervised(request_.executable, job_file, limits, report);
       std::error_code ignored;
       fs::remove_all(job_.temporary, ignored);
       if (outcome.done) return read_answer(job_.answer_file);
@@ -388,47 +311,28 @@ class SceneRun {
     }
   }
 
-  // Judging and each pass count alike.
-  void report(WorkerProgress worker) const {
-    const double parts =
-        job_.settings.timing ? 1.0 + static_cast<double>(job_.settings.processes) : 1.0;
-    worker.share = (done_ + part_ * worker.share) / parts;
-    on_progress_(worker);
-  }
-
-  // The detector that ran; or, where the suite's own code died in a way that is not its own, the
-  // one that had run last: what a library has overwritten in memory strikes later.
-  static std::optional<std::uint32_t> suspect(const WorkerOutcome& outcome) {
-    const bool by_itself =
-        outcome.exit_code == process::kExitBadInput || outcome.exit_code == process::kExitInternal;
-    return outcome.detector || by_itself ? outcome.detector : outcome.last_detector;
-  }
-
-  // It costs its scene, not the run: a frame may hold more work than the limits allow. Random pairs
-  // are made to be judged, and a process that only times does not judge.
-  bool is_too_much_to_judge(const WorkerOutcome& outcome) const {
-    return outcome.over_limit && outcome.phase == process::Phase::kTruth &&
-           !outcome.last_detector && job_.turns.empty() && !job_.unjudged &&
-           !std::holds_alternative<scene::PairSpec>(job_.scene);
-  }
-
   void book(const WorkerOutcome& outcome) {
-    if (is_too_much_to_judge(outcome)) {
-      leave_unjudged(outcome);
+    // It costs its scene, not the run: a frame may hold more work than the limits allow. Random
+    // pairs are made to be judged, and a process that only times does not judge.
+    if (outcome.over_limit && outcome.phase == process::Phase::kTruth && !outcome.last_detector &&
+        job_.turns.empty() && !job_.unjudged &&
+        !std::holds_alternative<scene::PairSpec>(job_.scene)) {
+      job_.unjudged = Unjudged{
+          place_of(task_.id, outcome) + ", before any detector: the oracle cannot judge this scene",
+          outcome.frame};
       return;
     }
-    const std::optional<std::uint32_t> detector = suspect(outcome);
+    // The detector that ran; or, where the suite's own code died in a way that is not its own, the
+    // one that had run last: what a library has overwritten in memory strikes later.
+    const bool by_itself =
+        outcome.exit_code == process::kExitBadInput || outcome.exit_code == process::kExitInternal;
+    const std::optional<std::uint32_t> suspect =
+        outcome.detector || by_itself ? outcome.detector : outcome.last_detector;
     // One that did not run again cannot have died again: then the worker's page is no witness.
-    if (!detector || broken_.count(*detector)) throw_for_scene(outcome);
-    show_last_words(task_.detectors[*detector], outcome.error_text);
-    broken_[*detector] = outcome;
-    job_.skip.push_back(*detector);
-  }
-
-  void leave_unjudged(const WorkerOutcome& outcome) {
-    job_.unjudged = Unjudged{
-        place_of(task_.id, outcome) + ", before any detector: the oracle cannot judge this scene",
-        outcome.frame};
+    if (!suspect || broken_.contains(*suspect)) throw_for_scene(outcome);
+    show_last_words(task_.detectors[*suspect], outcome.error_text);
+    broken_[*suspect] = outcome;
+    job_.skip.push_back(*suspect);
   }
 
   // All of it: of a sanitizer's report the first line says little.
@@ -454,8 +358,7 @@ class SceneRun {
 
   const SuiteRequest& request_;
   const SceneTask& task_;
-  fs::path scratch_;
-  const SuiteListener& listener_;
+  const fs::path& scratch_;
   const ProgressCallback& on_progress_;
   Job job_;
   std::size_t processes_ = 0;       ///< that were started
@@ -469,7 +372,7 @@ class SceneRun {
 
 FinishedScene run_scene(const SuiteRequest& request, const SceneTask& task, const fs::path& scratch,
                         const SuiteListener& listener, const ProgressCallback& on_progress) {
-  return SceneRun(request, task, scratch, listener, on_progress).finish();
+  return SceneRun(request, task, scratch, on_progress).finish(listener.samples);
 }
 
 }  // namespace contactcheck::suite

@@ -31,7 +31,7 @@ struct ShardResults {
 /// detector, or a file that it names is missing or is not as the shard has written it
 std::vector<ShardResults> checked_shards(std::vector<ShardResults> shards);
 
-/// Writes into `out` what the run would have written had it not been dealt out, times aside:
+/// Writes into `out` what the run would have written had it not been sharded, except timings:
 /// results.json, recordings, contacts and cases, these numbered as the whole run numbers them.
 /// Goals and known defects are set beside the whole again. `merged` in the results lists the
 /// shards' commands; the command is the run's. Returns the results.

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -50,5 +51,25 @@ struct WorkerState {
   std::vector<WorkerEntry> entries;
   std::vector<TurnAnswer> timed;
 };
+
+/// Does `work`, which calls the detector of `entry`. What it throws ends in the entry's status and
+/// message: absent, refused, or an error with scene, frame and phase. What it changed for the whole
+/// process is restored and noted.
+void guarded(WorkerState& worker, WorkerEntry& entry, const std::function<void()>& work);
+
+/// In calls of the detector's own, as all that follows: makes it, and destroys it.
+void make_detector(WorkerState& worker, WorkerEntry& entry);
+void dismiss(WorkerState& worker, WorkerEntry& entry);
+
+// worker_timing.cpp
+
+/// Takes the job's turns in order: each a fresh instance, prepared outside the clock. A detector
+/// that throws in one, or answers otherwise than when it was judged, has no later ones.
+void take_turns(WorkerState& worker);
+
+/// For every usable detector that can drive the simulated scene: the motion that it drives, judged
+/// (closed_loop.h), and, with timing, whole steps timed (lockstep.h).
+/// @pre worker.scene.simulation has a value
+void simulate_with_detectors(WorkerState& worker);
 
 }  // namespace contactcheck::suite

@@ -50,7 +50,7 @@ class JsonField {
   bool has(const std::string& key) const { return value_->find(key) != nullptr; }
   /// @throws when the key is missing
   JsonField at(const std::string& key) const;
-  /// Items of an array. @throws when it is none, or has fewer than `fewest`
+  /// Items of an array. @throws when it is no array or has fewer than `fewest`
   std::vector<JsonField> items(std::size_t fewest = 0) const;
 
   std::string text() const;

@@ -32,7 +32,7 @@ std::size_t sweep_bytes() {
 void CacheSweep::run() {
   constexpr std::size_t kLine = 64 / sizeof(std::uint64_t);
   for (std::size_t i = 0; i < buffer_.size(); i += kLine) sum_ += buffer_[i];
-  // The sum must be looked at, or the loop is nobody's business.
+  // Keeps the optimiser from removing the loop.
   volatile std::uint64_t sink = sum_;
   (void)sink;
 }

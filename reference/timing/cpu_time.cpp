@@ -139,7 +139,7 @@ double CpuBook::after_call(double wall) {
   return used;
 }
 
-// Where there is somebody else, a machine under load may not have let it work for a while.
+// Other threads or processes may not have been scheduled for a while on a loaded machine.
 void CpuBook::settle(const std::function<void()>& still_here) {
   constexpr auto kWait = std::chrono::milliseconds(20);
   constexpr double kRest = 0.01 * kNanosecondsPerMillisecond;
@@ -154,8 +154,8 @@ void CpuBook::settle(const std::function<void()>& still_here) {
 }
 
 std::string CpuBook::complaint() const {
-  // For clocks that tick apart and the reading of them; a command tidies up behind its answer, and
-  // the pipe's two ends work beside each other.
+  // For clocks that tick at different rates and the reading of them; a command tidies up behind its
+  // answer, and the pipe's two ends work beside each other.
   const bool command = of_children_ > 0.0;
   const double slack = 0.25 * wall_ + 0.2 * kNanosecondsPerMillisecond +
                        static_cast<double>(calls_) * (command ? 1e6 : 5e3);

@@ -1,5 +1,5 @@
-// What a detector's calls take by the wall clock, and what they cost in CPU time, whoever works for
-// it: its threads and its processes too.
+// Wall time of a detector's calls, and their CPU time including the detector's threads and
+// processes.
 #pragma once
 
 #include <chrono>
@@ -43,8 +43,8 @@ class CpuBook {
   void before_call();
   /// `wall`: nanoseconds that the call took. Gives its CPU time.
   double after_call(double wall);
-  /// After the last call: waits until nobody works on, at most 2 s, and says now and then that it
-  /// does.
+  /// After the last call: waits until no thread or process works on, at most 2 s, and calls
+  /// `still_here` meanwhile.
   void settle(const std::function<void()>& still_here);
 
   /// "" where all is well. A sentence where the detector has used more CPU time in its calls than

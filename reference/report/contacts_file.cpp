@@ -1,6 +1,8 @@
 #include "reference/report/contacts_file.h"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/types/check.h"
 
@@ -29,18 +31,41 @@ PairKind pair_kind(const std::string& level, bool missed) {
   throw InputError("the level \"" + level + "\" is not known");
 }
 
-class ContactsCheck {
- public:
-  explicit ContactsCheck(const Recording& recording) : recording_(recording) {}
-
-  void check_frame(const Json& frame) const {
-    const auto number = frame.at("frame").get<std::uint64_t>();
-    if (number >= recording_.frames.size())
-      throw InputError("frame " + std::to_string(number) + " is not among the " +
-                       std::to_string(recording_.frames.size()) + " recorded ones");
+std::int64_t element_count(const BodyShape& shape, Element kind) {
+  switch (kind) {
+    case Element::kTriangle:
+      return static_cast<std::int64_t>(shape.mesh.triangles.size());
+    case Element::kCell:
+      return shape.lattice ? static_cast<std::int64_t>(shape.lattice->cells.size()) : 0;
+    case Element::kVertex:
+      return static_cast<std::int64_t>(shape.mesh.vertices.size());
+    case Element::kNone:
+      break;
   }
+  return 0;
+}
 
-  void check_pairs(const Json& listed, PairKind kind) const {
+void check_contacts(const Json& contacts, const Recording& recording) {
+  if (contacts.at("schema") != kSchema)
+    throw InputError("its schema is not \"" + std::string(kSchema) + "\"");
+  if (contacts.at("scene") != recording.scene)
+    throw InputError("it is not of the scene \"" + recording.scene + "\"");
+
+  const auto check_frame = [&](const Json& frame) {
+    const auto number = frame.at("frame").get<std::uint64_t>();
+    if (number >= recording.frames.size())
+      throw InputError("frame " + std::to_string(number) + " is not among the " +
+                       std::to_string(recording.frames.size()) + " recorded ones");
+  };
+  const auto check_element = [&](std::int64_t body, std::int64_t element, Element kind) {
+    if (body < 0 || body >= static_cast<std::int64_t>(recording.bodies.size()))
+      throw InputError("body " + std::to_string(body) + " is not recorded");
+    if (kind == Element::kNone && element == -1) return;
+    if (element < 0 || element >= element_count(*recording.bodies[body].shape, kind))
+      throw InputError("body " + std::to_string(body) + " has no element " +
+                       std::to_string(element));
+  };
+  const auto check_pairs = [&](const Json& listed, PairKind kind) {
     listed.at("count").get<std::uint64_t>();
     const auto pairs = listed.at("pairs").get<std::vector<std::int64_t>>();
     if (pairs.size() % 4 != 0)
@@ -50,52 +75,19 @@ class ContactsCheck {
       check_element(pairs[i], pairs[i + 1], kind.first);
       check_element(pairs[i + 2], pairs[i + 3], kind.second);
     }
-  }
+  };
 
- private:
-  void check_element(std::int64_t body, std::int64_t element, Element kind) const {
-    if (body < 0 || body >= static_cast<std::int64_t>(recording_.bodies.size()))
-      throw InputError("body " + std::to_string(body) + " is not recorded");
-    if (kind == Element::kNone && element == -1) return;
-    if (element < 0 || element >= count_of(*recording_.bodies[body].shape, kind))
-      throw InputError("body " + std::to_string(body) + " has no element " +
-                       std::to_string(element));
-  }
-
-  static std::int64_t count_of(const BodyShape& shape, Element kind) {
-    switch (kind) {
-      case Element::kTriangle:
-        return static_cast<std::int64_t>(shape.mesh.triangles.size());
-      case Element::kCell:
-        return shape.lattice ? static_cast<std::int64_t>(shape.lattice->cells.size()) : 0;
-      case Element::kVertex:
-        return static_cast<std::int64_t>(shape.mesh.vertices.size());
-      case Element::kNone:
-        break;
-    }
-    return 0;
-  }
-
-  const Recording& recording_;
-};
-
-void check_contacts(const Json& contacts, const Recording& recording) {
-  if (contacts.at("schema") != kSchema)
-    throw InputError("its schema is not \"" + std::string(kSchema) + "\"");
-  if (contacts.at("scene") != recording.scene)
-    throw InputError("it is not of the scene \"" + recording.scene + "\"");
-  const ContactsCheck check(recording);
   for (const Json& frame : contacts.at("truth")) {
-    check.check_frame(frame);
-    check.check_pairs(frame, pair_kind("triangle", true));
+    check_frame(frame);
+    check_pairs(frame, pair_kind("triangle", true));
   }
   for (const Json& detector : contacts.at("detectors")) {
     const auto level = detector.at("level").get<std::string>();
     detector.at("detector").get<std::string>();
     for (const Json& frame : detector.at("frames")) {
-      check.check_frame(frame);
-      check.check_pairs(frame.at("missed"), pair_kind(level, true));
-      check.check_pairs(frame.at("spurious"), pair_kind(level, false));
+      check_frame(frame);
+      check_pairs(frame.at("missed"), pair_kind(level, true));
+      check_pairs(frame.at("spurious"), pair_kind(level, false));
     }
   }
 }

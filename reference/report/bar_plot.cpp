@@ -38,17 +38,6 @@ std::string style() {
 
 double width_of(const std::string& words) { return kLetter * static_cast<double>(words.size()); }
 
-double longest_lane(const BarChart& chart) {
-  double longest = 0.0;
-  for (const BarRow& row : chart.rows)
-    for (const BarLane& lane : row.lanes) {
-      double sum = 0.0;
-      for (const BarPart& part : lane) sum += part.share;
-      longest = std::max(longest, sum);
-    }
-  return longest;
-}
-
 /// From 0 to the next of 1, 2 and 5 times a power of ten; in percent.
 class LinearAxis {
  public:
@@ -71,113 +60,84 @@ class LinearAxis {
   double top_ = 1.0;
 };
 
-class BarPlot {
- public:
-  explicit BarPlot(const BarChart& chart)
-      : chart_(chart),
-        errors_(std::min(1.0, longest_lane(chart))),
-        linear_(longest_lane(chart)),
-        left_(kMargin + name_width()),
-        svg_(width(), bottom() + kAxis + kLine * static_cast<double>(chart.foot.size())) {}
-
-  std::string draw() {
-    svg_.text(kMargin, 20, chart_.title, Anchor::kStart, "title");
-    draw_legend();
-    draw_axis();
-    for (std::size_t row = 0; row < chart_.rows.size(); ++row) draw_row(row);
-    double y = bottom() + kAxis + 4;
-    for (const std::string& line : chart_.foot) {
-      svg_.text(kMargin, y, line, Anchor::kStart, "faint");
-      y += kLine;
-    }
-    return svg_.document(chart_.title, style());
-  }
-
- private:
-  double name_width() const {
-    double widest = 0.0;
-    for (const BarRow& row : chart_.rows) widest = std::max(widest, width_of(row.name));
-    return widest + 8;
-  }
-  double width() const {
-    double words = 0.0, foot = width_of(chart_.title);
-    for (const BarRow& row : chart_.rows) words = std::max(words, width_of(row.words));
-    for (const std::string& line : chart_.foot) foot = std::max(foot, width_of(line));
-    return std::max({left_ + kBars + 12 + words, foot + kMargin, legend_end()}) + kMargin;
-  }
-  static double legend_width(const std::string& name) { return 16 + width_of(name) + 12; }
-  double legend_end() const {
-    double x = kMargin;
-    for (const std::string& name : chart_.series) x += legend_width(name);
-    return x;
-  }
-  double row_height() const {
-    return static_cast<double>(chart_.rows.front().lanes.size()) * (kLane + kLaneGap) + kRowGap;
-  }
-  double y_of(std::size_t row) const {
-    return kHead + kRowGap / 2 + static_cast<double>(row) * row_height();
-  }
-  double bottom() const { return y_of(chart_.rows.size()); }
-  double x_of(double share) const {
-    const bool errors = chart_.scale == BarChart::Scale::kErrors;
-    return left_ + kBars * (errors ? errors_.place(share) : linear_.place(share));
-  }
-
-  void draw_legend() {
-    double x = kMargin;
-    for (std::size_t s = 0; s < chart_.series.size(); ++s) {
-      svg_.rectangle(x, 30, 11, 11, fmt::format("s{}", s));
-      svg_.text(x + 16, 40, chart_.series[s]);
-      x += legend_width(chart_.series[s]);
-    }
-  }
-
-  void draw_axis() {
-    const bool errors = chart_.scale == BarChart::Scale::kErrors;
-    for (const Tick& tick : errors ? errors_.ticks() : linear_.ticks()) {
-      svg_.line(x_of(tick.value), kHead, x_of(tick.value), bottom(), "grid");
-      svg_.text(x_of(tick.value), bottom() + 14, tick.name, Anchor::kMiddle, "faint");
-    }
-    svg_.text(left_ + kBars, bottom() + 31, chart_.axis, Anchor::kEnd);
-  }
-
-  void draw_row(std::size_t index) {
-    const BarRow& row = chart_.rows[index];
-    const double middle = y_of(index) + (row_height() - kRowGap) / 2 + 4;
-    svg_.text(left_ - 8, middle, row.name, Anchor::kEnd);
-    double y = y_of(index);
-    for (const BarLane& lane : row.lanes) {
-      draw_lane(lane, y);
-      y += kLane + kLaneGap;
-    }
-    svg_.text(left_ + kBars + 12, middle, row.words, Anchor::kStart, "faint");
-  }
-
-  void draw_lane(const BarLane& lane, double y) {
-    double before = 0.0, x = left_;
-    for (const BarPart& part : lane) {
-      if (part.share <= 0.0) continue;
-      const double end = std::max(x_of(before + part.share), x + kThinnest);
-      svg_.begin_group(part.words);
-      svg_.rectangle(x, y, end - x, kLane, fmt::format("s{}", part.series));
-      svg_.end_group();
-      before += part.share;
-      x = end;
-    }
-  }
-
-  const BarChart& chart_;
-  ErrorAxis errors_;
-  LinearAxis linear_;
-  double left_;
-  Svg svg_;
-};
-
 }  // namespace
 
 std::string bar_plot(const BarChart& chart) {
   CONTACTCHECK_INVARIANT(chart.series.size() <= kBarSeries, "a colour for each series");
-  return chart.rows.empty() ? "" : BarPlot(chart).draw();
+  if (chart.rows.empty()) return "";
+
+  double names = 0.0, words = 0.0, longest = 0.0;
+  for (const BarRow& row : chart.rows) {
+    names = std::max(names, width_of(row.name));
+    words = std::max(words, width_of(row.words));
+    for (const BarLane& lane : row.lanes) {
+      double sum = 0.0;
+      for (const BarPart& part : lane) sum += part.share;
+      longest = std::max(longest, sum);
+    }
+  }
+  double lines = width_of(chart.title), legend_end = kMargin;
+  for (const std::string& line : chart.foot) lines = std::max(lines, width_of(line));
+  const auto legend_width = [](const std::string& name) { return 16 + width_of(name) + 12; };
+  for (const std::string& name : chart.series) legend_end += legend_width(name);
+
+  const double left = kMargin + names + 8, right = left + kBars;
+  const double width = std::max({right + 12 + words, lines + kMargin, legend_end}) + kMargin;
+  const double lanes_height =
+      static_cast<double>(chart.rows.front().lanes.size()) * (kLane + kLaneGap);
+  const auto y_of = [&](std::size_t row) {
+    return kHead + kRowGap / 2 + static_cast<double>(row) * (lanes_height + kRowGap);
+  };
+  const double bottom = y_of(chart.rows.size());
+  const bool errors = chart.scale == BarChart::Scale::kErrors;
+  const ErrorAxis error_axis(std::min(1.0, longest));
+  const LinearAxis linear_axis(longest);
+  const auto x_of = [&](double share) {
+    return left + kBars * (errors ? error_axis.place(share) : linear_axis.place(share));
+  };
+  Svg svg(width, bottom + kAxis + kLine * static_cast<double>(chart.foot.size()));
+
+  svg.text(kMargin, 20, chart.title, Anchor::kStart, "title");
+  double legend_x = kMargin;
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    svg.rectangle(legend_x, 30, 11, 11, fmt::format("s{}", s));
+    svg.text(legend_x + 16, 40, chart.series[s]);
+    legend_x += legend_width(chart.series[s]);
+  }
+
+  for (const Tick& tick : errors ? error_axis.ticks() : linear_axis.ticks()) {
+    svg.line(x_of(tick.value), kHead, x_of(tick.value), bottom, "grid");
+    svg.text(x_of(tick.value), bottom + 14, tick.name, Anchor::kMiddle, "faint");
+  }
+  svg.text(right, bottom + 31, chart.axis, Anchor::kEnd);
+
+  for (std::size_t r = 0; r < chart.rows.size(); ++r) {
+    const BarRow& row = chart.rows[r];
+    const double middle = y_of(r) + lanes_height / 2 + 4;
+    svg.text(left - 8, middle, row.name, Anchor::kEnd);
+    double y = y_of(r);
+    for (const BarLane& lane : row.lanes) {
+      double before = 0.0, x = left;
+      for (const BarPart& part : lane) {
+        if (part.share <= 0.0) continue;
+        const double end = std::max(x_of(before + part.share), x + kThinnest);
+        svg.begin_group(part.words);
+        svg.rectangle(x, y, end - x, kLane, fmt::format("s{}", part.series));
+        svg.end_group();
+        before += part.share;
+        x = end;
+      }
+      y += kLane + kLaneGap;
+    }
+    svg.text(right + 12, middle, row.words, Anchor::kStart, "faint");
+  }
+
+  double foot_y = bottom + kAxis + 4;
+  for (const std::string& line : chart.foot) {
+    svg.text(kMargin, foot_y, line, Anchor::kStart, "faint");
+    foot_y += kLine;
+  }
+  return svg.document(chart.title, style());
 }
 
 }  // namespace contactcheck::report

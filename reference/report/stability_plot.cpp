@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <vector>
 
 #include "reference/report/svg.h"
@@ -36,126 +37,6 @@ double share_of(std::int64_t part, std::int64_t whole) {
   return whole <= 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-double opacity_of(double share) { return kFaintest + (1.0 - kFaintest) * std::min(share, 1.0); }
-
-class StabilityPlot {
- public:
-  StabilityPlot(const results::Scene& scene, std::vector<FamilyResult> rows)
-      : scene_(scene),
-        rows_(std::move(rows)),
-        left_(kEdge + label_width()),
-        svg_(width(), kHeadHeight + height_of_rows() + foot()) {}
-
-  std::string draw() {
-    draw_head();
-    for (std::size_t row = 0; row < rows_.size(); ++row) draw_row(row);
-    for (std::size_t c = 0; c < cases(); ++c)
-      svg_.text(x_of(c) + kSquare / 2 + 4, y_of(rows_.size()) + 10, rows_[0].value(c), Anchor::kEnd,
-                "ink", -60);
-    svg_.text(left_, svg_bottom() - 8, parameter(), Anchor::kStart);
-    return svg_.document(title(), css());
-  }
-
- private:
-  std::size_t cases() const { return rows_[0].cases(); }
-  const std::string& parameter() const { return scene_.family->parameter; }
-  const std::string& title() const { return scene_.title; }
-
-  double label_width() const {
-    std::size_t longest = 0;
-    for (const FamilyResult& row : rows_) longest = std::max(longest, row.detector().size());
-    return kCaptionLetter * static_cast<double>(longest) + 8;
-  }
-  double width() const {
-    const double squares = static_cast<double>(cases()) * (kSquare + kSquareGap);
-    const double words = kCaptionLetter * static_cast<double>(title().size());
-    return std::max({left_ + squares, words + kEdge, 420.0}) + kEdge;
-  }
-  double height_of_rows() const {
-    return static_cast<double>(rows_.size()) * (kSquare + kSquareGap);
-  }
-  // Values stand on their heads below the squares, the parameter below them.
-  double foot() const {
-    std::size_t longest = 0;
-    for (std::size_t c = 0; c < cases(); ++c) longest = std::max(longest, rows_[0].value(c).size());
-    return 40 + 0.9 * kCaptionLetter * static_cast<double>(longest);
-  }
-  double svg_bottom() const { return kHeadHeight + height_of_rows() + foot(); }
-  double x_of(std::size_t c) const {
-    return left_ + static_cast<double>(c) * (kSquare + kSquareGap);
-  }
-  double y_of(std::size_t row) const {
-    return kHeadHeight + static_cast<double>(row) * (kSquare + kSquareGap);
-  }
-
-  void draw_head() {
-    svg_.text(kEdge, 18, title(), Anchor::kStart, "title");
-    double x = kEdge;
-    const auto entry = [&](const char* css_class, const std::string& words,
-                           const char* mark = nullptr) {
-      svg_.rectangle(x, 27, 11, 11, css_class);
-      if (mark != nullptr) svg_.path(x + 5.5, 32.5, mark, "mark");
-      svg_.text(x + 16, 37, words);
-      x += 16 + kCaptionLetter * static_cast<double>(words.size()) + 10;
-    };
-    entry("missed", "share missed", kDown);
-    entry("spurious", "share spurious", kUp);
-    entry("right", "right");
-    entry("error", "error");
-  }
-
-  void draw_row(std::size_t row) {
-    const FamilyResult& result = rows_[row];
-    svg_.text(left_ - 8, y_of(row) + kSquare / 2 + 4, result.detector(), Anchor::kEnd);
-    for (std::size_t c = 0; c < cases(); ++c)
-      result.failed() ? draw_failed(row, c) : draw_judged(row, c);
-  }
-
-  void draw_judged(std::size_t row, std::size_t c) {
-    const FamilyResult& result = rows_[row];
-    const std::int64_t truth = result.at(&results::PerFrame::truth, c),
-                       missed = result.at(&results::PerFrame::missed, c),
-                       spurious = result.at(&results::PerFrame::spurious, c);
-    begin_square(row, c, fmt::format("{} missed of {}, {} spurious", missed, truth, spurious));
-    half(x_of(c), y_of(row), "missed", share_of(missed, truth), kDown);
-    half(x_of(c), y_of(row) + kSquare / 2, "spurious",
-         share_of(spurious, truth - missed + spurious), kUp);
-    svg_.end_group();
-  }
-
-  void begin_square(std::size_t row, std::size_t c, const std::string& words) {
-    const FamilyResult& result = rows_[row];
-    svg_.begin_group(fmt::format("{} at {}: {}", result.detector(), result.value(c), words),
-                     {{"detector", result.detector()}, {"frame", std::to_string(c)}});
-  }
-
-  void half(double x, double y, const char* css_class, double share, const char* mark) {
-    svg_.rectangle(x, y, kSquare, kSquare / 2, "right");
-    if (share <= 0.0) return;
-    svg_.rectangle(x, y, kSquare, kSquare / 2, css_class, opacity_of(share));
-    svg_.path(x + kSquare / 2, y + kSquare / 4, mark, "mark");
-  }
-
-  // Without answers nobody knows about the other cases.
-  void draw_failed(std::size_t row, std::size_t c) {
-    const FamilyResult& result = rows_[row];
-    const double x = x_of(c), y = y_of(row);
-    const bool here = result.failed_frame() == c;
-    begin_square(row, c, here ? result.run.message : "no answer");
-    svg_.rectangle(x, y, kSquare, kSquare, here ? "error" : "unknown");
-    if (here) {
-      svg_.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
-      svg_.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
-    }
-    svg_.end_group();
-  }
-
-  const results::Scene& scene_;
-  std::vector<FamilyResult> rows_;
-  double left_;
-  Svg svg_;
-};
-
 }  // namespace
 
 // Results may come from anywhere: an id must not lead out of the folder.
@@ -170,7 +51,85 @@ std::string stability_plot(const results::Scene& scene, const std::vector<Family
   std::vector<FamilyResult> rows;
   for (const FamilyResult& result : results)
     if (&result.scene == &scene && result.goes_wrong()) rows.push_back(result);
-  return rows.empty() ? "" : StabilityPlot(scene, std::move(rows)).draw();
+  if (rows.empty()) return "";
+
+  const auto words_width = [](std::size_t letters) {
+    return kCaptionLetter * static_cast<double>(letters);
+  };
+  const auto squares = [](std::size_t n) {
+    return static_cast<double>(n) * (kSquare + kSquareGap);
+  };
+  const std::size_t cases = rows[0].cases();
+  std::size_t longest_name = 0, longest_value = 0;
+  for (const FamilyResult& row : rows) longest_name = std::max(longest_name, row.detector().size());
+  for (std::size_t c = 0; c < cases; ++c)
+    longest_value = std::max(longest_value, rows[0].value(c).size());
+  const double names = words_width(longest_name) + 8, left = kEdge + names;
+  const double bottom = kHeadHeight + squares(rows.size());
+  // Values are turned below the squares, the parameter's name is below them.
+  const double height = bottom + (40 + 0.9 * kCaptionLetter * static_cast<double>(longest_value));
+  const double title = words_width(scene.title.size()) + kEdge;
+  Svg svg(std::max({left + squares(cases), title, 420.0}) + kEdge, height);
+
+  svg.text(kEdge, 18, scene.title, Anchor::kStart, "title");
+  double legend_x = kEdge;
+  const auto legend_entry = [&](const char* css_class, const std::string& words,
+                                const char* mark = nullptr) {
+    svg.rectangle(legend_x, 27, 11, 11, css_class);
+    if (mark != nullptr) svg.path(legend_x + 5.5, 32.5, mark, "mark");
+    svg.text(legend_x + 16, 37, words);
+    legend_x += 16 + words_width(words.size()) + 10;
+  };
+  legend_entry("missed", "share missed", kDown);
+  legend_entry("spurious", "share spurious", kUp);
+  legend_entry("right", "right");
+  legend_entry("error", "error");
+
+  const auto draw_half = [&](double x, double y, const char* css_class, double share,
+                             const char* mark) {
+    svg.rectangle(x, y, kSquare, kSquare / 2, "right");
+    if (share <= 0.0) return;
+    svg.rectangle(x, y, kSquare, kSquare / 2, css_class,
+                  kFaintest + (1.0 - kFaintest) * std::min(share, 1.0));
+    svg.path(x + kSquare / 2, y + kSquare / 4, mark, "mark");
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const FamilyResult& row = rows[r];
+    const double y = kHeadHeight + squares(r);
+    svg.text(left - 8, y + kSquare / 2 + 4, row.detector(), Anchor::kEnd);
+    for (std::size_t c = 0; c < cases; ++c) {
+      const double x = left + squares(c);
+      const auto begin_square = [&](const std::string& words) {
+        svg.begin_group(fmt::format("{} at {}: {}", row.detector(), row.value(c), words),
+                        {{"detector", row.detector()}, {"frame", std::to_string(c)}});
+      };
+      if (row.failed()) {
+        // Without answers nothing is known about the other cases.
+        const bool here = row.failed_frame() == c;
+        begin_square(here ? row.run.message : "no answer");
+        svg.rectangle(x, y, kSquare, kSquare, here ? "error" : "unknown");
+        if (here) {
+          svg.line(x + 6, y + 6, x + kSquare - 6, y + kSquare - 6, "cross");
+          svg.line(x + 6, y + kSquare - 6, x + kSquare - 6, y + 6, "cross");
+        }
+      } else {
+        const std::int64_t truth = row.at(&results::PerFrame::truth, c),
+                           missed = row.at(&results::PerFrame::missed, c),
+                           spurious = row.at(&results::PerFrame::spurious, c);
+        begin_square(fmt::format("{} missed of {}, {} spurious", missed, truth, spurious));
+        draw_half(x, y, "missed", share_of(missed, truth), kDown);
+        draw_half(x, y + kSquare / 2, "spurious", share_of(spurious, truth - missed + spurious),
+                  kUp);
+      }
+      svg.end_group();
+    }
+  }
+
+  for (std::size_t c = 0; c < cases; ++c)
+    svg.text(left + squares(c) + kSquare / 2 + 4, bottom + 10, rows[0].value(c), Anchor::kEnd,
+             "ink", -60);
+  svg.text(left, height - 8, scene.family->parameter, Anchor::kStart);
+  return svg.document(scene.title, css());
 }
 
 }  // namespace contactcheck::report

@@ -8,7 +8,7 @@
 #include "core/types/check.h"
 #include "reference/report/csv.h"
 #include "reference/report/html.h"
-#include "reference/report/report_files.h"
+#include "reference/report/markdown.h"
 #include "reference/report/view_bytes.h"
 #include "reference/reproduce/reproduction_report.h"
 #include "reference/results/results_file.h"

@@ -20,7 +20,6 @@
 #include "reference/cli/run_and_report.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
-#include "reference/report/report_files.h"
 #include "reference/report/terminal.h"
 #include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "reference/report/format.h"
+#include "reference/report/run_row.h"
 #include "reference/results/statistics.h"
 
 namespace contactcheck::report {
@@ -86,6 +88,55 @@ DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
 }
 
 }  // namespace
+
+std::vector<PhaseMeans> phase_times(const results::Index& index, const SceneChoice& scenes,
+                                    bool cold) {
+  std::vector<PhaseMeans> all;
+  for (const std::string& detector : index.detectors()) {
+    PhaseMeans means;
+    means.detector = detector;
+    for (const Run* run : ok_runs(index, detector, scenes)) {
+      if (run->times.empty()) continue;
+      const results::QuestionTimes& times = run->times.front();
+      const results::PhaseTimes* phases = phases_of(times, cold);
+      if (phases == nullptr) continue;
+      if (means.scenes++ == 0) means.question = times.question;
+      if (phases->map) means.map = means.map.value_or(0.0) + *phases->map;
+      means.update += phases->update;
+      means.query += phases->query;
+      means.timed.add(*run, times);
+    }
+    if (means.scenes == 0) continue;
+    const auto timed_scenes = static_cast<double>(means.scenes);
+    if (means.map) *means.map /= timed_scenes;
+    means.update /= timed_scenes;
+    means.query /= timed_scenes;
+    all.push_back(std::move(means));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PhaseMeans& a, const PhaseMeans& b) { return a.total() < b.total(); });
+  return all;
+}
+
+TitledTable phase_times_table(const std::vector<PhaseMeans>& all) {
+  TitledTable out{"Milliseconds per frame and phase",
+                  "",
+                  {{"detector", true, ""},
+                   {"question", true, ""},
+                   {"scenes", false, ""},
+                   {"map", false, ""},
+                   {"update", false, ""},
+                   {"query", false, ""},
+                   {"sum", false, ""},
+                   {"passes", false, ""}},
+                  {}};
+  for (const PhaseMeans& own : all)
+    out.rows.push_back({own.detector, name_of(own.question), std::to_string(own.scenes),
+                        format_number(own.map), format_number(own.update), format_number(own.query),
+                        format_number(own.total()) + own.timed.cut_text(),
+                        format_counts(own.timed.passes)});
+  return out;
+}
 
 SceneCosts scene_costs(const results::Index& index, const results::Scene& scene) {
   SceneCosts out;

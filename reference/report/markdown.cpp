@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "reference/report/claims.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
@@ -10,7 +12,9 @@
 #include "reference/report/origin.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_tables.h"
-#include "reference/report/speed_error_section.h"
+#include "reference/report/speed_error.h"
+#include "reference/report/speed_error_plot.h"
+#include "reference/report/stability_plot.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck::report {
@@ -83,6 +87,20 @@ std::string markdown_report(const results::Results& results) {
   for (const results::Scene& scene : results.scenes)
     if (!scene.family) out += scene_section(index, scene);
   return out + section_of(semantics_table(results)) + legend();
+}
+
+std::map<std::string, std::string> report_files(const results::Results& results) {
+  std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
+  const auto add_picture = [&](const std::string& file, std::string picture) {
+    if (!picture.empty()) files[file] = std::move(picture);
+  };
+  add_picture(kSpeedErrorFile, speed_error_picture(results));
+  add_picture(kErrorsFile, errors_picture(results));
+  add_picture(kStagesFile, stages_picture(results));
+  const std::vector<FamilyResult> families = family_results(results);
+  for (const results::Scene& scene : results.scenes)
+    if (scene.family) add_picture(stability_plot_file(scene), stability_plot(scene, families));
+  return files;
 }
 
 }  // namespace contactcheck::report

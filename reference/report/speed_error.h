@@ -75,4 +75,12 @@ std::string left_out_sentence(const SpeedError& chart);
 /// Sets `on_front` of every point.
 void mark_front(std::vector<SpeedErrorPoint>& points);
 
+/// The points as a table.
+const std::vector<Column>& speed_error_columns();
+std::vector<std::string> speed_error_cells(const SpeedErrorPoint& point);
+
+/// The section of the Markdown report: the chart that is shown first, what it shows, and its points
+/// as a table. Empty where nothing was timed.
+std::string speed_error_markdown(const results::Results& results);
+
 }  // namespace contactcheck::report

@@ -62,9 +62,11 @@ std::string plot_style() {
 
 struct LegendEntry {
   std::string outline, css_class, words;
+  double x = 0.0;
+  std::size_t line = 0;
 };
 
-// Of groups and questions that have a point.
+// Of groups and questions that have a point, in as many lines as they need.
 std::vector<LegendEntry> legend_of(const Points& points) {
   std::set<std::size_t> groups;
   std::set<Question> questions;
@@ -77,182 +79,136 @@ std::vector<LegendEntry> legend_of(const Points& points) {
     entries.push_back({"M-5-5h10v10h-10Z", class_of(g), detector_group(g).name});
   for (const Shape& shape : kShapes)
     if (questions.count(shape.question) > 0) entries.push_back({shape.outline, "key", shape.means});
+  double x = kPlotMargin;
+  std::size_t line = 0;
+  for (LegendEntry& entry : entries) {
+    const double width = 16 + kLegendLetter * static_cast<double>(entry.words.size()) + 12;
+    if (x > kPlotMargin && x + width > kWidth - kRight) {
+      x = kPlotMargin;
+      ++line;
+    }
+    entry.x = x;
+    entry.line = line;
+    x += width;
+  }
   return entries;
 }
 
-LogAxis time_axis(const Points& points) {
-  const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ms < b.ms; });
-  return {least->ms, most->ms};
+// The points that no other of the same question beats, fast before slow.
+Points front_of(const Points& points, Question question) {
+  Points front;
+  for (const SpeedErrorPoint& p : points)
+    if (p.on_front && p.question == question) front.push_back(p);
+  std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.ms < b.ms; });
+  return front;
 }
-
-double highest_error(const Points& points) {
-  double highest = 0.0;
-  for (const SpeedErrorPoint& point : points) highest = std::max(highest, point.error);
-  return highest;
-}
-
-std::string sentence_of(const SpeedErrorPoint& p) {
-  return fmt::format(
-      "{}: {} ms per frame (question {}), missed {} of {}, spurious {} of {} (level {})",
-      p.detector, format_number(p.ms), name_of(p.question), p.missed, p.truth, p.spurious,
-      p.reported, name_of(p.level));
-}
-
-class SpeedErrorPlot {
- public:
-  SpeedErrorPlot(const SpeedError& chart, const std::string& machine)
-      : chart_(chart),
-        machine_(machine),
-        points_(chart.points),
-        time_(time_axis(points_)),
-        error_(highest_error(points_)),
-        legend_(legend_of(points_)),
-        top_(44 + kLegendLine * static_cast<double>(legend_lines())),
-        svg_(kWidth, top_ + kPlotHeight + kBottom) {}
-
-  std::string draw() {
-    draw_head();
-    draw_axes();
-    for (const Shape& shape : kShapes) draw_front(shape.question);
-    const std::size_t nameless = draw_names();
-    draw_points();
-    draw_foot(nameless);
-    return svg_.document("Speed against error, " + chart_.scenes, plot_style());
-  }
-
- private:
-  double x_of(double ms) const {
-    return kPlotLeft + (kWidth - kPlotLeft - kRight) * time_.place(ms);
-  }
-  double y_of(double error) const { return base() - (kPlotHeight - kInset) * error_.place(error); }
-  double base() const { return top_ + kPlotHeight - kInset; }
-  double bottom() const { return top_ + kPlotHeight; }
-
-  static double width_of(const LegendEntry& entry) {
-    return 16 + kLegendLetter * static_cast<double>(entry.words.size()) + 12;
-  }
-  // Calls `use(entry, x, line)` for every entry; returns the number of lines.
-  template <typename Use>
-  std::size_t for_each_entry(Use&& use) const {
-    double x = kPlotMargin;
-    std::size_t line = 0;
-    for (const LegendEntry& entry : legend_) {
-      if (x > kPlotMargin && x + width_of(entry) > kWidth - kRight) {
-        x = kPlotMargin;
-        ++line;
-      }
-      use(entry, x, line);
-      x += width_of(entry);
-    }
-    return line + 1;
-  }
-  std::size_t legend_lines() const {
-    return for_each_entry([](const LegendEntry&, double, std::size_t) {});
-  }
-
-  void draw_head() {
-    svg_.text(kPlotMargin, 22, "Speed against error, " + chart_.scenes, Anchor::kStart, "title");
-    for_each_entry([&](const LegendEntry& entry, double x, std::size_t line) {
-      const double y = 40 + kLegendLine * static_cast<double>(line);
-      svg_.path(x + 5, y, entry.outline, entry.css_class);
-      svg_.text(x + 16, y + 4, entry.words);
-    });
-  }
-
-  void draw_axes() {
-    for (const Tick& tick : error_.ticks()) {
-      svg_.line(kPlotLeft, y_of(tick.value), kWidth - kRight, y_of(tick.value), "grid");
-      svg_.text(kPlotLeft - 8, y_of(tick.value) + 4, tick.name, Anchor::kEnd);
-    }
-    for (const Tick& tick : time_.ticks()) {
-      svg_.line(x_of(tick.value), top_, x_of(tick.value), bottom(), "grid");
-      svg_.text(x_of(tick.value), bottom() + 16, tick.name, Anchor::kMiddle);
-    }
-    svg_.text(kWidth - kRight, bottom() + 36, "time per frame, ms (left is faster)", Anchor::kEnd);
-    svg_.text(20, top_ + kPlotHeight / 2, "share of errors (down is better)", Anchor::kMiddle,
-              "ink", -90);
-  }
-
-  // Steps that part what is beaten, to the right and above, from what nothing does.
-  void draw_front(Question question) {
-    Points front;
-    for (const SpeedErrorPoint& p : points_)
-      if (p.on_front && p.question == question) front.push_back(p);
-    if (front.empty()) return;
-    std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.ms < b.ms; });
-    PicturePoint at{x_of(front[0].ms), top_};
-    std::string steps = fmt::format("M{:.1f} {:.1f}", at.x, at.y);
-    const auto step_to = [&](double x, double y) {
-      fronts_.push_back({at, {x, at.y}});
-      fronts_.push_back({{x, at.y}, {x, y}});
-      at = {x, y};
-      steps += fmt::format("H{:.1f}V{:.1f}", x, y);
-    };
-    for (const SpeedErrorPoint& p : front) step_to(x_of(p.ms), y_of(p.error));
-    step_to(kWidth - kRight, at.y);
-    svg_.path(0, 0, steps, "front");
-  }
-
-  // Returns how many names found no place.
-  std::size_t draw_names() {
-    std::vector<LabelledPoint> wanted;
-    for (const SpeedErrorPoint& p : points_)
-      wanted.push_back({x_of(p.ms), y_of(p.error),
-                        kNameLetter * static_cast<double>(p.detector.size()), kNameHeight});
-    const Box area{kPlotLeft, top_, kWidth - kPlotLeft - kRight, kPlotHeight};
-    const auto places = place_labels(wanted, area, kRadius, fronts_);
-    std::size_t nameless = 0;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      places[i] ? draw_name(points_[i].detector, wanted[i], *places[i]) : void(++nameless);
-    return nameless;
-  }
-
-  void draw_name(const std::string& name, const LabelledPoint& point, const LabelPlace& place) {
-    if (place.leader) svg_.line(point.x, point.y, place.leader->x, place.leader->y, "leader");
-    svg_.text(place.box.x, place.box.bottom() - 2.5, name, Anchor::kStart, "name");
-  }
-
-  void draw_points() {
-    for (const SpeedErrorPoint& p : points_) {
-      svg_.begin_group(sentence_of(p));
-      svg_.path(x_of(p.ms), y_of(p.error), shape_of(p.question).outline,
-                class_of(group_of(p.detector)));
-      svg_.end_group();
-    }
-  }
-
-  void draw_foot(std::size_t nameless) {
-    const auto line = [&](double y, const std::string& words) {
-      svg_.text(kPlotMargin, bottom() + y, words, Anchor::kStart, "faint");
-    };
-    line(58,
-         "Time: mapping, update and query in playback, mean over frames. Errors: share of "
-         "contacts missed or of reports spurious (the worse),");
-    line(76,
-         "at the finest level judged in every scene. Dashed: the Pareto front of each question; no "
-         "other is faster without being worse.");
-    line(94, "Measured on " + machine_ + "." +
-                 (nameless == 0 ? ""
-                                : fmt::format(" No room for the names of {} of {} points.",
-                                              nameless, points_.size())));
-  }
-
-  const SpeedError& chart_;
-  const std::string& machine_;
-  const Points& points_;
-  LogAxis time_;
-  ErrorAxis error_;
-  std::vector<LegendEntry> legend_;
-  std::vector<PictureSegment> fronts_;
-  double top_;
-  Svg svg_;
-};
 
 }  // namespace
 
 std::string speed_error_plot(const SpeedError& chart, const std::string& machine) {
-  return chart.points.empty() ? "" : SpeedErrorPlot(chart, machine).draw();
+  const Points& points = chart.points;
+  if (points.empty()) return "";
+
+  const auto [fastest, slowest] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.ms < b.ms; });
+  const LogAxis time(fastest->ms, slowest->ms);
+  double highest = 0.0;
+  for (const SpeedErrorPoint& point : points) highest = std::max(highest, point.error);
+  const ErrorAxis error(highest);
+  const std::vector<LegendEntry> legend = legend_of(points);
+  const double top = 44 + kLegendLine * static_cast<double>(legend.back().line + 1),
+               bottom = top + kPlotHeight, right = kWidth - kRight;
+  const auto x_of = [&](double ms) {
+    return kPlotLeft + (kWidth - kPlotLeft - kRight) * time.place(ms);
+  };
+  const auto y_of = [&](double share) {
+    return bottom - kInset - (kPlotHeight - kInset) * error.place(share);
+  };
+  const std::string title = "Speed against error, " + chart.scenes;
+  Svg svg(kWidth, bottom + kBottom);
+
+  svg.text(kPlotMargin, 22, title, Anchor::kStart, "title");
+  for (const LegendEntry& entry : legend) {
+    const double y = 40 + kLegendLine * static_cast<double>(entry.line);
+    svg.path(entry.x + 5, y, entry.outline, entry.css_class);
+    svg.text(entry.x + 16, y + 4, entry.words);
+  }
+
+  for (const Tick& tick : error.ticks()) {
+    svg.line(kPlotLeft, y_of(tick.value), right, y_of(tick.value), "grid");
+    svg.text(kPlotLeft - 8, y_of(tick.value) + 4, tick.name, Anchor::kEnd);
+  }
+  for (const Tick& tick : time.ticks()) {
+    svg.line(x_of(tick.value), top, x_of(tick.value), bottom, "grid");
+    svg.text(x_of(tick.value), bottom + 16, tick.name, Anchor::kMiddle);
+  }
+  svg.text(right, bottom + 36, "time per frame, ms (left is faster)", Anchor::kEnd);
+  svg.text(20, top + kPlotHeight / 2, "share of errors (down is better)", Anchor::kMiddle, "ink",
+           -90);
+
+  // A front is drawn as steps: what lies to the right of them or above is beaten.
+  std::vector<PictureSegment> fronts;
+  for (const Shape& shape : kShapes) {
+    const Points front = front_of(points, shape.question);
+    if (front.empty()) continue;
+    PicturePoint at{x_of(front[0].ms), top};
+    std::string steps = fmt::format("M{:.1f} {:.1f}", at.x, at.y);
+    const auto step_to = [&](double x, double y) {
+      fronts.push_back({at, {x, at.y}});
+      fronts.push_back({{x, at.y}, {x, y}});
+      at = {x, y};
+      steps += fmt::format("H{:.1f}V{:.1f}", x, y);
+    };
+    for (const SpeedErrorPoint& p : front) step_to(x_of(p.ms), y_of(p.error));
+    step_to(right, at.y);
+    svg.path(0, 0, steps, "front");
+  }
+
+  std::vector<LabelledPoint> labels;
+  for (const SpeedErrorPoint& p : points)
+    labels.push_back({x_of(p.ms), y_of(p.error),
+                      kNameLetter * static_cast<double>(p.detector.size()), kNameHeight});
+  const auto places = place_labels(
+      labels, {kPlotLeft, top, kWidth - kPlotLeft - kRight, kPlotHeight}, kRadius, fronts);
+  std::size_t nameless = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!places[i]) {
+      ++nameless;
+      continue;
+    }
+    const auto& [box, leader] = *places[i];
+    if (leader) svg.line(labels[i].x, labels[i].y, leader->x, leader->y, "leader");
+    svg.text(box.x, box.bottom() - 2.5, points[i].detector, Anchor::kStart, "name");
+  }
+
+  for (const SpeedErrorPoint& p : points) {
+    svg.begin_group(fmt::format(
+        "{}: {} ms per frame (question {}), missed {} of {}, spurious {} of {} (level {})",
+        p.detector, format_number(p.ms), name_of(p.question), p.missed, p.truth, p.spurious,
+        p.reported, name_of(p.level)));
+    svg.path(x_of(p.ms), y_of(p.error), shape_of(p.question).outline,
+             class_of(group_of(p.detector)));
+    svg.end_group();
+  }
+
+  const auto foot_line = [&](double y, const std::string& words) {
+    svg.text(kPlotMargin, bottom + y, words, Anchor::kStart, "faint");
+  };
+  foot_line(58,
+            "Time: mapping, update and query in playback, mean over frames. Errors: share of "
+            "contacts missed or of reports spurious (the worse),");
+  foot_line(76,
+            "at the finest level judged in every scene. Dashed: the Pareto front of each question; "
+            "no other is faster without being worse.");
+  foot_line(94, "Measured on " + machine + "." +
+                    (nameless == 0 ? ""
+                                   : fmt::format(" No room for the names of {} of {} points.",
+                                                 nameless, points.size())));
+  return svg.document(title, plot_style());
+}
+
+std::string speed_error_picture(const results::Results& results) {
+  return speed_error_plot(speed_error(results), results.machine.cpu + ", " + results.machine.isa);
 }
 
 }  // namespace contactcheck::report

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reference/report/speed_error.h"
+#include "reference/results/results.h"
 
 namespace contactcheck::report {
 
@@ -15,5 +16,8 @@ inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
 /// scenes, which times and which errors; `machine` is what they were measured on. Empty without
 /// points.
 std::string speed_error_plot(const SpeedError& chart, const std::string& machine);
+
+/// The chart that speed_error_markdown shows.
+std::string speed_error_picture(const results::Results& results);
 
 }  // namespace contactcheck::report

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/types/check.h"
-#include "reference/report/report_files.h"
+#include "reference/report/markdown.h"
 #include "reference/report/terminal.h"
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"

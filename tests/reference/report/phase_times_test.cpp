@@ -1,4 +1,4 @@
-#include "reference/report/phase_times.h"
+#include "reference/report/frame_costs.h"
 
 #include <gmock/gmock.h>
 

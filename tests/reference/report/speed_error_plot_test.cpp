@@ -9,9 +9,8 @@
 
 #include "reference/report/detector_group.h"
 #include "reference/report/label_layout.h"
+#include "reference/report/markdown.h"
 #include "reference/report/plot_axis.h"
-#include "reference/report/report_files.h"
-#include "reference/report/speed_error_section.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/sample_results.h"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/report/report_files.h"
+#include "reference/report/markdown.h"
 #include "reference/report/svg.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"

@@ -15,7 +15,7 @@
 #include "reference/cli/commands.h"
 #include "reference/cli/github_job.h"
 #include "reference/cli/own_detectors.h"
-#include "reference/gate/github.h"
+#include "reference/gate/output.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
 #include "reference/process/worker_process.h"

@@ -1,22 +1,123 @@
 #include "reference/gate/accuracy_rule.h"
 
-#include "reference/gate/reading.h"
+#include <optional>
+#include <string>
+
 #include "reference/text/json_value.h"
 
 namespace contactcheck::gate {
 namespace {
+
+// The number that a rule is about, out of a row of results.
+struct Reading {
+  std::optional<double> value;
+  std::optional<Level> level;  ///< of a measure that has levels
+  std::string why_not;         ///< a sentence where there is no value
+};
+
+Reading without(const std::string& why) { return {std::nullopt, std::nullopt, why}; }
+
+Reading number(double value) { return {value, std::nullopt, ""}; }
+
+Reading number_or(const std::optional<double>& value, const std::string& why_none) {
+  return value ? number(*value) : without(why_none);
+}
+
+Reading read_level(const Rule& rule, const results::Run& row) {
+  const std::optional<Level> level = level_of(rule, row);
+  if (!level) return without("no level that the detector claims was judged");
+  if (rule.rounded && row.levels_rounded.empty())
+    return without("the detector is fed doubles: nothing is rounded");
+  const std::string measure = rule.measure->name, name = name_of(*level);
+  const results::Levels& levels = rule.rounded ? row.levels_rounded : row.levels;
+  const auto found = levels.find(*level);
+  if (found == levels.end()) {
+    const auto reason = row.not_judged.find(*level);
+    return without("level " + name + " is not judged: " +
+                   (reason != row.not_judged.end()
+                        ? reason->second
+                        : "the detector does not claim it, or the scene does not ask for it"));
+  }
+  const results::LevelCounts& counts = found->second;
+  if (counts.informative)
+    return without("level " + name + " is informative for this detector: shown, never gated");
+  Reading out;
+  if (measure == "missed")
+    out = number(static_cast<double>(counts.missed));
+  else if (measure == "spurious")
+    out = number(static_cast<double>(counts.spurious));
+  else if (measure == "recall")
+    out = number_or(counts.recall, "there is no true contact at level " + name);
+  else
+    out = number_or(counts.spurious_rate, "nothing was reported at level " + name);
+  out.level = level;
+  return out;
+}
+
+Reading read_geometry(const Rule& rule, const results::Run& row) {
+  std::optional<double> value;
+  for (const auto& [name, error] : results::errors_of(row.geometry))
+    if (rule.measure->name == name) value = error;
+  return number_or(value, std::string(rule.measure->name) + " was not measured in this row");
+}
+
+Reading read_stages(const Rule& rule, const results::Run& row) {
+  double sum = 0.0;
+  bool found = false;
+  for (const results::Stage& stage : row.stages) {
+    if (!rule.stage.empty() && stage.name != rule.stage) continue;
+    found = true;
+    sum += static_cast<double>(stage.missed);
+  }
+  if (!found)
+    return without(rule.stage.empty() ? "the detector has no stages"
+                                      : "the detector has no stage \"" + rule.stage + "\"");
+  return number(sum);
+}
+
+Reading read_defects(const results::Results& results, const results::Run& row) {
+  if (!results.known_defects)
+    return without("the results hold no comparison with known defects: no hard cases ran");
+  std::size_t count = 0;
+  for (const auto* sightings :
+       {&results.known_defects->unlisted, &results.known_defects->not_shown})
+    for (const results::Sightings& s : *sightings)
+      if (s.scene == row.scene && s.detector == row.detector) count += s.values.size();
+  return number(static_cast<double>(count));
+}
+
+// @pre the rule's measure is an accuracy number; the row's status is `ok`
+Reading read_measure(const Rule& rule, const results::Results& results, const results::Run& row) {
+  switch (rule.measure->kind) {
+    case MeasureKind::kLevel:
+      return read_level(rule, row);
+    case MeasureKind::kGeometry:
+      return read_geometry(rule, row);
+    case MeasureKind::kStages:
+      return read_stages(rule, row);
+    case MeasureKind::kDefects:
+      return read_defects(results, row);
+    default:
+      return number(static_cast<double>(row.memory_bytes));
+  }
+}
+
+// "missed 3 at level triangle", "hover_gap_max 0.002 m"
+std::string measured_text(const Rule& rule, const Reading& reading) {
+  const std::string unit = rule.measure->unit;
+  std::string out = std::string(rule.measure->name) + " " + text::shown(*reading.value);
+  if (!unit.empty()) out += " " + unit;
+  if (reading.level) out += std::string(" at level ") + name_of(*reading.level);
+  if (rule.rounded) out += " of the rounded input";
+  if (!rule.stage.empty()) out += " in stage " + rule.stage;
+  return out;
+}
 
 Check checked(const Rule& rule, bool holds, const std::string& measured) {
   Check out;
   out.verdict = holds ? Verdict::kPass : Verdict::kFail;
   out.measured = measured;
   out.allowed = allowed_text(rule);
-  return out;
-}
-
-Check judge_status(const Rule& rule, const results::Run& row) {
-  Check out = checked(rule, row.ok(), std::string("status ") + name_of(row.status));
-  out.reason = row.message;
   return out;
 }
 
@@ -77,6 +178,10 @@ Check number_against_baseline(const Rule& rule, const results::Index& before,
 
 }  // namespace
 
+std::optional<Level> level_of(const Rule& rule, const results::Run& row) {
+  return rule.level.empty() ? row.per_frame.level : level_from_name(rule.level);
+}
+
 Check cannot_judge(const Rule& rule, const std::string& reason) {
   Check out;
   out.verdict = Verdict::kCannotJudge;
@@ -98,7 +203,11 @@ const results::Run* row_before(const results::Index& before, const results::Run&
 
 Check judge_accuracy(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
-  if (rule.measure->kind == MeasureKind::kStatus) return judge_status(rule, row);
+  if (rule.measure->kind == MeasureKind::kStatus) {
+    Check out = checked(rule, row.ok(), std::string("status ") + name_of(row.status));
+    out.reason = row.message;
+    return out;
+  }
   if (rule.measure->kind == MeasureKind::kHash)
     return rule.bound == Bound::kEquals ? hash_against_truth(rule, now, row)
                                         : hash_against_baseline(rule, now, *before, row);
@@ -109,7 +218,7 @@ Check judge_accuracy(const Rule& rule, const results::Index& now, const results:
 }
 
 Check judge_oracle(const Rule& rule, const results::Scene& scene) {
-  const Reading reading = read_oracle_wrong(scene);
+  const Reading reading = number(static_cast<double>(scene.pairs->oracle_wrong));
   return checked(rule, within(rule, *reading.value), measured_text(rule, reading));
 }
 

@@ -1,6 +1,10 @@
 // Rules that are judged on any machine: what was answered, not how fast.
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "core/types/semantics.h"
 #include "reference/gate/policy.h"
 #include "reference/gate/verdict.h"
 #include "reference/results/results.h"
@@ -15,6 +19,10 @@ Check judge_accuracy(const Rule& rule, const results::Index& now, const results:
 
 /// The same of a scene with random pairs, for a rule about oracle_wrong.
 Check judge_oracle(const Rule& rule, const results::Scene& scene);
+
+/// The level that a rule looks at in this row: its own, or the finest claimed and judged; none
+/// when no level of the row was judged.
+std::optional<Level> level_of(const Rule& rule, const results::Run& row);
 
 /// "cannot judge", with a reason.
 Check cannot_judge(const Rule& rule, const std::string& reason);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "reference/gate/reading.h"
+#include "reference/gate/accuracy_rule.h"
 #include "reference/text/shell_word.h"
 
 namespace contactcheck::gate {
@@ -33,35 +34,28 @@ std::string kind_of(const Rule& rule) {
   return name.rfind("spurious", 0) == 0 ? "spurious" : "";
 }
 
-std::optional<std::size_t> disagreed_frame(const results::Results& results, const results::Run& row,
-                                           Level level, const std::string& kind) {
-  for (const results::Disagreement& d : results.disagreements)
-    if (d.scene == row.scene && d.detector == row.detector && d.level == name_of(level) &&
-        (kind.empty() || d.kind == kind))
-      return d.frame;
-  return std::nullopt;
-}
-
-std::optional<std::size_t> counted_frame(const results::PerFrame& per_frame,
-                                         const std::string& kind) {
-  const auto missed = kind == "spurious" ? std::nullopt : largest(per_frame.missed);
-  return missed || kind == "missed" ? missed : largest(per_frame.spurious);
-}
-
 std::optional<std::size_t> frame_to_blame(const Rule& rule, const results::Results& results,
                                           const results::Run& row) {
   if (!row.ok()) return row.failed_frame;
-  const MeasureKind kind = rule.measure->kind;
   if (rule.measure->name == std::string("covered_length_fraction"))
     return smallest_share(row.per_frame.covered_length_fraction);
   if (rule.rounded) return std::nullopt;  // per frame there are counts of the doubles alone
-  const bool counted = kind == MeasureKind::kLevel || kind == MeasureKind::kHash ||
-                       kind == MeasureKind::kStages || !kind_of(rule).empty();
-  if (!counted) return std::nullopt;
+  const MeasureKind measure = rule.measure->kind;
+  const std::string kind = kind_of(rule);
+  if (kind.empty() && measure != MeasureKind::kLevel && measure != MeasureKind::kHash &&
+      measure != MeasureKind::kStages)
+    return std::nullopt;
   const std::optional<Level> level =
-      kind == MeasureKind::kLevel ? level_of(rule, row) : std::nullopt;
-  if (!level || level == row.per_frame.level) return counted_frame(row.per_frame, kind_of(rule));
-  return disagreed_frame(results, row, *level, kind_of(rule));
+      measure == MeasureKind::kLevel ? level_of(rule, row) : std::nullopt;
+  if (!level || level == row.per_frame.level) {
+    const auto missed = kind == "spurious" ? std::nullopt : largest(row.per_frame.missed);
+    return missed || kind == "missed" ? missed : largest(row.per_frame.spurious);
+  }
+  for (const results::Disagreement& d : results.disagreements)
+    if (d.scene == row.scene && d.detector == row.detector && d.level == name_of(*level) &&
+        (kind.empty() || d.kind == kind))
+      return d.frame;
+  return std::nullopt;
 }
 
 // The file that the run's command named, or the id.
@@ -86,15 +80,6 @@ std::string timing_flags(const results::Results& results, Verdict verdict) {
   return out;
 }
 
-// Frames of families, recordings and random pairs are what they are.
-std::string frames_flag(const results::Run& row, const results::Scene* scene,
-                        const std::string& target) {
-  const bool fixed = scene != nullptr && (scene->family || scene->pairs);
-  const bool recorded = std::filesystem::path(target).extension() == ".ccr";
-  if (fixed || recorded || row.frames == 0) return "";
-  return " --frames " + std::to_string(row.frames);
-}
-
 }  // namespace
 
 std::string worst_frame(const Rule& rule, const results::Index& index, const results::Run& row) {
@@ -112,8 +97,12 @@ std::string rerun_command(const Rule& rule, const results::Index& index, const r
   const std::string detector = " --detector " + text::in_shell(row.detector);
   if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
   const std::string target = target_of(index.results(), row.scene);
-  const std::string command =
-      "contactcheck run " + text::in_shell(target) + frames_flag(row, scene, target) + detector;
+  std::string command = "contactcheck run " + text::in_shell(target);
+  // The frames of families and recordings are fixed.
+  const bool fixed = (scene != nullptr && scene->family) ||
+                     std::filesystem::path(target).extension() == ".ccr" || row.frames == 0;
+  if (!fixed) command += " --frames " + std::to_string(row.frames);
+  command += detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
   return command + " --detector " + text::in_shell(rule.reference) +
          timing_flags(index.results(), verdict);

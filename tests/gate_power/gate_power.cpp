@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "reference/gate/policy.h"
-#include "reference/gate/timing_reading.h"
+#include "reference/gate/timing_rule.h"
 #include "tests/gate_power/simulated_run.h"
 
 namespace contactcheck::test {

@@ -1,4 +1,4 @@
-#include "reference/gate/junit.h"
+#include "reference/gate/output.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // When a ratio of times is beyond its limit.
-#include "reference/gate/timing_reading.h"
+#include "reference/gate/timing_rule.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Timing rules on results written by hand.
 #include <gmock/gmock.h>
 
-#include "reference/gate/timing_reading.h"
+#include "reference/gate/timing_rule.h"
 #include "tests/reference/gate/gate_world.h"
 
 namespace contactcheck::gate {

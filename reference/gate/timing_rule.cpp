@@ -1,4 +1,4 @@
-#include "reference/gate/timing_reading.h"
+#include "reference/gate/timing_rule.h"
 
 #include <fmt/format.h>
 

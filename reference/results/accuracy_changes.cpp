@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace contactcheck::results {
 namespace {
@@ -14,10 +16,9 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "none";
 }
 
-bool truth_differs(const results::Index& before, const results::Index& after,
-                   const std::string& scene) {
-  const results::Scene *was = before.scene(scene), *is = after.scene(scene);
-  return was != nullptr && is != nullptr && was->truth_hash != is->truth_hash;
+double error_size(const std::string& key, double value) {
+  if (key == "covered_length_fraction") return 1.0 - value;
+  return std::fabs(value);  // late_frames is signed, and early is no better than late
 }
 
 using NamedLevels = std::map<std::string, const results::LevelCounts*>;
@@ -31,99 +32,65 @@ NamedLevels levels_of(const results::Run& run) {
   return named;
 }
 
-/// Collects the changes of one row.
-class RowComparison {
- public:
-  RowComparison(const results::Run& before, const results::Run& after)
-      : before_(before), after_(after) {
-    change_.scene = after.scene;
-    change_.detector = after.detector;
-  }
-
-  RowChange compare() {
-    if (before_.status != after_.status) {
-      compare_status();
-    } else if (after_.ok()) {
-      compare_levels();
-      compare_geometry();
-      if (before_.contact_hash != after_.contact_hash)
-        note(fmt::format("contact hash {} -> {}", before_.contact_hash, after_.contact_hash));
-    }
-    if (worse_ || better_) change_.direction = worse_ ? Direction::kWorse : Direction::kBetter;
-    return std::move(change_);
-  }
-
- private:
-  void note(std::string what) { change_.what.push_back(std::move(what)); }
-
-  void compare_status() {
-    change_.weight = std::numeric_limits<double>::infinity();
-    (before_.ok() || after_.status == results::Status::kError ? worse_ : better_) = true;
-    note(fmt::format("{} -> {}{}", name_of(before_.status), name_of(after_.status),
-                     after_.message.empty() ? "" : ": " + after_.message));
-  }
-
-  void compare_levels() {
-    const NamedLevels before = levels_of(before_), after = levels_of(after_);
-    NamedLevels all = before;
-    all.insert(after.begin(), after.end());
+RowChange row_change(const results::Run& before, const results::Run& after) {
+  RowChange change;
+  change.scene = after.scene;
+  change.detector = after.detector;
+  bool worse = false, better = false;
+  const auto note = [&](std::string what) { change.what.push_back(std::move(what)); };
+  if (before.status != after.status) {
+    change.weight = std::numeric_limits<double>::infinity();
+    (before.ok() || after.status == results::Status::kError ? worse : better) = true;
+    note(fmt::format("{} -> {}{}", name_of(before.status), name_of(after.status),
+                     after.message.empty() ? "" : ": " + after.message));
+  } else if (after.ok()) {
+    const auto compare_count = [&](const std::string& name, std::uint64_t was, std::uint64_t is,
+                                   bool informative) {
+      if (was == is) return;
+      note(fmt::format("{} {} -> {}", name, was, is));
+      // What a detector does not claim is nothing that it could get wrong.
+      if (informative) return;
+      (is > was ? worse : better) = true;
+      change.weight =
+          std::max(change.weight, std::fabs(static_cast<double>(is) - static_cast<double>(was)));
+    };
+    const NamedLevels levels_before = levels_of(before), levels_after = levels_of(after);
+    NamedLevels all = levels_before;
+    all.insert(levels_after.begin(), levels_after.end());
     for (const auto& [name, counts] : all) {
-      const auto was = before.find(name), is = after.find(name);
-      if (was == before.end() || is == after.end()) {
+      const auto then = levels_before.find(name), now = levels_after.find(name);
+      if (then == levels_before.end() || now == levels_after.end()) {
         note(fmt::format("level {} is judged only {}", name,
-                         is == after.end() ? "before" : "after"));
-      } else {
-        compare_level(name, *was->second, *is->second);
+                         now == levels_after.end() ? "before" : "after"));
+        continue;
       }
+      const results::LevelCounts &was = *then->second, &is = *now->second;
+      const std::string shown = name + (is.informative ? " (informative)" : "");
+      if (was.truth != is.truth) note(fmt::format("{} truth {} -> {}", shown, was.truth, is.truth));
+      compare_count(shown + " missed", was.missed, is.missed, is.informative);
+      compare_count(shown + " spurious", was.spurious, is.spurious, is.informative);
     }
-  }
 
-  void compare_level(const std::string& name, const results::LevelCounts& was,
-                     const results::LevelCounts& is) {
-    const std::string shown = name + (is.informative ? " (informative)" : "");
-    if (was.truth != is.truth) note(fmt::format("{} truth {} -> {}", shown, was.truth, is.truth));
-    compare_count(shown + " missed", was.missed, is.missed, is.informative);
-    compare_count(shown + " spurious", was.spurious, is.spurious, is.informative);
-  }
-
-  void compare_count(const std::string& name, std::uint64_t was, std::uint64_t is,
-                     bool informative) {
-    if (was == is) return;
-    note(fmt::format("{} {} -> {}", name, was, is));
-    // What a detector does not claim is nothing that it could get wrong.
-    if (informative) return;
-    (is > was ? worse_ : better_) = true;
-    change_.weight =
-        std::max(change_.weight, std::fabs(static_cast<double>(is) - static_cast<double>(was)));
-  }
-
-  void compare_geometry() {
-    const results::NamedErrors before = results::errors_of(before_.geometry),
-                               after = results::errors_of(after_.geometry);
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      const auto& [key, is] = after[i];
-      const std::optional<double> was = before[i].second;
+    const results::NamedErrors errors_before = results::errors_of(before.geometry),
+                               errors_after = results::errors_of(after.geometry);
+    for (std::size_t i = 0; i < errors_after.size(); ++i) {
+      const auto& [key, is] = errors_after[i];
+      const std::optional<double> was = errors_before[i].second;
       if (was == is) continue;
       note(fmt::format("{} {} -> {}", key, text_of(was), text_of(is)));
-      if (was && is) compare_errors(error_of(key, *was), error_of(key, *is));
+      if (!was || !is) continue;
+      // Equal where only the sign of late_frames has changed.
+      const double size_before = error_size(key, *was), size_after = error_size(key, *is);
+      worse = worse || size_after > size_before;
+      better = better || size_after < size_before;
     }
-  }
 
-  // Equal where only the sign of late_frames has changed.
-  void compare_errors(double was, double is) {
-    worse_ = worse_ || is > was;
-    better_ = better_ || is < was;
+    if (before.contact_hash != after.contact_hash)
+      note(fmt::format("contact hash {} -> {}", before.contact_hash, after.contact_hash));
   }
-
-  static double error_of(const std::string& key, double value) {
-    if (key == "covered_length_fraction") return 1.0 - value;
-    return std::fabs(value);  // late_frames is signed, and early is no better than late
-  }
-
-  const results::Run &before_, &after_;
-  RowChange change_;
-  bool worse_ = false, better_ = false;
-};
+  if (worse || better) change.direction = worse ? Direction::kWorse : Direction::kBetter;
+  return change;
+}
 
 }  // namespace
 
@@ -132,8 +99,10 @@ std::vector<RowChange> accuracy_changes(const results::Index& before, const resu
   for (const results::Run& row : after.results().runs) {
     const results::Run* was = before.run(row.scene, row.detector);
     if (was == nullptr) continue;
-    RowChange change = RowComparison(*was, row).compare();
-    if (was->status == row.status && truth_differs(before, after, row.scene))
+    RowChange change = row_change(*was, row);
+    const results::Scene *scene_before = before.scene(row.scene), *scene = after.scene(row.scene);
+    if (was->status == row.status && scene_before != nullptr && scene != nullptr &&
+        scene_before->truth_hash != scene->truth_hash)
       change.direction = Direction::kOther;
     if (!change.what.empty()) changes.push_back(std::move(change));
   }

@@ -1,6 +1,7 @@
 #include "reference/results/defect_comparison.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -10,28 +11,6 @@ namespace {
 std::string version_in(const LibraryVersions& versions, const std::string& library) {
   const auto found = versions.find(library);
   return found == versions.end() ? "" : found->second;
-}
-
-DefectComparison::Count compare_one(const KnownDefect& defect, const SightingsOfRun& run,
-                                    const LibraryVersions& versions,
-                                    std::vector<Sighting>& not_shown) {
-  DefectComparison::Count count;
-  count.other_version = version_in(versions, defect.library) != defect.version;
-  for (const Sighting& s : defect.seen) {
-    if (count.other_version || run.possible.count(s) == 0) continue;
-    ++count.listed;
-    const bool shown = run.seen.count(s) > 0;
-    count.shown += shown;
-    if (!shown) not_shown.push_back(s);
-  }
-  return count;
-}
-
-std::set<Sighting> listed_for(const KnownDefects& known, const LibraryVersions& versions) {
-  std::set<Sighting> out;
-  for (const KnownDefect& d : known.defects)
-    if (version_in(versions, d.library) == d.version) out.insert(d.seen.begin(), d.seen.end());
-  return out;
 }
 
 template <typename Name>
@@ -55,50 +34,24 @@ std::vector<results::Sightings> grouped(const std::vector<Sighting>& sightings) 
   return out;
 }
 
-KnownDefect unexplained(const Sighting& s, const LibraryVersions& versions,
-                        const LibraryOf& library_of) {
-  KnownDefect out;
-  out.library = library_of(s.detector);
-  out.version = version_in(versions, out.library);
-  out.issue = kUnexplained;
-  out.kind = s.kind;
-  out.sentence = kUnexplained;
-  return out;
-}
-
-/// Takes sightings into a list, each where it belongs.
-class Filing {
- public:
-  Filing(KnownDefects& known, const LibraryVersions& versions, const LibraryOf& library_of)
-      : known_(known), versions_(versions), library_of_(library_of) {}
-
-  void take_in(const Sighting& s) { defect_for(s).seen.push_back(s); }
-
- private:
-  // Of this version; what another version did has a cause of its own, as far as anyone knows.
-  KnownDefect& defect_for(const Sighting& s) {
-    const std::string library = library_of_(s.detector);
-    const std::string version = version_in(versions_, library);
-    const auto same_version = [&](const KnownDefect& d) {
-      return d.library == library && d.version == version && d.kind == s.kind;
-    };
-    for (KnownDefect& d : known_.defects)
-      if (same_version(d) && has_place_for(d, s)) return d;
-    for (KnownDefect& d : known_.defects)
-      if (same_version(d) && d.issue == kUnexplained) return d;
-    return known_.defects.emplace_back(unexplained(s, versions_, library_of_));
-  }
-
-  KnownDefects& known_;
-  const LibraryVersions& versions_;
-  const LibraryOf& library_of_;
-};
-
-void take_out(const std::vector<Sighting>& gone, KnownDefects& known) {
-  const std::set<Sighting> set(gone.begin(), gone.end());
+// The entry that the sighting belongs to, added where there is none. Entries of other versions are
+// left alone: their cause may be another.
+KnownDefect& defect_for(const Sighting& s, const LibraryVersions& versions,
+                        const LibraryOf& library_of, KnownDefects& known) {
+  KnownDefect unexplained;
+  unexplained.library = library_of(s.detector);
+  unexplained.version = version_in(versions, unexplained.library);
+  unexplained.issue = kUnexplained;
+  unexplained.kind = s.kind;
+  unexplained.sentence = kUnexplained;
+  const auto same_version = [&](const KnownDefect& d) {
+    return d.library == unexplained.library && d.version == unexplained.version && d.kind == s.kind;
+  };
   for (KnownDefect& d : known.defects)
-    std::erase_if(d.seen, [&](const Sighting& s) { return set.count(s) > 0; });
-  std::erase_if(known.defects, [](const KnownDefect& d) { return d.seen.empty(); });
+    if (same_version(d) && has_place_for(d, s)) return d;
+  for (KnownDefect& d : known.defects)
+    if (same_version(d) && d.issue == kUnexplained) return d;
+  return known.defects.emplace_back(std::move(unexplained));
 }
 
 }  // namespace
@@ -112,9 +65,20 @@ LibraryVersions versions_in(const results::Results& results) {
 DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun& run,
                                  const LibraryVersions& versions) {
   DefectComparison out;
-  for (const KnownDefect& d : known.defects)
-    out.counts.push_back(compare_one(d, run, versions, out.not_shown));
-  const std::set<Sighting> listed = listed_for(known, versions);
+  std::set<Sighting> listed;
+  for (const KnownDefect& d : known.defects) {
+    DefectComparison::Count& count = out.counts.emplace_back();
+    count.other_version = version_in(versions, d.library) != d.version;
+    if (count.other_version) continue;
+    listed.insert(d.seen.begin(), d.seen.end());
+    for (const Sighting& s : d.seen) {
+      if (run.possible.count(s) == 0) continue;
+      ++count.listed;
+      const bool shown = run.seen.count(s) > 0;
+      count.shown += shown;
+      if (!shown) out.not_shown.push_back(s);
+    }
+  }
   std::set_difference(run.seen.begin(), run.seen.end(), listed.begin(), listed.end(),
                       std::back_inserter(out.unlisted));
   return out;
@@ -144,10 +108,14 @@ KnownDefects updated(const KnownDefects& known, const SightingsOfRun& run,
                      const LibraryVersions& versions, const LibraryOf& library_of) {
   const DefectComparison comparison = compare_defects(known, run, versions);
   KnownDefects out = known;
-  Filing filing(out, versions, library_of);
-  for (const Sighting& s : comparison.unlisted) filing.take_in(s);
-  take_out(comparison.not_shown, out);
-  for (KnownDefect& d : out.defects) std::sort(d.seen.begin(), d.seen.end());
+  for (const Sighting& s : comparison.unlisted)
+    defect_for(s, versions, library_of, out).seen.push_back(s);
+  const std::set<Sighting> gone(comparison.not_shown.begin(), comparison.not_shown.end());
+  for (KnownDefect& d : out.defects) {
+    std::erase_if(d.seen, [&](const Sighting& s) { return gone.count(s) > 0; });
+    std::sort(d.seen.begin(), d.seen.end());
+  }
+  std::erase_if(out.defects, [](const KnownDefect& d) { return d.seen.empty(); });
   return out;
 }
 

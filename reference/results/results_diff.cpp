@@ -63,31 +63,6 @@ std::vector<TimeChange> time_changes(const results::Index& before, const results
 
 namespace {
 
-// What times depend on.
-std::vector<std::string> machine_changes(const results::Machine& before,
-                                         const results::Machine& after) {
-  std::vector<std::string> out;
-  const auto compare = [&](const char* what, const std::string& was, const std::string& is) {
-    if (was != is) out.push_back(fmt::format("{} \"{}\" -> \"{}\"", what, was, is));
-  };
-  compare("cpu", before.cpu, after.cpu);
-  compare("isa", before.isa, after.isa);
-  compare("compiler", before.compiler, after.compiler);
-  compare("build", before.build, after.build);
-  return out;
-}
-
-std::vector<std::string> changed_scenes(const results::Index& before,
-                                        const results::Results& after) {
-  std::vector<std::string> out;
-  for (const results::Scene& scene : after.scenes) {
-    const results::Scene* const was = before.scene(scene.id);
-    if (was != nullptr && was->truth_hash != scene.truth_hash) out.push_back(scene.id);
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 using Counts = std::vector<std::pair<std::string, std::size_t>>;
 
 void count(const std::string& name, Counts& counts) {
@@ -127,8 +102,20 @@ std::vector<std::string> missing_rows(const results::Index& results,
 ResultsDiff diff_results(const results::Results& before, const results::Results& after) {
   const results::Index was(before), is(after);
   ResultsDiff diff;
-  diff.machine = machine_changes(before.machine, after.machine);
-  diff.other_scenes = changed_scenes(was, after);
+  // Times depend on these.
+  const auto compare_machines = [&](const char* what, std::string results::Machine::*member) {
+    const std::string &then = before.machine.*member, &now = after.machine.*member;
+    if (then != now) diff.machine.push_back(fmt::format("{} \"{}\" -> \"{}\"", what, then, now));
+  };
+  compare_machines("cpu", &results::Machine::cpu);
+  compare_machines("isa", &results::Machine::isa);
+  compare_machines("compiler", &results::Machine::compiler);
+  compare_machines("build", &results::Machine::build);
+  for (const results::Scene& scene : after.scenes)
+    if (const results::Scene* const old = was.scene(scene.id);
+        old != nullptr && old->truth_hash != scene.truth_hash)
+      diff.other_scenes.push_back(scene.id);
+  std::sort(diff.other_scenes.begin(), diff.other_scenes.end());
   diff.changes = accuracy_changes(was, is);
   diff.times = time_changes(was, after);
   diff.added = missing_rows(was, after);
@@ -136,6 +123,57 @@ ResultsDiff diff_results(const results::Results& before, const results::Results&
   for (const results::Run& row : after.runs)
     if (was.run(row.scene, row.detector) != nullptr) ++diff.common;
   return diff;
+}
+
+std::string change_line(const RowChange& change) {
+  // A row may differ at seven levels and in eleven errors.
+  constexpr std::size_t kDifferencesPerLine = 3;
+  std::string what;
+  const std::size_t shown = std::min(change.what.size(), kDifferencesPerLine);
+  for (std::size_t i = 0; i < shown; ++i) what += (i > 0 ? ", " : "") + change.what[i];
+  if (const std::size_t left = change.what.size() - shown; left > 0)
+    what += fmt::format(", and {} more", left);
+  return fmt::format("{}  {}  {}", change.scene, change.detector, what);
+}
+
+std::string section_text(const std::string& title, const std::vector<std::string>& lines) {
+  constexpr std::size_t kLinesPerSection = 5;
+  if (lines.empty()) return "";
+  std::string text = fmt::format("{} ({})\n", title, lines.size());
+  for (std::size_t i = 0; i < std::min(lines.size(), kLinesPerSection); ++i)
+    text += "  " + lines[i] + "\n";
+  if (lines.size() > kLinesPerSection)
+    text += fmt::format("  ... and {} more\n", lines.size() - kLinesPerSection);
+  return text;
+}
+
+std::string diff_text(const ResultsDiff& diff) {
+  std::vector<std::string> worse, better, other, slower, faster;
+  for (const RowChange& change : diff.changes)
+    (change.direction == Direction::kWorse    ? worse
+     : change.direction == Direction::kBetter ? better
+                                              : other)
+        .push_back(change_line(change));
+  // "1.32x [1.28, 1.36] slower, measured against fcl-aabb".
+  for (const TimeChange& change : diff.times) {
+    Ratio f = change.factor;
+    const bool is_slower = f.value < 1.0;
+    if (is_slower) f = {1.0 / f.value, 1.0 / f.high, 1.0 / f.low};
+    (is_slower ? slower : faster)
+        .push_back(fmt::format("{}  {}  {} {}, measured against {}", change.scene, change.detector,
+                               ratio_text(f, change.passes), is_slower ? "slower" : "faster",
+                               change.reference));
+  }
+  return section_text("Another machine: times compare ratios, but caches and instructions differ",
+                      diff.machine) +
+         section_text("Another scene of the same name: its exact truth differs",
+                      diff.other_scenes) +
+         section_text("Worse", worse) + section_text("Better", better) +
+         section_text("Other answers, neither better nor worse", other) +
+         section_text("Slower", slower) + section_text("Faster", faster) +
+         section_text("New", diff.added) + section_text("Gone", diff.gone) +
+         fmt::format("{} of {} common rows have the same answers; {} differ clearly in time.\n",
+                     diff.common - diff.changes.size(), diff.common, diff.times.size());
 }
 
 }  // namespace contactcheck::results

@@ -1,11 +1,11 @@
-// Two results side by side: what got worse, better, new and gone.
+// Two results compared: what got worse, better, new and gone; as data and for a terminal.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "reference/results/accuracy_changes.h"
-
 #include "reference/results/results.h"
 
 namespace contactcheck::results {
@@ -41,5 +41,15 @@ ResultsDiff diff_results(const results::Results& before, const results::Results&
 
 /// What `other` has and `results` lacks: whole scenes, then detectors with their scenes.
 std::vector<std::string> missing_rows(const results::Index& results, const results::Results& other);
+
+/// For a terminal: one section per kind of difference, the most important line first.
+std::string diff_text(const ResultsDiff& diff);
+
+/// "SCENE  DETECTOR  triangle missed 0 -> 3, spurious 1 -> 2, and 4 more differences".
+std::string change_line(const RowChange& change);
+
+/// The title, the first lines and how many more there are, so that all sections fit on one screen;
+/// empty without lines.
+std::string section_text(const std::string& title, const std::vector<std::string>& lines);
 
 }  // namespace contactcheck::results

@@ -1,4 +1,4 @@
-#include "reference/results/ab_text.h"
+#include "reference/results/ab.h"
 
 #include <gmock/gmock.h>
 

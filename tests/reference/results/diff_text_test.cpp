@@ -1,4 +1,4 @@
-#include "reference/results/diff_text.h"
+#include "reference/results/results_diff.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Rounds of two builds, written by hand.
 #pragma once
 
-#include "reference/results/ab_judge.h"
+#include "reference/results/ab.h"
 #include "tests/reference/results/hand_results.h"
 
 namespace contactcheck::test {

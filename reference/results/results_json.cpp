@@ -1,7 +1,12 @@
 #include "reference/results/results_json.h"
 
+#include <array>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <type_traits>
+#include <variant>
 
 namespace contactcheck::results {
 namespace {
@@ -12,54 +17,11 @@ using Json = nlohmann::ordered_json;
 // both go through it:
 //   io("key", member)            always written; missing leaves it as it is
 //   io.unless_empty("key", m)    written when it has a value, an element, a character
-//   io.part("key", function)     a nested object whose members are of this struct
 
 template <typename T>
 void read(const Json& json, T& value);
 template <typename T>
-void read(const Json& json, std::optional<T>& value);
-template <typename T>
-void read(const Json& json, std::vector<T>& values);
-template <typename T>
-void read(const Json& json, std::vector<std::pair<std::string, T>>& values);
-template <typename Key, typename T>
-void read(const Json& json, std::map<Key, T>& values);
-void read(const Json& json, Texts& values);
-void read(const Json& json, BodyPair& pair);
-void read(const Json& json, std::variant<std::uint64_t, std::string>& value);
-
-template <typename T>
 Json written(const T& value);
-template <typename T>
-Json written(const std::optional<T>& value);
-template <typename T>
-Json written(const std::vector<T>& values);
-template <typename T>
-Json written(const std::vector<std::pair<std::string, T>>& values);
-template <typename Key, typename T>
-Json written(const std::map<Key, T>& values);
-Json written(const std::variant<std::uint64_t, std::string>& value);
-Json written(const BodyPair& pair);
-
-template <typename Names>
-auto named(const Json& json, const Names& values) {
-  for (const auto value : values)
-    if (json.get_ref<const std::string&>() == name_of(value)) return value;
-  throw Json::other_error::create(501, "unknown name " + json.dump(), &json);
-}
-
-constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
-                                   Question::kContacts};
-constexpr std::array kDepthKinds = {DepthKind::kNone, DepthKind::kVertexSurface,
-                                    DepthKind::kConvexPair};
-constexpr std::array kPrecisions = {Precision::kDouble, Precision::kSingle};
-constexpr std::array kStatuses = {Status::kOk, Status::kError, Status::kAbsent, Status::kRefused};
-
-void read(const Json& json, Level& value) { value = named(json, kLevels); }
-void read(const Json& json, Question& value) { value = named(json, kQuestions); }
-void read(const Json& json, DepthKind& value) { value = named(json, kDepthKinds); }
-void read(const Json& json, Precision& value) { value = named(json, kPrecisions); }
-void read(const Json& json, Status& value) { value = named(json, kStatuses); }
 
 class Reader {
  public:
@@ -74,13 +36,6 @@ class Reader {
   template <typename T>
   void unless_empty(const char* key, T& value) {
     (*this)(key, value);
-  }
-  template <typename Function>
-  void part(const char* key, Function&& function) {
-    if (const auto it = json_.find(key); it != json_.end()) {
-      Reader inside(*it);
-      function(inside);
-    }
   }
 
  private:
@@ -98,27 +53,15 @@ class Writer {
   }
   template <typename T>
   void unless_empty(const char* key, const T& value) {
-    if (!is_empty(value)) (*this)(key, value);
-  }
-  template <typename Function>
-  void part(const char* key, Function&& function) {
-    Json inside = Json::object();
-    Writer writer(inside);
-    function(writer);
-    json_[key] = std::move(inside);
+    bool empty = false;
+    if constexpr (requires { value.empty(); })
+      empty = value.empty();
+    else
+      empty = !value;
+    if (!empty) (*this)(key, value);
   }
 
  private:
-  template <typename T>
-  static bool is_empty(const std::optional<T>& value) {
-    return !value;
-  }
-  static bool is_empty(bool value) { return !value; }
-  template <typename T>
-  static auto is_empty(const T& value) -> decltype(value.empty()) {
-    return value.empty();
-  }
-
   Json& json_;
 };
 
@@ -308,10 +251,10 @@ void fields(Io& io, Semantics& s) {
   io.unless_empty("local_origin", s.local_origin);
 }
 
-// `prepare` stands in the times of every question.
-Json times_json(const Run& run, const QuestionTimes& times) {
+// `prepare` is repeated in the times of every question, and is there without timing, too.
+Json times_json(const Run& run, std::size_t question) {
   Json out = {{"prepare", run.prepare_ms}};
-  out.update(written(times));
+  if (question < run.times.size()) out.update(written(run.times[question]));
   return out;
 }
 
@@ -323,17 +266,6 @@ void read_times(const Json& json, Run& run) {
   read(*own, run.times.emplace_back());
   for (const Json& other : json.value("time_ms_other_questions", Json::array()))
     read(other, run.times.emplace_back());
-}
-
-Json own_times(const Run& run) {
-  if (run.times.empty()) return {{"prepare", run.prepare_ms}};
-  return times_json(run, run.times.front());
-}
-
-Json other_questions(const Run& run) {
-  Json out = Json::array();
-  for (std::size_t i = 1; i < run.times.size(); ++i) out.push_back(times_json(run, run.times[i]));
-  return out;
 }
 
 template <typename Io>
@@ -359,7 +291,7 @@ void fields(Io& io, Run& run) {
   if constexpr (Io::kReads) {
     read_times(io.json(), run);
   } else {
-    io("time_ms", own_times(run));
+    io("time_ms", times_json(run, 0));
   }
   io("memory_bytes", run.memory_bytes);
   io("prepared_bytes", run.prepared_bytes);
@@ -370,7 +302,9 @@ void fields(Io& io, Run& run) {
   io.unless_empty("step_ms", run.step_ms);
   if constexpr (!Io::kReads) {
     if (run.times.empty()) return;
-    io("time_ms_other_questions", other_questions(run));
+    Json others = Json::array();
+    for (std::size_t i = 1; i < run.times.size(); ++i) others.push_back(times_json(run, i));
+    io("time_ms_other_questions", others);
   }
   io("speedup", run.speedup);
 }
@@ -416,16 +350,24 @@ void fields(Io& io, PairKindTally& t) {
   io("touching", t.touching);
 }
 
+struct CheckedPairs {
+  std::uint64_t &checked, &oracle_wrong;
+};
+
+template <typename Io>
+void fields(Io& io, CheckedPairs& p) {
+  io("checked", p.checked);
+  io("oracle_wrong", p.oracle_wrong);
+}
+
 template <typename Io>
 void fields(Io& io, RandomPairs& p) {
   io("count", p.count);
   io("seed", p.seed);
   io("touching", p.touching);
   io("per_kind", p.per_kind);
-  io.part("rational", [&](auto& rational) {
-    rational("checked", p.checked);
-    rational("oracle_wrong", p.oracle_wrong);
-  });
+  CheckedPairs rational = {p.checked, p.oracle_wrong};
+  io("rational", rational);
 }
 
 template <typename Io>
@@ -573,114 +515,112 @@ void fields(Io& io, Results& r) {
 
 // --- values, lists and maps
 
+constexpr auto values_of(Level) { return kLevels; }
+constexpr std::array<Question, 4> values_of(Question) {
+  return {Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts};
+}
+constexpr std::array<DepthKind, 3> values_of(DepthKind) {
+  return {DepthKind::kNone, DepthKind::kVertexSurface, DepthKind::kConvexPair};
+}
+constexpr std::array<Precision, 2> values_of(Precision) {
+  return {Precision::kDouble, Precision::kSingle};
+}
+constexpr std::array<Status, 4> values_of(Status) {
+  return {Status::kOk, Status::kError, Status::kAbsent, Status::kRefused};
+}
+
+template <typename T>
+T value_named(const Json& json) {
+  for (const T value : values_of(T{}))
+    if (json.get_ref<const std::string&>() == name_of(value)) return value;
+  throw Json::other_error::create(501, "unknown name " + json.dump(), &json);
+}
+
 template <typename T>
 concept HasFields = requires(Reader& reader, T& value) { fields(reader, value); };
 template <typename T>
-concept Named = std::is_enum_v<T>;
-
+concept Optional = requires(T& value) { value.reset(); };
+/// A map, or a list of pairs of which the first is a name: both are objects in the file.
 template <typename T>
-void read(const Json& json, std::optional<T>& value) {
-  if (json.is_null()) return value.reset();
-  read(json, value.emplace());
-}
-
+concept Keyed = requires { typename T::value_type::second_type; };
 template <typename T>
-void read(const Json& json, std::vector<T>& values) {
-  values.clear();
-  for (const Json& item : json) read(item, values.emplace_back());
-}
+concept List = requires(T& value) { value.emplace_back(); };
 
-template <typename T>
-void read(const Json& json, std::vector<std::pair<std::string, T>>& values) {
-  values.clear();
-  for (const auto& [key, item] : json.items()) read(item, values.emplace_back(key, T{}).second);
-}
-
-template <typename Key, typename T>
-void read(const Json& json, std::map<Key, T>& values) {
-  values.clear();
-  for (const auto& [key, item] : json.items()) {
-    Key place{};
-    read(Json(key), place);
-    read(item, values[place]);
-  }
-}
-
-// Options of other programs may be numbers.
-void read(const Json& json, Texts& values) {
-  values.clear();
-  for (const auto& [key, item] : json.items())
-    values[key] = item.is_string() ? item.get<std::string>() : item.dump();
-}
-
-void read(const Json& json, std::variant<std::uint64_t, std::string>& value) {
-  if (json.is_string()) {
-    value = json.get<std::string>();
-  } else {
-    value = json.get<std::uint64_t>();
-  }
-}
-
-void read(const Json& json, BodyPair& pair) {
-  pair = {json.at(0).get<std::uint32_t>(), json.at(1).get<std::uint32_t>()};
-}
+using CountOrReason = std::variant<std::uint64_t, std::string>;
 
 template <typename T>
 void read(const Json& json, T& value) {
-  if constexpr (HasFields<T>) {
+  if constexpr (std::is_same_v<T, Json>) {
+    value = json;
+  } else if constexpr (std::is_enum_v<T>) {
+    value = value_named<T>(json);
+  } else if constexpr (HasFields<T>) {
     if (!json.is_object()) throw Json::type_error::create(304, "not an object", &json);
     Reader reader(json);
     fields(reader, value);
-  } else if constexpr (std::is_same_v<T, Json>) {
-    value = json;
+  } else if constexpr (std::is_same_v<T, BodyPair>) {
+    value = {json.at(0).get<std::uint32_t>(), json.at(1).get<std::uint32_t>()};
+  } else if constexpr (std::is_same_v<T, CountOrReason>) {
+    if (json.is_string())
+      value = json.get<std::string>();
+    else
+      value = json.get<std::uint64_t>();
+  } else if constexpr (std::is_same_v<T, Texts>) {
+    value.clear();
+    for (const auto& [key, item] : json.items())  // options of other programs may be numbers
+      value[key] = item.is_string() ? item.template get<std::string>() : item.dump();
+  } else if constexpr (Optional<T>) {
+    if (json.is_null())
+      value.reset();
+    else
+      read(json, value.emplace());
+  } else if constexpr (Keyed<T>) {
+    value.clear();
+    for (const auto& [key, item] : json.items())
+      if constexpr (List<T>) {
+        auto& [name, held] = value.emplace_back();
+        name = key;
+        read(item, held);
+      } else {
+        typename T::key_type place{};
+        read(Json(key), place);
+        read(item, value[place]);
+      }
+  } else if constexpr (List<T>) {
+    value.clear();
+    for (const Json& item : json) read(item, value.emplace_back());
   } else {
     json.get_to(value);
   }
 }
 
 template <typename T>
-Json written(const std::optional<T>& value) {
-  return value ? written(*value) : Json(nullptr);
-}
-
-template <typename T>
-Json written(const std::vector<T>& values) {
-  Json out = Json::array();
-  for (const T& value : values) out.push_back(written(value));
-  return out;
-}
-
-template <typename T>
-Json written(const std::vector<std::pair<std::string, T>>& values) {
-  Json out = Json::object();
-  for (const auto& [key, value] : values) out[key] = written(value);
-  return out;
-}
-
-template <typename Key, typename T>
-Json written(const std::map<Key, T>& values) {
-  Json out = Json::object();
-  for (const auto& [key, value] : values)
-    out[written(key).template get<std::string>()] = written(value);
-  return out;
-}
-
-Json written(const std::variant<std::uint64_t, std::string>& value) {
-  return std::visit([](const auto& held) { return Json(held); }, value);
-}
-
-Json written(const BodyPair& pair) { return {pair.a, pair.b}; }
-
-template <typename T>
 Json written(const T& value) {
-  if constexpr (HasFields<T>) {
+  if constexpr (std::is_same_v<T, Json>) {
+    return value;
+  } else if constexpr (std::is_enum_v<T>) {
+    return name_of(value);
+  } else if constexpr (HasFields<T>) {
     Json out = Json::object();
     Writer writer(out);
     // A description takes the struct to read into; a writer changes nothing in it.
     fields(writer, const_cast<T&>(value));
     return out;
-  } else if constexpr (Named<T>) {
-    return name_of(value);
+  } else if constexpr (std::is_same_v<T, BodyPair>) {
+    return {value.a, value.b};
+  } else if constexpr (std::is_same_v<T, CountOrReason>) {
+    return std::visit([](const auto& held) { return Json(held); }, value);
+  } else if constexpr (Optional<T>) {
+    return value ? written(*value) : Json(nullptr);
+  } else if constexpr (Keyed<T>) {
+    Json out = Json::object();
+    for (const auto& [key, item] : value)
+      out[written(key).template get<std::string>()] = written(item);
+    return out;
+  } else if constexpr (List<T>) {
+    Json out = Json::array();
+    for (const auto& item : value) out.push_back(written(item));
+    return out;
   } else {
     return value;
   }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "reference/report/format.h"
 
@@ -66,13 +69,6 @@ constexpr Quantity kQuantities[] = {
 
 using BinSums = std::map<double, HistogramBin>;  // by `from`, in the unit of the results
 
-void add_bins(BinSums& sums, const std::vector<HistogramBin>& bins) {
-  for (const HistogramBin& bin : bins) {
-    const auto [own, first] = sums.try_emplace(bin.from, bin);
-    if (!first) own->second.count += bin.count;
-  }
-}
-
 // Bins below a micrometre would be hairs in the chart.
 std::vector<ErrorBin> bins_of(const BinSums& sums, const Quantity& quantity, double factor,
                               std::uint64_t judged) {
@@ -111,7 +107,10 @@ std::optional<ErrorRow> row_of(const std::string& detector, const std::vector<co
     }
     if (spread.p95) row.p95 = std::max(row.p95.value_or(0.0), factor * *spread.p95);
     row.max = std::max(row.max, factor * *spread.max);
-    add_bins(bins, spread.histogram);
+    for (const HistogramBin& bin : spread.histogram) {
+      const auto [own, first] = bins.try_emplace(bin.from, bin);
+      if (!first) own->second.count += bin.count;
+    }
     for (const double point : errors.points) row.points.push_back(factor * point);
   }
   if (row.judged == 0) return {};
@@ -136,23 +135,6 @@ ErrorChart& chart_of(std::vector<ErrorChart>& charts, const std::string& title,
   return charts.back();
 }
 
-// Whose largest error is 0 would be a row of nothing.
-void take_out_zeros(ErrorChart& chart) {
-  std::vector<std::string> names;
-  for (const ErrorRow& row : chart.rows)
-    if (row.max == 0.0) names.push_back(row.detector);
-  std::erase_if(chart.rows, [](const ErrorRow& row) { return row.max == 0.0; });
-  if (!names.empty()) chart.always_zero = "Always 0: " + listed(names) + ".";
-}
-
-// The last bin of a histogram may end far behind the largest error, where no axis goes.
-void end_bins_at_largest(ErrorChart& chart) {
-  double end = 2.0 * kMicrometre;
-  for (const ErrorRow& row : chart.rows) end = std::max(end, row.max);
-  for (ErrorRow& row : chart.rows)
-    for (ErrorBin& bin : row.bins) bin.below = std::min(bin.below, end);
-}
-
 }  // namespace
 
 std::vector<ErrorChart> error_charts(const results::Index& index, const SceneChoice& scenes) {
@@ -167,8 +149,18 @@ std::vector<ErrorChart> error_charts(const results::Index& index, const SceneCho
       chart_of(charts, title, quantity).rows.push_back(std::move(*row));
     }
   for (ErrorChart& chart : charts) {
-    take_out_zeros(chart);
-    end_bins_at_largest(chart);
+    std::vector<std::string> always_zero;
+    double end = 2.0 * kMicrometre;
+    for (const ErrorRow& row : chart.rows) {
+      if (row.max == 0.0) always_zero.push_back(row.detector);
+      end = std::max(end, row.max);
+    }
+    // A row whose largest error is 0 would be empty.
+    std::erase_if(chart.rows, [](const ErrorRow& row) { return row.max == 0.0; });
+    if (!always_zero.empty()) chart.always_zero = "Always 0: " + listed(always_zero) + ".";
+    // The last bin of a histogram may end far beyond the largest error, where no axis goes.
+    for (ErrorRow& row : chart.rows)
+      for (ErrorBin& bin : row.bins) bin.below = std::min(bin.below, end);
   }
   return charts;
 }

@@ -17,15 +17,6 @@ using results::Run;
 
 constexpr int kBins = 16;  // of a logarithm from the smallest to the largest distance
 
-std::string series_of(std::string scene) {
-  constexpr std::string_view kScaling = "scaling-";
-  if (scene.starts_with(kScaling)) scene.erase(0, kScaling.size());
-  const std::size_t name_end = scene.find_last_not_of("0123456789");
-  const bool has_size = name_end != std::string::npos && name_end + 1 < scene.size();
-  if (has_size && scene[name_end] == '-') scene.erase(name_end);
-  return scene;
-}
-
 std::vector<std::pair<std::size_t, std::uint64_t>> frames_with(
     const std::vector<std::uint64_t>& counts) {
   std::vector<std::pair<std::size_t, std::uint64_t>> out;
@@ -53,23 +44,6 @@ std::vector<std::pair<double, double>> medians_by_distance(
   return out;
 }
 
-void add_distances(const std::vector<double>& distance, DetectorCosts& costs) {
-  std::vector<std::pair<double, double>> apart;
-  std::vector<double> touching;
-  for (std::size_t f = 0; f < std::min(distance.size(), costs.frame_ms.size()); ++f) {
-    if (!costs.frame_ms[f]) continue;
-    if (distance[f] > 0.0) {
-      apart.emplace_back(distance[f], *costs.frame_ms[f]);
-    } else {
-      touching.push_back(*costs.frame_ms[f]);
-    }
-  }
-  costs.by_distance = medians_by_distance(apart);
-  if (touching.empty()) return;
-  const auto [low, high] = std::minmax_element(touching.begin(), touching.end());
-  costs.touching = {*low, results::median(touching), *high, touching.size()};
-}
-
 DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
   DetectorCosts out;
   out.detector = run.detector;
@@ -83,7 +57,20 @@ DetectorCosts costs_of(const Run& run, const std::vector<double>& distance) {
   // A clock that did not tick measured nothing.
   for (std::optional<double>& ms : out.frame_ms)
     if (ms && !(*ms > 0.0)) ms.reset();
-  add_distances(distance, out);
+  std::vector<std::pair<double, double>> separated;
+  std::vector<double> touching;
+  for (std::size_t f = 0; f < std::min(distance.size(), out.frame_ms.size()); ++f) {
+    if (!out.frame_ms[f]) continue;
+    if (distance[f] > 0.0)
+      separated.emplace_back(distance[f], *out.frame_ms[f]);
+    else
+      touching.push_back(*out.frame_ms[f]);
+  }
+  out.by_distance = medians_by_distance(separated);
+  if (!touching.empty()) {
+    const auto [low, high] = std::minmax_element(touching.begin(), touching.end());
+    out.touching = {*low, results::median(touching), *high, touching.size()};
+  }
   return out;
 }
 
@@ -140,7 +127,13 @@ TitledTable phase_times_table(const std::vector<PhaseMeans>& all) {
 
 SceneCosts scene_costs(const results::Index& index, const results::Scene& scene) {
   SceneCosts out;
-  out.series = series_of(scene.id);
+  // "contact" of scaling-contact-4 and of contact.
+  constexpr std::string_view kScaling = "scaling-";
+  out.series = scene.id;
+  if (out.series.starts_with(kScaling)) out.series.erase(0, kScaling.size());
+  const std::size_t name_end = out.series.find_last_not_of("0123456789");
+  const bool has_size = name_end != std::string::npos && name_end + 1 < out.series.size();
+  if (has_size && out.series[name_end] == '-') out.series.erase(name_end);
   for (const results::SceneBody& body : scene.bodies) out.triangles += body.triangles;
   for (const double metres : scene.separation) out.distance.push_back(1e3 * metres);
   const auto sum = [](const std::vector<std::uint64_t>& counts) {

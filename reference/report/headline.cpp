@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "reference/report/error_counts.h"
 #include "reference/report/format.h"
@@ -19,6 +22,16 @@ using results::Index, results::Results, results::Run;
 using Names = std::vector<std::string>;
 
 constexpr std::size_t kMostDetectors = 5, kMostPlaces = 3;
+
+// The entry whose member is `key`; added at the end where there is none.
+template <typename Entry, typename Key>
+Entry& entry_of(const Key& key, Key Entry::*member, std::vector<Entry>& all) {
+  for (Entry& entry : all)
+    if (entry.*member == key) return entry;
+  Entry& added = all.emplace_back();
+  added.*member = key;
+  return added;
+}
 
 /// A detector over all scenes: what it claims, and how often it was wrong.
 struct Verdict {
@@ -48,20 +61,15 @@ std::vector<Verdict> verdicts_of(const Index& index) {
   for (const results::Scene& scene : index.results().scenes)
     if (scene.family) families.insert(scene.id);
   for (const Run& run : index.results().runs) {
-    auto own = std::find_if(all.begin(), all.end(),
-                            [&](const Verdict& v) { return v.detector == run.detector; });
-    if (own == all.end()) {
-      own = all.insert(all.end(), Verdict());
-      own->detector = run.detector;
-    }
-    if (run.status == results::Status::kError && was_asked(index, run)) own->failed = true;
+    Verdict& own = entry_of(run.detector, &Verdict::detector, all);
+    if (run.status == results::Status::kError && was_asked(index, run)) own.failed = true;
     if (!run.ok()) continue;
-    if (!own->finest || (own->in_family && !families.contains(run.scene))) {
-      own->finest = run.per_frame.level;
-      own->in_family = families.contains(run.scene);
+    if (!own.finest || (own.in_family && !families.contains(run.scene))) {
+      own.finest = run.per_frame.level;
+      own.in_family = families.contains(run.scene);
     }
     for (const auto& [level, counts] : run.levels)
-      if (!counts.informative) own->levels[level].add(run, level);
+      if (!counts.informative) own.levels[level].add(run, level);
   }
   std::erase_if(all, [](const Verdict& verdict) {
     return std::none_of(verdict.levels.begin(), verdict.levels.end(), [](const auto& level) {
@@ -71,25 +79,22 @@ std::vector<Verdict> verdicts_of(const Index& index) {
   return all;
 }
 
-std::string places_text(const Results& results) {
+// Of contacts alone: hover, depths and normals have separate sentences.
+std::string title_of(const Results& results, const std::vector<Verdict>& all) {
   std::size_t scenes = 0, cases = 0;
   for (const results::Scene& scene : results.scenes) {
     if (!scene.unjudged.empty()) continue;
-    if (scene.family) {
+    if (scene.family)
       cases += scene.family->values.size();
-    } else {
+    else
       ++scenes;
-    }
   }
   Names parts;
   if (scenes > 0) parts.push_back(plural(scenes, "scene"));
   if (cases > 0) parts.push_back(plural(cases, "hard case"));
-  return listed(parts);
-}
-
-// Of contacts alone. How early, how deep and in which direction have sentences of their own.
-std::string title_of(const std::vector<Verdict>& all, const std::string& places) {
+  const std::string places = listed(parts);
   if (all.empty()) return "Nothing was judged in " + (places.empty() ? "this run" : places);
+
   const auto right = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.flawless(); }));
   const bool failed =
@@ -106,14 +111,14 @@ std::string title_of(const std::vector<Verdict>& all, const std::string& places)
 }
 
 void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& out) {
-  std::vector<std::pair<std::optional<Level>, Names>> by_level;
-  for (const Verdict& verdict : all) {
-    if (!verdict.flawless()) continue;
-    auto own = std::find_if(by_level.begin(), by_level.end(),
-                            [&](const auto& entry) { return entry.first == verdict.finest; });
-    if (own == by_level.end()) own = by_level.insert(by_level.end(), {verdict.finest, {}});
-    own->second.push_back(verdict.detector);
-  }
+  struct LevelNames {
+    std::optional<Level> level;
+    Names names;
+  };
+  std::vector<LevelNames> by_level;
+  for (const Verdict& verdict : all)
+    if (verdict.flawless())
+      entry_of(verdict.finest, &LevelNames::level, by_level).names.push_back(verdict.detector);
   for (const auto& [level, names] : by_level)
     out.push_back({"No missed or spurious contacts",
                    fmt::format("At level {}: {}.", level ? name_of(*level) : "", listed(names))});
@@ -197,30 +202,12 @@ std::vector<Winner> winners_of(const Index& index, const std::vector<Verdict>& v
           best = run;
       }
       if (candidates < 2) continue;
-      auto own = std::find_if(out.begin(), out.end(),
-                              [&](const Winner& w) { return w.detector == best->detector; });
-      if (own == out.end()) own = out.insert(out.end(), {best->detector, {}});
-      own->scenes.push_back(scene.id);
+      entry_of(best->detector, &Winner::detector, out).scenes.push_back(scene.id);
     }
   std::stable_sort(out.begin(), out.end(), [](const Winner& a, const Winner& b) {
     return a.scenes.size() > b.scenes.size();
   });
   return out;
-}
-
-// In the scenes of the time that stands before it.
-std::string slower_text(const std::vector<const Run*>& runs, const std::string& detector) {
-  Names texts;
-  for (const std::string reference : results::kReferences) {
-    if (reference == detector) continue;
-    Range times;
-    for (const Run* run : runs)
-      if (const results::Speedup* speedup = speedup_of(*run, Question::kTriangles, reference))
-        times.add(speedup->playback.value);
-    if (!times.low) continue;
-    texts.push_back(fmt::format("{} takes {} times as long", reference, format_range(times)));
-  }
-  return texts.empty() ? "" : " " + listed(texts) + ".";
 }
 
 void add_fastest(const Index& index, const std::vector<Winner>& winners,
@@ -240,12 +227,22 @@ void add_fastest(const Index& index, const std::vector<Winner>& winners,
                                          : fmt::format("in all {} scenes", grouped_digits(total));
   std::vector<const Run*> runs;
   for (const std::string& scene : best.scenes) runs.push_back(index.run(scene, best.detector));
-  out.push_back(
-      {"Fastest of these",
-       fmt::format("{} {}: {} ms per frame there for all pairs of triangles, in "
-                   "playback{}.{}",
-                   best.detector, where, format_number(mean_frame_ms(runs, false)),
-                   others.empty() ? "" : "; " + listed(others), slower_text(runs, best.detector))});
+  Names slower;
+  for (const std::string reference : results::kReferences) {
+    if (reference == best.detector) continue;
+    Range times;
+    for (const Run* run : runs)
+      if (const results::Speedup* speedup = speedup_of(*run, Question::kTriangles, reference))
+        times.add(speedup->playback.value);
+    if (times.low)
+      slower.push_back(fmt::format("{} takes {} times as long", reference, format_range(times)));
+  }
+  out.push_back({"Fastest of these",
+                 fmt::format("{} {}: {} ms per frame there for all pairs of triangles, in "
+                             "playback{}.{}",
+                             best.detector, where, format_number(mean_frame_ms(runs, false)),
+                             others.empty() ? "" : "; " + listed(others),
+                             slower.empty() ? "" : " " + listed(slower) + ".")});
 }
 
 /// The errors of one detector, over all scenes.
@@ -261,13 +258,6 @@ struct DetectorErrors {
     judged += spread.judged;
   }
 };
-
-DetectorErrors& errors_of(const std::string& detector, std::vector<DetectorErrors>& all) {
-  for (DetectorErrors& one : all)
-    if (one.detector == detector) return one;
-  all.emplace_back().detector = detector;
-  return all.back();
-}
 
 // Worst first; without those that were never off.
 Names texts_of(std::vector<DetectorErrors> all, const char* unit) {
@@ -296,7 +286,7 @@ void add_hover(const Index& index, std::vector<HeadlineFinding>& out) {
     const results::Scene* scene = index.scene(run.scene);
     const double margin = run.semantics.margin, gap = run.geometry.hover_gap_max.value_or(0.0);
     if (!run.ok() || scene == nullptr || !(gap - margin > kDifference * scene->size)) continue;
-    DetectorErrors& own = errors_of(run.detector, all);
+    DetectorErrors& own = entry_of(run.detector, &DetectorErrors::detector, all);
     if (1e3 * gap <= own.largest) continue;
     own.largest = 1e3 * gap;
     own.aside = margin > 0.0 ? "margin " + format_millimetres(margin) + " mm" : "";
@@ -316,8 +306,9 @@ void add_depths(const Index& index, std::vector<HeadlineFinding>& out) {
   for (const Run& run : index.results().runs) {
     const results::Scene* scene = index.scene(run.scene);
     if (!run.ok() || scene == nullptr || scene->family) continue;
-    errors_of(run.detector, depths[run.geometry.depth_kind]).add(run.geometry.depth, 1e3);
-    errors_of(run.detector, normals).add(run.geometry.normal_deg, 1.0);
+    entry_of(run.detector, &DetectorErrors::detector, depths[run.geometry.depth_kind])
+        .add(run.geometry.depth, 1e3);
+    entry_of(run.detector, &DetectorErrors::detector, normals).add(run.geometry.normal_deg, 1.0);
   }
   for (const auto& [kind, all] : depths)
     if (const Names texts = texts_of(all, "mm"); !texts.empty())
@@ -334,22 +325,6 @@ void add_status(const Index& index, results::Status status, const char* topic,
     if (run.status == status && was_asked(index, run))
       texts.push_back(fmt::format("{} in {} ({})", run.detector, run.scene, run.message));
   if (!texts.empty()) out.push_back({topic, short_list(texts, kMostPlaces) + "."});
-}
-
-void add_absent(const Results& results, std::vector<HeadlineFinding>& out) {
-  Names names;
-  for (const Run& run : results.runs)
-    if (run.status == results::Status::kAbsent &&
-        std::find(names.begin(), names.end(), run.detector) == names.end())
-      names.push_back(run.detector);
-  if (!names.empty()) out.push_back({"Not built", listed(names) + "."});
-}
-
-void add_unjudged(const Results& results, std::vector<HeadlineFinding>& out) {
-  Names whys;
-  for (const results::Scene& scene : results.scenes)
-    if (!scene.unjudged.empty()) whys.push_back(scene.unjudged);
-  if (!whys.empty()) out.push_back({"Not judged", short_list(whys, kMostPlaces) + "."});
 }
 
 void add_oracle(const Results& results, std::vector<HeadlineFinding>& out) {
@@ -388,7 +363,7 @@ Headline headline_of(const Results& results) {
   const std::vector<Verdict> verdicts = verdicts_of(index);
   const std::vector<Winner> winners = winners_of(index, verdicts);
   Headline out;
-  out.title = title_of(verdicts, places_text(results));
+  out.title = title_of(results, verdicts);
   for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
   add_exact(verdicts, out.findings);
   add_fastest(index, winners, out.findings);
@@ -398,8 +373,16 @@ Headline headline_of(const Results& results) {
   add_depths(index, out.findings);
   add_status(index, results::Status::kError, "Ended in an error", out.findings);
   add_status(index, results::Status::kRefused, "Refused the input", out.findings);
-  add_absent(results, out.findings);
-  add_unjudged(results, out.findings);
+  Names absent, unjudged;
+  for (const Run& run : results.runs)
+    if (run.status == results::Status::kAbsent &&
+        std::find(absent.begin(), absent.end(), run.detector) == absent.end())
+      absent.push_back(run.detector);
+  if (!absent.empty()) out.findings.push_back({"Not built", listed(absent) + "."});
+  for (const results::Scene& scene : results.scenes)
+    if (!scene.unjudged.empty()) unjudged.push_back(scene.unjudged);
+  if (!unjudged.empty())
+    out.findings.push_back({"Not judged", short_list(unjudged, kMostPlaces) + "."});
   if (results.known_defects)
     out.findings.push_back({"Known defects", known_defects_sentence(*results.known_defects)});
   add_oracle(results, out.findings);

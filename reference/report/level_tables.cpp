@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <utility>
 
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
@@ -13,56 +15,51 @@ namespace {
 
 using results::LevelCounts, results::Run;
 
-void add_counts(LevelCounts counts, const std::string& where, std::vector<HeatCell>& recall,
-                std::vector<HeatCell>& spurious) {
+struct Cells {
+  HeatCell recall, spurious;
+};
+
+Cells counts_cells(LevelCounts counts, const std::string& where) {
   counts.set_rates();
   const std::string label =
       fmt::format("{}: {} true, {} missed, {} reported, {} spurious", where,
                   grouped_digits(counts.truth), grouped_digits(counts.missed),
                   grouped_digits(counts.reported), grouped_digits(counts.spurious));
-  const std::optional<double> missed =
-      counts.truth == 0
-          ? std::nullopt
-          : std::optional(static_cast<double>(counts.missed) / static_cast<double>(counts.truth));
-  recall.push_back({format_rate(counts.recall), missed, label});
-  spurious.push_back({format_error_rate(counts.spurious_rate), counts.spurious_rate, label});
+  std::optional<double> missed;
+  if (counts.truth > 0)
+    missed = static_cast<double>(counts.missed) / static_cast<double>(counts.truth);
+  return {{format_rate(counts.recall), missed, label},
+          {format_error_rate(counts.spurious_rate), counts.spurious_rate, label}};
 }
 
-void add_to_both(const HeatCell& cell, std::vector<HeatCell>& recall,
-                 std::vector<HeatCell>& spurious) {
-  recall.push_back(cell);
-  spurious.push_back(cell);
-}
-
-void add_sum(const std::string& detector, const std::vector<const Run*>& runs,
-             std::optional<Level> level, std::vector<HeatCell>& recall,
-             std::vector<HeatCell>& spurious) {
+Cells sum_cells(const std::string& detector, const std::vector<const Run*>& runs,
+                std::optional<Level> level) {
   LevelCounts sum;
   std::optional<Level> finest;
   for (const Run* run : runs) {
     const std::optional<Level> own = level ? level : run->per_frame.level;
     const LevelCounts* counts = claimed_counts(*run, own);
     if (counts == nullptr) continue;
-    if (finest && finest != own)
-      return add_to_both({"levels differ", {}, "", "aside"}, recall, spurious);
+    if (finest && finest != own) {
+      const HeatCell differ = {"levels differ", {}, "", "aside"};
+      return {differ, differ};
+    }
     finest = own;
     sum += *counts;
   }
-  if (!finest) return add_to_both({}, recall, spurious);
-  add_counts(sum, detector + ", all scenes", recall, spurious);
+  return finest ? counts_cells(sum, detector + ", all scenes") : Cells{};
 }
 
-void add_scene(const Run* run, std::optional<Level> level, std::vector<HeatCell>& recall,
-               std::vector<HeatCell>& spurious) {
-  if (run == nullptr) return add_to_both({}, recall, spurious);
+Cells scene_cells(const Run* run, std::optional<Level> level) {
+  if (run == nullptr) return {};
   const std::string where = run->detector + " in " + run->scene;
-  if (!run->ok())
-    return add_to_both({name_of(run->status), {}, where + ": " + run->message, "error"}, recall,
-                       spurious);
+  if (!run->ok()) {
+    const HeatCell error = {name_of(run->status), {}, where + ": " + run->message, "error"};
+    return {error, error};
+  }
   const std::optional<Level> own = level ? level : run->per_frame.level;
   const LevelCounts* counts = claimed_counts(*run, own);
-  if (counts == nullptr) return add_to_both({}, recall, spurious);
-  add_counts(*counts, where + ", level " + name_of(*own), recall, spurious);
+  return counts == nullptr ? Cells{} : counts_cells(*counts, where + ", level " + name_of(*own));
 }
 
 }  // namespace
@@ -94,8 +91,12 @@ LevelTables level_tables(const results::Index& index, std::optional<Level> level
       continue;
     const HeatCell name = {detector, {}, ""};
     std::vector<HeatCell> recall = {name}, spurious = {name};
-    if (scenes.size() > 1) add_sum(detector, present, level, recall, spurious);
-    for (const Run* run : runs) add_scene(run, level, recall, spurious);
+    const auto add = [&](Cells cells) {
+      recall.push_back(std::move(cells.recall));
+      spurious.push_back(std::move(cells.spurious));
+    };
+    if (scenes.size() > 1) add(sum_cells(detector, present, level));
+    for (const Run* run : runs) add(scene_cells(run, level));
     out.recall.rows.push_back(std::move(recall));
     out.spurious.rows.push_back(std::move(spurious));
   }

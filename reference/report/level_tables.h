@@ -1,4 +1,4 @@
-// Who finds what, scene by scene, at each level.
+// What each detector finds, scene by scene, at each level.
 #pragma once
 
 #include <optional>

@@ -61,13 +61,6 @@ Json to_json(const std::vector<TitledTable>& tables) {
   return out;
 }
 
-Json pairs_json(const Results& results) {
-  Json out = Json::array();
-  for (const results::Scene& scene : results.scenes)
-    if (scene.pairs) out.push_back({{"scene", scene.id}, {"table", to_json(pairs_table(scene))}});
-  return out;
-}
-
 Json paper_part_json(const PaperPart& paper) {
   Json scenes = Json::array();
   for (const PaperPart::Scene& scene : paper.scenes)
@@ -81,28 +74,18 @@ Json paper_part_json(const PaperPart& paper) {
           {"checks", to_json(paper.checks)}};
 }
 
-Json to_json(const HeatCell& cell) {
-  Json out = {{"text", cell.text}};
-  if (cell.share) out["share"] = *cell.share;
-  if (!cell.label.empty()) out["label"] = cell.label;
-  if (!cell.kind.empty()) out["kind"] = cell.kind;
-  return out;
-}
-
 Json to_json(const HeatTable& table) {
   Json rows = Json::array();
   for (const std::vector<HeatCell>& row : table.rows) {
     Json& cells = rows.emplace_back(Json::array());
-    for (const HeatCell& cell : row) cells.push_back(to_json(cell));
+    for (const HeatCell& cell : row) {
+      Json& out = cells.emplace_back(Json{{"text", cell.text}});
+      if (cell.share) out["share"] = *cell.share;
+      if (!cell.label.empty()) out["label"] = cell.label;
+      if (!cell.kind.empty()) out["kind"] = cell.kind;
+    }
   }
   return {{"columns", table.columns}, {"rows", std::move(rows)}};
-}
-
-Json to_json(const std::optional<ShownCase>& shown) {
-  if (!shown) return nullptr;
-  Json out = {{"detector", shown->detector}, {"frame", shown->frame}};
-  if (!shown->kind.empty()) out["kind"] = shown->kind;
-  return out;
 }
 
 Json hard_json(const Results& results, const TitledTable& sums) {
@@ -110,7 +93,12 @@ Json hard_json(const Results& results, const TitledTable& sums) {
   Json families = Json::array();
   for (const WrongFamily& family : wrong_families(results)) {
     Json shown = Json::array();
-    for (const std::optional<ShownCase>& one : family.shown) shown.push_back(to_json(one));
+    for (const std::optional<ShownCase>& one : family.shown) {
+      Json& out = shown.emplace_back(nullptr);
+      if (!one) continue;
+      out = {{"detector", one->detector}, {"frame", one->frame}};
+      if (!one->kind.empty()) out["kind"] = one->kind;
+    }
     families.push_back({{"id", family.scene.id},
                         {"title", family.scene.title},
                         {"aside", family.aside},
@@ -213,21 +201,19 @@ Json times_json(const results::Index& index, const std::vector<SceneChoice>& cho
   return out;
 }
 
-Json to_json(const ErrorRow& row) {
-  Json bins = Json::array();
-  for (const ErrorBin& bin : row.bins)
-    bins.push_back({bin.from, bin.below, bin.count, bin.share, format_percent(bin.share)});
-  return {row.detector,         name_of(row.kind), row.judged,      number_json(row.mean),
-          number_json(row.p95), row.max,           std::move(bins), row.points};
-}
-
 Json graded_json(const results::Index& index, const std::vector<SceneChoice>& choices) {
   Json out = Json::array();
   for (const SceneChoice& choice : choices) {
     Json charts = Json::array();
     for (const ErrorChart& chart : error_charts(index, choice)) {
       Json rows = Json::array();
-      for (const ErrorRow& row : chart.rows) rows.push_back(to_json(row));
+      for (const ErrorRow& row : chart.rows) {
+        Json bins = Json::array();
+        for (const ErrorBin& bin : row.bins)
+          bins.push_back({bin.from, bin.below, bin.count, bin.share, format_percent(bin.share)});
+        rows.push_back({row.detector, name_of(row.kind), row.judged, number_json(row.mean),
+                        number_json(row.p95), row.max, std::move(bins), row.points});
+      }
       charts.push_back({{"title", chart.title},
                         {"axis", chart.axis},
                         {"unit", chart.unit},
@@ -313,20 +299,6 @@ std::vector<std::string> options_of(const results::Index& index) {
   return out;
 }
 
-// Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
-void add_scenes(const results::Index& index, Json& out) {
-  out["scenes"] = Json::array();
-  out["families"] = Json::array();
-  for (const results::Scene& scene : index.results().scenes) {
-    if (scene.family) {
-      out["families"].push_back(
-          {{"id", scene.id}, {"title", scene.title}, {"values", scene.family->values}});
-    } else {
-      out["scenes"].push_back(scene_json(index, scene));
-    }
-  }
-}
-
 }  // namespace
 
 nlohmann::ordered_json page_data(const Results& results, const std::optional<PaperPart>& paper) {
@@ -344,6 +316,9 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
   Json groups = Json::array(), group_names = Json::array();
   for (const std::string& detector : index.detectors()) groups.push_back(group_of(detector));
   for (std::size_t i = 0; i < kDetectorGroups; ++i) group_names.push_back(detector_group(i).name);
+  Json pairs = Json::array();
+  for (const results::Scene& scene : results.scenes)
+    if (scene.pairs) pairs.push_back({{"scene", scene.id}, {"table", to_json(pairs_table(scene))}});
   const results::Machine& machine = results.machine;
   Json out = {{"version", results.version},
               {"title", headline.title},
@@ -363,7 +338,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"claimed", to_json(semantics_table(results))},
               {"claims", to_json(claims_of(results))},
               {"goals", to_json(goals_table(results))},
-              {"pairs", pairs_json(results)},
+              {"pairs", std::move(pairs)},
               {"levels", levels_json(index, levels)},
               {"result_columns", columns_json(result_columns())},
               {"choices", std::move(words)},
@@ -377,7 +352,17 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
     out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
                             {"tables", to_json(known_defects_tables(*results.known_defects))}};
   if (paper) out["paper"] = paper_part_json(*paper);
-  add_scenes(index, out);
+  // Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
+  Json scenes = Json::array(), families = Json::array();
+  for (const results::Scene& scene : results.scenes) {
+    if (scene.family)
+      families.push_back(
+          {{"id", scene.id}, {"title", scene.title}, {"values", scene.family->values}});
+    else
+      scenes.push_back(scene_json(index, scene));
+  }
+  out["scenes"] = std::move(scenes);
+  out["families"] = std::move(families);
   return out;
 }
 

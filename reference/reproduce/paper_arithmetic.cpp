@@ -78,37 +78,29 @@ void add_ratios(const PaperTable& table, const std::string& topic, const std::st
   add_mean(table, topic, "arithmetic", what, arithmetic_mean(values), findings);
 }
 
-double rest_of(const PaperRow& row) { return row.total - row.steps(); }
-
-// A total may hold more than the four steps (drawing, say), never less.
-bool holds_its_parts(const PaperRow& row) { return rest_of(row) >= -kFiguresOfRow * kRoundingMs; }
-
-void add_rest(const PaperTable& table, const PaperRow& row, std::vector<PaperFinding>& findings) {
-  const double rest = rest_of(row);
-  const std::string verdict =
-      holds_its_parts(row)
-          ? "leaves " + paper_figure(std::fabs(rest), "ms") + " ms to what is not listed"
-          : "is " + paper_figure(-rest, "ms") + " ms smaller than that sum";
-  findings.push_back(
-      {.topic = "rest",
-       .table = table.name,
-       .scene = row.scene,
-       .method = row.method,
-       .sentence = fmt::format("{}, {}, {}: the four steps add up to {} ms, and the total of {} ms "
-                               "{}.",
-                               table.name, row.scene, row.method, paper_figure(row.steps(), "ms"),
-                               paper_figure(row.total, "ms"), verdict),
-       .computed = rest,
-       .unit = "ms",
-       .agrees = holds_its_parts(row)});
-}
-
 void add_rests(const PaperTable& table, std::vector<PaperFinding>& findings) {
   std::size_t below = 0;
   std::string which;
   for (const PaperRow& row : table.rows) {
-    add_rest(table, row, findings);
-    if (holds_its_parts(row)) continue;
+    const double rest = row.total - row.steps();
+    // A total may hold more than the four steps (drawing, say), never less.
+    const bool possible = rest >= -kFiguresOfRow * kRoundingMs;
+    const std::string verdict =
+        possible ? "leaves " + paper_figure(std::fabs(rest), "ms") + " ms to what is not listed"
+                 : "is " + paper_figure(-rest, "ms") + " ms smaller than that sum";
+    findings.push_back(
+        {.topic = "rest",
+         .table = table.name,
+         .scene = row.scene,
+         .method = row.method,
+         .sentence = fmt::format("{}, {}, {}: the four steps add up to {} ms, and the total of {} "
+                                 "ms {}.",
+                                 table.name, row.scene, row.method, paper_figure(row.steps(), "ms"),
+                                 paper_figure(row.total, "ms"), verdict),
+         .computed = rest,
+         .unit = "ms",
+         .agrees = possible});
+    if (possible) continue;
     ++below;
     which += (which.empty() ? ": " : ", ") + row.scene + " with " + row.method;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "reference/report/format.h"
 #include "reference/text/json_field.h"
@@ -38,19 +39,6 @@ std::string not_checkable(const PaperTables& tables) {
                      tables.table_3.after, list);
 }
 
-std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
-
-std::string verdict(const PaperFinding& finding) {
-  if (!finding.agrees) return "-";
-  return *finding.agrees ? "agrees" : "does not agree";
-}
-
-// A figure with its unit; ratios and counts have none.
-std::string with_unit(double value, const std::string& unit) {
-  const std::string figure = paper_figure(value, unit);
-  return unit == "ratio" || unit == "count" ? figure : figure + " " + unit;
-}
-
 report::TitledTable figures_table(const std::vector<PaperFinding>& findings) {
   report::TitledTable table = {"Every figure",
                                "",
@@ -62,26 +50,18 @@ report::TitledTable figures_table(const std::vector<PaperFinding>& findings) {
                                 {"claimed", false, "in the same unit"},
                                 {"verdict", true, "- where nothing is claimed"}},
                                {}};
-  for (const PaperFinding& f : findings)
-    table.rows.push_back({f.topic, f.table, or_dash(f.scene), or_dash(f.method),
-                          with_unit(f.computed, f.unit),
+  const auto or_dash = [](const std::string& text) { return text.empty() ? "-" : text; };
+  for (const PaperFinding& f : findings) {
+    std::string computed = paper_figure(f.computed, f.unit);
+    if (f.unit != "ratio" && f.unit != "count") computed += " " + f.unit;
+    table.rows.push_back({f.topic, f.table, or_dash(f.scene), or_dash(f.method), computed,
                           // As the paper has it: a claim may carry more digits than our figures.
-                          f.claimed ? fmt::format("{:.5g}", *f.claimed) : "-", verdict(f)});
+                          f.claimed ? fmt::format("{:.5g}", *f.claimed) : "-",
+                          !f.agrees   ? "-"
+                          : *f.agrees ? "agrees"
+                                      : "does not agree"});
+  }
   return table;
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
-
-Json finding_json(const PaperFinding& finding) {
-  return {{"topic", finding.topic},
-          {"table", text_or_null(finding.table)},
-          {"scene", text_or_null(finding.scene)},
-          {"method", text_or_null(finding.method)},
-          {"sentence", finding.sentence},
-          {"claimed", finding.claimed ? Json(*finding.claimed) : Json()},
-          {"computed", finding.computed},
-          {"unit", finding.unit},
-          {"agrees", finding.agrees ? Json(*finding.agrees) : Json()}};
 }
 
 std::string text_of(const Json& value) { return value.is_null() ? "" : value.get<std::string>(); }
@@ -91,7 +71,7 @@ std::optional<T> optional_of(const Json& value) {
   return value.is_null() ? std::nullopt : std::optional(value.get<T>());
 }
 
-// Back from finding_json.
+// Back from paper_json.
 std::vector<PaperFinding> findings_of(const Json& paper) {
   std::vector<PaperFinding> out;
   for (const Json& f : paper.at("findings"))
@@ -127,7 +107,19 @@ Json paper_json(const PaperTables& tables, const std::vector<PaperFinding>& find
                 {"year", source.year},
                 {"doi", source.doi}}},
               {"findings", Json::array()}};
-  for (const PaperFinding& finding : findings) out["findings"].push_back(finding_json(finding));
+  const auto text_or_null = [](const std::string& text) {
+    return text.empty() ? Json() : Json(text);
+  };
+  for (const PaperFinding& finding : findings)
+    out["findings"].push_back({{"topic", finding.topic},
+                               {"table", text_or_null(finding.table)},
+                               {"scene", text_or_null(finding.scene)},
+                               {"method", text_or_null(finding.method)},
+                               {"sentence", finding.sentence},
+                               {"claimed", finding.claimed ? Json(*finding.claimed) : Json()},
+                               {"computed", finding.computed},
+                               {"unit", finding.unit},
+                               {"agrees", finding.agrees ? Json(*finding.agrees) : Json()}});
   return out;
 }
 

@@ -43,18 +43,11 @@ report::TitledTable counts_table(const Json& counts) {
   return table;
 }
 
-std::vector<std::string> time_cells(const Json& t) {
-  if (t.is_null()) return {"-", "-", "-", "-", "-"};
-  std::vector<std::string> cells;
-  for (const char* part : {"mss", "cell", "test", "response", "total"})
-    cells.push_back(report::format_number(real(t.at(part))));
-  return cells;
-}
-
 std::vector<std::string> time_row(const std::string& method, const std::string& whose,
                                   const Json& times, bool judged) {
   std::vector<std::string> cells = {method, whose};
-  for (std::string& cell : time_cells(times)) cells.push_back(std::move(cell));
+  for (const char* part : {"mss", "cell", "test", "response", "total"})
+    cells.push_back(times.is_null() ? "-" : report::format_number(real(times.at(part))));
   if (!judged || times.is_null()) {
     cells.insert(cells.end(), {"-", "-", "-"});
   } else {
@@ -123,23 +116,6 @@ report::TitledTable ratios_table(const Json& ratios) {
   return table;
 }
 
-std::vector<std::string> closed_loop_row(const Json& loop) {
-  if (!text(loop.at("error")).empty())
-    return {text(loop.at("detector")), text(loop.at("error")), "", "", "", "", "", ""};
-  std::string recalls;
-  for (const auto& [level, counts] : loop.at("levels").items())
-    recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
-                           report::format_rate(real(counts.at("recall"))));
-  return {text(loop.at("detector")),
-          report::format_millimetres(real(loop.at("hover_at_rest_max"))),
-          report::format_millimetres(real(loop.at("hover_at_rest_mean"))),
-          report::format_millimetres(real(loop.at("deepest_penetration"))),
-          report::format_number(real(loop.at("energy_gain"))),
-          report::format_number(real(loop.at("last_speed"))),
-          report::format_count(whole(loop.at("tunnelling_events"))),
-          recalls};
-}
-
 report::TitledTable closed_loop_table(const Json& loops) {
   report::TitledTable table = {
       "Closed loop: each detector drives the simulation itself, and is judged on the frames of its "
@@ -150,33 +126,43 @@ report::TitledTable closed_loop_table(const Json& loops) {
        figures("deepest penetration mm"), figures("energy gain"), figures("last speed m/s"),
        figures("tunnelling"), words("recall")},
       {}};
-  for (const Json& loop : loops) table.rows.push_back(closed_loop_row(loop));
+  for (const Json& loop : loops) {
+    if (const std::string error = text(loop.at("error")); !error.empty()) {
+      table.rows.push_back({text(loop.at("detector")), error, "", "", "", "", "", ""});
+      continue;
+    }
+    std::string recalls;
+    for (const auto& [level, counts] : loop.at("levels").items())
+      recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
+                             report::format_rate(real(counts.at("recall"))));
+    table.rows.push_back({text(loop.at("detector")),
+                          report::format_millimetres(real(loop.at("hover_at_rest_max"))),
+                          report::format_millimetres(real(loop.at("hover_at_rest_mean"))),
+                          report::format_millimetres(real(loop.at("deepest_penetration"))),
+                          report::format_number(real(loop.at("energy_gain"))),
+                          report::format_number(real(loop.at("last_speed"))),
+                          report::format_count(whole(loop.at("tunnelling_events"))), recalls});
+  }
   return table;
 }
 
-std::string frame_rate_sentence(const Json& rate) {
-  return fmt::format("`{}`: {:.0f} whole steps per second, {:.1f} times real time, on one core.",
-                     text(rate.at("detector")), rate.at("steps_per_second").get<double>(),
-                     rate.at("simulated_over_real_time").get<double>());
-}
-
-std::string hover_sentence(const Json& hover) {
-  std::string out =
-      fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm", kMethods[2],
-                  report::format_millimetres(real(hover.at(kMethods[2]))), kTraditional,
-                  report::format_millimetres(real(hover.at(kTraditional))));
-  if (!hover.at("factor").is_null())
-    out += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
-  return out + ".";
-}
-
-// How fast and how close to one another bodies rest; what was not measured is left out.
+// How fast the bodies move and how close they rest; what was not measured is left out.
 std::vector<std::string> motion_sentences(const Json& scene) {
   std::vector<std::string> out;
   if (const Json& rate = scene.at("frame_rate"); !rate.is_null())
-    out.push_back(frame_rate_sentence(rate));
-  if (const Json& hover = scene.at("hover_at_rest"); !hover.is_null())
-    out.push_back(hover_sentence(hover));
+    out.push_back(
+        fmt::format("`{}`: {:.0f} whole steps per second, {:.1f} times real time, on one core.",
+                    text(rate.at("detector")), rate.at("steps_per_second").get<double>(),
+                    rate.at("simulated_over_real_time").get<double>()));
+  if (const Json& hover = scene.at("hover_at_rest"); !hover.is_null()) {
+    std::string sentence =
+        fmt::format("At rest `{}` keeps the surfaces {} mm apart on average, `{}` {} mm",
+                    kMethods[2], report::format_millimetres(real(hover.at(kMethods[2]))),
+                    kTraditional, report::format_millimetres(real(hover.at(kTraditional))));
+    if (!hover.at("factor").is_null())
+      sentence += fmt::format(": {:.1f} times as far", hover.at("factor").get<double>());
+    out.push_back(sentence + ".");
+  }
   return out;
 }
 

@@ -81,33 +81,6 @@ void add_unsteady(const results::Index& first, const results::Index& later, cons
   }
 }
 
-}  // namespace
-
-bool AbJudgement::slower() const {
-  return std::any_of(times.begin(), times.end(),
-                     [](const AbTime& time) { return time.verdict == AbVerdict::kSlower; });
-}
-
-AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits) {
-  CONTACTCHECK_INVARIANT(rounds.size() >= kFewestForInterval, "enough rounds for an interval");
-  std::vector<Round> indexed;
-  for (const AbRound& round : rounds)
-    indexed.push_back({results::Index(round.base), results::Index(round.head)});
-  const Round& first = indexed.front();
-  AbJudgement judgement;
-  add_times(indexed, limits, judgement);
-  judgement.answers = accuracy_changes(first.base, first.head);
-  for (const Round& round : indexed) {
-    add_unsteady(first.base, round.base, "base", judgement.unsteady);
-    add_unsteady(first.head, round.head, "head", judgement.unsteady);
-  }
-  judgement.only_base = missing_rows(first.head, first.base.results());
-  judgement.only_head = missing_rows(first.base, first.head.results());
-  return judgement;
-}
-
-namespace {
-
 using Lines = std::vector<std::string>;
 
 std::string time_line(const AbTime& t) {
@@ -192,6 +165,29 @@ std::string escaped(const std::string& text) {
 }
 
 }  // namespace
+
+bool AbJudgement::slower() const {
+  return std::any_of(times.begin(), times.end(),
+                     [](const AbTime& time) { return time.verdict == AbVerdict::kSlower; });
+}
+
+AbJudgement judge_ab(const std::vector<AbRound>& rounds, const AbLimits& limits) {
+  CONTACTCHECK_INVARIANT(rounds.size() >= kFewestForInterval, "enough rounds for an interval");
+  std::vector<Round> indexed;
+  for (const AbRound& round : rounds)
+    indexed.push_back({results::Index(round.base), results::Index(round.head)});
+  const Round& first = indexed.front();
+  AbJudgement judgement;
+  add_times(indexed, limits, judgement);
+  judgement.answers = accuracy_changes(first.base, first.head);
+  for (const Round& round : indexed) {
+    add_unsteady(first.base, round.base, "base", judgement.unsteady);
+    add_unsteady(first.head, round.head, "head", judgement.unsteady);
+  }
+  judgement.only_base = missing_rows(first.head, first.base.results());
+  judgement.only_head = missing_rows(first.base, first.head.results());
+  return judgement;
+}
 
 std::string ab_text(const AbJudgement& judgement, const AbSetting& setting) {
   std::string text =

@@ -44,53 +44,26 @@ Json read_results(const std::filesystem::path& file) {
   return results;
 }
 
-std::size_t depth_of(std::string_view json) {
-  std::size_t depth = 0, deepest = 0;
-  bool in_text = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (in_text && c == '\\') {
-      ++i;  // what is behind it ends no text
-    } else if (c == '"') {
-      in_text = !in_text;
-    } else if (!in_text && (c == '[' || c == '{')) {
-      deepest = std::max(deepest, ++depth);
-    } else if (!in_text && (c == ']' || c == '}')) {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
-std::string times_place(std::size_t question) {
-  return question == 0 ? "time_ms" : text::item_path("time_ms_other_questions", question - 1);
-}
-
-std::string speedup_defect(const results::Run& run, const results::QuestionTimes& times) {
-  const auto found = run.speedup.find(times.question);
-  if (found == run.speedup.end()) return "";
-  for (const auto& [reference, speedup] : found->second)
-    if (speedup.passes > times.passes)
-      return fmt::format("speedup.{}.{}.passes is {}; it must be at most {}, the row's passes",
-                         name_of(times.question), reference, speedup.passes, times.passes);
-  return "";
-}
-
 // What a schema cannot state. The first impossible time of a row, or "".
 std::string time_defect(const results::Run& run) {
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     const results::QuestionTimes& times = run.times[i];
+    const std::string place =
+        i == 0 ? "time_ms" : text::item_path("time_ms_other_questions", i - 1);
     if (times.timed_frames > run.frames)
-      return fmt::format("{}.timed_frames is {}; it must be at most {}, the row's frames",
-                         times_place(i), times.timed_frames, run.frames);
+      return fmt::format("{}.timed_frames is {}; it must be at most {}, the row's frames", place,
+                         times.timed_frames, run.frames);
     if (times.timed_contact_frames > times.timed_frames)
       return fmt::format("{}.timed_contact_frames is {}; it must be at most {}, the timed frames",
-                         times_place(i), times.timed_contact_frames, times.timed_frames);
+                         place, times.timed_contact_frames, times.timed_frames);
     if (!times.pass_ms.empty() && times.pass_ms.size() != times.passes)
-      return fmt::format("{}.pass_ms has {} entries; it must have {}, the row's passes",
-                         times_place(i), times.pass_ms.size(), times.passes);
-    const std::string found = speedup_defect(run, times);
-    if (!found.empty()) return found;
+      return fmt::format("{}.pass_ms has {} entries; it must have {}, the row's passes", place,
+                         times.pass_ms.size(), times.passes);
+    if (const auto found = run.speedup.find(times.question); found != run.speedup.end())
+      for (const auto& [reference, speedup] : found->second)
+        if (speedup.passes > times.passes)
+          return fmt::format("speedup.{}.{}.passes is {}; it must be at most {}, the row's passes",
+                             name_of(times.question), reference, speedup.passes, times.passes);
   }
   const auto& frame_ms = run.per_frame.frame_ms;  // a baseline has left out its entries
   if (frame_ms && !frame_ms->empty() && frame_ms->size() != run.frames)
@@ -99,31 +72,37 @@ std::string time_defect(const results::Run& run) {
   return "";
 }
 
-std::string time_defect(const results::Results& results) {
-  for (std::size_t i = 0; i < results.runs.size(); ++i)
-    if (const std::string found = time_defect(results.runs[i]); !found.empty())
-      return text::member_path(text::item_path("runs", i), found);
-  return "";
-}
-
-std::filesystem::path schema_file() { return scene::fixtures_directory() / "results.schema.json"; }
-
 }  // namespace
 
 void check_json_depth(std::string_view json, const std::filesystem::path& file) {
   constexpr std::size_t kDeepest = 64;
-  if (const std::size_t depth = depth_of(json); depth > kDeepest)
-    throw InputError(file.string() + ": nested " + std::to_string(depth) + " deep; at most " +
+  std::size_t depth = 0, deepest = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text && c == '\\') {
+      ++i;  // the escaped character does not end the text
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      deepest = std::max(deepest, ++depth);
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  if (deepest > kDeepest)
+    throw InputError(file.string() + ": nested " + std::to_string(deepest) + " deep; at most " +
                      std::to_string(kDeepest) + " is allowed");
 }
 
 results::Results results_in(const std::filesystem::path& file) {
   const Json json = read_results(file);
   // Without a schema, what is missing would pass for the default: nothing missed.
-  if (!std::filesystem::is_regular_file(schema_file()))
-    throw InputError(file.string() + ": cannot be checked: there is no " + schema_file().string());
+  const std::filesystem::path schema = scene::fixtures_directory() / "results.schema.json";
+  if (!std::filesystem::is_regular_file(schema))
+    throw InputError(file.string() + ": cannot be checked: there is no " + schema.string());
   const std::string found =
-      schema_defect(Json::parse(text::read_file_bytes(schema_file(), "schema file")), json);
+      schema_defect(Json::parse(text::read_file_bytes(schema, "schema file")), json);
   if (!found.empty()) throw InputError(file.string() + ": not complete: " + found);
   results::Results out;
   try {
@@ -131,8 +110,10 @@ results::Results results_in(const std::filesystem::path& file) {
   } catch (const Json::exception& e) {
     throw InputError(file.string() + ": not complete: " + sentence_of(e));
   }
-  const std::string impossible = time_defect(out);
-  if (!impossible.empty()) throw InputError(file.string() + ": " + impossible);
+  for (std::size_t i = 0; i < out.runs.size(); ++i)
+    if (const std::string impossible = time_defect(out.runs[i]); !impossible.empty())
+      throw InputError(file.string() + ": " +
+                       text::member_path(text::item_path("runs", i), impossible));
   return out;
 }
 

@@ -9,9 +9,8 @@
 
 namespace contactcheck::results {
 
-/// Whoever copies or writes JSON recurses into it, and the stack is no place to find out how deep
-/// it is. `json`: bytes that were parsed. @throws InputError when they are nested deeper than
-/// results can be
+/// Copying and writing JSON recurse, and too deep a document would overflow the stack. `json`:
+/// bytes that were parsed. @throws InputError when they are nested deeper than results can be
 void check_json_depth(std::string_view json, const std::filesystem::path& file);
 
 /// @throws InputError when the file cannot be read, is no JSON, of another schema, or not as

@@ -1,4 +1,4 @@
-// The gate: a policy held against results, and against those of an earlier run where there is one.
+// The gate: applies a policy to results, compared with those of an earlier run where there is one.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace contactcheck::gate {
 
-// What a gate would pass over in silence: rules that match nothing, and what a run has lost since
-// its baseline.
+// Without these checks a gate would ignore rules that match nothing, and rows that a run lacks and
+// its baseline has.
 
-/// The name under which checks against the baseline's rows stand, beside the rules.
+/// The rule's name in checks against the baseline's rows.
 inline constexpr const char* kBaselineRule = "everything that the baseline has";
 
-/// The name under which it stands that too many rules cannot judge.
+/// The rule's name in the check that too many rules cannot judge.
 inline constexpr const char* kOpenRule = "rules can judge what they are about";
 
 struct RowName {
   std::string scene, detector;
 };
 
-/// A failure for every pattern of the rule that stands for none of `rows`, which are those that the
+/// A failure for every pattern of the rule that matches none of `rows`, which are those that the
 /// rule is about; one failure for a rule without any row.
 std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows);
 

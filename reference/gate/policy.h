@@ -43,7 +43,7 @@ bool is_accuracy_number(const Measure& measure);
 // Which scenes or detectors a rule is about.
 
 /// Shell patterns (fnmatch: `*`, `?`, `[...]`) for whole names; one that begins with '!' takes
-/// names out again. `*` also stands for ':', '=' and ','.
+/// names out again. `*` also matches ':', '=' and ','.
 struct Patterns {
   std::vector<std::string> wanted;    ///< at least one
   std::vector<std::string> unwanted;  ///< without their '!'

@@ -1,4 +1,4 @@
-// What a gate has found out: one check per rule, scene and detector.
+// What a gate has found: one check per rule, scene and detector.
 #pragma once
 
 #include <optional>

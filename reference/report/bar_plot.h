@@ -7,7 +7,7 @@
 
 namespace contactcheck::report {
 
-/// One bar. `words` say what it stands for to a browser's pointer and to a screen reader.
+/// One bar. `words` describe it at a browser's pointer and for a screen reader.
 struct BarPart {
   std::size_t series;  ///< index into BarChart::series; decides its colour
   double share;        ///< its length; in [0, 1]

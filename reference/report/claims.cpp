@@ -89,7 +89,7 @@ TitledTable speed_claim(const Index& index, const char* detector, Question quest
 }
 
 TitledTable fcl_claim(const Index& index) {
-  // Metres. Rounding of doubles parts bodies of a metre by 1e-16 or so; no margin is as small.
+  // Metres. Rounding of doubles separates bodies of a metre by 1e-16 or so; no margin is as small.
   constexpr double kRounding = 1e-12;
   TitledTable out{
       "FCL takes gaps below rounding for contact",
@@ -167,8 +167,8 @@ TitledTable bullet_inside_claim(const Index& index) {
   return out;
 }
 
-// Of the normals judged, those that point into the half of directions away from the way out; "-"
-// where the results hold no histogram.
+// Of the normals judged, those that point into the half of directions away from the true normal;
+// "-" where the results hold no histogram.
 std::string turned_normals(const results::ErrorSpread& normals) {
   if (normals.histogram.empty()) return "-";
   std::uint64_t turned = 0;

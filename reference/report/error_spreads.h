@@ -35,14 +35,14 @@ struct ErrorRow {
   std::vector<double> points;  ///< where few are known one by one: hover
 };
 
-/// One quantity; depths of each kind are a quantity of their own, since they do not compare.
+/// One quantity. Depths of each kind are separate quantities, since they do not compare.
 struct ErrorChart {
   std::string title;  ///< "Depth, convex-pair"
   std::string axis, unit;
   std::string what;   ///< was judged: "contacts judged"
   std::string truth;  ///< a sentence: what errors are measured against; may be ""
   std::vector<ErrorRow> rows;
-  std::string always_zero;  ///< "Always 0: a, b and c.", who is in no row for that; may be ""
+  std::string always_zero;  ///< "Always 0: a, b and c.": these have no row; may be ""
 };
 
 /// Of all quantities of which something was judged in these scenes.

@@ -1,4 +1,4 @@
-// A detector's answers to one family of hard cases, as they stand in results.json.
+// A detector's answers to one family of hard cases, as in results.json.
 #pragma once
 
 #include <cstdint>

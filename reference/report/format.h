@@ -1,5 +1,5 @@
-// How numbers are shown: short, and never rounded to a better value than they are. "-" stands for
-// what was not measured.
+// How numbers are shown: short, and never rounded to a better value than they are. "-" is what was
+// not measured.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ std::string format_ratio(const std::optional<results::Ratio>& ratio);
 std::string format_ratio(const std::optional<results::Ratio>& ratio, std::size_t passes);
 /// "12.3x (11.8 to 12.9)": the ends are a range, whatever they are of.
 std::string format_ratio_range(const std::optional<results::Ratio>& ratio);
-/// What the ends are of ratios over so many passes; empty where none has ends.
+/// What the ends of ratios are, by their numbers of passes; empty where none has ends.
 std::string ends_sentence(const std::set<std::size_t>& passes);
 
 }  // namespace contactcheck::report

@@ -22,7 +22,7 @@ struct Headline {
 
 /// A detector has no missed and no spurious contacts where it was right at every level that it
 /// claims, in every scene that was judged, and never ended in an error. Contact seen farther off
-/// than declared, and errors of depths and normals, are findings of their own.
+/// than declared, and errors of depths and normals, are separate findings.
 Headline headline_of(const results::Results& results);
 
 }  // namespace contactcheck::report

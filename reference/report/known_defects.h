@@ -1,4 +1,4 @@
-// Wrong answers that libraries are known to give, beside those that a run shows.
+// Known wrong answers of libraries, compared with those that a run shows.
 #pragma once
 
 #include <string>

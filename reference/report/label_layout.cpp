@@ -20,7 +20,7 @@ constexpr double kCrossing = 150.0, kCovering = 40.0;
 constexpr double kNoPlace = 1e4;
 // Beside is read most easily, then above, then below.
 constexpr double kLeft = 1.0, kAbove = 2.0, kBelow = 5.0;
-// Which part of a name stands left of its point, best first; beyond [0, 1] it stands apart.
+// Which part of a name is left of its point, best first; beyond [0, 1] the point is outside it.
 constexpr double kPartsLeft[] = {0.5,   0.35, 0.65, 0.2, 0.8,  0.05, 0.95,
                                  -0.15, 1.15, -0.4, 1.4, -0.8, 1.8};
 
@@ -157,9 +157,9 @@ bool overlap(const Box& a, const Box& b) {
   return a.x <= b.right() && b.x <= a.right() && a.y <= b.bottom() && b.y <= a.bottom();
 }
 
-// Who chooses first takes places from others: several orders are tried, each with a second chance
-// for all, and the best is taken. (mt19937's numbers are the same everywhere, std::shuffle's are
-// not.)
+// A name that is placed first takes places from others: several orders are tried, each with a
+// second chance for all, and the best is taken. (mt19937's numbers are the same everywhere,
+// std::shuffle's are not.)
 std::vector<std::optional<LabelPlace>> place_labels(const std::vector<LabelledPoint>& points,
                                                     const Box& area, double radius,
                                                     const std::vector<PictureSegment>& lines) {

@@ -83,7 +83,7 @@ std::string markdown_report(const results::Results& results) {
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   const results::Index index(results);
-  // Families are told by who goes wrong in them; tables of every detector would bury that.
+  // Of families only wrong detectors are shown; tables of every detector would bury them.
   for (const results::Scene& scene : results.scenes)
     if (!scene.family) out += scene_section(index, scene);
   return out + section_of(semantics_table(results)) + legend();

@@ -8,7 +8,7 @@
 
 namespace contactcheck::report {
 
-/// A table with what is said above it. `Code` stands in backticks.
+/// A table with what is said above it. `Code` is in backticks.
 struct TitledTable {
   std::string title, text;  ///< either may be empty
   std::vector<Column> columns;

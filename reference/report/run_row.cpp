@@ -16,7 +16,7 @@ std::string body_errors(const Run& run) {
   return format_count(body->missed) + "/" + format_count(body->spurious);
 }
 
-// Ours, with a pipe's way in it, and beside it what the detector says of itself.
+// Our time, which includes a pipe's, and the time that the detector reports itself.
 std::string frame_cell(const Run& run, const results::QuestionTimes& times) {
   TimedPart part;
   part.add(run, times);

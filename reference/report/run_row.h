@@ -39,7 +39,7 @@ const results::QuestionTimes* compared_times(const results::Run& run);
 /// Null where it was not timed cold.
 const results::PhaseTimes* phases_of(const results::QuestionTimes& times, bool cold);
 
-/// What stands behind the times of one row or several.
+/// How much was measured for the times of one row or several.
 struct TimedPart {
   Range passes;
   std::size_t timed_frames = 0, frames = 0;

@@ -1,5 +1,5 @@
-// Our measurements beside the paper's: counts, step times, ratios. Everything is taken from a
-// results.json and from fixtures/paper; nothing is measured here.
+// Our measurements compared with the paper's: counts, step times, ratios. Everything is taken from
+// a results.json and from fixtures/paper; nothing is measured here.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a detector answers otherwise than before.
+// Where a detector's answers differ from those before.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct RowChange {
 };
 
 /// Of rows that both have; the most important first. Where the exact truth of a scene is another,
-/// counts say nothing about who is better.
+/// counts do not say which is better.
 std::vector<RowChange> accuracy_changes(const results::Index& before, const results::Index& after);
 
 }  // namespace contactcheck::results

@@ -12,7 +12,7 @@
 
 namespace contactcheck::results {
 
-// Wrong answers to cases, one by one, as they stand in results.json.
+// Wrong answers to cases, one by one, as in results.json.
 
 enum class SightingKind {
   kMissed,    ///< true contacts that the answer lacks

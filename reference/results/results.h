@@ -83,7 +83,7 @@ struct Geometry {
   std::vector<HistogramBin> spurious_distance_histogram;
   DepthKind depth_kind = DepthKind::kNone;
   ErrorSpread depth;       ///< |reported - true|
-  ErrorSpread normal_deg;  ///< to the nearest of the true ways out
+  ErrorSpread normal_deg;  ///< to the nearest of the true normals
   std::optional<double> hover_gap_max;
   std::optional<long> late_frames;  ///< of the largest size over all episodes
   std::vector<Episode> episodes;
@@ -175,7 +175,7 @@ struct StepTimes {
 enum class Status { kOk, kError, kAbsent, kRefused };
 const char* name_of(Status status);
 
-/// As a hash stands in the file: "0x0123456789abcdef".
+/// A hash as in the file: "0x0123456789abcdef".
 std::string hex(std::uint64_t hash);
 
 /// One detector on one scene. Of one that is not `ok` the file has nothing from per_frame on.
@@ -269,7 +269,7 @@ struct Scene {
 
 struct Disagreement {
   std::string scene, detector, level, kind;
-  std::string case_file;  ///< its name; while a run goes on, where it stands
+  std::string case_file;  ///< its name; during a run its path
   std::size_t frame = 0;
 };
 

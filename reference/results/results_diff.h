@@ -10,7 +10,7 @@
 
 namespace contactcheck::results {
 
-// Whether a detector has become faster or slower against a reference that ran beside it.
+// Whether a detector has become faster or slower against a reference of the same run.
 
 /// Smaller changes are not worth a line.
 inline constexpr double kSmallestTimeChange = 0.05;

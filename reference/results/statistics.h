@@ -33,7 +33,7 @@ constexpr std::size_t kFewestForInterval = 5;
 /// factor.
 constexpr double kRangeFactor = 1.5;
 
-/// What the ends of a ratio of so many measurements are: "95 %" or "range".
+/// What the ends of a ratio of that number of measurements are: "95 %" or "range".
 const char* interval_name(std::size_t measurements);
 
 /// One ratio out of several measurements, each in a process of its own: the geometric mean. From

@@ -33,8 +33,8 @@ std::string quoted(const std::vector<std::string>& patterns) {
 }
 
 // A row without an answer cannot be judged, except by a rule about the status itself.
-Check judged(const Rule& rule, const results::Index& now, const results::Index* before,
-             const results::Run& row) {
+Check judge_row(const Rule& rule, const results::Index& now, const results::Index* before,
+                const results::Run& row) {
   if (row.ok() || rule.measure->kind == MeasureKind::kStatus)
     return is_timing(*rule.measure) ? judge_timing(rule, now, before, row)
                                     : judge_accuracy(rule, now, before, row);
@@ -71,7 +71,7 @@ void apply_rule(const Rule& rule, const results::Index& now, const results::Inde
     for (const results::Run& row : now.results().runs) {
       if (!rule.scenes.hold(row.scene) || !rule.detectors.hold(row.detector)) continue;
       rows.push_back({row.scene, row.detector});
-      Check check = judged(rule, now, before, row);
+      Check check = judge_row(rule, now, before, row);
       if (check.verdict == Verdict::kFail) check.frame = worst_frame(rule, now, row);
       if (check.verdict != Verdict::kPass)
         check.rerun = rerun_command(rule, now, row, check.verdict);

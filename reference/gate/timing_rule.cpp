@@ -171,19 +171,6 @@ Check judge_speedup(const Rule& rule, const results::Index& now, const results::
       row);
 }
 
-std::string other_timed_frames(const Rule& rule, const results::Index& now,
-                               const results::Index& before, const results::Run& row,
-                               const results::Run& old) {
-  const results::QuestionTimes *times = times_of(rule, row), *old_times = times_of(rule, old);
-  if (times == nullptr || old_times == nullptr) return "";
-  if (times->timed_frames != old_times->timed_frames)
-    return fmt::format("{} frames are timed here and {} in the baseline", times->timed_frames,
-                       old_times->timed_frames);
-  return rule.part == "cold" && cold_frames(now, row) != cold_frames(before, old)
-             ? "other frames are timed cold in the baseline"
-             : "";
-}
-
 // Not the same frames or not the same reference: another ratio.
 std::string other_measurement(const Rule& rule, const results::Index& now,
                               const results::Index& before, const results::Run& row,
@@ -193,23 +180,20 @@ std::string other_measurement(const Rule& rule, const results::Index& now,
   if (row.contact_frames != old.contact_frames)
     return fmt::format("contact_frames is {} here and {} in the baseline", row.contact_frames,
                        old.contact_frames);
-  std::string found = other_timed_frames(rule, now, before, row, old);
-  if (!found.empty()) return found;
+  const results::QuestionTimes *times = times_of(rule, row), *old_times = times_of(rule, old);
+  if (times != nullptr && old_times != nullptr) {
+    if (times->timed_frames != old_times->timed_frames)
+      return fmt::format("{} frames are timed here and {} in the baseline", times->timed_frames,
+                         old_times->timed_frames);
+    if (rule.part == "cold" && cold_frames(now, row) != cold_frames(before, old))
+      return "other frames are timed cold in the baseline";
+  }
   std::string ignored;
   return speedup_in(rule, row, ignored)->reference_options ==
                  speedup_in(rule, old, ignored)->reference_options
              ? ""
              : "the reference has other options in the baseline";
 }
-
-std::string remedy_of_slowdown(std::size_t passes, std::size_t passes_then) {
-  const char* const where = passes_then >= results::kFewestForInterval ? ""
-                            : passes >= results::kFewestForInterval    ? " in the baseline"
-                                                                    : " here and in the baseline";
-  return fmt::format("--processes {}{} gives an interval", results::kFewestForInterval, where);
-}
-
-bool is_above_zero(const results::Ratio& r) { return r.low > 0.0; }
 
 Check judge_slowdown(const Rule& rule, const results::Index& now, const results::Index* before,
                      const results::Run& row) {
@@ -224,17 +208,22 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
   if (!known) return cannot_judge(rule, "in the baseline: " + reason);
   reason = other_measurement(rule, now, *before, row, *old);
   if (!reason.empty()) return cannot_judge(rule, reason);
-  if (!is_above_zero(*ratio) || !is_above_zero(*known))
+  if (!(ratio->low > 0.0) || !(known->low > 0.0))
     return cannot_judge(rule, "a speed-up of 0 has no logarithm");
   const std::size_t here = speedup_in(rule, row, reason)->passes,
                     there = speedup_in(rule, *old, reason)->passes, passes = std::min(here, there);
   const results::Ratio slow = results::quotient(*known, *ratio, passes);
+  const char* const too_few = there >= results::kFewestForInterval  ? ""
+                              : here >= results::kFewestForInterval ? " in the baseline"
+                                                                    : " here and in the baseline";
   return judged(
       rule, over_limit(slow, rule.limit), passes,
       fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                   results::ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),
-      too_few_passes(fmt::format("{}, {} in the baseline", passes_text(here), there),
-                     frames_of(rule, now, row), slow, remedy_of_slowdown(here, there)),
+      too_few_passes(
+          fmt::format("{}, {} in the baseline", passes_text(here), there),
+          frames_of(rule, now, row), slow,
+          fmt::format("--processes {}{} gives an interval", results::kFewestForInterval, too_few)),
       row);
 }
 

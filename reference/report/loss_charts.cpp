@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "reference/report/bar_plot.h"
@@ -60,53 +61,6 @@ std::string part_of(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{} of {}", part, whole);
 }
 
-BarRow errors_row(const LevelSum& sum) {
-  const std::string name = fmt::format("{} ({})", sum.detector, name_of(sum.level));
-  const std::string missed = "missed " + part_of(sum.missed, sum.truth),
-                    spurious = "spurious " + part_of(sum.spurious, sum.reported);
-  return {name,
-          {{{0, sum.missed_share().value_or(0.0), name + ": " + missed}},
-           {{1, sum.spurious_share().value_or(0.0), name + ": " + spurious}}},
-          missed + "; " + spurious};
-}
-
-// Those that lost something.
-std::vector<DetectorLosses> losing_detectors(std::vector<const Run*> runs) {
-  std::erase_if(runs, [](const Run* run) { return true_triangle_pairs(*run).value_or(0) == 0; });
-  std::vector<DetectorLosses> all = stage_losses(runs);
-  std::erase_if(all, [](const DetectorLosses& own) { return own.losses().empty(); });
-  return all;
-}
-
-// The stages that lost something, in the order in which they are met; the last one is of all that
-// there is no further colour for.
-std::vector<std::string> series_of(const std::vector<DetectorLosses>& all) {
-  std::vector<std::string> names;
-  for (const DetectorLosses& own : all)
-    for (const StageLoss& loss : own.losses())
-      if (std::find(names.begin(), names.end(), loss.stage) == names.end())
-        names.push_back(loss.stage);
-  if (names.size() > kBarSeries) {
-    names.resize(kBarSeries);
-    names.back() = "other stages";
-  }
-  return names;
-}
-
-BarRow losses_row(const DetectorLosses& own, const std::vector<std::string>& series) {
-  BarRow row{own.detector, {BarLane{}}, ""};
-  for (const StageLoss& loss : own.losses()) {
-    const auto at = std::find(series.begin(), series.end(), loss.stage);
-    const std::size_t index = at == series.end() ? series.size() - 1 : at - series.begin();
-    row.lanes[0].push_back({index, loss.share,
-                            fmt::format("{}: {} true pairs lost in {}", own.detector,
-                                        part_of(loss.missed, own.truth), loss.stage)});
-    row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", loss.stage, loss.missed);
-  }
-  row.words += fmt::format(" of {}", own.truth);
-  return row;
-}
-
 }  // namespace
 
 std::string errors_picture(const results::Results& results) {
@@ -116,8 +70,16 @@ std::string errors_picture(const results::Results& results) {
   chart.series = {"share of the true contacts missed", "share of the reports spurious"};
   chart.axis = "share of errors, nearly a logarithm";
   chart.scale = BarChart::Scale::kErrors;
-  for (const LevelSum& sum : sums_of(ok_runs(results, scenes)))
-    if (sum.missed + sum.spurious > 0) chart.rows.push_back(errors_row(sum));
+  for (const LevelSum& sum : sums_of(ok_runs(results, scenes))) {
+    if (sum.missed + sum.spurious == 0) continue;
+    const std::string name = fmt::format("{} ({})", sum.detector, name_of(sum.level));
+    const std::string missed = "missed " + part_of(sum.missed, sum.truth),
+                      spurious = "spurious " + part_of(sum.spurious, sum.reported);
+    chart.rows.push_back({name,
+                          {{{0, sum.missed_share().value_or(0.0), name + ": " + missed}},
+                           {{1, sum.spurious_share().value_or(0.0), name + ": " + spurious}}},
+                          missed + "; " + spurious});
+  }
   chart.foot = {
       "In brackets: the finest level that the detector claims. Who is not here made no "
       "error, or did not end well."};
@@ -126,12 +88,37 @@ std::string errors_picture(const results::Results& results) {
 
 std::string stages_picture(const results::Results& results) {
   const ChosenScenes scenes = chosen_scenes(results);
-  const std::vector<DetectorLosses> all = losing_detectors(ok_runs(results, scenes));
+  std::vector<const Run*> runs = ok_runs(results, scenes);
+  std::erase_if(runs, [](const Run* run) { return true_triangle_pairs(*run).value_or(0) == 0; });
+  std::vector<DetectorLosses> all = stage_losses(runs);
+  std::erase_if(all, [](const DetectorLosses& own) { return own.losses().empty(); });
+  // The stages in the order in which they are met; the last one is of all that there is no further
+  // colour for.
+  std::vector<std::string> series;
+  for (const DetectorLosses& own : all)
+    for (const StageLoss& loss : own.losses())
+      if (std::find(series.begin(), series.end(), loss.stage) == series.end())
+        series.push_back(loss.stage);
+  if (series.size() > kBarSeries) {
+    series.resize(kBarSeries);
+    series.back() = "other stages";
+  }
   BarChart chart;
   chart.title = "Where true pairs are lost, stage by stage: " + scenes.words;
-  chart.series = series_of(all);
+  chart.series = series;
   chart.axis = "share of the true pairs of triangles that was lost";
-  for (const DetectorLosses& own : all) chart.rows.push_back(losses_row(own, chart.series));
+  for (const DetectorLosses& own : all) {
+    BarRow& row = chart.rows.emplace_back(BarRow{own.detector, {BarLane{}}, ""});
+    for (const StageLoss& loss : own.losses()) {
+      const auto at = std::find(series.begin(), series.end(), loss.stage);
+      const std::size_t index = at == series.end() ? series.size() - 1 : at - series.begin();
+      row.lanes[0].push_back({index, loss.share,
+                              fmt::format("{}: {} true pairs lost in {}", own.detector,
+                                          part_of(loss.missed, own.truth), loss.stage)});
+      row.words += fmt::format("{}{} {}", row.words.empty() ? "" : ", ", loss.stage, loss.missed);
+    }
+    row.words += fmt::format(" of {}", own.truth);
+  }
   chart.foot = {
       "Who is not here lost none, has no stages to look into, or was not judged at cells or "
       "triangles."};

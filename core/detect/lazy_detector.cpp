@@ -6,8 +6,6 @@
 #include "core/deform/mapping.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"
-#include "core/lazy/candidate_bodies.h"
-#include "core/lazy/single_frame.h"
 #include "core/types/check.h"
 #include "core/types/local_origin.h"
 

@@ -27,7 +27,7 @@ struct LazyConfig {
 
 /// In doubles exact for all that are finite: bounds only cull, and contain what they stand for. In
 /// single precision nodes are rounded about the local origin, vertices mapped from those floats,
-/// whatever the source of bounds, and these triangles tested exactly (core/lazy/single_frame.h).
+/// whatever the source of bounds, and these triangles tested exactly (core/lazy/lazy_state.h).
 /// The contacts do not depend on the instruction set nor on the number of threads.
 class LazyDetector : public Detector {
  public:

@@ -19,11 +19,11 @@
 // of the world, the error of the canonical mapping (mapping.h), that of x - origin (2^-53 of the
 // largest coordinate) and float underflow.
 //
-// In single precision (single_frame.h) the float nodes are the nodes: all of the above holds, with
+// In single precision (lazy_state.h) the float nodes are the nodes: all of the above holds, with
 // the first u M to spare. But what is bounded are vertices mapped from them in floats. Those are
 // off the exact image of their local coordinates, for which the pieces were made, by 10 u M of the
 // blends (mapping.h with u for 2^-53) and 3 u M of the rounding of three local coordinates
-// (single_frame.cpp): 13 u M, and along n at most three times that. These come to the slacks of 256
+// (lazy_state.cpp): 13 u M, and along n at most three times that. These come to the slacks of 256
 // u M and 2048 u M, though the first would hold them: 201 + 13. M is the scene's half-width, the
 // same for all bodies. Boxes of triangles and of refitted bodies are made of the very floats that
 // are tested: they need no slack. So all triangles are tested whose boxes meet, but for those that

@@ -6,24 +6,99 @@
 // the middle of each body. So a scene far out loses nothing, nor does a body far from the others,
 // and neither overflow nor underflow spoils a bound.
 //
-// In single precision (single_frame.h) that frame is all there is: nodes are rounded into it once,
-// vertices are mapped and triangles tested in it.
+// In single precision that frame is all there is: float(x - origin) * scale, with the local origin
+// of the scene (core/types/local_origin.h) and the power of two that brings its half-width to at
+// most
+// 1. Nodes are rounded once, by the difference; the scale changes no digit of what is not lost
+// beside the scene anyway (less than 2^-126 of it). Vertices are mapped from these floats, boxes
+// made and triangles tested of them, without a look back at the doubles.
+//
+// What is found in single precision: exactly the pairs of triangles of these floats that intersect.
+// The same on every instruction set and number of threads, and whether bounds come from nodes or
+// from vertices.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "core/lazy/frame_memory.h"
 #include "core/lazy/lattice_tree.h"
 #include "core/types/semantics.h"
 #include "core/types/vec3.h"
 
 namespace contactcheck {
+
+/// Memory that lives until the next frame; nothing is freed and pointers stay valid.
+class FrameArena {
+ public:
+  void clear() { chunk_ = used_ = 0; }
+  /// Aligned to 64 bytes. @pre bytes <= kChunk
+  void* take(std::size_t bytes) {
+    bytes = (bytes + 63) / 64 * 64;
+    if (chunk_ == chunks_.size() || used_ + bytes > kChunk) next_chunk();
+    void* out = chunks_[chunk_]->bytes + used_;
+    used_ += bytes;
+    return out;
+  }
+  std::size_t bytes() const { return chunks_.size() * kChunk; }
+
+ private:
+  static constexpr std::size_t kChunk = std::size_t{1} << 16;
+  struct alignas(64) Chunk {
+    std::byte bytes[kChunk];
+  };
+  void next_chunk() {
+    if (chunk_ < chunks_.size() && used_ > 0) ++chunk_;
+    if (chunk_ == chunks_.size()) chunks_.push_back(std::unique_ptr<Chunk>(new Chunk));
+    used_ = 0;
+  }
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  std::size_t chunk_ = 0, used_ = 0;
+};
+
+/// What was made in this frame, by index. Threads that miss an entry at the same time each make it
+/// in their own arena and put it down; what they make is the same to the last bit, so it does not
+/// matter whose entry stays, nor whether a reader sees one or the other.
+template <class T>
+class FrameTable {
+ public:
+  /// Begins a frame: no entry is known. Not while others use the table.
+  void begin_frame(std::size_t size) {
+    if (entries_.size() != size || frame_ == std::numeric_limits<std::uint32_t>::max()) {
+      entries_ = std::vector<Entry>(size);
+      frame_ = 0;
+    }
+    ++frame_;
+  }
+  /// The entry of this frame, or none.
+  T* find(std::uint32_t index) const {
+    const Entry& entry = entries_[index];
+    if (entry.frame.load(std::memory_order_acquire) != frame_) return nullptr;
+    return entry.made.load(std::memory_order_acquire);
+  }
+  void put(std::uint32_t index, T* made) {
+    Entry& entry = entries_[index];
+    entry.made.store(made, std::memory_order_release);
+    entry.frame.store(frame_, std::memory_order_release);
+  }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
+  std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
+
+ private:
+  struct Entry {
+    std::atomic<T*> made = nullptr;
+    std::atomic<std::uint32_t> frame = 0;
+  };
+  std::vector<Entry> entries_;
+  std::uint32_t frame_ = 0;
+};
 
 using Float4 = Eigen::Array4f;  ///< the last is 0
 
@@ -141,8 +216,8 @@ FrameTable<LeafCacheOf<Real>>& leaves_in(LazyState& state) {
 /// Nothing of the frame is known any more; nothing of the last one is left.
 void forget_frame(LazyState& state);
 
-/// Forgets the last frame, in doubles (in single precision: single_frame.h); the body's box is that
-/// of its lattice's nodes. Where `from_vertices`, `vertices` is to be set before blocks are
+/// Forgets the last frame, in doubles (in single precision: begin_frame_in_single); the body's box
+/// is that of its lattice's nodes. Where `from_vertices`, `vertices` is to be set before blocks are
 /// bounded. @pre shape, tree and from_vertices are set
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
 
@@ -151,6 +226,20 @@ void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 
 /// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame_by_... of each
 void place(std::span<LazyState> states);
+
+/// Forgets the last frame and rounds `nodes` (vertices, without a lattice) about the origin.
+/// @pre shape, tree and from_vertices are set; in single precision
+/// @throws RefusedInput when one is farther from the origin than kSingleLimit
+void begin_frame_in_single(LazyState& state, std::span<const Vec3> nodes, const Vec3& origin);
+
+/// Takes the rounded nodes into the frame common to all bodies, and finds boxes and slacks. Where
+/// from_vertices, `single.vertices` is to be set before blocks are bounded.
+/// @pre begin_frame_in_single of each with this origin
+void place_in_single(std::span<LazyState> states, const Vec3& origin);
+
+/// The body's vertices in the frame, one by one by map_point() (core/deform): what leaves and
+/// refitted bodies are made of, for tests. @pre place_in_single
+std::vector<Vec3f> single_vertices(const LazyState& state);
 
 /// Adds the blocks, leaves and vertices made in this frame.
 void count_made(const LazyState& state, LazyCounters& counters);

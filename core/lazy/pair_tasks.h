@@ -1,13 +1,44 @@
-// The tests of a frame's pairs of bodies, shared out to threads.
+// The pairs of bodies of a frame: which can meet, and their tests, shared out to threads.
+// Source of the sweep: Cohen, Lin, Manocha, Ponamgi: I-COLLIDE, 1995 (here sorted anew, without
+// coherence).
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/lazy/kernels.h"
-#include "core/lazy/thread_team.h"
+#include "core/types/contact_set.h"
+#include "core/types/vec3.h"
 
 namespace contactcheck {
+
+/// Pairs of closed boxes that share a point, ascending: sweep and prune along one axis.
+void find_candidate_bodies(std::span<const Aabb> boxes, std::vector<BodyPair>& out);
+
+/// Threads that share the work of a frame.
+class ThreadTeam {
+ public:
+  /// The calling thread is one of them. @pre threads >= 1
+  explicit ThreadTeam(std::size_t threads);
+  ~ThreadTeam();
+
+  std::size_t threads() const { return scratch_.size(); }
+  /// One per thread.
+  std::span<LazyScratch> scratch() { return scratch_; }
+  std::span<const LazyScratch> scratch() const { return scratch_; }
+
+  /// work(i, scratch of the thread that does it) for all i < count, in any order, at once on all
+  /// threads; in order where there is one thread.
+  void for_each(std::size_t count, const std::function<void(std::size_t, LazyScratch&)>& work);
+
+ private:
+  struct Arena;
+  std::vector<LazyScratch> scratch_;
+  std::unique_ptr<Arena> arena_;  ///< none where the calling thread works alone
+};
 
 /// What the tests find does not depend on the number of threads: tasks are cut by the number of
 /// pairs and by their fronts alone, and each puts down what it finds in a place of its own.

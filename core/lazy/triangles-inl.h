@@ -2,7 +2,7 @@
 // its filter, on vector lanes. Whatever the filter cannot decide is left to that function, so the
 // answers are the same. Compiled once per instruction set (kernels.cpp).
 //
-// Filter (lane_filter.h). Where it takes the largest |differences| that a determinant computes, the
+// Filter. Where it takes the largest |differences| that a determinant computes, the
 // extents of both triangles together stand here, which are no smaller: a computed difference of two
 // values is at most the computed difference of the largest and the smallest. The operations and
 // their order are those of orient3d; none is fused.
@@ -16,13 +16,42 @@
 
 #include <hwy/highway.h>
 
-#include "core/lazy/lane_filter.h"
+#include <limits>
+
 #include "core/lazy/triangle_batch.h"
+#include "core/narrow/predicates.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// When the sign of a determinant on a lane may be trusted.
+//
+// orient3d is wrong by at most 48 e X Y Z, X, Y, Z the largest |differences| per axis, e the
+// rounding error of its numbers: the derivation in narrow/predicates.cpp asks nothing of e but that
+// 200 e^2 and 3 e are far below e, which holds for 2^-24 as for 2^-53. What differs in floats is
+// where products underflow: each is then wrong by up to n = 2^-150, a determinant by up to
+// 3 (2 n max(X, Y, Z) + n) and roundings thereof, below 2^-106 as differences are at most 2^41 (of
+// coordinates within kSingleLimit). The bound is at least 2^-99, so e X Y Z, a 48th of it and more
+// than 2^-105, covers that. (Underflow within the bound: if fl(X Y) underflowed, the bound would be
+// below 2^-126 * 2^41 * 2^-18 and fail its test.) Overflow: no sum is above 6 * 2^123.
+template <typename Real>
+struct LaneFilter;
+
+template <>
+struct LaneFilter<double> {
+  static constexpr double kErrorFactor = kOrient3dErrorFactor;
+  static constexpr double kSmallestBound = kFilterSmallestBound;
+  static constexpr double kLargestDifference = kFilterLargestDifference;
+};
+
+template <>
+struct LaneFilter<float> {
+  static constexpr float kErrorFactor = 48 * 0x1p-24f;
+  static constexpr float kSmallestBound = 0x1p-99f;
+  static constexpr float kLargestDifference = 0x1p41f;
+};
 
 template <class Real>
 using PairLanes = hn::CappedTag<Real, kBatchWidth>;

@@ -11,7 +11,7 @@
 namespace contactcheck {
 
 /// The largest |coordinate|, metres from the local origin, that single precision is used for: all
-/// determinants, products of three differences, then stay finite (core/lazy/lane_filter.h).
+/// determinants, products of three differences, then stay finite (core/lazy/triangles-inl.h).
 inline constexpr float kSingleLimit = 0x1p40f;
 
 /// The centre of the box round BodyState::nodes of all bodies: lattice nodes, or the vertices of a

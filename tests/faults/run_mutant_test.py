@@ -17,7 +17,7 @@ BUILD = ROOT / "build" / "mutants"
 ABOUT = "# A change for the test of the driver.\n"
 UNIT = "core/types/check.cpp"
 # Both core and the judge include it.
-HEADER = "core/lazy/candidate_bodies.h"
+HEADER = "core/narrow/segments.h"
 
 
 def head_of(name):

@@ -1,6 +1,6 @@
 // Pairs of overlapping boxes against brute force.
 
-#include "core/lazy/candidate_bodies.h"
+#include "core/lazy/pair_tasks.h"
 
 #include <gmock/gmock.h>
 

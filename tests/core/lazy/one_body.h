@@ -11,7 +11,6 @@
 #include "core/lazy/kernels.h"
 #include "core/lazy/lattice_tree.h"
 #include "core/lazy/lazy_state.h"
-#include "core/lazy/single_frame.h"
 #include "core/types/local_origin.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"

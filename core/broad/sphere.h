@@ -1,6 +1,7 @@
 // Bounding spheres, in the two readings of the design: as the paper tests them, and safe.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -44,14 +45,18 @@ bool collide_safe(const SphereOf<T>& a, const SphereOf<T>& b) {
          distance2 > std::numeric_limits<T>::max();
 }
 
-/// The smallest radius about `center` that holds every point, rounded up, plus `slack`: the closed
-/// ball holds the exact points moved by at most `slack` each.
-double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack);
-
-/// The same from the largest squared distance to a point, as squared_distance() computes it.
+/// The radius about a centre that holds points moved by at most `slack` each, rounded up, from the
+/// largest squared distance of a point to the centre as squared_distance() computes it.
 template <typename T>
 T covering_radius(T largest_squared_distance, T slack) {
   return (std::sqrt(largest_squared_distance) + slack) * kSphereRoundUp<T> + kSphereTiny<T>;
+}
+
+/// The same of the points: the closed ball holds the exact points moved by at most `slack` each.
+inline double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack) {
+  double largest = 0.0;
+  for (const Vec3& p : points) largest = std::max(largest, squared_distance<double>(p, center));
+  return covering_radius(largest, slack);
 }
 
 }  // namespace contactcheck

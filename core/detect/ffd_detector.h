@@ -9,27 +9,73 @@
 // it may miss: measuring what, and at which stage, is what this suite is for.
 //
 // Members that claim the level `box` answer the question `contacts` too: per node inside a box the
-// distance to the nearest of its planes, in metres, and the unit normal (see node_plane_stage.h).
+// distance to the nearest of its planes, in metres, and the unit normal (see element_stages.h).
 // That takes this node out, not the whole box: a lower bound for parting the boxes that way.
 #pragma once
 
+#include <span>
 #include <type_traits>
 #include <vector>
 
+#include "core/deform/body.h"
 #include "core/detect/detector.h"
+#include "core/detect/element_stages.h"
 #include "core/detect/ffd_config.h"
 #include "core/detect/ffd_model.h"
 #include "core/detect/ffd_state.h"
-#include "core/detect/frame_numbers.h"
 #include "core/detect/hash_stage.h"
-#include "core/detect/node_plane_stage.h"
 #include "core/detect/sphere_stage.h"
-#include "core/detect/triangle_stage.h"
+#include "core/types/frame.h"
 
 namespace contactcheck {
 
+/// The nodes and vertices of a frame in the precision of a detector: the frame's own doubles, or
+/// floats about the local origin of the frame (local_origin.h), of which the vertices are mapped
+/// from the rounded nodes in single precision.
+template <typename T>
+class FrameNumbers;
+
+template <>
+class FrameNumbers<double> {
+ public:
+  void prepare(const std::vector<Body>&, bool) {}
+  /// The frame must outlive the use of its nodes and vertices.
+  void update(const Frame& frame);
+  Vec3 origin() const { return Vec3::Zero(); }
+  std::span<const Vec3> nodes(std::size_t body) const { return nodes_[body]; }
+  const std::vector<std::span<const Vec3>>& vertices() const { return vertices_; }
+
+ private:
+  std::vector<std::span<const Vec3>> nodes_, vertices_;  // per body
+};
+
+template <>
+class FrameNumbers<float> {
+ public:
+  /// @pre every body has a lattice
+  void prepare(const std::vector<Body>& bodies, bool with_vertices);
+  /// @throws RefusedInput when a node is beyond single precision (round_to_local)
+  void update(const Frame& frame);
+  /// The local origin of the last update.
+  const Vec3& origin() const { return origin_; }
+  std::span<const Vec3f> nodes(std::size_t body) const { return nodes_[body]; }
+  /// Valid until the next update; without vertices the spans are empty.
+  const std::vector<std::span<const Vec3f>>& vertices() const { return spans_; }
+
+ private:
+  struct Source {
+    const BodyShape* shape;
+    SingleLocal local;  // empty without vertices
+  };
+  std::vector<Source> sources_;  // per body, as all
+  std::vector<std::vector<Vec3f>> nodes_, vertices_;
+  std::vector<std::span<const Vec3f>> spans_;
+  Vec3 origin_ = Vec3::Zero();
+  bool with_vertices_ = false;
+};
+
 /// T: the precision. In single precision everything after the rounding of the nodes is computed in
-/// floats (frame_numbers.h), +tri included, which then maps its own vertices and needs none.
+/// floats, +tri included, which then maps its own vertices and needs none.
 template <typename T>
 class FfdDetectorOf : public Detector {
  public:

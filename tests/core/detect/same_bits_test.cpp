@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "core/detect/frame_numbers.h"
+#include "core/detect/ffd_detector.h"
 #include "core/types/hash.h"
 #include "tests/core/detect/scenes.h"
 

@@ -1,8 +1,22 @@
-#include "core/detect/node_plane_stage.h"
+#include "core/detect/element_stages.h"
+
+#include <type_traits>
 
 #include "core/detect/seen_pairs.h"
+#include "core/narrow/triangle_triangle.h"
 
 namespace contactcheck {
+namespace {
+
+template <typename T>
+TrianglePointsOf<T> points_of(const FfdModelOf<T>& model,
+                              std::type_identity_t<std::span<const Vec3Of<T>>> vertices,
+                              std::uint32_t t) {
+  const Triangle& tri = model.shape->mesh.triangles[t];
+  return {vertices[tri[0]], vertices[tri[1]], vertices[tri[2]]};
+}
+
+}  // namespace
 
 template <typename T>
 void NodePlaneStageOf<T>::begin_frame(const FfdModels<T>& models) {
@@ -89,5 +103,84 @@ void NodePlaneStageOf<T>::run_cells(const FfdModels<T>& models, const FfdStates<
 
 template class NodePlaneStageOf<double>;
 template class NodePlaneStageOf<float>;
+
+template <typename T>
+void TriangleStageOf<T>::begin_frame(const FfdModels<T>& models,
+                                     const std::vector<std::span<const Vec3Of<T>>>& vertices) {
+  vertices_ = vertices;
+  boxes_.resize(models.size());
+  for (std::size_t body = 0; body < models.size(); ++body) {
+    boxes_[body].resize(models[body].piece_begin.size() - 1);
+    for (CellBoxes& cell : boxes_[body]) cell.known = false;
+  }
+}
+
+template <typename T>
+const typename TriangleStageOf<T>::CellBoxes& TriangleStageOf<T>::boxes(const FfdModels<T>& models,
+                                                                        std::uint32_t body,
+                                                                        std::uint32_t cell) {
+  CellBoxes& out = boxes_[body][cell];
+  if (out.known) return out;
+  const auto row = models[body].triangles.row(cell);
+  out.whole = AabbOf<T>{};
+  out.triangles.resize(row.size());
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    AabbOf<T> box;
+    for (const Vec3Of<T>& p : points_of(models[body], vertices_[body], row[i])) box.extend(p);
+    out.triangles[i] = box;
+    out.whole.extend(box);
+  }
+  out.known = true;
+  return out;
+}
+
+template <typename T>
+void TriangleStageOf<T>::collect(const FfdModels<T>& models, std::uint32_t body, std::uint32_t cell,
+                                 const AabbOf<T>& region, std::vector<std::uint32_t>& out) {
+  out.clear();
+  const CellBoxes& cell_boxes = boxes(models, body, cell);
+  for (std::uint32_t i = 0; i < cell_boxes.triangles.size(); ++i)
+    if (cell_boxes.triangles[i].overlaps(region)) out.push_back(i);
+}
+
+template <typename T>
+bool TriangleStageOf<T>::test_pair(const FfdModels<T>& models, const ElementPair& cells,
+                                   bool first_only, std::vector<ElementPair>& out) {
+  const CellBoxes& a = boxes(models, cells.body_a, cells.a);
+  const CellBoxes& b = boxes(models, cells.body_b, cells.b);
+  if (!a.whole.overlaps(b.whole)) return false;
+  collect(models, cells.body_a, cells.a, b.whole, near_a_);
+  collect(models, cells.body_b, cells.b, a.whole, near_b_);
+  const auto row_a = models[cells.body_a].triangles.row(cells.a);
+  const auto row_b = models[cells.body_b].triangles.row(cells.b);
+  bool any = false;
+  for (std::uint32_t i : near_a_) {
+    const TrianglePointsOf<T> p =
+        points_of(models[cells.body_a], vertices_[cells.body_a], row_a[i]);
+    for (std::uint32_t j : near_b_) {
+      if (!a.triangles[i].overlaps(b.triangles[j])) continue;
+      if (!triangles_intersect(p,
+                               points_of(models[cells.body_b], vertices_[cells.body_b], row_b[j])))
+        continue;
+      out.push_back({cells.body_a, cells.body_b, row_a[i], row_b[j]});
+      if (first_only) return true;
+      any = true;
+    }
+  }
+  return any;
+}
+
+template <typename T>
+void TriangleStageOf<T>::run(const FfdModels<T>& models, const std::vector<ElementPair>& candidates,
+                             bool first_only, std::vector<ElementPair>& out) {
+  SeenPairs seen(models.size());
+  for (const ElementPair& c : candidates) {
+    if (first_only && seen.seen(c.body_a, c.body_b)) continue;
+    if (test_pair(models, c, first_only, out)) seen.mark(c.body_a, c.body_b);
+  }
+}
+
+template class TriangleStageOf<double>;
+template class TriangleStageOf<float>;
 
 }  // namespace contactcheck

@@ -1,33 +1,107 @@
 // Bounds of the eight children of a block, from deformed lattice nodes. Compiled once per
 // instruction set (kernels.cpp).
 //
-// Slack. Let u = 2^-24 and M the largest |coordinate| of the body's nodes in its frame, where all
-// values of a trilinear function of them lie. A node's float is wrong by u M (and by the rounding
-// of x - origin in double, below). Terms of a cell (lazy_state.h) are means of eight such with
-// signs, at most M, and their three sums add u M each: wrong by 4 u M. A blend a + y b adds the
-// error of b, u M for the product (none where it is fused) and u M for the sum. So the mixed
-// derivatives are wrong by 10 u M, the slopes by 22 u M, the value by 46 u M. Each comes in times
-// half-widths of at most 1: 46 + 3 (22 + 1) + 3 (10 + 2) + 6 = 157 u M; the sums, of up to 7 terms,
-// add 28 u M, the difference to the value and the push outward 16 u M: 201 u M, to first order. 256
-// u M is the slack. Half-widths reach 1 + 2^-14 by quantisation: nothing, beside this. Slabs: n has
-// components of at most 1, so values along it and their errors are at most three times as large,
-// and three products and two sums of at most 3 M come in for each: 153, 81 and 45 u M, 153 + 3 (81
-// + 12) + 3 (45 + 6) + 20 = 605 u M, sums 84 u M. The part along m is slope (at most 9 M / 127)
-// times a difference of up to 762, whose rounding is 1000 u: 100 u M and 60 u M. Below 1000 u M.
-// The test of two slabs in one frame (traverse-inl.h) sums about 20 products of values up to 9 M
-// with factors of at most 2: below 800 u M. 2048 u M is the slack of slabs. To both come, in units
-// of the world, the error of the canonical mapping (mapping.h), that of x - origin (2^-53 of the
-// largest coordinate) and float underflow.
+// Why the slacks suffice. Exact bounds hold the exact images of the vertices (lattice_tree.h). The
+// following is how far computed bounds differ from exact ones, and mapped vertices from exact
+// images.
 //
-// In single precision (lazy_state.h) the float nodes are the nodes: all of the above holds, with
-// the first u M to spare. But what is bounded are vertices mapped from them in floats. Those are
-// off the exact image of their local coordinates, for which the pieces were made, by 10 u M of the
-// blends (mapping.h with u for 2^-53) and 3 u M of the rounding of three local coordinates
-// (lazy_state.cpp): 13 u M, and along n at most three times that. These come to the slacks of 256
-// u M and 2048 u M, though the first would hold them: 201 + 13. M is the scene's half-width, the
-// same for all bodies. Boxes of triangles and of refitted bodies are made of the very floats that
-// are tested: they need no slack. So all triangles are tested whose boxes meet, but for those that
-// slabs part, and those share no point: what is found is what intersects, as in doubles.
+// Notation:
+//   * u = 2^-24. A float operation with a result of at most v rounds by at most u v. Errors are
+//     counted to first order in u.
+//   * M: LazyState::reach, the largest |coordinate| of the body's nodes in its frame. All values of
+//     a trilinear function of the nodes lie within M. So do its terms and derivatives, which are
+//     means of nodes with signs.
+//
+// Claims:
+//   * A box is wrong by at most 202 u M. Its slack is 256 u M (LazyState::slack).
+//   * A slab is wrong by at most 955 u M and a test of two slabs in one frame (meeting-inl.h) by
+//     296 u M. The slack of a slab is 2048 u M (LazyState::slab_slack).
+//   * What is no multiple of u M is added to both slacks.
+//
+// Assumption: middles y and half-widths e of pieces are exact, |y| <= 1 and e <= 1. (Quantisation
+// lets e reach 1 + 2^-14. That changes no error below by more than a thousandth.)
+//
+// Box:
+//   * A node as a float is wrong by u M. (The rounding of x - origin in double comes last, below.)
+//   * A term of a cell (CellTerms) is a sum of eight eighths of nodes with signs. The nodes add
+//     u M. Its sums of 2, 4 and 8 eighths are at most M/4, M/2 and M. There are 4, 2 and 1 of them,
+//     so each of the three levels adds u M. In all 4 u M.
+//   * A blend a + y b has the errors of a and of b, u M for the product (none where it is fused)
+//     and u M for the sum.
+//   * A mixed derivative is a blend of two terms: 4 + 4 + 2 = 10 u M. f_stu is a term: 4 u M.
+//   * A slope is a blend of two such blends: 10 + 10 + 2 = 22 u M.
+//   * The value is a blend of a slope and of a blend like it: 22 + 22 + 2 = 46 u M.
+//   * The half-range is the sum of the following. Each product with a half-width, and of two
+//     half-widths, adds u M:
+//       3 slopes times e:                3 (22 + 1) = 69 u M
+//       3 mixed derivatives times e e':  3 (10 + 2) = 36 u M
+//       f_stu times e e' e'':               (4 + 3) =  7 u M
+//   * Value and half-range: 46 + 69 + 36 + 7 = 158 u M.
+//   * The sums of the half-range have up to 7 terms of at most M: below 28 u M.
+//   * The difference of value and half-range is at most 8 M and rounds once, the push outward by
+//     the slack once more: 16 u M.
+//   * In all 158 + 28 + 16 = 202 u M.
+//
+// Slab, along a direction n. Bounds are right for every n. It has length 1, or 0, up to rounding:
+//   * n . X is a sum of three products of at most M, by two sums of at most 3 M, taken as five
+//     roundings of 3 M. So the errors of X come three times, and 15 u M:
+//       value             3 * 46 + 15 = 153 u M
+//       slope             3 * 22 + 15 =  81 u M
+//       mixed derivative  3 * 10 + 15 =  45 u M
+//       f_stu             3 *  4 + 15 =  27 u M
+//   * Let g be the three slopes, each at most 3 M, so |g| <= sqrt(27) M. Let k = g.m / m.m
+//     (lattice_tree.h). Every k is right, so the error of k itself costs nothing. k m is the
+//     projection of g onto m: |k| <= |g| / |m|, and k m and g - k m have lengths of at most |g|.
+//     Their three |components| sum to at most sqrt(3) |g| = 9 M.
+//   * The half-range across m:
+//       3 components of g - k m times e: 3 * 81, and for k m, for the difference and for the
+//         product with e each 9 over the three axes: 270 u M
+//       3 mixed derivatives times e e':  3 (45 + 3 + 3) = 153 u M
+//       f_stu times e e' e'':               27 + 3 * 3  =  36 u M
+//   * Its sums are at most 6, 9, 12, 21, 21 and 21 M: 90 u M.
+//   * The part along m is k times the difference of a slab's end and m.c, c the middle:
+//       m.c:         three products and two sums, at most sqrt(3) |m| each: 5.2 u |m|
+//       difference:  at most |m| times the diagonal sqrt(12) of the cell: 3.5 u |m|
+//       times k:     8.7 u |m| * sqrt(27) M / |m| = 46 u M
+//       the product: at most sqrt(27) sqrt(12) M = 18 M: 18 u M
+//     Ends of slabs are stored as floats outside of the vertices (lattice_tree.cpp).
+//   * Value and part along m sum to at most 21 M, with the half-range to 42 M: 63 u M.
+//   * So the two ends are wrong by 153 + 270 + 153 + 36 + 90 + 46 + 18 + 63 = 829 u M.
+//   * Middle, half-width and its sum with the slack (store_slab) round values of at most 42 M:
+//     126 u M.
+//   * In all 829 + 126 = 955 u M.
+//
+// Test of two slabs in one frame (not_separated(), with its names). Let a = n.m as computed, any
+// number of at most 1 up to rounding. |n - a m| <= 1, so its |components| sum to at most sqrt(3). A
+// slab's |middle| + half is at most 42 M, a box's |coordinates| 8 M:
+//   * n - a m rounds twice per axis, times a coordinate of at most M: 2 sqrt(3) u M, below 4 u M.
+//   * Middle and half-width of the box round once per axis: sqrt(3) * 8 u M, below 14 u M. Their
+//     products with n - a m: another 14 u M.
+//   * a times middle and half of the slab: 42 u M.
+//   * |theirs| + their_half is at most sqrt(42^2 + (8 sqrt(3))^2) M, below 45 M. Three sums: 135 u
+//     M.
+//   * The comparison has values of at most 42 + 45 = 87 M: 87 u M.
+//   * In all 4 + 14 + 14 + 42 + 135 + 87 = 296 u M; with the slab's own 955 u M below 2048 u M.
+//
+// Added to both slacks, in units of the world times the scale (place_one() in lazy_state.cpp):
+//   * the error of the canonical mapping (mapping.h);
+//   * the rounding of x - origin, 2^-53 of |x| and of |origin|, four times;
+//   * 1e-37 for float underflow.
+// They are errors per coordinate. Along n, of length 1, they come at most sqrt(3) times: slabs get
+// them twice.
+//
+// Single precision (lazy_state.h). The float nodes are the nodes. All of the above holds, with the
+// first u M to spare:
+//   * Bounded are vertices that are mapped from these nodes in floats. Pieces were made for exact
+//     local coordinates. The mapped vertices differ from the exact images of those by 10 u M in
+//     blends (mapping_error_bound() of floats) and by 3 u M as three local coordinates are rounded
+//     (error_of_mapping() in lazy_state.cpp). That makes 13 u M, and below 26 u M along n.
+//   * These are added to 256 u M and 2048 u M, though the first would hold them: 202 + 13.
+//   * M is the scene's half-width, the same for all bodies.
+//   * Boxes of triangles and of refitted bodies are made of the very floats that are tested. They
+//     need no slack.
+//   * So all triangles are tested whose boxes overlap, except those that slabs separate. Those
+//     share no point. What is found is what intersects, as in doubles.
 
 #if defined(CONTACTCHECK_LAZY_BOUNDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_BOUNDS_INL
@@ -48,7 +122,7 @@ namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Bounds of eight children while their pieces come in.
+// Bounds of eight children, over the pieces joined so far.
 struct alignas(64) RunningBounds {
   float lo[kBlockWidth][4], hi[kBlockWidth][4];        // box and slab
   float world[kBlockWidth][4], local[kBlockWidth][4];  // of SlabDirection; last of local: inverse
@@ -64,7 +138,7 @@ HWY_INLINE void store_direction(const SlabDirection& n, std::size_t first, Runni
   store_rows(n.local[0], n.local[1], n.local[2], n.inverse_square, out.local + first);
 }
 
-// That of each lane's child.
+// The direction of each lane's child.
 HWY_INLINE SlabDirection load_direction(const RunningBounds& from, const PieceLanes& pieces,
                                         std::size_t first) {
   const auto rows_of = [&](const float(&all)[kBlockWidth][4]) HWY_ATTR {
@@ -98,7 +172,7 @@ HWY_INLINE void store_ranges(const PieceRanges& ranges, float (*lo)[4], float (*
   store_rows(axis[0].hi, axis[1].hi, axis[2].hi, slab.hi, hi);
 }
 
-// The first pieces of the children, lane by lane.
+// Bounds of the first pieces of the children, lane by lane, and their directions.
 HWY_INLINE PieceRanges begin_block(const LazyState& state, const PieceLanes& pieces,
                                    const BlockSlabs& slabs, std::size_t first, SlabDirection& n) {
   const Middles middle = middles_of(pieces, first);
@@ -111,7 +185,7 @@ HWY_INLINE void join_row(const float (&from)[4], float (&to)[4], bool least) {
   for (int k = 0; k < 4; ++k) to[k] = least ? std::min(to[k], from[k]) : std::max(to[k], from[k]);
 }
 
-// Eight more pieces, of whichever children.
+// Joins the bounds of eight more pieces to those of their children.
 HWY_NOINLINE void join_pieces(const LazyState& state, const PieceLanes& pieces,
                               RunningBounds& out) {
   const FloatLanes d;
@@ -132,7 +206,7 @@ HWY_INLINE void store_slab(const Range& range, const FloatVec (&normal)[3], floa
                            hn::Mask<FloatLanes> present, std::size_t first, LaneSlabs& out) {
   const FloatLanes d;
   const auto half = hn::Set(d, 0.5f), wide = hn::Set(d, slack);
-  // Not where there is no child, nor where bounds overflowed.
+  // No slab where there is no child, nor where bounds overflowed.
   const auto sound =
       hn::And(present, hn::And(hn::Le(range.lo, range.hi),
                                hn::Lt(hn::Sub(range.hi, range.lo), hn::Set(d, kNoSlab))));
@@ -155,7 +229,7 @@ HWY_INLINE void store_box(const Range (&range)[3], float slack, hn::Mask<FloatLa
   }
 }
 
-// Moves them outward; lanes without a child become empty.
+// Moves bounds outward by the slacks; lanes without a child become empty.
 HWY_INLINE void finish_block(const LazyState& state, const PieceRanges& ranges,
                              const FloatVec (&normal)[3], std::uint32_t children, std::size_t first,
                              BlockBounds& out) {
@@ -201,7 +275,7 @@ HWY_NOINLINE void bound_block(const LazyState& state, std::uint32_t index, Block
   finish_block(state, running, block.children, out);
 }
 
-// Of a block's children in this frame.
+// The bounds of a block's children in this frame, computed when first asked for.
 HWY_INLINE const BlockBounds& bounds(LazyState& state, std::uint32_t index, FrameArena& arena) {
   if (const BlockBounds* known = state.blocks.find(index)) return *known;
   auto& out = *static_cast<BlockBounds*>(arena.take(sizeof(BlockBounds)));

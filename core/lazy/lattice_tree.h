@@ -5,20 +5,32 @@
 // grouped by the cell that owns them (the home cell of most of their vertices), so that children
 // span few cells.
 //
-// Why the bounds contain every mapped vertex. A vertex lies in its home cell with local coordinates
-// x in [0, 1]^3, and its exact image is the trilinear blend of the cell's eight nodes. A piece is
-// what a child has in one home cell: bounds of y = 2 x - 1 of those vertices, about a middle c with
-// half-widths e. Any function that is trilinear in the cell is, with d = y - c,
-//   f(y) = f(c) + g.d + f_st ds dt + f_su ds du + f_tu dt du + f_stu ds dt du,
-// so it lies within |g|.e + |f_st| es et + ... of f(c). Each coordinate is such a function; a
-// child's box is the union over its pieces.
-// A child has a slab too, across its surface. At rest the vertices of a piece lie between two
-// planes normal to m, a covector of local coordinates: a <= m.y <= b. For any direction n in the
-// world, f = n . X is trilinear, and g.d = k m.d + (g - k m).d for any k: an interval from [a, b]
-// and e. It is tight where g is nearly parallel to m, which holds for n normal to the deformed
-// surface.
-// Deformed triangles are flat between mapped vertices: a convex set that holds the three holds the
-// triangle, also where it crosses a displaced cell that holds none of its vertices.
+// Claim: the bounds of a child contain every vertex of its triangles, and the triangles.
+//
+// Assumptions:
+//   * A vertex lies in its home cell with local coordinates x in [0, 1]^3. Its exact image is the
+//     trilinear blend of the cell's eight nodes. (bounds-inl.h adds the rounding errors.)
+//   * A piece is what a child has in one home cell. It bounds y = 2 x - 1 over those vertices:
+//     d = y - c has |d| <= e along each axis, with a middle c and half-widths e.
+//
+// Box:
+//   * A function that is trilinear in the cell is, about c,
+//       f(y) = f(c) + g.d + f_st ds dt + f_su ds du + f_tu dt du + f_stu ds dt du
+//   * So |f(y) - f(c)| <= |g|.e + |f_st| es et + |f_su| es eu + |f_tu| et eu + |f_stu| es et eu.
+//   * Each coordinate is such a function. A child's box is the union over its pieces.
+//
+// Slab, across the surface of the child:
+//   * m is a covector of local coordinates, normal to the surface at rest. Over the vertices of a
+//     piece a <= m.y <= b.
+//   * For any direction n in the world, f = n . X is trilinear.
+//   * For any k, g.d = k m.d + (g - k m).d. The first term lies between k (a - m.c) and
+//     k (b - m.c), the second within |g - k m|.e.
+//   * With the mixed terms as for the box, this bounds f. It is tight where g is nearly parallel to
+//     m, which holds for n normal to the deformed surface.
+//
+// Triangles:
+//   * Deformed triangles are flat between mapped vertices. A convex set that holds the three
+//     vertices holds the triangle, also where it crosses a displaced cell that holds none of them.
 //
 // Source of the idea, lazily evaluated bounds of a free-form deformation: the project's feasibility
 // study; Larsson and Akenine-Moeller, Collision Detection for Continuously Deforming Bodies, 2001,

@@ -69,7 +69,7 @@ HWY_INLINE Rows load_rows(RowOfLane&& row) {
 }
 #endif
 
-// Quantised values of the lanes from `first` on: floats represent them.
+// Quantised values of the lanes from `first` on. Floats represent them exactly.
 template <class Step>
 HWY_INLINE FloatVec steps_of(const std::array<Step, kBlockWidth>& steps, std::size_t first) {
   const FloatLanes d;
@@ -78,7 +78,8 @@ HWY_INLINE FloatVec steps_of(const std::array<Step, kBlockWidth>& steps, std::si
   return hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(narrow, steps.data() + first)));
 }
 
-// Middle and half-widths of each lane's piece: exact.
+// Middle and half-widths of each lane's piece. They are exact: sums and differences of 16-bit
+// integers, times a power of two.
 struct Middles {
   FloatVec at[3], half[3];
 };
@@ -94,12 +95,17 @@ HWY_INLINE Middles middles_of(const PieceLanes& pieces, std::size_t first) {
   return out;
 }
 
-// A trilinear function about a point: value, gradient, mixed derivatives.
+// A trilinear function about a point c: value f(c), gradient g and mixed derivatives at c, with
+//   f(c + d) = f(c) + g.d + f_st ds dt + f_su ds du + f_tu dt du + f_stu ds dt du
 struct Expansion {
   FloatVec value, gradient[3], st, su, tu, stu;
 };
 
-// `term`: as in CellTerms.
+// `term`: as in CellTerms. Every result is one blend a + y b of two others, or of two terms:
+//   f_stu                    = term 7
+//   f_st, f_su, f_tu         = term + y term 7
+//   the slopes g             = a blend of terms + y times a mixed derivative
+//   f                        = a blend of terms + yt times another, + ys times the slope along s
 HWY_INLINE Expansion expand(const FloatVec (&term)[8], const FloatVec (&at)[3]) {
   Expansion out{};
   out.stu = term[7];
@@ -116,7 +122,7 @@ HWY_INLINE Expansion expand(const FloatVec (&term)[8], const FloatVec (&at)[3]) 
   return out;
 }
 
-// The three coordinates of each lane's cell about the middle of its piece.
+// The coordinates x, y, z of the image of each lane's cell, about the middle of its piece.
 struct Expansions {
   Expansion axis[3];
 };
@@ -135,7 +141,8 @@ HWY_INLINE Expansions expand(const LazyState& state, const PieceLanes& pieces, s
   return out;
 }
 
-// How far the mixed terms take the function from its tangent within the piece.
+// A bound of |f(c + d) - f(c) - g.d| for |d| <= e: the mixed terms at d = e,
+//   |f_st| es et + |f_su| es eu + |f_tu| et eu + |f_stu| es et eu
 HWY_INLINE FloatVec curvature(const Expansion& f, const FloatVec (&e)[3]) {
   const auto st = hn::Mul(e[0], e[1]);
   auto wide = hn::Mul(hn::Abs(f.st), st);
@@ -144,6 +151,7 @@ HWY_INLINE FloatVec curvature(const Expansion& f, const FloatVec (&e)[3]) {
   return hn::MulAdd(hn::Abs(f.stu), hn::Mul(st, e[2]), wide);
 }
 
+// f over |d| <= e: f(c) -+ (|g|.e + curvature).
 HWY_INLINE Range range_over(const Expansion& f, const FloatVec (&e)[3]) {
   auto wide = curvature(f, e);
   for (int k = 0; k < 3; ++k) wide = hn::MulAdd(hn::Abs(f.gradient[k]), e[k], wide);
@@ -156,8 +164,11 @@ struct SlabDirection {
   FloatVec inverse_square;  // 1 / m.m
 };
 
-// n: the image of the surface's normal, by the cofactors of the Jacobian. Whatever it is, bounds
-// along it are right; this one makes them tight.
+// The image n of the surface's normal m:
+//   * A normal is a covector. The cofactors of the Jacobian carry it to the world: n is the sum of
+//     m_s (X_t x X_u), m_t (X_u x X_s) and m_u (X_s x X_t), with the derivatives X_s, X_t, X_u.
+//   * Its length is made 1.
+// Bounds are right along every n (lattice_tree.h). This one makes them tight.
 HWY_INLINE SlabDirection slab_direction(const Expansions& x, const BlockSlabs& slabs,
                                         std::size_t first) {
   const FloatLanes d;
@@ -182,7 +193,7 @@ HWY_INLINE SlabDirection slab_direction(const Expansions& x, const BlockSlabs& s
   return out;
 }
 
-// n . X out of the expansions of the three coordinates.
+// The expansion of n . X, from those of the three coordinates.
 HWY_INLINE Expansion along(const SlabDirection& n, const Expansions& x) {
   const auto sum = [&](auto part) HWY_ATTR {
     const auto last = hn::Mul(n.world[2], part(x.axis[2]));
@@ -199,7 +210,12 @@ HWY_INLINE Expansion along(const SlabDirection& n, const Expansions& x) {
   return out;
 }
 
-// n . X over the vertices of each lane's piece; derivation in lattice_tree.h.
+// f = n . X over the vertices of each lane's piece, a <= m.y <= b (slab_lo, slab_hi), |d| <= e:
+//   1. k = g.m / m.m (slope), any number for the proof in lattice_tree.h
+//   2. g.d = k m.d + (g - k m).d
+//   3. k m.d lies between k (a - m.c) (one) and k (b - m.c) (other)
+//   4. |(g - k m).d| <= |g - k m|.e, to which `wide` adds the curvature
+//   5. f lies between f(c) + min(one, other) - wide and f(c) + max(one, other) + wide
 HWY_INLINE Range slab_range(const Expansion& f, const PieceLanes& pieces, const Middles& middle,
                             const SlabDirection& n, std::size_t first) {
   const FloatLanes d;

@@ -1,5 +1,5 @@
-// Bounds from all vertices, bottom up: for bodies without a lattice, and where refitting all is
-// cheaper than bounding a part. Compiled once per instruction set (kernels.cpp).
+// Boxes from all vertices, bottom up: for bodies without a lattice, and where refitting all boxes
+// is cheaper than bounding some of them. Compiled once per instruction set (kernels.cpp).
 
 #if defined(CONTACTCHECK_LAZY_REFIT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_REFIT_INL
@@ -22,14 +22,17 @@ struct FrameBox {
   float lo[3], hi[3];
 };
 
-// Doubles into the body's frame: (x - origin) * scale is monotone in x, rounding included, so it is
-// applied to the ends of boxes alone. Floats are in that frame, and need no slack.
+// An end of a box in the body's frame, moved outward:
+//   * x -> (x - origin) * scale, rounded to a float, is monotone in x: each of its roundings is.
+//   * So the image of the least x is the least image. It is enough to map the ends of boxes.
+//   * The slack covers the roundings (bounds-inl.h).
+// Floats are in that frame already and need no slack.
 HWY_INLINE float end_in_frame(const LazyState& state, int axis, double x, float outward) {
   return static_cast<float>((x - state.origin[axis]) * state.scale) + outward;
 }
 HWY_INLINE float end_in_frame(const LazyState&, int, float x, float) { return x; }
 
-// The box of a leaf's vertices.
+// The box of a leaf's vertices in the body's frame.
 template <class Real>
 HWY_INLINE FrameBox box_of_leaf(const LazyState& state, const TreeLeaf& leaf) {
   const std::uint32_t* ids = &state.tree->leaf_vertices[leaf.first_vertex];

@@ -2,10 +2,12 @@
 // its filter, on vector lanes. Whatever the filter cannot decide is left to that function, so the
 // answers are the same. Compiled once per instruction set (kernels.cpp).
 //
-// Filter. Where it takes the largest |differences| that a determinant computes, the
-// extents of both triangles together stand here, which are no smaller: a computed difference of two
-// values is at most the computed difference of the largest and the smallest. The operations and
-// their order are those of orient3d; none is fused.
+// Claim: the sign of a determinant that exceeds error_bound() is right (LaneFilter).
+//   * The operations and their order are those of orient3d. None is fused.
+//   * orient3d's bound has the largest |differences| X, Y, Z that a determinant computes. In their
+//     place stand the extents of both triangles together.
+//   * They are no smaller: the computed difference of two values is at most the computed difference
+//     of the largest and the smallest.
 
 #if defined(CONTACTCHECK_LAZY_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_TRIANGLES_INL
@@ -28,14 +30,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // When the sign of a determinant on a lane may be trusted.
 //
-// orient3d is wrong by at most 48 e X Y Z, X, Y, Z the largest |differences| per axis, e the
-// rounding error of its numbers: the derivation in narrow/predicates.cpp asks nothing of e but that
-// 200 e^2 and 3 e are far below e, which holds for 2^-24 as for 2^-53. What differs in floats is
-// where products underflow: each is then wrong by up to n = 2^-150, a determinant by up to
-// 3 (2 n max(X, Y, Z) + n) and roundings thereof, below 2^-106 as differences are at most 2^41 (of
-// coordinates within kSingleLimit). The bound is at least 2^-99, so e X Y Z, a 48th of it and more
-// than 2^-105, covers that. (Underflow within the bound: if fl(X Y) underflowed, the bound would be
-// below 2^-126 * 2^41 * 2^-18 and fail its test.) Overflow: no sum is above 6 * 2^123.
+// Claim: 48 e X Y Z is an upper bound of its error, X, Y, Z the largest |differences| per axis and
+// e the rounding error of its numbers.
+//   * Doubles: narrow/predicates.cpp, which also has the constants.
+//   * Floats, e = 2^-24: that derivation asks of e only that 200 e^2 and 3 e are far below e. What
+//     differs is the range of the numbers:
+//   * Assumption: differences are at most 2^41, as of coordinates within kSingleLimit.
+//   * Underflow: a product is wrong by another n = 2^-150 at most, a determinant by
+//     3 (2 n max(X, Y, Z) + n) and roundings thereof, below 2^-106. The bound is at least 2^-99, so
+//     e X Y Z, a 48th of it and more than 2^-105, covers that.
+//   * Underflow within the bound: if fl(X Y) underflowed, the bound would be below
+//     2^-126 * 2^41 * 2^-18 and fail its test.
+//   * Overflow: no sum is above 6 * 2^123.
 template <typename Real>
 struct LaneFilter;
 
@@ -216,7 +222,7 @@ HWY_INLINE Verdict<Real> test_lanes(const TriangleBatchOf<Real>& batch, std::siz
   const auto bound = error_bound(p, q);
   const Sides<Real> q_sides = sides(p, q, bound);
   const Sides<Real> p_sides = sides(q, p, bound);
-  const auto apart = hn::Or(q_sides.one_side(), p_sides.one_side());
+  const auto separated = hn::Or(q_sides.one_side(), p_sides.one_side());
   auto known = hn::And(q_sides.known(), p_sides.known());
   Turned<Real> a = turn(p, p_sides), b = turn(q, q_sides);
   const auto q1 = select(a.lone_below, b.last, b.next), q2 = select(a.lone_below, b.next, b.last);
@@ -227,8 +233,8 @@ HWY_INLINE Verdict<Real> test_lanes(const TriangleBatchOf<Real>& batch, std::siz
   const auto meet = hn::And(hn::Lt(begin, minus_bound), hn::Lt(end, minus_bound));
   const auto miss = hn::Or(hn::Gt(begin, bound), hn::Gt(end, bound));
   known = hn::And(known, hn::Or(meet, miss));
-  const Verdict<Real> out = {hn::And(hn::AndNot(apart, known), meet),
-                             hn::Not(hn::Or(apart, known))};
+  const Verdict<Real> out = {hn::And(hn::AndNot(separated, known), meet),
+                             hn::Not(hn::Or(separated, known))};
   return look_for_corners(p, q, out);
 }
 

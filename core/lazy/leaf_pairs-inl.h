@@ -24,9 +24,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // A box of a leaf, or of one of its triangles, beside boxes of the other body's triangles.
 HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32_t lane,
-                                               const Shift& shift, const LaneBoxes& lanes) {
+                                               const Translation& translation,
+                                               const LaneBoxes& lanes) {
   const ChildBounds one{box, nullptr, lane};
-  return shift.none ? overlapping(one, lanes) : overlapping(MovedBounds{one, shift}, lanes);
+  return translation.none ? overlapping(one, lanes)
+                          : overlapping(MovedBounds{one, translation}, lanes);
 }
 
 HWY_INLINE TriangleBatch& batch_in(double, LazyScratch& scratch) { return scratch.batch; }
@@ -38,7 +40,7 @@ HWY_INLINE SingleTriangleBatch& batch_in(float, LazyScratch& scratch) {
 template <class Real>
 class LeafPairTests {
  public:
-  LeafPairTests(const BodiesToTest& bodies, const Shift& to_a, const Shift& to_b,
+  LeafPairTests(const BodiesToTest& bodies, const Translation& to_a, const Translation& to_b,
                 LazyScratch& scratch, std::vector<ElementPair>& out)
       : bodies_(bodies),
         to_a_(to_a),
@@ -88,15 +90,16 @@ class LeafPairTests {
 
   // Triangles of one leaf, sixteen bits, whose boxes meet that of one triangle of the other.
   static HWY_INLINE std::uint32_t meeting_triangles(const LaneBoxes& box, std::uint32_t lane,
-                                                    const Shift& shift, const Leaf& leaf) {
-    return overlapping_triangles(box, lane, shift, leaf.boxes[0]) |
-           overlapping_triangles(box, lane, shift, leaf.boxes[1]) << kBlockWidth;
+                                                    const Translation& translation,
+                                                    const Leaf& leaf) {
+    return overlapping_triangles(box, lane, translation, leaf.boxes[0]) |
+           overlapping_triangles(box, lane, translation, leaf.boxes[1]) << kBlockWidth;
   }
 
   // Those that may meet triangle i.
-  static HWY_INLINE std::uint32_t partners(const Leaf& leaf, std::uint32_t i, const Shift& shift,
-                                           const Leaf& other) {
-    return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, shift, other);
+  static HWY_INLINE std::uint32_t partners(const Leaf& leaf, std::uint32_t i,
+                                           const Translation& translation, const Leaf& other) {
+    return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, translation, other);
   }
 
   HWY_INLINE void add_pair(const LeafPair& leaves, const Leaf& a, std::uint32_t i, const Leaf& b,
@@ -126,8 +129,8 @@ class LeafPairTests {
   }
 
   const BodiesToTest& bodies_;
-  const Shift& to_a_;
-  const Shift& to_b_;
+  const Translation& to_a_;
+  const Translation& to_b_;
   LazyScratch& scratch_;
   TriangleBatchOf<Real>& batch_;
   std::vector<ElementPair>& out_;

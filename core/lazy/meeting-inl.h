@@ -39,12 +39,13 @@ class Bits {
   std::uint32_t word_;
 };
 
-struct Shift {
-  float way[3], slack, slab_slack;
+// From one body's frame to another's, with what its rounding adds to boxes and slabs.
+struct Translation {
+  float offset[3], slack, slab_slack;
   bool none;  // one frame for both
 };
 
-// One child's bounds, read where they stand: copies of single floats into a struct that vectors are
+// One child's bounds, read in place: copies of single floats into a struct that vectors are
 // loaded from next would wait for the stores.
 struct ChildBounds {
   const LaneBoxes& box;
@@ -60,34 +61,53 @@ struct ChildBounds {
 // The same, moved into another body's frame, outward.
 struct MovedBounds {
   const ChildBounds& child;
-  const Shift& shift;
-  float lo(int k) const { return child.lo(k) + (shift.way[k] - shift.slack); }
-  float hi(int k) const { return child.hi(k) + (shift.way[k] + shift.slack); }
+  const Translation& translation;
+  float lo(int k) const { return child.lo(k) + (translation.offset[k] - translation.slack); }
+  float hi(int k) const { return child.hi(k) + (translation.offset[k] + translation.slack); }
   float normal(int k) const { return child.normal(k); }
   float middle() const {
     float out = child.middle();
-    for (int k = 0; k < 3; ++k) out += child.normal(k) * shift.way[k];
+    for (int k = 0; k < 3; ++k) out += child.normal(k) * translation.offset[k];
     return out;
   }
-  float half() const { return child.half() + shift.slab_slack; }
+  float half() const { return child.half() + translation.slab_slack; }
 };
 
-// From the frame of `from` to that of `to`. With u = 2^-24 and r the reaches of both together: the
-// difference of the origins is wrong by 3 * 2^-53 of them, its float and way - slack by u r each,
-// and the sums in MovedBounds by u times their results, at most 9 r: below 16 u r. The
-// tests of slabs compare sums of about 20 products of values up to 9 r with factors of at most 2:
-// below 800 u r. The bodies' boxes overlap, so the way is at most r; else (rounding, or beyond the
-// doubles) nothing is excluded, by a finite number: empty lanes stay empty.
-HWY_INLINE Shift shift_between(const LazyState& from, const LazyState& to) {
+// From the frame of `from` to that of `to`.
+//
+// Claim: the slacks cover all rounding of MovedBounds and of a test with them.
+//
+// Notation, as in bounds-inl.h: u = 2^-24; r is the sum of both reaches. Bounds of a child have
+// |coordinates| of at most 8 r, its slab |middle| + half of at most 42 r.
+//
+// Assumption: the bodies' boxes overlap, so the offset is at most r per axis. Where it is larger
+// than 2 r (rounding, or beyond the doubles) nothing is excluded, by a finite slack: empty lanes
+// stay empty.
+//
+// Boxes:
+//   * The difference of the origins rounds once, in double: by 2^-53 of their |coordinates|. 8
+//     times that is taken, and 1e-36 for float underflow (`rounding`).
+//   * As a float the offset is wrong by u r, with the slack subtracted or added by u r more. Its
+//     sum with a bound is at most 9 r and wrong by 9 u r. In all 11 u r; 32 u r is taken.
+//
+// Slabs, along a normal of length 1:
+//   * `rounding` comes at most sqrt(3) times; 4 times is taken.
+//   * The float offset is wrong by sqrt(3) u r and its products with the normal by as much: 4 u r.
+//   * Three sums for the middle, and one for half, are at most 44 r: 176 u r.
+//   * A test of slabs (bounds-inl.h) with slabs of at most 44 r and boxes of at most 9 r has sums
+//     of at most sqrt(44^2 + (9 sqrt(3))^2) r, below 47 r. It is wrong by
+//     4 + 2 * sqrt(3) * 9 + 44 + 3 * 47 + (44 + 47) u r, below 312 u r.
+//   * In all 4 + 176 + 312 = 492 u r; 1024 u r is taken.
+HWY_INLINE Translation translation_between(const LazyState& from, const LazyState& to) {
   constexpr double kUnit = 0x1p-24, kEverything = 1e29;
   const double r = from.reach + to.reach;
   double origins = 0.0, longest = 0.0;
-  Shift out;
+  Translation out;
   for (int k = 0; k < 3; ++k) {
-    const double way = (from.origin[k] - to.origin[k]) * to.scale;
-    longest = std::max(longest, std::abs(way));
+    const double offset = (from.origin[k] - to.origin[k]) * to.scale;
+    longest = std::max(longest, std::abs(offset));
     origins += (std::abs(from.origin[k]) + std::abs(to.origin[k])) * to.scale;
-    out.way[k] = static_cast<float>(way);
+    out.offset[k] = static_cast<float>(offset);
   }
   const double rounding = 8 * 0x1p-53 * origins + 1e-36;
   // False for NaN and infinity, too.
@@ -95,13 +115,25 @@ HWY_INLINE Shift shift_between(const LazyState& from, const LazyState& to) {
   out.slack = static_cast<float>(sound ? rounding + 32 * kUnit * r : kEverything);
   out.slab_slack = static_cast<float>(sound ? 4 * rounding + 1024 * kUnit * r : kEverything);
   out.none = from.origin == to.origin;
-  if (!sound) out.way[0] = out.way[1] = out.way[2] = 0.0f;
+  if (!sound) out.offset[0] = out.offset[1] = out.offset[2] = 0.0f;
   return out;
 }
 
-// Bit i: no plane parallel to the slab of lane i or to that of `one` is seen to part the two. Along
-// the normal n of the one, the other lies within a n' . x of its own slab, for any a, and the rest
-// (n - a n') . x of its box.
+// Bit i is not set where a plane parallel to the slab of lane i or to that of `one` is seen to
+// separate the two.
+//
+// Claim: where it is not set, the two children share no point.
+//   1. Let n be the normal of `one`, m that of the lane, and x a point of both. For any number a
+//        n.x = a (m.x) + (n - a m).x
+//   2. m.x lies in the lane's slab, so a (m.x) is within |a| half of a middle.
+//   3. x lies in the lane's box, so (n - a m).x is within |n - a m|.(hi - lo) / 2 of
+//      (n - a m).(lo + hi) / 2.
+//   4. The sums of 2 and 3 are `their_half` and `theirs`. n.x is also within half1 of middle1. So
+//      |middle1 - theirs| <= half1 + their_half.
+//   5. With n and m exchanged, |middle - ours| <= half + our_half.
+//   6. Bit i is cleared where 4 or 5 is violated.
+// Every a is right. a = n.m (along) leaves the shortest n - a m and m - a n. Slacks cover the
+// rounding (bounds-inl.h).
 template <class Bounds>
 HWY_INLINE std::uint32_t not_separated(const Bounds& one, const BlockBounds& lanes) {
   const FloatLanes d;

@@ -31,8 +31,8 @@ class PairTraversal {
         scratch_(scratch),
         out_(out),
         slabs_(!bodies.a.from_vertices && !bodies.b.from_vertices),
-        to_a_(shift_between(bodies.b, bodies.a)),
-        to_b_(shift_between(bodies.a, bodies.b)) {
+        to_a_(translation_between(bodies.b, bodies.a)),
+        to_b_(translation_between(bodies.a, bodies.b)) {
     scratch.open.slots.clear();
     scratch.open.leaves.clear();
   }
@@ -104,10 +104,10 @@ class PairTraversal {
 
   // Lanes of a block that may meet one child of the other tree.
   HWY_INLINE std::uint32_t meeting(const BlockBounds& bounds, std::uint32_t lane,
-                                   const Shift& shift, const BlockBounds& lanes) const {
+                                   const Translation& translation, const BlockBounds& lanes) const {
     const ChildBounds one{bounds.box, &bounds.slab, lane};
-    return shift.none ? meeting_lanes(one, slabs_, lanes)
-                      : meeting_lanes(MovedBounds{one, shift}, slabs_, lanes);
+    return translation.none ? meeting_lanes(one, slabs_, lanes)
+                            : meeting_lanes(MovedBounds{one, translation}, slabs_, lanes);
   }
 
   // The named children of one block against those of another. What is tested one by one is the
@@ -189,7 +189,7 @@ class PairTraversal {
   LazyScratch& scratch_;
   std::vector<ElementPair>& out_;
   bool slabs_;
-  Shift to_a_, to_b_;
+  Translation to_a_, to_b_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -14,7 +14,8 @@ namespace {
 
 // Weights of centres are multiples of this: sums of them are exact.
 constexpr double kWeightUnit = 0x1p-50;
-// Vertex weights err by 6 * 2^-53, differences and this sum by 2^-53 each.
+// Errors of a spread: 6 * 2^-53 of a vertex weight, 2^-53 of the difference of two weights and
+// 2^-53 of this sum. Together 8 * 2^-53.
 constexpr double kSpreadError = 0x1p-50;
 // Steps towards the smallest ball that holds a sphere's vertices at rest.
 constexpr int kCenterSteps = 16;
@@ -105,9 +106,9 @@ class Builder {
     }
   }
 
-  // Badoiu and Clarkson, Smaller Core-Sets for Balls, SODA 2003: step i goes 1 / (i + 1) of the way
-  // to the farthest vertex, after which all steps so far have the same share. Any centre is sound;
-  // one that is a mean of vertices is one of their weights, too.
+  // Badoiu and Clarkson, Smaller Core-Sets for Balls, SODA 2003: step i moves by 1 / (i + 1)
+  // towards the farthest vertex, after which all steps so far have the same share. Any centre is
+  // sound. One that is a mean of vertices has weights that are means of theirs.
   void find_center() {
     Vec3 center = rest_[vertices_.front()];
     chosen_.assign(1, vertices_.front());

@@ -1,6 +1,6 @@
 // What a BD-tree prepares once per shape: for every sphere the lattice nodes that move it, with the
-// weights of its centre and the largest weight differences of its vertices. See bd_tree.h for what
-// is made of it, and why it holds.
+// weights of its centre and the largest weight differences of its vertices. bd_tree.h has
+// the bounds that are made of these, and their proof.
 #pragma once
 
 #include <array>
@@ -43,13 +43,16 @@ struct BdModel {
 };
 
 /// The eight trilinear weights of local coordinates, in the order of a cell's corners. Each is
-/// within 6 * 2^-53 of the exact weight.
+/// within 6 * 2^-53 of the exact weight: three factors 1 - x and two products round, values of at
+/// most 1.
 std::array<double, 8> corner_weights(const Vec3& local);
 
 /// Bound on |computed - exact| per coordinate of the sum of weight * position over `count` nodes,
-/// with weights >= 0 that sum to 1 and coordinates up to `largest`: `count` products and additions,
-/// each within 2^-53 of a value that stays below `largest` (twice that covers their compound), and
-/// products that may underflow.
+/// with weights >= 0 that sum to 1 and coordinates up to `largest`:
+///   * Products are at most weight * largest and round by 2^-53 of that, together 2^-53 of largest.
+///   * Each of the count - 1 additions that round stays below largest and rounds by 2^-53 of it.
+///   * Together count * 2^-53 of largest. Twice that covers terms of higher order.
+///   * Products may underflow: 2^-1000 covers that.
 inline double blend_error_bound(std::size_t count, double largest) {
   return static_cast<double>(count) * 0x1p-52 * largest + 0x1p-1000;
 }

@@ -5,61 +5,71 @@
 // Source: James & Pai: BD-Tree: Output-Sensitive Collision Detection for Reduced Deformable Models,
 // ACM TOG 23(3), 2004.
 //
-// Notation. Lattice nodes r_j at rest and n_j now; w_ij the exact trilinear weights of vertex i
-// from its stored local coordinates (w_ij >= 0, sum_j w_ij = 1); p_i = sum_j w_ij n_j its exact
-// position and q_i = sum_j w_ij r_j the same at rest (no mesh coordinate enters). The sphere of a
-// set of vertices has centre weights m_j >= 0 that sum to 1 exactly (multiples of 2^-50), hence
-// centres c = sum_j m_j n_j now and g = sum_j m_j r_j at rest; s_j >= |w_ij - m_j| for every vertex
-// of the set; R >= |q_i - g|. For any affine map T(x) = A (x - o) + b, with d_j = n_j - T(r_j):
+// Claim: the closed ball of the stored centre and radius of a sphere holds every mapped vertex of
+// its set, and so their triangles. Two triangles that share a point have spheres that share it, at
+// every level, and collide_safe() keeps those.
 //
-//   p_i - c = sum_j (w_ij - m_j) n_j = A (q_i - g) + sum_j (w_ij - m_j) d_j              (1)
+// Notation and assumptions:
+//   * Lattice nodes are r_j at rest and n_j now.
+//   * w_ij are the exact trilinear weights of vertex i from its stored local coordinates: w_ij >=
+//     0, sum_j w_ij = 1.
+//   * p_i = sum_j w_ij n_j is the exact position of vertex i, q_i = sum_j w_ij r_j the same at
+//     rest. (No mesh coordinate enters.)
+//   * The sphere of a set of vertices has centre weights m_j >= 0 that sum to 1 exactly (multiples
+//     of 2^-50). Its centres are c = sum_j m_j n_j now and g = sum_j m_j r_j at rest.
+//   * s_j >= |w_ij - m_j| for every vertex of the set; R >= |q_i - g|.
+//   * T(x) = A (x - o) + b is any affine map, and d_j = n_j - T(r_j).
 //
-// since the differences of weights sum to 0 and so take o and b with them. Hence
-//   paper  |p_i - c| <= |A|_2 R + sum_j s_j |d_j|
-// which is James & Pai's bound, with one T for the whole body in the place of their rest pose.
-// Weights of a lattice are local: for a sphere over many cells the s_j are near 1 and the sum
-// counts every displacement. And in a bent or twisted body every part has turned away from T, which
-// small spheres pay for. Two bounds of ours stand beside it, and the least of the three is taken:
-//   hull   |p_i - c| <= max_j |n_j - c|
-//          p_i is a mean of the n_j
-//   local  |p_i - c| <= |A|_2 R + min(sum_j s_j |d_j|, max_j |d_j|)
-//          T fitted to the sphere's own nodes, with T(g) = c: then p_i = T(q_i) + sum_j w_ij d_j
-// Every one costs a few operations per node that moves the sphere, and none touches a vertex.
+// Bounds:
+//   * p_i - c = sum_j (w_ij - m_j) n_j = A (q_i - g) + sum_j (w_ij - m_j) d_j              (1)
+//     since the differences of weights sum to 0 and so take o and b with them.
+//   * paper  |p_i - c| <= |A|_2 R + sum_j s_j |d_j|
+//     by (1). This is James & Pai's bound, with one T for the whole body in place of their rest
+//     pose. Weights of a lattice are local: for a sphere over many cells the s_j are near 1 and the
+//     sum counts every displacement. In a bent or twisted body every region has turned away from T,
+//     which small spheres pay for. So two bounds of ours are added, and the least of the three is
+//     taken:
+//   * hull   |p_i - c| <= max_j |n_j - c|
+//     as p_i is a mean of the n_j.
+//   * local  |p_i - c| <= |A|_2 R + min(sum_j s_j |d_j|, max_j |d_j|)
+//     with T fitted to the sphere's own nodes and T(g) = c. The sum is (1) again; the maximum holds
+//     as p_i = T(q_i) + sum_j w_ij d_j.
+//   * Each costs a few operations per node that moves the sphere, and none touches a vertex.
 //
-// Rounding. u = 2^-53, N nodes move the sphere, M = largest |n_j| coordinate, per coordinate:
-// - computed c errs by at most blend_error_bound(N, M), a mapped vertex (map_point) by
-//   mapping_error_bound(M); q_i and g err likewise with the nodes at rest, which rest_radius has in
-//   it (R holds for the exact and for the computed g), as the s_j have the 6 u of computed weights
-// - T of the body: computed d_j err by at most 16 u (P + M) + 2^-1000, P = largest value met in
-//   T(r_j): six roundings, each of a value up to P + M
-// - T of the sphere is defined by the computed c and g; its d_j err by six roundings of values up
-//   to V = |n_j - c| + sqrt(3) |A|_2 |r_j - g|: at most 16 u V
+// Rounding, per coordinate. u = 2^-53, N nodes move the sphere, M is the largest |coordinate| of
+// the n_j:
+//   * The computed c errs by at most blend_error_bound(N, M), a mapped vertex (map_point) by
+//     mapping_error_bound(M).
+//   * q_i and g err likewise with the nodes at rest. rest_radius includes that: R holds for the
+//     exact and for the computed g. The s_j include the 6 u of computed weights.
+//   * T of the body: computed d_j err by at most 16 u (P + M) + 2^-1000, P the largest value met in
+//     T(r_j): six roundings, each of a value up to P + M.
+//   * T of the sphere is defined by the computed c and g. Its d_j err by six roundings of values up
+//     to V = |n_j - c| + sqrt(3) |A|_2 |r_j - g|: at most 16 u V.
+//   * A length errs by sqrt(3) < 2 times as much: the slacks.
+//   * Norms are rounded up by covering_radius(), which also pays for squares that underflow.
+//   * Sums of up to N + 4 terms >= 0 are rounded up by 1 + (N + 8) 2^-52, twice what their
+//     roundings can take. Their products do not underflow: spreads are at least 2^-50, norms and
+//     radii at least 2^-500.
 //
-// A length errs by sqrt(3) < 2 times as much: the slacks. Norms are rounded up by
-// covering_radius(), which also pays for squares that underflow; sums of up to N + 4 terms >= 0 by
-// 1 + (N + 8) 2^-52, twice what their roundings can take. No product of theirs underflows: spreads
-// are at least 2^-50, norms and radii at least 2^-500.
-//
-// So the closed ball of the stored centre and radius holds every mapped vertex of the set, and
-// their triangles with them; two triangles that share a point have spheres that share it, at every
-// level, and collide_safe() keeps those.
-//
-// Single precision. The nodes are floats about the local origin, exactly; vertices are mapped in
-// floats and spheres kept and compared as such. What lies between, a few operations per node that
-// moves a sphere, is done in doubles as above, and everything said there holds (weights are
-// multiples of 2^-50, which floats have no room for). What is added, per coordinate, with v =
+// Single precision, T float. The nodes are floats about the local origin, exactly; vertices are
+// mapped in floats, and spheres are stored and compared as floats. What is between, a few
+// operations per node that moves a sphere, is done in doubles as above, and all of the above holds.
+// (Weights are multiples of 2^-50, which floats have no room for.) Added per coordinate, with v =
 // 2^-24:
-// - a vertex is mapped from local coordinates rounded to floats, by at most v / 2 each, and along
-//   each axis its exact image changes by at most 2 M over the cell: 3 v M; mapping_error_bound() of
-//   floats on top
-// - the centre errs by v M when it is rounded to floats, and by less than the smallest float where
-//   it is below their range
-// The radius is rounded up. M is at most kSingleLimit, so no centre overflows; a radius does to
-// infinity. collide_safe() has the constants of floats.
+//   * A vertex is mapped from local coordinates rounded to floats, by at most v / 2 each. Along
+//     each axis its exact image changes by at most 2 M over the cell: 3 v M. mapping_error_bound()
+//     of floats comes on top.
+//   * The centre errs by v M when it is rounded to floats, and by less than the smallest float
+//     where it is below their range.
+//   * The radius is rounded up. M is at most kSingleLimit, so no centre overflows; a radius does to
+//     infinity. collide_safe() has the constants of floats.
 //
-// Overflow: a map that overflows is replaced by zero (body) or left out (sphere), so that no NaN
-// hides in a maximum. A centre beyond the doubles is infinite, a radius infinite: collide_safe()
-// then excludes nothing.
+// Overflow:
+//   * A map that overflows is replaced by zero (body) or left out (sphere), so that no NaN hides in
+//     a maximum.
+//   * A centre beyond the doubles is infinite, and a radius infinite: collide_safe() then excludes
+//     nothing.
 #pragma once
 
 #include <cstdint>

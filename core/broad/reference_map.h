@@ -1,6 +1,6 @@
 // The affine map that carries a lattice from rest to where it is now, as nearly as one affine map
-// can, and what is left over. Bounds that follow it need to pay for the residual displacements
-// only: a body that flies and turns has none.
+// can, and the residual displacements. Bounds that follow the map pay for residuals only: a body
+// that flies and turns has none.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,13 +28,18 @@ struct AffineMap {
 
 /// Not below the spectral norm of the matrix, and above it by 0.3 % at most (and 2^-500, so that
 /// products with it do not underflow); infinite where it overflows.
-/// Why: X <- X^T X squares the spectral norm s. In floating point every entry errs by at most
-/// g (|X|^T |X|) with g < 3.01 * 2^-53, so the norm by g |X|_F^2 <= 3 g s^2: after a squaring at
-/// least s^2 (1 - h) is left, h = 3 g < 10 * 2^-53. k squarings and k square roots of
-/// |X_k|_F >= s(X_k) then give at least s (1 - h)^(1/2 + 1/4 + ...) > s (1 - h) and at most
-/// 3^(1 / 2^(k + 1)) s, which is 1.0022 s for k = 8. The roots err by 2^-53 each and halve what
-/// came before; 32 * 2^-53 pays for all. The matrix is first scaled by a power of two so that its
-/// largest entry lies in [1/2, 1): s is in [1/2, 3] and s^256 far from both ends of the doubles.
+/// Proof, with s the spectral norm of X = X_0, scaled by a power of two so that its largest entry
+/// lies in [1/2, 1):
+///   * s lies in [1/2, 3], so s^256 is far from both ends of the doubles.
+///   * X_(i+1) = X_i^T X_i squares the spectral norm. In floating point every entry errs by at most
+///     g (|X|^T |X|) with g < 3.01 * 2^-53, so the norm by g |X|_F^2 <= 3 g s^2.
+///   * So at least s^2 (1 - h) is left after a squaring, h = 3 g < 10 * 2^-53.
+///   * k squarings and k square roots of |X_k|_F >= s(X_k) give at least
+///     s (1 - h)^(1/2 + 1/4 + ...) > s (1 - h).
+///   * They give at most 3^(1 / 2^(k + 1)) s, up to rounding, as |X_k|_F <= sqrt(3) s(X_k). That is
+///     1.0022 s for k = 8.
+///   * A root errs by 2^-53 and halves the error of what came before. A factor of 1 + 32 * 2^-53
+///     pays for all roundings.
 /// @pre no NaN
 double spectral_norm_bound(const Eigen::Matrix3d& matrix);
 

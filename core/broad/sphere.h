@@ -18,13 +18,14 @@ struct SphereOf {
 };
 using Sphere = SphereOf<double>;
 
-/// Relative error of a sum of three squared differences: each difference, square and sum rounds
-/// once; the square doubles the difference's error: below 5 u, u = 2^-53 (of floats 2^-24). With a
-/// root or the square of a sum of radii below 9 u in all; 16 leaves room.
+/// Relative error of a sum of three squared differences, with u = 2^-53 (of floats 2^-24):
+///   * A difference rounds by u. Its square doubles that and rounds by u: 3 u.
+///   * Two sums round by u each: 5 u to first order.
+///   * With a root, or with the square of a sum of radii, below 9 u in all. 16 u leaves room.
 template <typename T>
 inline constexpr T kSphereRoundUp = 1 + 16 * (std::numeric_limits<T>::epsilon() / 2);
-/// Covers underflow of the squares (each at most 2^-1075, their root about 2^-537; of floats 2^-150
-/// and 2^-75), and its own square does not underflow.
+/// Covers underflow of the squares, each by at most 2^-1075 with a root of about 2^-537 (of floats
+/// 2^-150 and 2^-75). Its own square does not underflow.
 template <typename T>
 inline constexpr T kSphereTiny = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-60 : 0x1p-500);
 

@@ -14,12 +14,12 @@ SphereOf<T> enclosing_sphere(const SphereOf<T>& a, const SphereOf<T>& b) {
   SphereOf<T> out;
   out.center = a.center;
   if (distance > 0 && std::isfinite(distance)) {
-    // Share of the way from a to b; NaN (both radii infinite) stays at a.
+    // The parameter on the segment from a to b; NaN (both radii infinite) stays at a.
     const T share = T(0.5) + T(0.5) * (b.radius - a.radius) / distance;
     if (share > 0) out.center += std::min(share, T(1)) * step;
   }
-  // The radius of a child stands as slack in covering_radius(), which rounds distance plus slack
-  // up: the ball round `out.center` holds the child's.
+  // The radius of a child is the slack of covering_radius(), which rounds distance plus slack up:
+  // the ball round `out.center` holds the child's.
   const T to_a = covering_radius((a.center - out.center).squaredNorm(), a.radius);
   const T to_b = covering_radius((b.center - out.center).squaredNorm(), b.radius);
   out.radius = std::max(to_a, to_b);

@@ -8,22 +8,28 @@
 // round the box of everything below. The first alone grows from level to level: at the root of a
 // finely divided ball it is more than twice as large as the ball.
 //
-// Rounding loses no pair, in doubles and in floats, with the constants of sphere.h for each. Let
-// B(s) be the exact closed ball of a sphere's centre and radius as they are stored. Each B holds
-// all triangles below its node:
-// 1. Leaf: covering_radius() is at least the exact distance from the centre, whatever number that
-//    is, to every vertex; so B holds the vertices and, being convex, their triangles.
-// 2. Parent round children: its radius is at least |c - c_i| + r_i, exactly, for both children i
-//    (again whatever c is: rounding of c costs tightness, not safety); by the triangle inequality
-//    B holds both children's balls, which hold their triangles.
-// 3. Parent round a box: minima and maxima are exact, so the box holds all vertices
-//    below; its radius is at least the exact distance to the box's farthest corner, as in 1.
-// Two triangles that share a point x lie in balls that all hold x, in their leaves and above, and
-// collide_safe() is true for every two balls that share a point. Hence no pair of nodes above them
-// is ever dropped.
-// Overflow makes a radius infinite, which holds everything: every step takes maxima and sums of
-// values that are >= 0, and no centre is ever infinite, so no NaN arises. (Within kSingleLimit of
-// the local origin nothing overflows in floats: squares stay below 2^84.)
+// Claim: rounding loses no pair, in doubles and in floats, with the constants of sphere.h for each.
+// Two triangles that share a point lie under nodes whose spheres overlap, in their leaves and
+// above.
+//
+// Let B(s) be the exact closed ball of a sphere's centre and radius as they are stored. Each B
+// holds all triangles below its node:
+//   1. Leaf. covering_radius() is at least the exact distance from the centre to every vertex,
+//      whatever number the centre is. So B holds the vertices. It is convex and holds their
+//      triangles.
+//   2. Parent round its children. Its radius is at least |c - c_i| + r_i, exactly, for both
+//      children i, again whatever c is: rounding of c costs tightness, not safety. By the triangle
+//      inequality B holds both children's balls, which hold their triangles.
+//   3. Parent round a box. Minima and maxima are exact, so the box holds all vertices below. The
+//      radius is at least the exact distance to the box's farthest corner, as in 1.
+//   4. Two triangles that share a point x lie in balls that all hold x. collide_safe() is true for
+//      every two balls that share a point. Hence no pair of nodes above them is ever dropped.
+//
+// Overflow:
+//   * It makes a radius infinite, and such a ball holds everything.
+//   * No NaN arises: every step takes maxima and sums of values that are >= 0, and no centre is
+//     ever infinite.
+//   * Within kSingleLimit of the local origin nothing overflows in floats: squares stay below 2^84.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// map_point() on vector lanes, bit for bit: for the batch mapping and for whoever maps vertices
-// lazily. Compiled once per instruction set.
+// map_point() on vector lanes, bit for bit: for the batch mapping and for lazy mapping
+// (core/lazy/leaves-inl.h). Compiled once per instruction set.
 
 #if defined(CONTACTCHECK_MAPPING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_MAPPING_INL

@@ -64,12 +64,13 @@ void map_boxes(const Lattice& lattice, std::span<const LocalBoxOf<float>> boxes,
 /// Name of the instruction set that map_vertices runs on here: "AVX3", "AVX2", "SSE4", ...
 const char* simd_target();
 
-/// Bound on |computed - exact| per coordinate of map_point, given the largest |coordinate| of the
-/// nodes, for local coordinates in [0, 1] known exactly.
-/// Each blend adds at most 3 rounding steps of u (2^-53, of floats 2^-24) relative to its inputs (1
-/// - w, the two products, their sum: (1 + u)^3 - 1 < 3.1 u); three nested blends: below 10 u. The
-/// constant covers the 14 products that may underflow, each by at most half the smallest positive
-/// number.
+/// Bound on |computed - exact| per coordinate of map_point, given the largest |coordinate| M of the
+/// nodes, for local coordinates in [0, 1] known exactly. With u = 2^-53, of floats 2^-24:
+///   * A blend a (1 - w) + b w rounds 1 - w, both products and the sum. Each product has at most 3
+///     factors 1 + d, |d| <= u, so the blend is wrong by at most ((1 + u)^3 - 1) M < 3.1 u M.
+///   * Three nested blends: 3 * 3.1 u M, below 10 u M.
+///   * The 14 products of the 7 blends may underflow, each by at most half the smallest positive
+///     number. 32 of these numbers cover that.
 template <typename T>
 T mapping_error_bound(T largest_coordinate) {
   using Limits = std::numeric_limits<T>;

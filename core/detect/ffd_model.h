@@ -8,16 +8,27 @@
 // vertex where all three differ). An owner cell has one box per home cell in which vertices of its
 // triangles lie: the bounds of their local coordinates there (or that whole cell, for ffd-grid).
 //
-// Why that is safe. Let v be a vertex of an owned triangle, in home cell H with local coordinates
-// x, and B the owner's box in H: B.lo <= x <= B.hi holds between the stored doubles. The trilinear
-// map of H restricted to B is the trilinear blend of the images of B's eight corners with weights
-// in [0, 1] that sum to 1, so the exact image of v lies in their convex hull. Computed images
-// differ from exact ones by at most e = mapping_error_bound() per coordinate, for v and for the
-// corners alike: v's computed image lies within 2 e (per coordinate) of the hull of the computed
-// corners. Deformed triangles are flat between mapped vertices, hence inside any convex set that
-// holds the three. So an AABB of all corners of an owner's boxes, moved out by 2 e, and a ball that
-// holds all these corners, enlarged by 2 sqrt(3) e, contain every owned triangle, whichever cells
-// its vertices lie in: also across a displaced cell that holds none of them.
+// Claim: the bounds of an owner's boxes contain every triangle that it owns, whichever cells the
+// triangle's vertices lie in, also across a displaced cell that holds none of them. The bounds are
+//   * an AABB of all corners of the boxes, moved out by 2 e, and
+//   * a ball that holds all these corners, enlarged by 2 sqrt(3) e.
+//
+// Assumptions:
+//   * v is a vertex of an owned triangle, in home cell H with local coordinates x, and B the
+//     owner's box in H. B.lo <= x <= B.hi holds between the stored numbers.
+//   * Computed images differ from exact ones by at most e = mapping_error_bound() per coordinate,
+//     of vertices and of corners alike.
+//
+// Steps:
+//   1. The trilinear map of H restricted to B is the trilinear blend of the exact images of B's
+//      eight corners, with weights in [0, 1] that sum to 1. So the exact image of v lies in their
+//      convex hull.
+//   2. The computed image of v is within e of its exact image, and a computed corner within e of
+//      its own. So the computed image of v lies within 2 e, per coordinate, of the hull of the
+//      computed corners: within 2 sqrt(3) e in distance.
+//   3. An AABB or ball round all computed corners holds this hull. Enlarged by as much, it holds v.
+//   4. A deformed triangle is flat between mapped vertices. So it lies inside any convex set that
+//      holds the three.
 #pragma once
 
 #include <cstdint>

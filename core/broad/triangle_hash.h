@@ -37,7 +37,7 @@ class TriangleHashOf {
 
   void prepare(const std::vector<Body>& bodies);
   /// Fits the boxes to the frame. Hashing is left to the traversal: which triangles take part is
-  /// known here, but a table would be of no use to a frame that nobody asks about.
+  /// known here, but a frame that is not queried needs no table.
   /// @pre `vertices`: per prepared body, one finite position per vertex
   void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
   /// Calls `visit(ElementPair)`. The table is walked to its end whatever `visit` returns: all pairs

@@ -1,5 +1,5 @@
 // The shape of a binary tree over the triangles of one mesh, and the traversal of two such trees at
-// once. Which volumes stand at the nodes (boxes, spheres) is the business of the trees that use it.
+// once. Which volumes the nodes have (boxes, spheres) is up to the trees that use it.
 // Sources: van den Bergen: Efficient Collision Detection of Complex Deformable Models using AABB
 // Trees, Journal of Graphics Tools, 1997 (a topology made once, at rest); Wald: On Fast
 // Construction of SAH-Based Bounding Volume Hierarchies, RT 2007 (where a node is split).

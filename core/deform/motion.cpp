@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-// Where the point stands relative to the body: rest centre and largest half side.
+// Where the point is relative to the body: rest centre and largest half side.
 struct RestFrame {
   Vec3 center;
   Vec3 half;

@@ -8,7 +8,7 @@
 namespace contactcheck {
 namespace {
 
-// Lines per axis of the smallest cube of nodes that holds so many.
+// Lines per axis of the smallest cube of nodes that holds at least that many.
 std::size_t lines_for(std::size_t vertices) {
   std::size_t lines = 2;
   while (lines * lines * lines < vertices) ++lines;

@@ -24,7 +24,7 @@ void write_recording(const std::filesystem::path& file, const Recording& recordi
 /// @throws InputError: not a recording, wrong version, truncated, inconsistent, non-finite value
 Recording read_recording(const std::filesystem::path& file);
 
-/// The same in memory; `name` stands for the file in messages.
+/// The same in memory; `name` is the name of the file in messages.
 std::string recording_bytes(const Recording& recording, const std::string& name);
 Recording read_recording_bytes(const std::string& bytes, const std::string& name);
 

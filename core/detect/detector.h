@@ -34,7 +34,7 @@ struct StageRecord {
   std::string unit;  ///< what `in` and `out` count: "body pairs", "sphere pairs", ...
   std::uint64_t in = 0;
   std::uint64_t out = 0;
-  /// What the stage looked at on the way ("node pairs", "bucket entries"); empty unit: not counted.
+  /// What the stage looked at ("node pairs", "bucket entries"); empty unit: not counted.
   std::uint64_t visited = 0;
   std::string visited_unit;
   Kind kind = Kind::kBodies;
@@ -76,7 +76,7 @@ class Detector {
   /// in the same order; since its update, so asking once more adds to it. Untimed.
   virtual std::vector<Count> counts() { return {}; }
   /// What the detector itself says its last update() or query() took, nanoseconds; none: it says
-  /// nothing. Of one that is reached over a pipe it is the part without the way there. Untimed.
+  /// nothing. For a detector behind a pipe this excludes the time of the pipe. Untimed.
   virtual std::optional<double> reported_ns() const { return std::nullopt; }
   /// What a reader must know about the answer to the last updated frame: limits that were reached,
   /// triangles that the library cannot see. One sentence each, the same words for the same fact in

@@ -25,10 +25,10 @@ class NodePlaneStageOf {
   void run_probes(const FfdModels<T>& models, const FfdStates<T>& states, CellVolume volume,
                   const std::vector<ProbeHit>& hits, bool first_only,
                   std::vector<ElementPair>& out);
-  /// The hits that run_probes() reports, each with its depth and the normal that parts the two
+  /// The hits that run_probes() reports, each with its depth and the normal that separates the two
   /// boxes: one contact per probe inside a box, from the nearest plane of that box. A box of which
   /// no face has an area gives none. The normal is that of the pair as appended (moving the box by
-  /// depth * normal, or the probe by the opposite, brings the probe onto that plane).
+  /// depth * normal, or the probe by the opposite, puts the probe on that plane).
   /// @pre probes are corners of FFD-AABBs
   void run_contacts(const FfdModels<T>& models, const FfdStates<T>& states,
                     const std::vector<ProbeHit>& hits, std::vector<PieceContact>& out);
@@ -58,7 +58,7 @@ class TriangleStageOf {
                    const std::vector<std::span<const Vec3Of<T>>>& vertices);
 
   /// Appends every intersecting pair of triangles of each candidate pair of cells; a pair that
-  /// stands in several cells may be appended several times.
+  /// is in several cells may be appended several times.
   void run(const FfdModels<T>& models, const std::vector<ElementPair>& candidates, bool first_only,
            std::vector<ElementPair>& out);
 

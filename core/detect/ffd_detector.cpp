@@ -56,10 +56,10 @@ T grid_cell(double size) {
   return std::max(static_cast<T>(size), Limits::denorm_min());
 }
 
-// The way from the grid about a local origin to the grid about the origin of the world, so that
+// The offset from the grid about a local origin to the grid about the origin of the world, so that
 // nodes share the buckets that they share in doubles, up to rounding.
 template <typename T>
-Vec3Of<T> grid_shift(const Vec3& origin, double cell) {
+Vec3Of<T> grid_offset(const Vec3& origin, double cell) {
   Vec3Of<T> out = Vec3Of<T>::Zero();
   if (!(cell > 0.0) || !std::isfinite(grid_cell<T>(cell))) return out;
   for (int k = 0; k < 3; ++k) out[k] = static_cast<T>(std::fmod(origin[k], cell));
@@ -153,7 +153,7 @@ void FfdDetectorOf<T>::find_candidates() {
     box_hash_.run(models_, states_, config_, survivors_, cell, cells_);
   } else {
     probe_hash_.run(models_, states_, config_, survivors_, cell,
-                    grid_shift<T>(numbers_.origin(), hash_cell_size_), hits_);
+                    grid_offset<T>(numbers_.origin(), hash_cell_size_), hits_);
   }
 }
 

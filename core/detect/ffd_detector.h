@@ -10,7 +10,8 @@
 //
 // Members that claim the level `box` answer the question `contacts` too: per node inside a box the
 // distance to the nearest of its planes, in metres, and the unit normal (see element_stages.h).
-// That takes this node out, not the whole box: a lower bound for parting the boxes that way.
+// That takes this node out, not the whole box: a lower bound of the translation along that normal
+// which separates the boxes.
 #pragma once
 
 #include <span>

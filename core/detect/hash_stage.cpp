@@ -105,14 +105,14 @@ void ProbeHashStageOf<T>::find_active_probes(const FfdModels<T>& models, const F
 
 template <typename T>
 void ProbeHashStageOf<T>::find_keys(const FfdStates<T>& states, CellVolume volume, T cell_size,
-                                    const Vec3Of<T>& grid_shift) {
+                                    const Vec3Of<T>& grid_offset) {
   keys_.resize(active_.size());
   for (std::size_t body = 0; body < active_.size(); ++body) {
     keys_[body].resize(active_[body].size());
     for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe)
       if (active_[body][probe])
         keys_[body][probe] =
-            grid_key<T>(probe_position(states[body], volume, probe) + grid_shift, cell_size);
+            grid_key<T>(probe_position(states[body], volume, probe) + grid_offset, cell_size);
   }
 }
 
@@ -143,12 +143,12 @@ void ProbeHashStageOf<T>::hash_boxes(const FfdModels<T>& models, const FfdConfig
 template <typename T>
 void ProbeHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& states,
                               const FfdConfig& config, const SphereSurvivors& survivors,
-                              T cell_size, const Vec3Of<T>& grid_shift,
+                              T cell_size, const Vec3Of<T>& grid_offset,
                               std::vector<ProbeHit>& out) {
   out.clear();
   if (survivors.body_pairs.empty()) return;
   find_active_probes(models, states, config, survivors, active_);
-  find_keys(states, config.volume, cell_size, grid_shift);
+  find_keys(states, config.volume, cell_size, grid_offset);
   hash_boxes(models, config);
   for (std::uint32_t body = 0; body < models.size(); ++body) {
     for (std::uint32_t probe = 0; probe < active_[body].size(); ++probe) {

@@ -39,10 +39,10 @@ void for_cells_of_probe(const FfdStructure& model, CellVolume volume, std::uint3
 template <typename T>
 class ProbeHashStageOf {
  public:
-  /// `grid_shift` is added to every probe before it is hashed: which nodes share a bucket depends
+  /// `grid_offset` is added to every probe before it is hashed: which nodes share a bucket depends
   /// on where the grid lies.
   void run(const FfdModels<T>& models, const FfdStates<T>& states, const FfdConfig& config,
-           const SphereSurvivors& survivors, T cell_size, const Vec3Of<T>& grid_shift,
+           const SphereSurvivors& survivors, T cell_size, const Vec3Of<T>& grid_offset,
            std::vector<ProbeHit>& out);
   /// Per body: the probes that take part. For the stage trace.
   static std::vector<std::vector<char>> active_probes(const FfdModels<T>& models,
@@ -58,7 +58,7 @@ class ProbeHashStageOf {
                                  const FfdConfig& config, const SphereSurvivors& survivors,
                                  std::vector<std::vector<char>>& active);
   void find_keys(const FfdStates<T>& states, CellVolume volume, T cell_size,
-                 const Vec3Of<T>& grid_shift);
+                 const Vec3Of<T>& grid_offset);
   void hash_boxes(const FfdModels<T>& models, const FfdConfig& config);
 
   std::vector<std::vector<char>> active_;   // per body and probe

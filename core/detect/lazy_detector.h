@@ -25,7 +25,7 @@ struct LazyConfig {
   Precision precision = Precision::kDouble;
 };
 
-/// In doubles exact for all that are finite: bounds only cull, and contain what they stand for. In
+/// In doubles exact for all that are finite: bounds only cull, and contain what they bound. In
 /// single precision nodes are rounded about the local origin, vertices mapped from those floats,
 /// whatever the source of bounds, and these triangles tested exactly (core/lazy/lazy_state.h).
 /// The contacts do not depend on the instruction set nor on the number of threads.
@@ -34,7 +34,7 @@ class LazyDetector : public Detector {
   explicit LazyDetector(const LazyConfig& config);
 
   const Semantics& semantics() const override { return semantics_; }
-  /// In single precision it maps vertices of its own.
+  /// In single precision it maps its own vertices.
   bool needs_vertices() const override { return bounds_all() && !single(); }
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
@@ -48,7 +48,7 @@ class LazyDetector : public Detector {
   std::string validate(const std::vector<std::vector<Vec3>>& vertices);
   /// Since the last update.
   LazyCounters counters() const;
-  /// Bytes of all trees; of all that the bodies hold beside them.
+  /// Bytes of all trees; bytes of everything else that the bodies hold.
   std::size_t shared_bytes() const;
   std::size_t instance_bytes() const;
 

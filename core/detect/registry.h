@@ -26,7 +26,7 @@ struct OptionInfo {
 using Options = std::map<std::string, std::string>;
 
 struct DetectorInfo {
-  std::string id;       ///< includes "+tri" where that is a variant of its own
+  std::string id;       ///< includes "+tri" where that is a separate variant
   std::string summary;  ///< one line
   std::vector<OptionInfo> options;
   std::function<std::unique_ptr<Detector>(const Options&)> make;

@@ -210,7 +210,7 @@ Vec3 ContactPoints::add_triangles(const ElementPair& pair, const Frame& frame, I
   const TriangleContact contact =
       triangle_contact(points_of(a, frame.bodies[pair.body_a].vertices),
                        points_of(b, frame.bodies[pair.body_b].vertices));
-  // Zero: nothing to part along, and nothing to correct: such triangles have no depth.
+  // Zero: no direction to separate along, and nothing to correct: such triangles have no depth.
   if (!contact.normal.isZero(0.0))
     out.push_back({pair.body_a, pair.body_b, blend_on_triangle(shape_a, a, contact.on_a),
                    blend_on_triangle(shape_b, b, contact.on_b), contact.normal, contact.depth});

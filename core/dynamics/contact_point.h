@@ -23,7 +23,7 @@ struct NodeBlend {
 struct ContactPoint {
   std::uint32_t body_a = 0, body_b = 0;
   NodeBlend a, b;
-  Vec3 normal = Vec3::Zero();  ///< unit, from a to b: moving b along it parts them
+  Vec3 normal = Vec3::Zero();  ///< unit, from a to b: moving b along it separates them
   double depth = 0.0;          ///< metres, not negative
 };
 
@@ -33,9 +33,9 @@ enum class ContactVolume { kCell, kFfdAabb };
 /// Turns the answers of a detector to one frame into points to respond at, in the order of the
 /// canonical set: from pairs of triangles where there are any, else from pairs of cells. The
 /// geometry is this class's own, the same for every detector: a detector decides where there is
-/// contact, not how it is answered. Two bodies are separated one way (agree_on_directions): the sum
-/// of the normals of two solids' triangles, else of the ways between the centres of the cells that
-/// are, or hold, what is in contact.
+/// contact, not how it is answered. Two bodies are separated in one direction
+/// (agree_on_directions): the sum of the normals of two solids' triangles, else of the vectors
+/// between the centres of the cells that are, or hold, what is in contact.
 class ContactPoints {
  public:
   /// The bodies outlive this object.
@@ -47,7 +47,7 @@ class ContactPoints {
  private:
   class Insides;
 
-  /// Both return which way the pair says that b lies from a, of any length.
+  /// Both return the direction from a to b by this pair, of any length.
   Vec3 add_triangles(const ElementPair& pair, const Frame& frame, Insides& insides,
                      std::vector<ContactPoint>& out) const;
   Vec3 add_cells(const ElementPair& pair, const Frame& frame, std::vector<ContactPoint>& out) const;
@@ -63,10 +63,10 @@ NodeBlend blend_of_vertex(const BodyShape& shape, std::uint32_t vertex);
 /// The blend that is a point of a kept cell, by local coordinates in [0, 1].
 NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3& local);
 
-// One way out for two bodies. A point of contact names the way out of one box or triangle, which
-// deep inside a body is any way: through a face between two cells, or along the surface. So the
-// points of two bodies hear what all of them say together, and those that would push across it or
-// against it push that way.
+// One direction of separation for two bodies. A point of contact has the direction out of one box
+// or triangle. Deep inside a body that can be any direction: through a face between two cells, or
+// along the surface. So the directions of all points of two bodies are summed, and points that
+// would push across the sum or against it push along it.
 
 /// Per pair of bodies a vector from a to b, of any length.
 using Directions = std::map<BodyPair, Vec3>;

@@ -94,7 +94,7 @@ HexahedronStiffness hexahedron_stiffness(const Vec3& sides, double youngs_modulu
 }
 
 // Of K^64, squared six times: its Frobenius norm is that of its eigenvalues, at most sqrt(24) times
-// the largest, and 24^(1/128) = 1.026. Normed on the way, so that no power overflows.
+// the largest, and 24^(1/128) = 1.026. Normalised after every step, so that no power overflows.
 double largest_eigenvalue_bound(const HexahedronStiffness& stiffness) {
   constexpr int kSquarings = 6;
   HexahedronStiffness power = stiffness;

@@ -72,7 +72,7 @@ class FiniteElements final : public Deformable {
     Corners rest, gradients;  // from corner 0; of the shape functions, in the middle
     HexahedronStiffness stiffness;
   };
-  // An element as it stands, relative to its corner 0 and turned back.
+  // An element in its current state, relative to its corner 0 and turned back.
   struct Pose {
     Mat3 rotation;
     Corners corners;

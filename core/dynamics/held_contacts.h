@@ -1,7 +1,7 @@
 // Contact between two detections. A detector speaks once per time step, but the springs of a light
 // node swing many times within one: a velocity that was stopped at the detection is back long
 // before the next. So the points of the last detection are held through the substeps: their sides
-// may part, and may come back as far as they were, but no nearer.
+// may separate, and may come back as far as they were, but no nearer.
 #pragma once
 
 #include <vector>

@@ -34,7 +34,7 @@ Ids nodes_within(const Lattice& lattice, const std::vector<Ids>& cells_of, std::
       for (std::uint32_t c : cells_of[node])
         wider.insert(wider.end(), lattice.cell_nodes[c].begin(), lattice.cell_nodes[c].end());
     sort_unique(wider);
-    if (wider.size() == nodes.size()) break;  // a whole part of a body in parts
+    if (wider.size() == nodes.size()) break;  // a whole component of a body that is not connected
     nodes = std::move(wider);
   }
   return nodes;
@@ -141,7 +141,7 @@ void ShapeMatching::add_pulls(const NodeState& state, std::span<Pull> pulls) con
     add_motion(region, state, fit);
     for (const Member& m : members(region)) {
       const Vec3& p = state.positions[m.node];
-      pulls[m.node].way += fit.goal(m) - p;
+      pulls[m.node].offset += fit.goal(m) - p;
       pulls[m.node].excess +=
           fit.velocity + fit.spin.cross(p - fit.center) - state.velocities[m.node];
     }
@@ -156,9 +156,9 @@ void ShapeMatching::step(double dt, const Vec3& acceleration, NodeState& state) 
     state.positions[n] += state.velocities[n] * (0.5 * dt);
   add_pulls(state, pulls);
   const double share = dt / (dt + relaxation_time_);
-  const double of_way = share * share / dt, of_excess = share * (2.0 - share);
+  const double of_offset = share * share / dt, of_excess = share * (2.0 - share);
   for (std::size_t n = 0; n < masses_.size(); ++n) {
-    const Vec3 kick = pulls[n].way * of_way + pulls[n].excess * of_excess;
+    const Vec3 kick = pulls[n].offset * of_offset + pulls[n].excess * of_excess;
     state.velocities[n] += acceleration * dt + kick * region_shares_[n];
     state.positions[n] += state.velocities[n] * (0.5 * dt);
   }
@@ -169,8 +169,8 @@ double ShapeMatching::elastic_energy(std::span<const Vec3> positions) const {
   for (std::size_t region = 0; region < region_count(); ++region) {
     const Fit fit = place(region, positions);
     for (const Member& m : members(region)) {
-      const Vec3 way = fit.goal(m) - positions[m.node];
-      sum += m.mass * ordered_dot(way, way);
+      const Vec3 offset = fit.goal(m) - positions[m.node];
+      sum += m.mass * ordered_dot(offset, offset);
     }
   }
   return 0.5 * sum / (relaxation_time_ * relaxation_time_);

@@ -6,7 +6,7 @@
 // Every region fits its rest shape, rigidly moved, to its nodes (least squares, weighted by mass);
 // a node's goal is the mean over its regions. The node is drawn to its goal like a critically
 // damped oscillator of the time constant tau = relaxation_time, x'' = -e/tau^2 - 2 w/tau, where e
-// is its way from the goal and w its velocity against the mean rigid motion of its regions.
+// is its offset from the goal and w its velocity against the mean rigid motion of its regions.
 //
 // One step is drift, kick, drift. The kick, with the share s = dt / (dt + tau), takes
 // s^2 e / dt + s (2 - s) w from the velocity: the oscillator's implicit Euler step for a goal that
@@ -40,7 +40,7 @@ class ShapeMatching final : public Deformable {
   std::span<const double> masses() const override { return masses_; }
   void step(double dt, const Vec3& acceleration, NodeState& state) const override;
   double stable_step() const override { return std::numeric_limits<double>::infinity(); }
-  /// Half the squared way of every node to its goal in each of its regions, by its mass there,
+  /// Half the squared distance of every node to its goal in each of its regions, by its mass there,
   /// over the relaxation time squared: the energy whose gradient draws the nodes.
   double elastic_energy(std::span<const Vec3> positions) const override;
 
@@ -59,7 +59,7 @@ class ShapeMatching final : public Deformable {
     Vec3 goal(const Member& m) const { return center + ordered_product(rotation, m.rest); }
   };
   struct Pull {
-    Vec3 way, excess;  // sums over the node's regions: to the goal, to the rigid motion
+    Vec3 offset, excess;  // sums over the node's regions: to the goal, to the rigid motion
   };
 
   std::span<const Member> members(std::size_t region) const;

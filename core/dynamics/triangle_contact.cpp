@@ -36,7 +36,7 @@ Vec3 parting_direction(const TrianglePoints& a, const Vec3& normal_a, const Tria
                        const Vec3& normal_b) {
   const Vec3 difference = normal_a - normal_b;
   if (ordered_norm(difference) > kLeastNormalDifference) return unit_or_zero(difference);
-  // Two flush faces, as of boxes that stand side by side and overlap: apart is where the other is.
+  // Two flush faces, as of boxes side by side that overlap: away is where the other is.
   return unit_or_zero(centroid(b) - centroid(a));
 }
 

@@ -22,8 +22,8 @@ struct LeafPair {
   std::uint32_t a, b;
 };
 
-/// What is left of the test of two bodies: slots whose bounds meet and are still to be opened, and
-/// leaves whose triangles are still to be tested.
+/// The front of the bounding-volume test tree (BVTT) of two bodies: slots whose bounds meet and are
+/// still to be opened, and leaves whose triangles are still to be tested.
 struct BvttFront {
   std::vector<SlotPair> slots;
   std::vector<LeafPair> leaves;
@@ -43,7 +43,7 @@ struct LazyScratch {
   TriangleBatch batch{};
   SingleTriangleBatch single_batch{};              ///< used instead in single precision
   LazyCounters counters;                           ///< without what count_made() adds
-  std::vector<ElementPair>* candidates = nullptr;  ///< takes down every pair tested, if any
+  std::vector<ElementPair>* candidates = nullptr;  ///< if set, records tested pairs
 };
 
 /// Two bodies of one frame and one precision, placed and with their nodes known (lazy_state.h).
@@ -58,9 +58,9 @@ struct LazyKernels {
   /// Appends the intersecting pairs of triangles, each once; stops at the first if `first_only`.
   void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                   std::vector<ElementPair>& out);
-  /// Opens what meets, level by level, until so many slots are open or none is left to be opened.
+  /// Opens pairs that meet, level by level, until the front has `slots` slots or none is left.
   void (*spread)(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, BvttFront& front);
-  /// collide() of a part of what spread() has left; the parts together find what collide() finds.
+  /// collide() of a part of the front of spread(). All parts together find what collide() finds.
   void (*collide_part)(BodiesToTest bodies, FrontPart part, bool first_only, LazyScratch& scratch,
                        std::vector<ElementPair>& out);
   /// Bounds every block of the body, in order of their indices. For refitted bodies and validate().

@@ -94,7 +94,7 @@ struct TreeLeaf {
 /// Per corner of its triangles: which of the leaf's vertices it is.
 using LeafCorners = std::array<std::array<std::uint8_t, kLeafTriangles>, 3>;
 
-/// Vertices of a leaf with one home cell stand together.
+/// Vertices of a leaf with one home cell are contiguous.
 struct VertexRun {
   std::uint32_t cell = 0;
   std::uint32_t count = 0;

@@ -2,15 +2,15 @@
 // first asked for, by any thread, and stamped with the frame.
 //
 // Bounds are floats in the body's frame: (x - origin) * scale, with a power of two common to all
-// bodies as scale. The origin is the middle of the scene where bodies are not small beside it, else
-// the middle of each body. So a scene far out loses nothing, nor does a body far from the others,
-// and neither overflow nor underflow spoils a bound.
+// bodies as scale. The origin is the middle of the scene where bodies are not small against it,
+// else the middle of each body. So a scene far out loses nothing, nor does a body far from the
+// others, and neither overflow nor underflow spoils a bound.
 //
 // In single precision that frame is all there is: float(x - origin) * scale, with the local origin
 // of the scene (core/types/local_origin.h) and the power of two that brings its half-width to at
 // most
 // 1. Nodes are rounded once, by the difference; the scale changes no digit of what is not lost
-// beside the scene anyway (less than 2^-126 of it). Vertices are mapped from these floats, boxes
+// against the scene anyway (less than 2^-126 of it). Vertices are mapped from these floats, boxes
 // made and triangles tested of them, without a look back at the doubles.
 //
 // What is found in single precision: exactly the pairs of triangles of these floats that intersect.
@@ -64,12 +64,12 @@ class FrameArena {
 };
 
 /// What was made in this frame, by index. Threads that miss an entry at the same time each make it
-/// in their own arena and put it down; what they make is the same to the last bit, so it does not
-/// matter whose entry stays, nor whether a reader sees one or the other.
+/// in their own arena and store it. All make the same bits, so it does not matter whose entry
+/// stays, nor which one a reader sees.
 template <class T>
 class FrameTable {
  public:
-  /// Begins a frame: no entry is known. Not while others use the table.
+  /// Begins a frame: invalidates all entries. Not while others use the table.
   void begin_frame(std::size_t size) {
     if (entries_.size() != size || frame_ == std::numeric_limits<std::uint32_t>::max()) {
       entries_ = std::vector<Entry>(size);
@@ -213,7 +213,7 @@ FrameTable<LeafCacheOf<Real>>& leaves_in(LazyState& state) {
   }
 }
 
-/// Nothing of the frame is known any more; nothing of the last one is left.
+/// Invalidates per-frame state.
 void forget_frame(LazyState& state);
 
 /// Forgets the last frame, in doubles (in single precision: begin_frame_in_single); the body's box

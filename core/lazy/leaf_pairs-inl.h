@@ -22,7 +22,8 @@ namespace contactcheck {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A box of a leaf, or of one of its triangles, beside boxes of the other body's triangles.
+// Bit i: the box of a leaf, or of one of its triangles, overlaps box i of the other body's
+// triangles.
 HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32_t lane,
                                                const Translation& translation,
                                                const LaneBoxes& lanes) {

@@ -29,7 +29,7 @@ int sweep_axis(std::span<const Aabb> boxes) {
   return best;
 }
 
-// With so many pairs there is work for every thread without cutting any.
+// From this many pairs on there is work for every thread without cutting any.
 constexpr std::size_t kManyPairs = 256;
 // Slots that a cut pair is spread to, and how many go to a task: a slot takes some microseconds.
 constexpr std::size_t kSlots = 64, kSlotsPerTask = 8, kLeavesPerTask = 64;

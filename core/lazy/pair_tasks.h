@@ -40,8 +40,8 @@ class ThreadTeam {
   std::unique_ptr<Arena> arena_;  ///< none where the calling thread works alone
 };
 
-/// What the tests find does not depend on the number of threads: tasks are cut by the number of
-/// pairs and by their fronts alone, and each puts down what it finds in a place of its own.
+/// Tests the pairs. What it finds does not depend on the number of threads: tasks are cut by the
+/// number of pairs and by their fronts alone, and each writes what it finds to its own list.
 class PairTasks {
  public:
   PairTasks(const LazyKernels& kernels, ThreadTeam& team) : kernels_(kernels), team_(team) {}

@@ -16,7 +16,7 @@ std::uint32_t owner_of(const Embedding& embedding, const Triangle& t) {
   return b == c ? b : a;
 }
 
-// Two boxes of less than this share of the surface of the one round both are better apart.
+// Two boxes with less than this share of the surface of the one round both go into two leaves.
 constexpr double kFarApart = 0.65;
 
 class Splitter {
@@ -68,7 +68,7 @@ class Splitter {
     double share = std::numeric_limits<double>::infinity();  ///< boxes of both over that of all
   };
 
-  /// Leaves the range sorted so that the cut parts it.
+  /// Leaves the range sorted so that the cut divides it.
   Cut best_cut(const Part& part) {
     std::array<Cut, 3> cuts;
     for (int axis = 0; axis < 3; ++axis) cuts[axis] = best_cut(part, axis);
@@ -136,7 +136,7 @@ class Splitter {
     return middle;
   }
 
-  // Of all planes between cells the one that parts the triangles most evenly.
+  // Of all planes between cells the one that divides the triangles most evenly.
   std::uint32_t split_between_cells(const Part& part) {
     const std::uint32_t count = part.last - part.first;
     int best_axis = 0;

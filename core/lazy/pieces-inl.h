@@ -42,7 +42,7 @@ HWY_INLINE Rows load_rows(RowOfLane&& row) {
   return out;
 }
 #else
-// Lanes i and i + 4 stand in one vector: the transposition works on blocks of four.
+// Lanes i and i + 4 share a vector: the transposition works on blocks of four.
 template <class RowOfLane>
 HWY_INLINE FloatVec row_of_blocks(RowOfLane&& row, std::size_t i) {
   const hn::CappedTag<float, 4> four;

@@ -4,10 +4,10 @@
 //
 // Claim: the sign of a determinant that exceeds error_bound() is right (LaneFilter).
 //   * The operations and their order are those of orient3d. None is fused.
-//   * orient3d's bound has the largest |differences| X, Y, Z that a determinant computes. In their
-//     place stand the extents of both triangles together.
-//   * They are no smaller: the computed difference of two values is at most the computed difference
-//     of the largest and the smallest.
+//   * orient3d's bound has the largest |differences| X, Y, Z that a determinant computes. This one
+//     has the extents of both triangles together.
+//   * The extents are no smaller: the computed difference of two values is at most the computed
+//     difference of the largest and the smallest.
 
 #if defined(CONTACTCHECK_LAZY_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef CONTACTCHECK_LAZY_TRIANGLES_INL

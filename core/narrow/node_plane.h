@@ -49,7 +49,7 @@ bool node_inside(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of
   return true;
 }
 
-/// The way out of a box that node_inside() says holds a node.
+/// How a node leaves a box that it is inside of, by node_inside().
 struct NodeDepth {
   double depth = 0.0;           ///< metres to the nearest plane, never negative
   Vec3 outward = Vec3::Zero();  ///< unit normal of that plane; zero: no plane has a normal

@@ -29,7 +29,7 @@
 //
 // Exact path. Scaling one axis by a power of two scales the determinant and keeps its sign. So
 // every axis is divided by the lowest set bit of its coordinates, which makes them integers: short
-// ones for coordinates of like size, up to 2098 bits for 5e-324 beside 1.8e308.
+// ones for coordinates of like size, up to 2098 bits for 5e-324 with 1.8e308.
 
 #include "core/narrow/predicates.h"
 

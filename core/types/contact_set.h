@@ -15,8 +15,9 @@ struct BodyPair {
   auto operator<=>(const BodyPair&) const = default;
 };
 
-/// An element (cell or triangle, by the set it stands in) of body_a with one of body_b; canonical
-/// when body_a < body_b. Element indices are those of the input mesh and of the kept cells.
+/// An element (cell or triangle, by the set that contains it) of body_a with one of body_b;
+/// canonical when body_a < body_b. Element indices are those of the input mesh and of the kept
+/// cells.
 struct ElementPair {
   std::uint32_t body_a = 0, body_b = 0, a = 0, b = 0;
   auto operator<=>(const ElementPair&) const = default;
@@ -38,11 +39,11 @@ struct NearPair {
 };
 
 /// Two convex pieces in contact (triangles or mapped FFD-AABB boxes, by what the detector claims)
-/// and how to part them: depth kind `convex-pair`.
+/// and how to separate them: depth kind `convex-pair`.
 struct PieceContact {
   ElementPair pieces;
   double depth = 0.0;          ///< metres
-  Vec3 normal = Vec3::Zero();  ///< unit; moving piece b by depth * normal parts them
+  Vec3 normal = Vec3::Zero();  ///< unit; moving piece b by depth * normal separates them
 };
 
 /// A vertex in contact with the surface of another body and the way out: depth kind
@@ -61,7 +62,8 @@ struct ContactSet {
   std::vector<ElementPair> triangles;
   std::vector<VertexInBody> vertices;
   std::vector<NearPair> near;
-  /// For the question `contacts`, beside the sets above: several per pair or vertex are allowed.
+  /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
+  /// allowed.
   std::vector<PieceContact> piece_contacts;
   std::vector<VertexContact> vertex_contacts;
 

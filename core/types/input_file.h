@@ -1,6 +1,6 @@
-// The door by which files come in that somebody has named: regular files, and links to such.
+// Opens input files that a user names: regular files, and links to such.
 //
-// A pipe that nobody writes to would be waited for without end, and a device may have no end.
+// A pipe without a writer would block for ever, and a device may have no end.
 // Scenes, recordings and results are also read more than once, and by several processes.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace contactcheck {
 /// a pipe, not a regular file". Empty for a regular file and a link to one. Opens nothing.
 std::string input_file_fault(const std::filesystem::path& file);
 
-/// `file`, open to be read as bytes. `name` stands for it in messages: "mesh file \"x.off\"".
+/// `file`, open to be read as bytes. `name` is its name in messages: "mesh file \"x.off\"".
 /// @throws InputError, one sentence, when it has a fault or cannot be opened
 std::ifstream open_input_file(const std::filesystem::path& file, const std::string& name);
 

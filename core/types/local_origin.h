@@ -21,8 +21,8 @@ inline constexpr float kSingleLimit = 0x1p40f;
 Vec3 local_origin(const Frame& frame);
 
 /// A coordinate about an origin's coordinate: subtracted in double, then rounded once.
-/// (g++ 12 at -O2 may leave out the way through float where the result is converted back to double
-/// at once: store it as a float, or go by way of a volatile.)
+/// (g++ 12 at -O2 may skip the rounding to float where the result is converted back to double at
+/// once: store it as a float or in a volatile.)
 inline float local_value(double x, double origin) { return static_cast<float>(x - origin); }
 
 /// local_value() of every coordinate of `points`. @pre as many places in `out` as points

@@ -9,7 +9,7 @@
 
 namespace contactcheck {
 
-/// The levels of contact; each has a truth of its own (see the README of fixtures for the meaning).
+/// The levels of contact; each has its own ground truth (fixtures/README.md).
 enum class Level { kBody, kContainment, kCell, kBox, kTriangle, kVertex, kNear };
 
 /// In the order of tables and files.
@@ -52,8 +52,9 @@ struct Semantics {
   double scale = 1.0;  ///< with single precision it is fed fed_value(x, scale) and not x
   /// Only with single precision, and then at scale 1: in every frame it subtracts local_origin() in
   /// double before it rounds: it works on local_value(x, origin[axis]) (local_origin.h). One that
-  /// needs vertices is fed these values and judged by their truth as well. One that does not rounds
-  /// the nodes and maps vertices of its own, which nobody else knows: by the truth of x alone.
+  /// needs vertices is fed these values and is judged by their ground truth as well. One that needs
+  /// none rounds the nodes and maps its own vertices, which no other program knows. It is judged by
+  /// the ground truth of x alone.
   bool local_origin = false;
   DepthKind depth = DepthKind::kNone;
   bool whole_cells = false;  ///< of one that answers with cells: it tests these, not FFD-AABBs

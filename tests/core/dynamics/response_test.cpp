@@ -296,12 +296,12 @@ TEST(Response, CorrectsDepthByInverseMass) {
   EXPECT_EQ(world.momentum(), Vec3::Zero());  // a correction gives no speed
 }
 
-// Without a model of deformation nothing holds a body's nodes together: all take the mean way.
+// Without a model of deformation nothing holds a body's nodes together: all take the mean offset.
 void make_rigid(const std::vector<Vec3>& before, std::vector<Vec3>& positions) {
-  Vec3 way = Vec3::Zero();
-  for (std::size_t n = 0; n < before.size(); ++n) way += positions[n] - before[n];
-  way /= static_cast<double>(before.size());
-  for (std::size_t n = 0; n < before.size(); ++n) positions[n] = before[n] + way;
+  Vec3 offset = Vec3::Zero();
+  for (std::size_t n = 0; n < before.size(); ++n) offset += positions[n] - before[n];
+  offset /= static_cast<double>(before.size());
+  for (std::size_t n = 0; n < before.size(); ++n) positions[n] = before[n] + offset;
 }
 
 // A smaller cube in the middle of a larger one's face, overlapping along x; what a detector would
@@ -320,19 +320,19 @@ void expect_parted(double overlap, const Contacts& contacts) {
   for (Vec3& n : world.states[1].positions) n.x() -= overlap;
   const ContactPoints maker(bodies, ContactVolume::kFfdAabb);
   const World start = world;
-  Vec3 way = Vec3::Zero();  // of b against a
-  for (int round = 0; round < 200 && way.x() < 0.95 * overlap; ++round) {
+  Vec3 offset = Vec3::Zero();  // of b against a
+  for (int round = 0; round < 200 && offset.x() < 0.95 * overlap; ++round) {
     const World before = world;
     const test::FrameData data =
         test::make_frame(bodies, {world.states[0].positions, world.states[1].positions});
     world.respond(maker.from(contacts(bodies, data.frame()), data.frame()));
     for (int b = 0; b < 2; ++b) make_rigid(before.states[b].positions, world.states[b].positions);
-    way = (world.states[1].positions[0] - start.states[1].positions[0]) -
-          (world.states[0].positions[0] - start.states[0].positions[0]);
+    offset = (world.states[1].positions[0] - start.states[1].positions[0]) -
+             (world.states[0].positions[0] - start.states[0].positions[0]);
   }
-  EXPECT_GE(way.x(), 0.95 * overlap);
-  EXPECT_LE(way.x(), 1.05 * overlap);  // separated, not thrown
-  EXPECT_LE(std::abs(way.y()) + std::abs(way.z()), 0.2 * overlap);
+  EXPECT_GE(offset.x(), 0.95 * overlap);
+  EXPECT_LE(offset.x(), 1.05 * overlap);  // separated, not thrown
+  EXPECT_LE(std::abs(offset.y()) + std::abs(offset.z()), 0.2 * overlap);
 }
 
 TEST(Response, PartsOverlappingBoxesByTheirTriangles) {

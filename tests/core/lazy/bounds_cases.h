@@ -77,19 +77,19 @@ inline int lanes_of(const LatticeTree& tree) {
 }
 
 inline void shrink(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo += way;
-  hi -= way;
+  const float step = 0.01f * (hi - lo);
+  lo += step;
+  hi -= step;
 }
 inline void move_up(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo += way;
-  hi += way;
+  const float step = 0.01f * (hi - lo);
+  lo += step;
+  hi += step;
 }
 inline void move_down(float& lo, float& hi) {
-  const float way = 0.01f * (hi - lo);
-  lo -= way;
-  hi -= way;
+  const float step = 0.01f * (hi - lo);
+  lo -= step;
+  hi -= step;
 }
 
 }  // namespace contactcheck::test

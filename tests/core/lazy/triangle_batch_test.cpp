@@ -114,10 +114,10 @@ TYPED_TEST(TriangleBatches, AreNeverWrongOnTrianglesThatAreNearlyParallel) {
   for (double gap : this->ranges.gaps)
     this->judge(608, 96, [&](TriangleSource& random) -> DoublePair {
       const TrianglePoints t = random.triangle(Vec3::Ones(), 1.0);
-      const Vec3 way = gap * (t[1] - t[0]).cross(t[2] - t[0]);
+      const Vec3 offset = gap * (t[1] - t[0]).cross(t[2] - t[0]);
       const auto near = [&] {
         return Vec3(t[0] + random.unit() * (t[1] - t[0]) + random.unit() * (t[2] - t[0]) +
-                    random.unit() * way);
+                    random.unit() * offset);
       };
       return {t, {near(), near(), near()}};
     });

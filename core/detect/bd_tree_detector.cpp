@@ -41,22 +41,19 @@ void BdTreeDetectorOf<T>::prepare(const std::vector<Body>& bodies) {
 template <typename T>
 void BdTreeDetectorOf<T>::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == trees_.size(), "one state per prepared body");
-  constexpr bool kSingle = std::is_same_v<T, float>;
-  const Vec3 origin = kSingle ? local_origin(frame) : Vec3(Vec3::Zero());
-  if constexpr (kSingle) round_nodes(frame, origin);
-  for (std::size_t body = 0; body < trees_.size(); ++body)
-    trees_[body].begin_frame(
-        kSingle ? std::span<const Vec3>(rounded_[body]) : frame.bodies[body].nodes, origin);
-}
-
-// As doubles again: spheres are computed from them in doubles.
-template <typename T>
-void BdTreeDetectorOf<T>::round_nodes(const Frame& frame, const Vec3& origin) {
-  round_bodies(frame, &BodyState::nodes, origin, floats_);
-  rounded_.resize(trees_.size());
-  for (std::size_t body = 0; body < trees_.size(); ++body) {
-    rounded_[body].clear();
-    for (const Vec3f& node : floats_[body]) rounded_[body].push_back(node.cast<double>());
+  if constexpr (std::is_same_v<T, float>) {
+    // Rounded, and then doubles again: spheres are computed from them in doubles.
+    const Vec3 origin = local_origin(frame);
+    round_bodies(frame, &BodyState::nodes, origin, floats_);
+    rounded_.resize(trees_.size());
+    for (std::size_t body = 0; body < trees_.size(); ++body) {
+      rounded_[body].clear();
+      for (const Vec3f& node : floats_[body]) rounded_[body].push_back(node.cast<double>());
+      trees_[body].begin_frame(rounded_[body], origin);
+    }
+  } else {
+    for (std::size_t body = 0; body < trees_.size(); ++body)
+      trees_[body].begin_frame(frame.bodies[body].nodes, Vec3::Zero());
   }
 }
 
@@ -100,47 +97,33 @@ void BdTreeDetectorOf<T>::find_triangles(std::vector<ElementPair>& out) {
 }
 
 template <typename T>
-void BdTreeDetectorOf<T>::find_bodies(std::vector<BodyPair>& out) {
+void BdTreeDetectorOf<T>::query(Question question, ContactSet& out) {
+  CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  if (question == Question::kTriangles) return find_triangles(out.triangles);
   visit_leaves([&](const Leaves& leaves) {
     return test_leaves(leaves, [&](const ElementPair& pair) {
-      out.push_back({pair.body_a, pair.body_b});
+      out.bodies.push_back({pair.body_a, pair.body_b});
       return true;
     });
   });
 }
 
 template <typename T>
-void BdTreeDetectorOf<T>::query(Question question, ContactSet& out) {
-  CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-  if (question == Question::kBody) {
-    find_bodies(out.bodies);
-  } else {
-    find_triangles(out.triangles);
-  }
-}
-
-template <typename T>
-StageRecord BdTreeDetectorOf<T>::trace_spheres() {
-  std::vector<ElementPair> pairs;
+StageTrace BdTreeDetectorOf<T>::trace() {
+  StageTrace out;
+  std::vector<ElementPair> candidates, exact;
   visit_leaves([&](const Leaves& leaves) {
     return visit_leaf_pairs({leaves.body_a, leaves.body_b}, trees_[leaves.body_a].tree(),
                             leaves.leaf_a, trees_[leaves.body_b].tree(), leaves.leaf_b,
                             [&](const ElementPair& pair) {
-                              pairs.push_back(pair);
+                              candidates.push_back(pair);
                               return false;
                             });
   });
-  StageRecord record = triangle_record("spheres", brute_force_pairs(triangles_), std::move(pairs));
-  record.visited = visited_;
-  record.visited_unit = "sphere pairs";
-  return record;
-}
-
-template <typename T>
-StageTrace BdTreeDetectorOf<T>::trace() {
-  StageTrace out;
-  out.stages.push_back(trace_spheres());
-  std::vector<ElementPair> exact;
+  out.stages.push_back(
+      triangle_record("spheres", brute_force_pairs(triangles_), std::move(candidates)));
+  out.stages[0].visited = visited_;
+  out.stages[0].visited_unit = "sphere pairs";
   find_triangles(exact);
   out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
   return out;

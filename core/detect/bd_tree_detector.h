@@ -37,7 +37,6 @@ class BdTreeDetectorOf : public Detector {
   struct Leaves {
     std::uint32_t body_a, body_b, leaf_a, leaf_b;
   };
-  void round_nodes(const Frame& frame, const Vec3& origin);
   /// Calls `visit(Leaves)` for every two leaves whose spheres overlap; true: the rest of these two
   /// bodies is skipped.
   template <typename Visit>
@@ -45,8 +44,6 @@ class BdTreeDetectorOf : public Detector {
   template <typename Found>
   bool test_leaves(const Leaves& leaves, Found&& found);
   void find_triangles(std::vector<ElementPair>& out);
-  void find_bodies(std::vector<BodyPair>& out);
-  StageRecord trace_spheres();
 
   BdSettings settings_;
   Semantics semantics_;

@@ -17,13 +17,10 @@ namespace {
 // vertices.
 constexpr std::size_t kFewTrianglesPerCell = 24;
 
-bool small_for_its_lattice(const BodyShape& shape) {
-  return shape.mesh.triangles.size() < kFewTrianglesPerCell * shape.lattice->cells.size();
-}
-
 bool refits(const BodyShape& shape, BoundSource bounds) {
   if (!shape.lattice || bounds == BoundSource::kVertices) return true;
-  return bounds == BoundSource::kCheaper && small_for_its_lattice(shape);
+  return bounds == BoundSource::kCheaper &&
+         shape.mesh.triangles.size() < kFewTrianglesPerCell * shape.lattice->cells.size();
 }
 
 template <class Real>
@@ -65,71 +62,26 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
   single_mapped_.assign(bodies.size(), {});
 }
 
-void LazyDetector::begin_body(const BodyState& body, LazyState& state) {
-  const BodyShape& shape = *state.shape;
-  CONTACTCHECK_INVARIANT(body.nodes.size() == shape.node_count(), "one position per node");
-  if (needs_vertices()) {
-    CONTACTCHECK_INVARIANT(body.vertices.size() == shape.mesh.vertices.size(),
-                           "one position per vertex");
-    begin_frame_by_vertices(state, body.vertices);
-  } else if (shape.lattice) {
-    begin_frame_by_nodes(state, body.nodes);
-  } else {
-    begin_frame_by_vertices(state, body.nodes);
-  }
-}
-
-// The vertices of a body that is refitted, where they are not given.
-void LazyDetector::map(std::size_t index) {
-  LazyState& state = states_[index];
-  const BodyShape& shape = *state.shape;
-  if (!single()) {
-    mapped_[index].resize(shape.mesh.vertices.size());
-    map_body(shape, state.nodes, mapped_[index]);
-    state.vertices = mapped_[index];
-  } else if (!shape.lattice) {
-    state.single.vertices = state.single.nodes;
-  } else {
-    single_mapped_[index].resize(shape.mesh.vertices.size());
-    map_vertices(*shape.lattice, shape.embedding, state.tree->single_sorted_local,
-                 state.single.nodes, single_mapped_[index]);
-    state.single.vertices = single_mapped_[index];
-  }
-}
-
 // What the tests of a body's pairs start from: all its bounds where it is refitted, else its cells;
 // bounds are then made on demand.
 void LazyDetector::bound(std::size_t index, LazyScratch& scratch) {
   LazyState& state = states_[index];
   if (!state.from_vertices) return find_cells(state);
-  if (state.vertices.empty() && state.single.vertices.empty()) map(index);
-  kernels_.bound_all(state, scratch.arena);
-}
-
-// full-refit is what it says; ffd-lazy leaves out bodies that meet no other.
-void LazyDetector::bound_bodies_that_meet() {
-  std::vector<bool> wanted(states_.size(), bounds_all());
-  for (const BodyPair& pair : candidates_) wanted[pair.a] = wanted[pair.b] = true;
-  to_bound_.clear();
-  for (std::size_t b = 0; b < wanted.size(); ++b)
-    if (wanted[b]) to_bound_.push_back(b);
-  team_.for_each(to_bound_.size(),
-                 [this](std::size_t i, LazyScratch& scratch) { bound(to_bound_[i], scratch); });
-}
-
-void LazyDetector::begin_in_doubles(const Frame& frame) {
-  for (std::size_t b = 0; b < states_.size(); ++b) begin_body(frame.bodies[b], states_[b]);
-  place(states_);
-}
-
-void LazyDetector::begin_in_single(const Frame& frame) {
-  const Vec3 origin = local_origin(frame);
-  for (std::size_t b = 0; b < states_.size(); ++b) {
-    CONTACTCHECK_INVARIANT(frame.bodies[b].nodes.size() == states_[b].shape->node_count(),
-                           "one position per node");
-    begin_frame_in_single(states_[b], frame.bodies[b].nodes, origin);
+  const BodyShape& shape = *state.shape;
+  const bool known = !state.vertices.empty() || !state.single.vertices.empty();  // given or mapped
+  if (!known && !single()) {
+    mapped_[index].resize(shape.mesh.vertices.size());
+    map_body(shape, state.nodes, mapped_[index]);
+    state.vertices = mapped_[index];
+  } else if (!known && !shape.lattice) {
+    state.single.vertices = state.single.nodes;
+  } else if (!known) {
+    single_mapped_[index].resize(shape.mesh.vertices.size());
+    map_vertices(*shape.lattice, shape.embedding, state.tree->single_sorted_local,
+                 state.single.nodes, single_mapped_[index]);
+    state.single.vertices = single_mapped_[index];
   }
-  place_in_single(states_, origin);
+  kernels_.bound_all(state, scratch.arena);
 }
 
 void LazyDetector::update(const Frame& frame) {
@@ -139,15 +91,40 @@ void LazyDetector::update(const Frame& frame) {
     scratch.counters = {};
   }
   candidates_.clear();  // a frame that is refused leaves no pair whose bounds are gone
+  const Vec3 origin = single() ? local_origin(frame) : Vec3(Vec3::Zero());
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    const BodyState& body = frame.bodies[b];
+    LazyState& state = states_[b];
+    CONTACTCHECK_INVARIANT(body.nodes.size() == state.shape->node_count(), "one position per node");
+    CONTACTCHECK_INVARIANT(
+        !needs_vertices() || body.vertices.size() == state.shape->mesh.vertices.size(),
+        "one position per vertex");
+    if (single()) {
+      begin_frame_in_single(state, body.nodes, origin);
+    } else if (needs_vertices()) {
+      begin_frame_by_vertices(state, body.vertices);
+    } else if (state.shape->lattice) {
+      begin_frame_by_nodes(state, body.nodes);
+    } else {
+      begin_frame_by_vertices(state, body.nodes);
+    }
+  }
   if (single()) {
-    begin_in_single(frame);
+    place_in_single(states_, origin);
   } else {
-    begin_in_doubles(frame);
+    place(states_);
   }
   std::vector<Aabb> boxes;
   for (const LazyState& state : states_) boxes.push_back(state.box);
   find_candidate_bodies(boxes, candidates_);
-  bound_bodies_that_meet();
+  // full-refit bounds every body; ffd-lazy leaves out bodies that meet no other.
+  std::vector<bool> wanted(states_.size(), bounds_all());
+  for (const BodyPair& pair : candidates_) wanted[pair.a] = wanted[pair.b] = true;
+  to_bound_.clear();
+  for (std::size_t b = 0; b < wanted.size(); ++b)
+    if (wanted[b]) to_bound_.push_back(b);
+  team_.for_each(to_bound_.size(),
+                 [this](std::size_t i, LazyScratch& scratch) { bound(to_bound_[i], scratch); });
 }
 
 void LazyDetector::query(Question question, ContactSet& out) {

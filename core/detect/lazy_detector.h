@@ -55,12 +55,7 @@ class LazyDetector : public Detector {
  private:
   bool single() const { return config_.precision == Precision::kSingle; }
   bool bounds_all() const { return config_.bounds == BoundSource::kVertices; }
-  void begin_in_doubles(const Frame& frame);
-  void begin_in_single(const Frame& frame);
-  void begin_body(const BodyState& body, LazyState& state);
-  void map(std::size_t index);
   void bound(std::size_t index, LazyScratch& scratch);
-  void bound_bodies_that_meet();
 
   LazyConfig config_;
   const LazyKernels& kernels_;

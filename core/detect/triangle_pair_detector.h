@@ -97,8 +97,17 @@ class TrianglePairDetector : public Detector {
 
   StageTrace trace() override {
     StageTrace out;
-    out.stages.push_back(trace_broad());
-    std::vector<ElementPair> exact;
+    std::vector<std::uint64_t> triangles;
+    for (const BodyShape* shape : shapes_) triangles.push_back(shape->mesh.triangles.size());
+    std::vector<ElementPair> candidates, exact;
+    broad_.visit_candidates([&](const ElementPair& pair) {
+      candidates.push_back(pair);
+      return false;
+    });
+    out.stages.push_back(
+        triangle_record(Broad::kName, brute_force_pairs(triangles), std::move(candidates)));
+    out.stages[0].visited = broad_.visited();
+    out.stages[0].visited_unit = Broad::kVisitedUnit;
     find_triangles(exact);
     out.stages.push_back(triangle_record("triangles", out.stages[0].out, std::move(exact)));
     return out;
@@ -155,21 +164,6 @@ class TrianglePairDetector : public Detector {
       out.push_back({pair.body_a, pair.body_b});
       return true;
     });
-  }
-
-  StageRecord trace_broad() {
-    std::vector<std::uint64_t> triangles;
-    for (const BodyShape* shape : shapes_) triangles.push_back(shape->mesh.triangles.size());
-    std::vector<ElementPair> pairs;
-    broad_.visit_candidates([&](const ElementPair& pair) {
-      pairs.push_back(pair);
-      return false;
-    });
-    StageRecord record =
-        triangle_record(Broad::kName, brute_force_pairs(triangles), std::move(pairs));
-    record.visited = broad_.visited();
-    record.visited_unit = Broad::kVisitedUnit;
-    return record;
   }
 
   Broad broad_;

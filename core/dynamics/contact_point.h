@@ -65,8 +65,8 @@ NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3&
 
 // One direction of separation for two bodies. A point of contact has the direction out of one box
 // or triangle. Deep inside a body that can be any direction: through a face between two cells, or
-// along the surface. So the directions of all points of two bodies are summed, and points that
-// would push across the sum or against it push along it.
+// along the surface. So all contacts of two bodies have one common direction, and points that would
+// push across it or against it push along it.
 
 /// Per pair of bodies a vector from a to b, of any length.
 using Directions = std::map<BodyPair, Vec3>;

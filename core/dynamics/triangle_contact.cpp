@@ -32,8 +32,8 @@ Vec3 unit_normal(const TrianglePoints& t) {
   return ordered_norm(normal) > kLeastRelativeArea ? unit_or_zero(normal) : Vec3::Zero();
 }
 
-Vec3 parting_direction(const TrianglePoints& a, const Vec3& normal_a, const TrianglePoints& b,
-                       const Vec3& normal_b) {
+Vec3 separating_direction(const TrianglePoints& a, const Vec3& normal_a, const TrianglePoints& b,
+                          const Vec3& normal_b) {
   const Vec3 difference = normal_a - normal_b;
   if (ordered_norm(difference) > kLeastNormalDifference) return unit_or_zero(difference);
   // Two flush faces, as of boxes side by side that overlap: away is where the other is.
@@ -48,8 +48,8 @@ double reach_behind(const TrianglePoints& t, const Vec3& point, const Vec3& norm
   return deepest;
 }
 
-double parting_depth(const TrianglePoints& a, const Vec3& normal_a, const TrianglePoints& b,
-                     const Vec3& normal_b) {
+double separation_depth(const TrianglePoints& a, const Vec3& normal_a, const TrianglePoints& b,
+                        const Vec3& normal_b) {
   if (normal_a.isZero(0.0) && normal_b.isZero(0.0)) return 0.0;
   const double depth = std::min(reach_behind(a, b[0], normal_b), reach_behind(b, a[0], normal_a));
   // Triangles that do cross keep within this by themselves; a detector may name others.
@@ -151,8 +151,8 @@ Barycentric nearest_on_triangle(const Vec3& point, const TrianglePoints& triangl
 TriangleContact triangle_contact(const TrianglePoints& a, const TrianglePoints& b) {
   const Vec3 normal_a = unit_normal(a), normal_b = unit_normal(b);
   TriangleContact out;
-  out.normal = parting_direction(a, normal_a, b, normal_b);
-  out.depth = parting_depth(a, normal_a, b, normal_b);
+  out.normal = separating_direction(a, normal_a, b, normal_b);
+  out.depth = separation_depth(a, normal_a, b, normal_b);
   const std::optional<Vec3> crossed = crossing(a, normal_a, b, normal_b);
   const Vec3 middle = crossed ? *crossed : halfway(a, b);
   out.on_a = nearest_on_triangle(middle, a);

@@ -8,8 +8,8 @@
 // Notation:
 //   * u = 2^-24. A float operation with a result of at most v rounds by at most u v. Errors are
 //     counted to first order in u.
-//   * M: LazyState::reach, the largest |coordinate| of the body's nodes in its frame. All values of
-//     a trilinear function of the nodes lie within M. So do its terms and derivatives, which are
+//   * M: LazyState::reach, not below any |coordinate| of the body's nodes in its frame. All values
+//     of a trilinear function of the nodes lie within M. So do its terms and derivatives, which are
 //     means of nodes with signs.
 //
 // Claims:
@@ -78,8 +78,7 @@
 //   * Middle and half-width of the box round once per axis: sqrt(3) * 8 u M, below 14 u M. Their
 //     products with n - a m: another 14 u M.
 //   * a times middle and half of the slab: 42 u M.
-//   * |theirs| + their_half is at most sqrt(42^2 + (8 sqrt(3))^2) M, below 45 M. Three sums: 135 u
-//     M.
+//   * |theirs| + their_half is at most sqrt(42^2 + (8 sqrt(3))^2) M < 45 M. Three sums: 135 u M.
 //   * The comparison has values of at most 42 + 45 = 87 M: 87 u M.
 //   * In all 4 + 14 + 14 + 42 + 135 + 87 = 296 u M; with the slab's own 955 u M below 2048 u M.
 //
@@ -95,7 +94,7 @@
 //   * Bounded are vertices that are mapped from these nodes in floats. Pieces were made for exact
 //     local coordinates. The mapped vertices differ from the exact images of those by 10 u M in
 //     blends (mapping_error_bound() of floats) and by 3 u M as three local coordinates are rounded
-//     (error_of_mapping() in lazy_state.cpp). That makes 13 u M, and below 26 u M along n.
+//     (place_in_single() in lazy_state.cpp). That makes 13 u M, and below 26 u M along n.
 //   * These are added to 256 u M and 2048 u M, though the first would hold them: 202 + 13.
 //   * M is the scene's half-width, the same for all bodies.
 //   * Boxes of triangles and of refitted bodies are made of the very floats that are tested. They

@@ -72,33 +72,6 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 
-// By how much vertices mapped in floats are off the exact image of their local coordinates. Those
-// are rounded first, by at most 2^-25 each, and along each axis the image changes by at most 2
-// reach over the cell: 3 * 2^-24 reach for the three.
-double error_of_mapping(double reach) {
-  return static_cast<double>(mapping_error_bound(static_cast<float>(reach))) +
-         3.0 * 0x1p-24 * reach;
-}
-
-// Slacks: derivation in bounds-inl.h.
-void place_one_in_single(const Vec3& origin, double scale, double reach, LazyState& state) {
-  constexpr double kFloatUnit = 0x1p-24;
-  state.origin = origin;
-  state.scale = scale;
-  state.reach = reach;
-  const double common = 1.01 * error_of_mapping(reach) + 1e-37;
-  state.slack = round_up(256.0 * kFloatUnit * reach + common);
-  state.slab_slack = round_up(2048.0 * kFloatUnit * reach + 2.0 * common);
-}
-
-// Mapped vertices leave the hull of their nodes by rounding, no more.
-void set_single_box(LazyState& state) {
-  AabbOf<float> box;
-  for (const Vec3f& node : state.single.nodes) box.extend(node);
-  const double error = state.shape->lattice ? 2.0 * error_of_mapping(state.reach) : 0.0;
-  state.box = {box.lo.cast<double>().array() - error, box.hi.cast<double>().array() + error};
-}
-
 void add_and_subtract(Float4& low, Float4& high) {
   const Float4 sum = low + high;
   high -= low;
@@ -243,14 +216,32 @@ void begin_frame_in_single(LazyState& state, std::span<const Vec3> nodes, const 
 }
 
 void place_in_single(std::span<LazyState> states, const Vec3& origin) {
+  constexpr double kFloatUnit = 0x1p-24;
   double largest = 0.0;
   for (const LazyState& state : states) largest = std::max(largest, state.largest);
-  const double scale = scale_to_one(largest);
+  const double scale = scale_to_one(largest), reach = largest * scale;
+  // By how much vertices mapped in floats are off the exact image of their local coordinates. Those
+  // are rounded first, by at most 2^-25 each, and along each axis the image changes by at most 2
+  // reach over the cell: 3 * 2^-24 reach for the three.
+  const double error = static_cast<double>(mapping_error_bound(static_cast<float>(reach))) +
+                       3.0 * kFloatUnit * reach;
+  // Slacks: derivation in bounds-inl.h.
+  const double common = 1.01 * error + 1e-37;
   for (LazyState& state : states) {
-    // By doubles: the scale of a tiny scene is no float.
-    for (Vec3f& node : state.single.nodes) node = (node.cast<double>() * scale).cast<float>();
-    place_one_in_single(origin, scale, largest * scale, state);
-    set_single_box(state);
+    state.origin = origin;
+    state.scale = scale;
+    state.reach = reach;
+    state.slack = round_up(256.0 * kFloatUnit * reach + common);
+    state.slab_slack = round_up(2048.0 * kFloatUnit * reach + 2.0 * common);
+    AabbOf<float> box;
+    for (Vec3f& node : state.single.nodes) {
+      // By doubles: the scale of a tiny scene is no float.
+      node = (node.cast<double>() * scale).cast<float>();
+      box.extend(node);
+    }
+    // Mapped vertices leave the hull of their nodes by rounding, no more.
+    const double outward = state.shape->lattice ? 2.0 * error : 0.0;
+    state.box = {box.lo.cast<double>().array() - outward, box.hi.cast<double>().array() + outward};
   }
 }
 

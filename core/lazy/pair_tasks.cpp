@@ -34,10 +34,6 @@ constexpr std::size_t kManyPairs = 256;
 // Slots that a cut pair is spread to, and how many go to a task: a slot takes some microseconds.
 constexpr std::size_t kSlots = 64, kSlotsPerTask = 8, kLeavesPerTask = 64;
 
-BodiesToTest bodies_of(const BodyPair& pair, std::span<LazyState> states) {
-  return {pair, states[pair.a], states[pair.b]};
-}
-
 template <class T>
 std::span<const T> part_of(const std::vector<T>& all, std::size_t begin, std::size_t count) {
   begin = std::min(begin, all.size());
@@ -98,58 +94,47 @@ void ThreadTeam::for_each(std::size_t count,
 
 void PairTasks::run(std::span<LazyState> states, std::span<const BodyPair> pairs, bool first_only,
                     std::vector<ElementPair>& out) {
-  pairs_ = pairs;
+  const auto bodies = [&](std::size_t p) {
+    return BodiesToTest{pairs[p], states[pairs[p].a], states[pairs[p].b]};
+  };
   if (team_.threads() == 1) {
-    for (const BodyPair& pair : pairs)
-      kernels_.collide(bodies_of(pair, states), first_only, team_.scratch()[0], out);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      kernels_.collide(bodies(p), first_only, team_.scratch()[0], out);
     return;
   }
+  // A task is a whole pair of bodies, or a part of the front of one.
+  const bool whole = pairs.size() >= kManyPairs;
   tasks_.clear();
-  if (pairs.size() >= kManyPairs) {
-    run_whole(states, first_only);
+  if (whole) {
+    for (std::size_t p = 0; p < pairs.size(); ++p) tasks_.push_back({p, {}});
   } else {
-    run_parts(states, first_only);
+    if (fronts_.size() < pairs.size()) fronts_.resize(pairs.size());
+    team_.for_each(pairs.size(), [&](std::size_t p, LazyScratch& scratch) {
+      kernels_.spread(bodies(p), kSlots, scratch, fronts_[p]);
+    });
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      const BvttFront& front = fronts_[p];
+      for (std::size_t i = 0; i < front.slots.size(); i += kSlotsPerTask)
+        tasks_.push_back({p, {part_of(front.slots, i, kSlotsPerTask), {}}});
+      for (std::size_t i = 0; i < front.leaves.size(); i += kLeavesPerTask)
+        tasks_.push_back({p, {{}, part_of(front.leaves, i, kLeavesPerTask)}});
+    }
   }
-  collect(first_only, out);
-}
-
-void PairTasks::run_whole(std::span<LazyState> states, bool first_only) {
-  for (std::size_t p = 0; p < pairs_.size(); ++p) tasks_.push_back({p, {}});
   if (found_.size() < tasks_.size()) found_.resize(tasks_.size());
-  team_.for_each(pairs_.size(), [&](std::size_t p, LazyScratch& scratch) {
-    found_[p].clear();
-    kernels_.collide(bodies_of(pairs_[p], states), first_only, scratch, found_[p]);
-  });
-}
-
-void PairTasks::cut(std::size_t pair) {
-  const BvttFront& front = fronts_[pair];
-  for (std::size_t i = 0; i < front.slots.size(); i += kSlotsPerTask)
-    tasks_.push_back({pair, {part_of(front.slots, i, kSlotsPerTask), {}}});
-  for (std::size_t i = 0; i < front.leaves.size(); i += kLeavesPerTask)
-    tasks_.push_back({pair, {{}, part_of(front.leaves, i, kLeavesPerTask)}});
-}
-
-void PairTasks::run_parts(std::span<LazyState> states, bool first_only) {
-  if (fronts_.size() < pairs_.size()) fronts_.resize(pairs_.size());
-  team_.for_each(pairs_.size(), [&](std::size_t p, LazyScratch& scratch) {
-    kernels_.spread(bodies_of(pairs_[p], states), kSlots, scratch, fronts_[p]);
-  });
-  for (std::size_t p = 0; p < pairs_.size(); ++p) cut(p);
-  if (found_.size() < tasks_.size()) found_.resize(tasks_.size());
-  std::vector<std::atomic<bool>> known(pairs_.size());
+  std::vector<std::atomic<bool>> known(pairs.size());  // that the bodies of a pair meet
   team_.for_each(tasks_.size(), [&](std::size_t t, LazyScratch& scratch) {
     const Task& task = tasks_[t];
     found_[t].clear();
     if (first_only && known[task.pair].load(std::memory_order_relaxed)) return;
-    kernels_.collide_part(bodies_of(pairs_[task.pair], states), task.part, first_only, scratch,
-                          found_[t]);
+    if (whole) {
+      kernels_.collide(bodies(task.pair), first_only, scratch, found_[t]);
+    } else {
+      kernels_.collide_part(bodies(task.pair), task.part, first_only, scratch, found_[t]);
+    }
     if (!found_[t].empty()) known[task.pair].store(true, std::memory_order_relaxed);
   });
-}
-
-void PairTasks::collect(bool first_only, std::vector<ElementPair>& out) const {
-  std::size_t last = pairs_.size();
+  // In the order of the tasks, whatever threads did them.
+  std::size_t last = pairs.size();
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     if (found_[t].empty() || (first_only && tasks_[t].pair == last)) continue;
     last = tasks_[t].pair;

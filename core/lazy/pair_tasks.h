@@ -57,14 +57,8 @@ class PairTasks {
     FrontPart part;
   };
 
-  void run_whole(std::span<LazyState> states, bool first_only);
-  void run_parts(std::span<LazyState> states, bool first_only);
-  void cut(std::size_t pair);
-  void collect(bool first_only, std::vector<ElementPair>& out) const;
-
   const LazyKernels& kernels_;
   ThreadTeam& team_;
-  std::span<const BodyPair> pairs_;
   std::vector<BvttFront> fronts_;  // per pair
   std::vector<Task> tasks_;
   std::vector<std::vector<ElementPair>> found_;  // per task

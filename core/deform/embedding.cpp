@@ -11,40 +11,9 @@ namespace {
 
 constexpr std::uint32_t kNotKept = ~0u;
 
-std::vector<std::uint32_t> kept_numbers(const Grid& grid, const Lattice& lattice) {
-  std::vector<std::uint32_t> number(grid.cell_count(), kNotKept);
-  for (std::uint32_t c = 0; c < lattice.cells.size(); ++c) number[grid.flat(lattice.cells[c])] = c;
-  return number;
-}
-
 // v and both lines are doubles with lo <= v <= hi: v - lo <= hi - lo survives rounding, so the
 // quotient lies in [0, 1]; it is 0 and 1 exactly on the lines.
 double local_coordinate(double v, double lo, double hi) { return (v - lo) / (hi - lo); }
-
-void place_vertices(const TriangleMesh& mesh, const Lattice& lattice, const Grid& grid,
-                    const std::vector<std::uint32_t>& number, Embedding& out) {
-  out.home_cell.resize(mesh.vertices.size());
-  out.local.resize(mesh.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Vec3& p = mesh.vertices[v];
-    const std::uint32_t cell = number[grid.flat(grid.cell_of(p))];
-    CONTACTCHECK_INVARIANT(cell != kNotKept, "a vertex's home cell is kept");
-    const Aabb box = lattice.cell_box(cell);
-    out.home_cell[v] = cell;
-    for (int k = 0; k < 3; ++k) out.local[v][k] = local_coordinate(p[k], box.lo[k], box.hi[k]);
-  }
-}
-
-void label_triangles(const TriangleMesh& mesh, const Grid& grid,
-                     const std::vector<std::uint32_t>& number, Embedding& out) {
-  out.label_begin.push_back(0);
-  for (const Triangle& t : mesh.triangles) {
-    const TrianglePoints points = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    grid.for_cells_meeting(
-        points, [&](const GridIndex& cell) { out.label_cells.push_back(number[grid.flat(cell)]); });
-    out.label_begin.push_back(static_cast<std::uint32_t>(out.label_cells.size()));
-  }
-}
 
 }  // namespace
 
@@ -73,10 +42,28 @@ SingleLocal single_local(const Embedding& embedding) {
 
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
   const Grid grid(lattice.lines);
-  const std::vector<std::uint32_t> number = kept_numbers(grid, lattice);
+  std::vector<std::uint32_t> number(grid.cell_count(), kNotKept);  // of kept cells
+  for (std::uint32_t c = 0; c < lattice.cells.size(); ++c) number[grid.flat(lattice.cells[c])] = c;
+
   Embedding out;
-  place_vertices(mesh, lattice, grid, number, out);
-  label_triangles(mesh, grid, number, out);
+  out.home_cell.resize(mesh.vertices.size());
+  out.local.resize(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& p = mesh.vertices[v];
+    const std::uint32_t cell = number[grid.flat(grid.cell_of(p))];
+    CONTACTCHECK_INVARIANT(cell != kNotKept, "a vertex's home cell is kept");
+    const Aabb box = lattice.cell_box(cell);
+    out.home_cell[v] = cell;
+    for (int k = 0; k < 3; ++k) out.local[v][k] = local_coordinate(p[k], box.lo[k], box.hi[k]);
+  }
+
+  out.label_begin.push_back(0);
+  for (const Triangle& t : mesh.triangles) {
+    const TrianglePoints points = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    grid.for_cells_meeting(
+        points, [&](const GridIndex& cell) { out.label_cells.push_back(number[grid.flat(cell)]); });
+    out.label_begin.push_back(static_cast<std::uint32_t>(out.label_cells.size()));
+  }
   sort_by_cell(lattice.cells.size(), out);
   return out;
 }

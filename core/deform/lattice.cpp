@@ -53,16 +53,12 @@ std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
   return lines;
 }
 
-// Marks every cell that meets the triangle, exactly.
-void mark_cells(const Grid& grid, const TrianglePoints& triangle, std::vector<bool>& kept) {
-  grid.for_cells_meeting(triangle, [&](const GridIndex& cell) { kept[grid.flat(cell)] = true; });
-}
-
 std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
   std::vector<bool> kept(grid.cell_count(), false);
-  for (const Triangle& t : mesh.triangles) {
-    mark_cells(grid, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, kept);
-  }
+  // Every cell that meets a triangle, exactly.
+  for (const Triangle& t : mesh.triangles)
+    grid.for_cells_meeting({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
+                           [&](const GridIndex& cell) { kept[grid.flat(cell)] = true; });
   // A vertex without a triangle still needs a home.
   for (const Vec3& v : mesh.vertices) kept[grid.flat(grid.cell_of(v))] = true;
   std::vector<GridIndex> cells;

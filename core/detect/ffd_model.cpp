@@ -33,30 +33,6 @@ std::uint32_t owner_of(const Triangle& t, const std::vector<std::uint32_t>& home
   return b == c ? b : a;
 }
 
-void own_triangles(const BodyShape& shape, FfdModel& model) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
-  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t) {
-    model.owner.push_back(owner_of(shape.mesh.triangles[t], shape.embedding.home_cell));
-    items.emplace_back(model.owner.back(), t);
-  }
-  model.triangles = make_rows(shape.lattice->cells.size(), items);
-}
-
-void label_triangles(const BodyShape& shape, FfdModel& model) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
-  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
-    for (std::uint32_t cell : shape.embedding.cells_of_triangle(t)) items.emplace_back(cell, t);
-  model.triangles = make_rows(shape.lattice->cells.size(), items);
-}
-
-void make_paper_pieces(const BodyShape& shape, CellVolume volume, FfdModel& model) {
-  const std::vector<Aabb> boxes = volume == CellVolume::kFfdAabb
-                                      ? ffd_aabbs(shape.mesh, *shape.lattice, shape.embedding)
-                                      : std::vector<Aabb>(shape.lattice->cells.size(), unit_box());
-  for (std::uint32_t cell = 0; cell < boxes.size(); ++cell)
-    model.pieces.push_back({cell, cell, boxes[cell]});
-}
-
 // The bounds of the vertices of one owner's triangles, per home cell.
 void add_safe_pieces(const BodyShape& shape, CellVolume volume, std::uint32_t cell,
                      FfdModel& model) {
@@ -84,20 +60,6 @@ void index_pieces(std::size_t kept, FfdModel& model) {
   std::partial_sum(model.piece_begin.begin(), model.piece_begin.end(), model.piece_begin.begin());
   for (std::uint32_t cell = 0; cell < kept; ++cell)
     if (model.piece_begin[cell] < model.piece_begin[cell + 1]) model.cells.push_back(cell);
-}
-
-void find_node_cells(const Lattice& lattice, FfdModel& model) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> items;
-  for (std::uint32_t cell = 0; cell < lattice.cells.size(); ++cell)
-    for (std::uint32_t node : lattice.cell_nodes[cell]) items.emplace_back(node, cell);
-  model.node_cells = make_rows(lattice.nodes.size(), items);
-}
-
-std::vector<Corners> rest_corners(const FfdModel& model) {
-  const Lattice& lattice = *model.shape->lattice;
-  std::vector<Corners> corners(model.pieces.size());
-  map_boxes(lattice, model.piece_boxes, lattice.rest_nodes(), corners);
-  return corners;
 }
 
 double mean_edge_of(const std::vector<Corners>& boxes) {
@@ -146,15 +108,14 @@ void measure_spheres(const std::vector<Corners>& corners, FfdModel& model) {
   }
 }
 
-// Infinite beyond the range of floats, where a conversion is not defined.
-float single(double x) {
-  if (x > std::numeric_limits<float>::max()) return std::numeric_limits<float>::infinity();
-  return static_cast<float>(x);
-}
-
 }  // namespace
 
 FfdModelOf<float> rounded_model(FfdModel model) {
+  // Infinite beyond the range of floats, where a conversion is not defined.
+  const auto single = [](double x) {
+    return x > std::numeric_limits<float>::max() ? std::numeric_limits<float>::infinity()
+                                                 : static_cast<float>(x);
+  };
   FfdModelOf<float> out;
   for (const LocalBox& box : model.piece_boxes)
     out.piece_boxes.push_back({box.home, {box.local.lo.cast<float>(), box.local.hi.cast<float>()}});
@@ -169,23 +130,38 @@ FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config) {
   if (!shape.lattice) throw RefusedInput("the FFD-AABB family needs a lattice for every body");
   FfdModel model;
   model.shape = &shape;
-  const std::size_t kept = shape.lattice->cells.size();
+  const Lattice& lattice = *shape.lattice;
+  const std::size_t kept = lattice.cells.size();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> cell_triangles, node_cells;
   if (config.bounds == BoundsReading::kSafe) {
-    own_triangles(shape, model);
+    for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t) {
+      model.owner.push_back(owner_of(shape.mesh.triangles[t], shape.embedding.home_cell));
+      cell_triangles.emplace_back(model.owner.back(), t);
+    }
+    model.triangles = make_rows(kept, cell_triangles);
     for (std::uint32_t cell = 0; cell < kept; ++cell)
       add_safe_pieces(shape, config.volume, cell, model);
   } else {
-    label_triangles(shape, model);
-    make_paper_pieces(shape, config.volume, model);
+    for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
+      for (std::uint32_t cell : shape.embedding.cells_of_triangle(t))
+        cell_triangles.emplace_back(cell, t);
+    model.triangles = make_rows(kept, cell_triangles);
+    const std::vector<Aabb> boxes = config.volume == CellVolume::kFfdAabb
+                                        ? ffd_aabbs(shape.mesh, lattice, shape.embedding)
+                                        : std::vector<Aabb>(kept, unit_box());
+    for (std::uint32_t cell = 0; cell < kept; ++cell)
+      model.pieces.push_back({cell, cell, boxes[cell]});
   }
   index_pieces(kept, model);
-  find_node_cells(*shape.lattice, model);
-  const std::vector<Corners> corners = rest_corners(model);
+  for (std::uint32_t cell = 0; cell < kept; ++cell)
+    for (std::uint32_t node : lattice.cell_nodes[cell]) node_cells.emplace_back(node, cell);
+  model.node_cells = make_rows(lattice.nodes.size(), node_cells);
+  std::vector<Corners> corners(model.pieces.size());
+  map_boxes(lattice, model.piece_boxes, lattice.rest_nodes(), corners);
   model.mean_edge = config.bounds == BoundsReading::kSafe ? mean_owner_edge(model, corners)
                                                           : mean_edge_of(corners);
   if (config.sphere_levels > 0) {
-    model.spheres =
-        make_sphere_tree(*shape.lattice, model.cells, config.sphere_levels, config.spheres);
+    model.spheres = make_sphere_tree(lattice, model.cells, config.sphere_levels, config.spheres);
     measure_spheres(corners, model);
   }
   return model;

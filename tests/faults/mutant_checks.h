@@ -1,4 +1,4 @@
-// What the judge of the mutants asks of core. Each check takes down every fault it finds.
+// What the judge of the mutants asks of core. Each check records every fault that it finds.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What the detector bd-tree looks at: no sphere or vertex that nobody asked for.
+// What the detector bd-tree looks at: no sphere or vertex beyond those that a traversal needs.
 
 #include <gmock/gmock.h>
 

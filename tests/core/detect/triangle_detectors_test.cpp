@@ -159,7 +159,7 @@ TEST_P(TriangleDetectors, IdenticalMeshesAndInstancesOfOneShape) {
   const auto detector = make(scene);
   EXPECT_EQ(check(scene, *detector, scene.frames[0]), "");
   EXPECT_THAT(answer(*detector, scene.frames[0], Question::kBody).bodies, SizeIs(6));
-  // Each instance has boxes of its own: apart, in a row of touching ones, one turned inside out.
+  // Each instance has its own boxes: disjoint, in a row of touching ones, one turned inside out.
   FrameData row = scene.frames[0];
   for (std::size_t i = 0; i < 4; ++i)
     for (Vec3& v : row.vertices[i]) v = Vec3((i == 2 ? -v.x() : v.x()) + 2.0 * i, v.y(), v.z());

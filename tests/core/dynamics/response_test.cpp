@@ -307,7 +307,7 @@ void make_rigid(const std::vector<Vec3>& before, std::vector<Vec3>& positions) {
 // A smaller cube in the middle of a larger one's face, overlapping along x; what a detector would
 // report is found and answered until a twentieth of the overlap is left.
 template <typename Contacts>
-void expect_parted(double overlap, const Contacts& contacts) {
+void expect_separated(double overlap, const Contacts& contacts) {
   const std::vector<Body> bodies = {
       test::make_body("a", test::unit_box_mesh(4), {3, 3, 3}),
       test::make_body("b", test::box_mesh({1.0, 0.2, 0.2}, {1.6, 0.8, 0.8}, 3), {2, 2, 2})};
@@ -336,12 +336,12 @@ void expect_parted(double overlap, const Contacts& contacts) {
 }
 
 TEST(Response, PartsOverlappingBoxesByTheirTriangles) {
-  expect_parted(0.2, test::triangle_contacts);
+  expect_separated(0.2, test::triangle_contacts);
 }
 
 // Cells are a third of a metre: the nearest plane of one is the surface only for half of that.
 TEST(Response, PartsOverlappingBoxesByTheirCells) {
-  expect_parted(
+  expect_separated(
       0.05, [](const std::vector<Body>& bodies, const Frame&) { return test::all_cells(bodies); });
 }
 

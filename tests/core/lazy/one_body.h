@@ -53,7 +53,7 @@ inline std::vector<Vec3> deformed_nodes(const BodyShape& shape, const Deformatio
   return nodes;
 }
 
-/// One body in one frame, placed as a scene of its own. Its state points into it.
+/// One body in one frame, placed as a scene of one body. Its state points into it.
 class OneBody {
  public:
   OneBody(ShapePtr shape, bool from_vertices, Precision precision = Precision::kDouble)

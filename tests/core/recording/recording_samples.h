@@ -8,7 +8,7 @@
 
 namespace contactcheck {
 
-/// A folder of its own that is removed with everything in it.
+/// A new folder that is removed with everything in it.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -33,7 +33,7 @@ Recording bare_recording();
 std::string read_bytes(const std::filesystem::path& file);
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 std::string bytes_of(const Recording& recording);
-/// Writes the bytes to a file of their own and reads that as a recording.
+/// Writes the bytes to a new file and reads that as a recording.
 Recording recording_of(const std::string& bytes);
 
 /// Little-endian values, written here without the code under test.

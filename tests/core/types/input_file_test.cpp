@@ -56,7 +56,7 @@ TEST_F(InputFile, WhatIsMissingIsSaid) {
   EXPECT_EQ(fault("circle"), " cannot be read: Too many levels of symbolic links");
 }
 
-// Nobody writes to the pipe: to open it would be to wait.
+// The pipe has no writer: opening it would block.
 TEST_F(InputFile, WhatIsNoRegularFileIsNamedAndNotOpened) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   fs::create_symlink("pipe", folder_ / "link");
@@ -81,7 +81,7 @@ TEST_F(InputFile, WhatIsNoRegularFileIsNamedAndNotOpened) {
               ThrowsMessage<InputError>(StrEq("thing is a pipe, not a regular file.")));
 }
 
-// Root may read everything, so root becomes somebody else for the attempt.
+// Root may read everything, so root becomes another user for the attempt.
 TEST_F(InputFile, WhatMayNotBeReadIsSaid) {
   fs::permissions(folder_, fs::perms::all);
   fs::permissions(folder_ / "file", fs::perms::none);

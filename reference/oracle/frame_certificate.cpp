@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "reference/oracle/rational_vectors.h"
-#include "reference/oracle/scaling.h"
+#include "reference/oracle/floating_point.h"
+#include "reference/oracle/rational_geometry.h"
 #include "reference/oracle/surface_tree.h"
 
 namespace contactcheck::oracle::certify {

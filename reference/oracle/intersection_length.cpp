@@ -20,7 +20,7 @@
 
 #include "core/types/vec3.h"
 #include "reference/oracle/exact_tests.h"
-#include "reference/oracle/point_box.h"
+#include "reference/oracle/floating_point.h"
 
 namespace contactcheck::oracle {
 namespace {

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <vector>
 
+#include "reference/oracle/floating_point.h"
 #include "reference/oracle/intersection_length.h"
-#include "reference/oracle/scaling.h"
 
 namespace contactcheck::oracle {
 namespace {

@@ -12,11 +12,10 @@
 #include "core/types/vec3.h"
 #include "reference/oracle/cell_hulls.h"
 #include "reference/oracle/exact_tests.h"
-#include "reference/oracle/floating_point_guard.h"
-#include "reference/oracle/near_pairs.h"
+#include "reference/oracle/floating_point.h"
 #include "reference/oracle/surface_distance.h"
 #include "reference/oracle/surface_tree.h"
-#include "reference/oracle/winding.h"
+#include "reference/oracle/vertex_queries.h"
 
 namespace contactcheck::oracle {
 

@@ -13,7 +13,7 @@
 #include <limits>
 
 #include "reference/oracle/exact_tests.h"
-#include "reference/oracle/scaling.h"
+#include "reference/oracle/floating_point.h"
 #include "reference/oracle/triangle_distance.h"
 
 namespace contactcheck::oracle {

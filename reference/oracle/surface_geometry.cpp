@@ -8,11 +8,10 @@
 
 #include "core/types/check.h"
 #include "reference/oracle/cell_hulls.h"
-#include "reference/oracle/convex_parting.h"
+#include "reference/oracle/convex_penetration.h"
 #include "reference/oracle/exact_tests.h"
-#include "reference/oracle/floating_point_guard.h"
+#include "reference/oracle/floating_point.h"
 #include "reference/oracle/intersection_length.h"
-#include "reference/oracle/scaling.h"
 #include "reference/oracle/surface_tree.h"
 #include "reference/oracle/triangle_distance.h"
 #include "reference/oracle/vertex_distance.h"

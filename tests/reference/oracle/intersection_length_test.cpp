@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "reference/oracle/exact_tests.h"
+#include "reference/oracle/floating_point.h"
 #include "reference/oracle/rational_geometry.h"
-#include "reference/oracle/scaling.h"
 #include "tests/reference/oracle/meshes.h"
 #include "tests/support/random_triangles.h"
 

@@ -1,4 +1,4 @@
-#include "reference/oracle/near_pairs.h"
+#include "reference/oracle/vertex_queries.h"
 
 #include <gmock/gmock.h>
 #include <gmpxx.h>

@@ -1,4 +1,4 @@
-#include "reference/oracle/winding.h"
+#include "reference/oracle/vertex_queries.h"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,41 @@
-// Powers of two that bring coordinates to at most 1, where squares and products neither overflow
-// nor lose what matters to underflow.
+// What the oracle's arithmetic in double rests on: the floating-point environment that it was
+// proven for, and powers of two that scale coordinates to at most 1, where squares and products
+// neither overflow nor lose what matters to underflow.
 #pragma once
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <span>
 
 #include "core/types/vec3.h"
-#include "reference/oracle/point_box.h"
 
 namespace contactcheck::oracle {
+
+/// Round to nearest, subnormals kept, no traps; the caller's environment comes back at the end.
+/// Some libraries leave flush-to-zero behind (Embree 3.13, seen in 2026), with which CGAL 5.5
+/// reports false contacts at scale 1e-104.
+class FloatingPointGuard {
+ public:
+  FloatingPointGuard() {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~FloatingPointGuard() { std::fesetenv(&saved_); }
+  FloatingPointGuard(const FloatingPointGuard&) = delete;
+  FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
+
+ private:
+  std::fenv_t saved_;
+};
+
+/// The smallest box that contains the points; empty without points.
+inline Aabb box_of(std::span<const Vec3> points) {
+  Aabb box;
+  for (const Vec3& p : points) box.extend(p);
+  return box;
+}
 
 inline double largest_coordinate(std::span<const Vec3> points) {
   double out = 0;

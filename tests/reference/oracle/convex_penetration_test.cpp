@@ -1,4 +1,4 @@
-#include "reference/oracle/convex_parting.h"
+#include "reference/oracle/convex_penetration.h"
 
 #include <gmock/gmock.h>
 

@@ -18,14 +18,14 @@
 // narrower than 2^-50 of the size, so that a neighbour, the next across its long sides that is not
 // that thin, is as near but for a few times that. So is a product below 2^-300, whose square could
 // underflow: its facet is narrower than 2^-150.
-#include "reference/oracle/convex_parting.h"
+#include "reference/oracle/convex_penetration.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "reference/oracle/scaling.h"
+#include "reference/oracle/floating_point.h"
 
 namespace contactcheck::oracle {
 namespace {

@@ -8,8 +8,7 @@
 #include "core/types/check.h"
 #include "reference/mesh/datasets.h"
 #include "reference/mesh/shapes.h"
-#include "reference/mesh/simplify.h"
-#include "reference/mesh/subdivide.h"
+#include "reference/mesh/tessellation.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::mesh {

@@ -9,7 +9,7 @@
 
 #include "core/types/mesh.h"
 
-#include "reference/mesh/data_package.h"
+#include "reference/mesh/datasets.h"
 
 namespace contactcheck::mesh {
 

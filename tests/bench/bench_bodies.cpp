@@ -2,7 +2,7 @@
 
 #include "core/types/check.h"
 #include "reference/mesh/datasets.h"
-#include "reference/mesh/simplify.h"
+#include "reference/mesh/tessellation.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/shapes.h"
 

@@ -3,10 +3,9 @@
 #include <zlib.h>
 
 #include "core/types/mesh_topology.h"
-#include "reference/mesh/data_package.h"
 #include "reference/mesh/datasets.h"
 #include "reference/mesh/shapes.h"
-#include "reference/mesh/simplify.h"
+#include "reference/mesh/tessellation.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::mesh {

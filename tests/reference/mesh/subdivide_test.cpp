@@ -1,4 +1,4 @@
-#include "reference/mesh/subdivide.h"
+#include "reference/mesh/tessellation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Whether the Debian packages with meshes are here: tests of what needs them are skipped elsewhere.
 #pragma once
 
-#include "reference/mesh/data_package.h"
+#include "reference/mesh/datasets.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::test {

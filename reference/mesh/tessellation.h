@@ -1,4 +1,4 @@
-// Fewer triangles, through meshoptimizer.
+// Fewer or more triangles on the same surface.
 #pragma once
 
 #include <cstddef>
@@ -17,5 +17,10 @@ namespace contactcheck::mesh {
 /// result of the same size is taken; without one, the direct result stands.
 /// @pre no fatal defect; triangles >= 1. A mesh with no more than `triangles` is returned as it is.
 TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles);
+
+/// Splits every triangle into four at the midpoints of its edges, `times` over. Triangles that
+/// share an edge share its midpoint; given vertices come first and keep their doubles. The surface
+/// stays where it was, up to the rounding of midpoints.
+TriangleMesh subdivide(TriangleMesh mesh, std::size_t times);
 
 }  // namespace contactcheck::mesh

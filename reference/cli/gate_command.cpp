@@ -11,7 +11,7 @@
 #include "reference/gate/output.h"
 #include "reference/process/exit_codes.h"
 #include "reference/results/results_file.h"
-#include "reference/scene/fixtures_folder.h"
+#include "reference/scene/catalogue.h"
 
 namespace contactcheck::cli {
 namespace {

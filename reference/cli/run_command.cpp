@@ -21,7 +21,6 @@
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
 #include "reference/report/terminal.h"
-#include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulate_scene.h"

@@ -9,6 +9,7 @@
 
 #include "reference/judge/judge.h"
 #include "reference/oracle/oracle.h"
+#include "reference/process/shared_progress.h"
 #include "reference/scene/frame_positions.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/scene/scene.h"
@@ -60,5 +61,11 @@ oracle::WantedTruth wanted_truth(const scene::Scene& scene);
 /// A frame of given nodes and vertices, which must outlive it.
 Frame make_frame(std::size_t index, double time, const std::vector<std::vector<Vec3>>& nodes,
                  const std::vector<std::vector<Vec3>>& vertices);
+
+/// The smallest distance between the surfaces of any two bodies in each frame, metres: the upper
+/// end of the oracle's certified interval; 0 exactly in contact frames, which cost nothing here.
+/// Empty with fewer than two bodies, and of families and random pairs, whose gaps are their own.
+/// @pre the scene was not refused
+std::vector<double> separations(const JudgedScene& judged, process::ProgressWriter& progress);
 
 }  // namespace contactcheck::judge

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "check_script.h"
 #include "core/deform/atomic_file.h"
 #include "core/deform/byte_stream.h"
 #include "core/types/check.h"
 #include "core/types/mesh.h"
-#include "reference/judge/check_script.h"
 #include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/oracle.h"
 #include "reference/results/results.h"

@@ -10,7 +10,7 @@ namespace contactcheck::judge {
 
 /// Bodies, frames, the ground truth at every level that the scene asks for, and the
 /// contact_hash of a detector that finds exactly the true pairs of triangles; `separations` per
-/// frame, where there are any (separation.h).
+/// frame, where there are any (judged_scene.h).
 results::Scene scene_summary(const JudgedScene& judged,
                              const std::vector<double>& separations = {});
 

@@ -8,7 +8,6 @@
 #include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "reference/scene/amount.h"
-#include "reference/scene/any_scene.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/sweep_poses.h"

@@ -1,13 +1,26 @@
-// The scenes and suites that come with contactcheck, and finding what a user named.
+// The data that comes with contactcheck: the folder that holds it, the scenes and suites in it, and
+// finding what a user named.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "reference/scene/fixtures_folder.h"
-
 namespace contactcheck::scene {
+
+/// The folder of scenes/, suites/, hard/, paper/ and policies/:
+/// $CONTACTCHECK_FIXTURES where it is set; else the first that is a folder of: the data installed
+/// with the running program, the source tree this was built from, and contactcheck/fixtures in
+/// $XDG_DATA_DIRS (default /usr/local/share and /usr/share), for programs of others that link the
+/// library. None is: that of the source tree, for the sentence that says what is missing.
+std::filesystem::path fixtures_directory();
+
+/// The data of a program that was installed: `program` is its path.
+std::filesystem::path installed_fixtures(const std::filesystem::path& program);
+
+/// In order, from a list separated by ':' as in $XDG_DATA_DIRS; empty or relative folders are left
+/// out, as its specification says.
+std::vector<std::filesystem::path> shared_fixtures(const std::string& data_folders);
 
 struct CatalogueEntry {
   std::string id;  ///< equal to the file's name without ".json"

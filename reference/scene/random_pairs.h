@@ -7,11 +7,41 @@
 #include <vector>
 
 #include "core/deform/node_shape.h"
-
 #include "core/types/vec3.h"
-#include "reference/scene/pair_random.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck::scene {
+
+// Random numbers with a fixed definition: the same pairs on every machine and with every library.
+//
+// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
+// OOPSLA 2014.
+
+class PairRandom {
+ public:
+  /// Every stream of a seed is a sequence of its own: any pair can be made without those before it.
+  PairRandom(std::uint64_t seed, std::uint64_t stream) : state_(mixed(mixed(seed) + stream)) {}
+
+  std::uint64_t bits() { return mixed(state_ += 0x9e3779b97f4a7c15ull); }
+  /// Uniform in 0 .. count - 1 (up to a bias of count / 2^64).
+  int below(int count) { return static_cast<int>(bits() % static_cast<std::uint64_t>(count)); }
+  /// Both ends included.
+  int between(int least, int most) { return least + below(most - least + 1); }
+  bool coin() { return below(2) == 0; }
+  /// Uniform in [low, high), in steps of (high - low) / 2^53.
+  double between(double low, double high) {
+    return low + static_cast<double>(bits() >> 11) * 0x1p-53 * (high - low);
+  }
+
+ private:
+  static std::uint64_t mixed(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
 
 // Pairs of triangles that touch or just do not, each kind hard in a way of its own.
 
@@ -50,9 +80,6 @@ constexpr double kPairReach = 7.0;
 /// square roots of doubles alone: the same bits on every machine.
 HardPair make_hard_pair(PairKind kind, const PairPlace& place, PairRandom& random);
 
-struct PairSpec {
-  std::uint64_t count = 0, seed = 1;
-};
 /// The id of the scene that they make.
 inline constexpr const char* kPairsSceneId = "random-pairs";
 constexpr std::uint64_t kMostPairs = 100'000'000;

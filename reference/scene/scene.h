@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/deform/body.h"
@@ -58,8 +59,11 @@ struct FitError {
   std::vector<double> rms, max;  ///< per frame: of the distances of all vertices, metres
 };
 
+/// Random hard pairs of triangles (random_pairs.h).
+struct PairSpec {
+  std::uint64_t count = 0, seed = 1;
+};
 class RandomPairs;
-struct PairSpec;
 
 struct Scene {
   std::string id;
@@ -116,5 +120,15 @@ Scene make_pairs_scene(const PairSpec& spec);
 
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
+
+/// The file of a scene, a family or a recording (.ccr), the text of a scene, or random pairs.
+using SceneSource = std::variant<std::filesystem::path, SceneText, PairSpec>;
+
+/// `frames` above 0 replaces the number of frames, except that of random pairs.
+/// @throws InputError, also where a recording is to have other frames than its own
+Scene load_any_scene(const SceneSource& source, std::size_t frames = 0);
+
+/// The same source, whatever the working directory is.
+SceneSource absolute(SceneSource source);
 
 }  // namespace contactcheck::scene

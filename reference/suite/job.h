@@ -11,7 +11,8 @@
 
 #include "reference/judge/answer_fingerprint.h"
 #include "reference/results/results.h"
-#include "reference/scene/any_scene.h"
+#include "reference/scene/random_pairs.h"
+#include "reference/scene/scene.h"
 #include "reference/timing/speedup.h"
 
 namespace contactcheck::suite {

@@ -47,7 +47,7 @@ struct WorkerState {
   process::Surroundings surroundings;
   scene::Scene scene;
   judge::JudgedScene judged;        ///< of a worker that judges
-  std::vector<double> separations;  ///< per frame (separation.h)
+  std::vector<double> separations;  ///< per frame (judged_scene.h)
   std::vector<WorkerEntry> entries;
   std::vector<TurnAnswer> timed;
 };

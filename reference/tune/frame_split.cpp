@@ -4,7 +4,7 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "reference/scene/any_scene.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck::tune {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
-#include "reference/scene/any_scene.h"
+#include "reference/scene/scene.h"
 #include "reference/tune/chosen_file.h"
 
 namespace contactcheck::tune {

@@ -1,9 +1,9 @@
-#include "reference/judge/separation.h"
-
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
+#include "reference/judge/accuracy.h"
+#include "reference/judge/judged_scene.h"
 #include "reference/judge/scene_summary.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"

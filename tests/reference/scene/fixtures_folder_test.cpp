@@ -1,4 +1,4 @@
-#include "reference/scene/fixtures_folder.h"
+#include "reference/scene/catalogue.h"
 
 #include <gmock/gmock.h>
 

@@ -82,7 +82,7 @@ results::ErrorSpread spread_of(std::vector<double>& errors) {
   return out;
 }
 
-void GradedErrors::add_depth(const oracle::WayOut& truth, double depth, const Vec3& normal) {
+void GradedErrors::add_depth(const oracle::Penetration& truth, double depth, const Vec3& normal) {
   depth_errors_.push_back(std::abs(depth - truth.depth));
   if (truth.depth < kNormalFloor * size_ || truth.directions.empty()) return;
   double nearest = 180.0;
@@ -127,10 +127,10 @@ std::optional<double> GradedErrors::add_frame(const oracle::Truth& truth,
     for (auto it = contacts.begin(), end = it; it != contacts.end(); it = end) {
       end = end_of_group(it, contacts.end(), [](const PieceContact& c) { return c.pieces; });
       const PieceContact& deepest = *std::max_element(it, end, shallower);
-      const std::optional<oracle::WayOut> way_out = of_triangles
-                                                        ? geometry.part_triangles(deepest.pieces)
-                                                        : geometry.part_boxes(deepest.pieces);
-      if (way_out) add_depth(*way_out, deepest.depth, deepest.normal);
+      const std::optional<oracle::Penetration> penetration =
+          of_triangles ? geometry.triangle_penetration(deepest.pieces)
+                       : geometry.box_penetration(deepest.pieces);
+      if (penetration) add_depth(*penetration, deepest.depth, deepest.normal);
     }
   }
 

@@ -39,8 +39,8 @@ results::ErrorSpread spread_of(std::vector<double>& errors);
 ///   shortest translation that separates the two. Disjoint pieces have no depth.
 /// - Depth `vertex-surface`: of the contacts of one vertex the shallowest counts, against the
 ///   distance to the surface, for vertices that are truly inside.
-/// - A normal's error is its angle to the nearest of all shortest ways out, where the true depth is
-///   at least kNormalFloor times the size.
+/// - A normal's error is its angle to the nearest of all shortest separating directions, where the
+///   true depth is at least kNormalFloor times the size.
 class GradedErrors {
  public:
   /// `size`: of the scene, metres. `bodies` must outlive it.
@@ -57,7 +57,7 @@ class GradedErrors {
   results::Geometry summary();
 
  private:
-  void add_depth(const oracle::WayOut& truth, double depth, const Vec3& normal);
+  void add_depth(const oracle::Penetration& truth, double depth, const Vec3& normal);
 
   const std::vector<Body>& bodies_;
   Semantics semantics_;

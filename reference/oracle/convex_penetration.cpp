@@ -1,5 +1,5 @@
 // A translation t of B meets A exactly when t lies in the Minkowski difference D = A - B, which
-// holds 0. So the shortest way out is the distance from 0 to the boundary of D, and D being the
+// holds 0. So the penetration depth is the distance from 0 to the boundary of D, and D being the
 // intersection of the half-spaces of its facets, that is the least extent h(n) = max n A - min n B
 // over the outward normals n of its facets.
 //
@@ -7,7 +7,7 @@
 // one of the two does: n is a face's normal. Or both are edges, not parallel: n is their product.
 // Where D is flat its two "facets" are D itself: again A or B spans the plane, or two edges do, and
 // h(n) = 0. Where D is a segment or a point, all those vectors are zero and every direction across
-// it parts at 0. Directions too many (of diagonals within a face, both signs) do no harm: h(n) is
+// it has depth 0. Directions too many (of diagonals within a face, both signs) do no harm: h(n) is
 // never less than the distance.
 //
 // Rounding, with e = 2^-53. Coordinates are taken relative to one point and in units of the size.
@@ -139,76 +139,6 @@ Extent extent_of(const std::vector<Vec3>& points, const Vec3& unit) {
   return out;
 }
 
-class Parting {
- public:
-  Parting(const Piece& a, const Piece& b, double tolerance) : a_(a), b_(b), tolerance_(tolerance) {}
-
-  WayOut run();
-
- private:
-  struct Offer {
-    double depth;
-    Vec3 direction;
-  };
-
-  void try_both_ways(const Vec3& unit);
-  void offer(double depth, const Vec3& unit);
-  void try_across();
-  WayOut collect();
-
-  const Piece &a_, &b_;
-  double tolerance_;
-  double best_ = std::numeric_limits<double>::infinity();
-  std::vector<Offer> offers_;  // all that were as good as the best one when they came
-};
-
-void Parting::offer(double depth, const Vec3& unit) {
-  if (depth > best_ + tolerance_) return;
-  best_ = std::min(best_, std::max(0.0, depth));
-  offers_.push_back({depth, unit});
-}
-
-void Parting::try_both_ways(const Vec3& unit) {
-  if (unit == Vec3::Zero()) return;
-  const Extent a = extent_of(a_.points, unit), b = extent_of(b_.points, unit);
-  offer(a.high - b.low, unit);
-  offer(b.high - a.low, -unit);
-}
-
-// Where all edges are parallel: two directions across them, or all axes without any.
-void Parting::try_across() {
-  const std::vector<Difference>& edges = a_.edges.empty() ? b_.edges : a_.edges;
-  if (edges.empty()) {
-    for (int axis = 0; axis < 3; ++axis) try_both_ways(Vec3::Unit(axis));
-    return;
-  }
-  const Vec3 along = edges.front().high.normalized();
-  int axis = 0;
-  along.cwiseAbs().minCoeff(&axis);
-  const Vec3 across = along.cross(Vec3::Unit(axis)).normalized();
-  try_both_ways(across);
-  try_both_ways(along.cross(across).normalized());
-}
-
-WayOut Parting::collect() {
-  WayOut out;
-  out.depth = best_;
-  std::erase_if(offers_, [&](const Offer& o) { return o.depth > best_ + tolerance_; });
-  std::stable_sort(offers_.begin(), offers_.end(),
-                   [](const Offer& x, const Offer& y) { return x.depth < y.depth; });
-  for (const Offer& o : offers_) add_direction(o.direction, out.directions);
-  return out;
-}
-
-WayOut Parting::run() {
-  for (const Vec3& normal : a_.normals) try_both_ways(normal);
-  for (const Vec3& normal : b_.normals) try_both_ways(normal);
-  for (const Difference& u : a_.edges)
-    for (const Difference& v : b_.edges) try_both_ways(normal_of(u, v));
-  if (offers_.empty()) try_across();
-  return collect();
-}
-
 }  // namespace
 
 void add_direction(const Vec3& direction, std::vector<Vec3>& directions) {
@@ -218,15 +148,57 @@ void add_direction(const Vec3& direction, std::vector<Vec3>& directions) {
   if (!there) directions.push_back(direction);
 }
 
-WayOut part_pieces(PieceSurface a, PieceSurface b, double tolerance) {
+Penetration convex_penetration(PieceSurface a, PieceSurface b, double tolerance) {
   Aabb box;
   for (PieceSurface surface : {a, b})
     for (const TriangleCorners& t : surface)
       for (const Vec3& p : t) box.extend(p);
   const int exponent = exponent_above(box.extent().maxCoeff());
   const Piece in_a(a, a[0][0], exponent), in_b(b, a[0][0], exponent);
-  WayOut out = Parting(in_a, in_b, std::ldexp(tolerance, -exponent)).run();
-  out.depth = std::ldexp(out.depth, exponent);
+  const double scaled_tolerance = std::ldexp(tolerance, -exponent);
+
+  struct Offer {
+    double depth;
+    Vec3 direction;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<Offer> offers;  // all that were as good as the best one when they came
+  const auto offer = [&](double depth, const Vec3& unit) {
+    if (depth > best + scaled_tolerance) return;
+    best = std::min(best, std::max(0.0, depth));
+    offers.push_back({depth, unit});
+  };
+  const auto try_both_signs = [&](const Vec3& unit) {
+    if (unit == Vec3::Zero()) return;
+    const Extent along_a = extent_of(in_a.points, unit), along_b = extent_of(in_b.points, unit);
+    offer(along_a.high - along_b.low, unit);
+    offer(along_b.high - along_a.low, -unit);
+  };
+  for (const Vec3& normal : in_a.normals) try_both_signs(normal);
+  for (const Vec3& normal : in_b.normals) try_both_signs(normal);
+  for (const Difference& u : in_a.edges)
+    for (const Difference& v : in_b.edges) try_both_signs(normal_of(u, v));
+  if (offers.empty()) {
+    // All edges are parallel: two directions across them, or all axes without any.
+    const std::vector<Difference>& edges = in_a.edges.empty() ? in_b.edges : in_a.edges;
+    if (edges.empty()) {
+      for (int axis = 0; axis < 3; ++axis) try_both_signs(Vec3::Unit(axis));
+    } else {
+      const Vec3 along = edges.front().high.normalized();
+      int axis = 0;
+      along.cwiseAbs().minCoeff(&axis);
+      const Vec3 across = along.cross(Vec3::Unit(axis)).normalized();
+      try_both_signs(across);
+      try_both_signs(along.cross(across).normalized());
+    }
+  }
+
+  Penetration out;
+  out.depth = std::ldexp(best, exponent);
+  std::erase_if(offers, [&](const Offer& o) { return o.depth > best + scaled_tolerance; });
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const Offer& x, const Offer& y) { return x.depth < y.depth; });
+  for (const Offer& o : offers) add_direction(o.direction, out.directions);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// The shortest way to part two convex pieces, by brute force.
+// The penetration depth of two convex pieces, by brute force over the directions of all facets.
 #pragma once
 
 #include <span>
@@ -23,6 +23,6 @@ using PieceSurface = std::span<const TriangleCorners>;
 /// within `tolerance` of that. Where the two lie in one plane: depth 0 and the plane's normals; on
 /// one line (or at one point), where directions without number would do: four (six).
 /// @pre the pieces share a point; at least one triangle each; all |coordinates| <= 1
-WayOut part_pieces(PieceSurface a, PieceSurface b, double tolerance);
+Penetration convex_penetration(PieceSurface a, PieceSurface b, double tolerance);
 
 }  // namespace contactcheck::oracle

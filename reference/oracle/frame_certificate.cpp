@@ -189,7 +189,7 @@ std::array<std::string, 3> integer_weights(const std::array<mpq_class, 3>& weigh
   return out;
 }
 
-// Directions among which one parts two disjoint triangles, if at least one is proper or they are
+// Directions of which one separates two disjoint triangles, if at least one is proper or they are
 // segments on two lines: normals, products of edges, and normals within the planes. In doubles: a
 // guess, to be verified.
 std::vector<Vec3> directions(const TriangleCorners& p, const TriangleCorners& q) {
@@ -207,7 +207,7 @@ std::vector<Vec3> directions(const TriangleCorners& p, const TriangleCorners& q)
   return out;
 }
 
-// How far a unit direction parts the two, from p to q; negative: it does not.
+// The gap between the two along a unit direction, from p to q; negative: it does not separate them.
 double gap_along(const Vec3& unit, const TriangleCorners& p, const TriangleCorners& q) {
   return std::min({unit.dot(q[0]), unit.dot(q[1]), unit.dot(q[2])}) -
          std::max({unit.dot(p[0]), unit.dot(p[1]), unit.dot(p[2])});
@@ -254,7 +254,7 @@ ExactNumber offset_between(const mpq_class& low, const mpq_class& high) {
   return rational_text(low);
 }
 
-// The plane across a normal, where that parts the two: decided exactly.
+// The plane across a normal, where it separates the two: decided exactly.
 std::optional<Plane> plane_across(const Vec3& normal, const RationalTriangle& p,
                                   const RationalTriangle& q) {
   const RationalPoint n = oracle::rational::to_rational(normal);
@@ -318,8 +318,8 @@ namespace {
 
 using oracle::TriangleCorners;
 
-// An axis along which two closed boxes are apart; -1 when they overlap.
-int parting_axis(const Aabb& a, const Aabb& b) {
+// An axis along which two closed boxes are disjoint; -1 when they overlap.
+int separating_axis(const Aabb& a, const Aabb& b) {
   for (int axis = 0; axis < 3; ++axis)
     if (a.hi[axis] < b.lo[axis] || b.hi[axis] < a.lo[axis]) return axis;
   return -1;
@@ -344,7 +344,7 @@ class PairCertifier {
 
   void cover(const Range& a, const Range& b) {
     const Aabb &box_a = tree_a().box(a), &box_b = tree_b().box(b);
-    const int axis = parting_axis(box_a, box_b);
+    const int axis = separating_axis(box_a, box_b);
     if (axis >= 0) {
       out_.decisions += "xyz"[axis];
     } else if (a.size() == 1 && b.size() == 1) {

@@ -1,5 +1,5 @@
 // The certified truth of one frame: every pair of triangles of two bodies is proven to touch or to
-// be apart.
+// be disjoint.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ std::optional<Plane> separating_plane(const oracle::TriangleCorners& p,
 // Boxes over ranges of one body's triangles: what the proof that no pair was forgotten speaks of.
 //
 // The triangles stand in a fixed order; a range of two or more splits in its middle. So a range is
-// known by its ends alone, and whoever checks needs the order and no tree.
+// known by its ends alone, and a checker needs the order and no tree.
 
 /// The places first .. last of the order, not empty, with the node that holds its box.
 struct Range {
@@ -101,8 +101,8 @@ struct FrameCertificate {
   /// in turn, a recursion over two ranges of triangles that starts with all of one body and all of
   /// the other. A letter each: 'a' or 'b' splits the first or second range (the lower half is
   /// treated first, with all below it), 'x', 'y' or 'z' says that the boxes of the two ranges are
-  /// apart along that axis, and for one triangle on either side 't' that they touch and 's' that a
-  /// plane separates them.
+  /// disjoint along that axis, and for one triangle on either side 't' that they touch and 's' that
+  /// a plane separates them.
   std::string decisions;
   std::vector<CertifiedContact> contacts;  ///< one for every 't', canonical
   std::vector<CertifiedGap> gaps;          ///< one for every 's', canonical

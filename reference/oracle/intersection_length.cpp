@@ -92,12 +92,12 @@ Interval interval_of(const TriangleCorners& t, const Sides& sides, const Vec3& o
 
 // What two intervals of one line have in common.
 double common_length(const Interval& p, const Interval& q) {
-  const Vec3 p_way = p.to - p.from, q_way = q.to - q.from;
-  const bool p_longer = p_way.squaredNorm() >= q_way.squaredNorm();
-  const Vec3 way = p_longer ? p_way : q_way, start = p_longer ? p.from : q.from;
-  const double length = way.norm();
+  const Vec3 p_span = p.to - p.from, q_span = q.to - q.from;
+  const bool p_longer = p_span.squaredNorm() >= q_span.squaredNorm();
+  const Vec3 span = p_longer ? p_span : q_span, start = p_longer ? p.from : q.from;
+  const double length = span.norm();
   if (!(length > 0)) return 0.0;
-  const auto along = [&](const Vec3& x) { return way.dot(x - start) / length; };
+  const auto along = [&](const Vec3& x) { return span.dot(x - start) / length; };
   const auto [p_low, p_high] = std::minmax({along(p.from), along(p.to)});
   const auto [q_low, q_high] = std::minmax({along(q.from), along(q.to)});
   return std::max(0.0, std::min(p_high, q_high) - std::max(p_low, q_low));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -18,33 +19,7 @@
 #include "reference/oracle/vertex_queries.h"
 
 namespace contactcheck::oracle {
-
-using namespace oracle;
-
 namespace {
-
-// Pairs of bodies, nearest boxes first: the smallest distance in a scene needs few of them.
-
-/// Hands out every pair of bodies once, by the distance of their boxes.
-class PairsByGap {
- public:
-  struct Entry {
-    double gap = 0.0;  ///< not above the distance of any two points of the two boxes
-    BodyPair pair;
-  };
-
-  /// @pre no box is empty
-  explicit PairsByGap(const std::vector<Aabb>& boxes);
-
-  bool empty() const { return heap_.empty(); }
-  /// @pre not empty()
-  const Entry& nearest() const { return heap_.front(); }
-  /// @pre not empty()
-  void pop();
-
- private:
-  std::vector<Entry> heap_;  // the nearest first
-};
 
 // The computed distance of two boxes exceeds the true one by less than this share.
 constexpr double kGapRounding = 1 - 16 * 0x1p-53;
@@ -56,24 +31,9 @@ double box_gap(const Aabb& a, const Aabb& b) {
   return std::max(0.0, std::nextafter(gap.stableNorm() * kGapRounding, -1.0));
 }
 
-// Of equal gaps the first bodies first: the answer does not depend on the heap.
-bool farther(const PairsByGap::Entry& x, const PairsByGap::Entry& y) {
-  return std::tie(x.gap, x.pair.a, x.pair.b) > std::tie(y.gap, y.pair.a, y.pair.b);
-}
-
-PairsByGap::PairsByGap(const std::vector<Aabb>& boxes) {
-  for (std::uint32_t a = 0; a < boxes.size(); ++a)
-    for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
-      heap_.push_back({box_gap(boxes[a], boxes[b]), {a, b}});
-  std::make_heap(heap_.begin(), heap_.end(), farther);
-}
-
-void PairsByGap::pop() {
-  std::pop_heap(heap_.begin(), heap_.end(), farther);
-  heap_.pop_back();
-}
 // Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
 constexpr double kSeparationWidth = 9e-10;
+
 }  // namespace
 
 struct Oracle::Impl {
@@ -81,12 +41,6 @@ struct Oracle::Impl {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(shapes.size()); }
   void check(const Frame& frame) const;
-  void judge_pair(const Frame& frame, BodyPair pair, const WantedTruth& wanted, Truth& truth);
-  bool judge_surfaces(BodyPair pair, bool all, Truth& truth) const;
-  bool holds(const Frame& frame, std::uint32_t outer, std::uint32_t inner) const;
-  void judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in, Truth& truth) const;
-  void update_boxes(const Frame& frame);
-  void judge_boxes(BodyPair pair, Truth& truth);
   std::vector<Aabb> vertex_boxes(const Frame& frame) const;
 
   std::vector<std::shared_ptr<const BodyShape>> shapes;
@@ -117,68 +71,6 @@ void Oracle::Impl::check(const Frame& frame) const {
   }
 }
 
-// Records the pairs of triangles that share a point; with `all` unset, stops at the first.
-bool Oracle::Impl::judge_surfaces(BodyPair pair, bool all, Truth& truth) const {
-  bool contact = false;
-  any_box_pair(trees[pair.a], trees[pair.b], [&](std::uint32_t a, std::uint32_t b) {
-    if (!triangles_intersect(trees[pair.a].corners(a), trees[pair.b].corners(b))) return false;
-    contact = true;
-    if (all) truth.surface.triangles.push_back({pair.a, pair.b, a, b});
-    return !all;
-  });
-  return contact;
-}
-
-// @pre the surfaces share no point, so a component lies inside when one of its vertices does
-bool Oracle::Impl::holds(const Frame& frame, std::uint32_t outer, std::uint32_t inner) const {
-  const MeshTopology& topology = shapes[inner]->topology;
-  if (!shapes[outer]->topology.solid) return false;
-  return std::all_of(topology.component_vertex.begin(), topology.component_vertex.end(),
-                     [&](std::uint32_t v) {
-                       return strictly_inside(trees[outer], frame.bodies[inner].vertices[v]);
-                     });
-}
-
-void Oracle::Impl::judge_vertices(const Frame& frame, std::uint32_t body, std::uint32_t in,
-                                  Truth& truth) const {
-  if (!shapes[in]->topology.solid) return;
-  const auto vertices = frame.bodies[body].vertices;
-  for (std::uint32_t v = 0; v < vertices.size(); ++v)
-    if (strictly_inside(trees[in], vertices[v])) truth.surface.vertices.push_back({body, in, v});
-}
-
-void Oracle::Impl::judge_pair(const Frame& frame, BodyPair pair, const WantedTruth& wanted,
-                              Truth& truth) {
-  if (!trees[pair.a].bounds().overlaps(trees[pair.b].bounds())) return;
-  if (wanted.triangles || wanted.containment) {
-    const bool contact = judge_surfaces(pair, wanted.triangles, truth);
-    if (wanted.containment && !contact &&
-        (holds(frame, pair.a, pair.b) || holds(frame, pair.b, pair.a))) {
-      truth.containment.push_back(pair);
-    }
-  }
-  if (wanted.vertices) {
-    judge_vertices(frame, pair.a, pair.b, truth);
-    judge_vertices(frame, pair.b, pair.a, truth);
-  }
-}
-
-void Oracle::Impl::update_boxes(const Frame& frame) {
-  if (hulls.empty())
-    for (const auto& shape : shapes) hulls.emplace_back(shape);
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    CONTACTCHECK_INVARIANT(frame.bodies[i].nodes.size() == shapes[i]->node_count(),
-                           "the oracle needs every deformed node");
-    hulls[i].update(frame.bodies[i].nodes);
-  }
-}
-
-void Oracle::Impl::judge_boxes(BodyPair pair, Truth& truth) {
-  std::vector<CellPair> cells;
-  overlapping_cells(hulls[pair.a], hulls[pair.b], cells);
-  for (const CellPair& c : cells) truth.boxes.push_back({pair.a, pair.b, c.a, c.b});
-}
-
 // Of all vertices: the trees know only those of triangles.
 std::vector<Aabb> Oracle::Impl::vertex_boxes(const Frame& frame) const {
   std::vector<Aabb> boxes(size());
@@ -193,13 +85,61 @@ Oracle::~Oracle() = default;
 Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
   const FloatingPointGuard guard;
   impl_->check(frame);
+  const auto& shapes = impl_->shapes;
+  std::vector<SurfaceTree>& trees = impl_->trees;
+  std::vector<CellHulls>& hulls = impl_->hulls;
+  for (std::uint32_t i = 0; i < impl_->size(); ++i) trees[i].refit(frame.bodies[i].vertices);
+  if (wanted.boxes) {
+    if (hulls.empty())
+      for (const auto& shape : shapes) hulls.emplace_back(shape);
+    for (std::uint32_t i = 0; i < impl_->size(); ++i) {
+      CONTACTCHECK_INVARIANT(frame.bodies[i].nodes.size() == shapes[i]->node_count(),
+                             "the oracle needs every deformed node");
+      hulls[i].update(frame.bodies[i].nodes);
+    }
+  }
+
   Truth truth;
-  for (std::uint32_t i = 0; i < impl_->size(); ++i) impl_->trees[i].refit(frame.bodies[i].vertices);
-  if (wanted.boxes) impl_->update_boxes(frame);
+  // @pre the surfaces share no point, so a component lies inside when one of its vertices does
+  const auto contains = [&](std::uint32_t outer, std::uint32_t inner) {
+    const std::vector<std::uint32_t>& component_vertex = shapes[inner]->topology.component_vertex;
+    return shapes[outer]->topology.solid &&
+           std::all_of(component_vertex.begin(), component_vertex.end(), [&](std::uint32_t v) {
+             return strictly_inside(trees[outer], frame.bodies[inner].vertices[v]);
+           });
+  };
+  const auto judge_vertices = [&](std::uint32_t body, std::uint32_t in) {
+    if (!shapes[in]->topology.solid) return;
+    const auto vertices = frame.bodies[body].vertices;
+    for (std::uint32_t v = 0; v < vertices.size(); ++v)
+      if (strictly_inside(trees[in], vertices[v])) truth.surface.vertices.push_back({body, in, v});
+  };
+  const auto judge_pair = [&](std::uint32_t a, std::uint32_t b) {
+    if (!trees[a].bounds().overlaps(trees[b].bounds())) return;
+    if (wanted.triangles || wanted.containment) {
+      // All pairs of triangles that share a point, or where only containment counts, the first.
+      bool contact = false;
+      any_box_pair(trees[a], trees[b], [&](std::uint32_t i, std::uint32_t j) {
+        if (!triangles_intersect(trees[a].corners(i), trees[b].corners(j))) return false;
+        contact = true;
+        if (wanted.triangles) truth.surface.triangles.push_back({a, b, i, j});
+        return !wanted.triangles;
+      });
+      if (wanted.containment && !contact && (contains(a, b) || contains(b, a)))
+        truth.containment.push_back({a, b});
+    }
+    if (wanted.vertices) {
+      judge_vertices(a, b);
+      judge_vertices(b, a);
+    }
+  };
   for (std::uint32_t a = 0; a < impl_->size(); ++a)
     for (std::uint32_t b = a + 1; b < impl_->size(); ++b) {
-      impl_->judge_pair(frame, {a, b}, wanted, truth);
-      if (wanted.boxes) impl_->judge_boxes({a, b}, truth);
+      judge_pair(a, b);
+      if (!wanted.boxes) continue;
+      std::vector<CellPair> cells;
+      overlapping_cells(hulls[a], hulls[b], cells);
+      for (const CellPair& c : cells) truth.boxes.push_back({a, b, c.a, c.b});
     }
   truth.surface.canonicalize();
   std::sort(truth.boxes.begin(), truth.boxes.end());
@@ -218,9 +158,11 @@ DistanceInterval Oracle::distance(const Frame& frame, BodyPair pair) {
   return surface_distance(impl_->scaled_a, impl_->scaled_b);
 }
 
-// Pairs whose boxes are apart by no less than what was found (but for the width that the contract
-// allows) need not be measured: grids of equal bodies have thousands of equal gaps. Boxes that meet
-// always are measured, because only then it is known that nothing touches.
+// Pairs of bodies are measured by the distance of their boxes, nearest first: the smallest distance
+// of a scene needs few of them. Pairs whose boxes are no nearer than what was found (but for the
+// width that the contract allows) need not be measured: grids of equal bodies have thousands of
+// equal gaps. Boxes that meet always are measured, because only then it is known that nothing
+// touches.
 DistanceInterval Oracle::separation(const Frame& frame) {
   const FloatingPointGuard guard;
   impl_->check(frame);
@@ -229,15 +171,23 @@ DistanceInterval Oracle::separation(const Frame& frame) {
   double scale = 0.0;
   for (const Aabb& box : boxes)
     scale = std::max({scale, box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()});
-  PairsByGap pairs(boxes);
-  DistanceInterval best = distance(frame, pairs.nearest().pair);
-  for (pairs.pop(); best.upper > 0 && !pairs.empty(); pairs.pop()) {
-    const auto& [gap, pair] = pairs.nearest();
+  // A heap. Of equal gaps the first bodies come first: the answer does not depend on the heap.
+  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t a = 0; a < impl_->size(); ++a)
+    for (std::uint32_t b = a + 1; b < impl_->size(); ++b)
+      pairs.emplace_back(box_gap(boxes[a], boxes[b]), a, b);
+  std::make_heap(pairs.begin(), pairs.end(), std::greater<>());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  DistanceInterval best{kInfinity, kInfinity};
+  while (best.upper > 0 && !pairs.empty()) {
+    std::pop_heap(pairs.begin(), pairs.end(), std::greater<>());
+    const auto [gap, a, b] = pairs.back();
+    pairs.pop_back();
     if (gap > 0 && gap >= best.upper - kSeparationWidth * scale) {
       best.lower = std::min(best.lower, gap);
       break;
     }
-    const DistanceInterval found = distance(frame, pair);
+    const DistanceInterval found = distance(frame, {a, b});
     best.lower = std::min(best.lower, found.lower);
     best.upper = std::min(best.upper, found.upper);
   }

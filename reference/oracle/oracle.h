@@ -1,7 +1,7 @@
 // The exact oracle: the ground truth for the deformed doubles of a frame.
 //
 // Uses core's types and its rest-shape data, none of its broad or narrow code: its own tree finds
-// the candidates, CGAL's EPICK kernel decides, with a path of its own for degenerate triangles.
+// the candidates, CGAL's EPICK kernel decides, with a separate path for degenerate triangles.
 #pragma once
 
 #include <memory>

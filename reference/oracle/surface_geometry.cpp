@@ -17,12 +17,7 @@
 #include "reference/oracle/vertex_distance.h"
 
 namespace contactcheck::oracle {
-
-using namespace oracle;
-
 namespace {
-
-// The shortest way from a vertex to a surface.
 
 // In fractions of the size: what counts as equally near, and how wide bounds may be.
 constexpr double kAsNear = 1e-9, kBoundsWidth = 5e-13;
@@ -38,97 +33,64 @@ double distance_to(const Aabb& box, const Vec3& p) {
   return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm() * kBoxDistanceRounding;
 }
 
-class NearestSearch {
- public:
-  NearestSearch(const Vec3& vertex, const SurfaceTree& surface, double size)
-      : vertex_(vertex), surface_(surface), size_(size) {}
+// Depth: the distance from the vertex to the surface, off by less than 1e-12 of `size` or of the
+// depth. Directions: to the nearest point of every triangle that is as near within 1e-9 of `size`,
+// one for those that agree; none when the vertex lies on the surface (exactly).
+// @pre the tree is fitted; all |coordinates| <= 1
+Penetration nearest_points(const Vec3& vertex, const SurfaceTree& surface, double size) {
+  double upper = std::numeric_limits<double>::infinity();
+  std::vector<Candidate> near;
+  const auto worth = [&](double distance) { return distance <= upper + kAsNear * size; };
 
-  WayOut run();
-
- private:
-  bool worth(double distance) const { return distance <= upper_ + kAsNear * size_; }
-  void descend(std::uint32_t index);
-  void measure(std::uint32_t triangle);
-  void drop_farther();
-  void narrow();
-  WayOut collect();
-
-  const Vec3& vertex_;
-  const SurfaceTree& surface_;
-  double size_;
-  double upper_ = std::numeric_limits<double>::infinity();
-  std::vector<Candidate> near_;
-};
-
-void NearestSearch::descend(std::uint32_t index) {
-  const SurfaceTree::Node& node = surface_.node(index);
-  if (!worth(distance_to(node.box, vertex_))) return;
-  if (node.is_leaf()) {
-    for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
-      if (worth(distance_to(surface_.box_at(place), vertex_))) measure(surface_.triangle_at(place));
-    return;
-  }
-  std::uint32_t first = index + 1, second = node.second;
-  if (distance_to(surface_.node(second).box, vertex_) <
-      distance_to(surface_.node(first).box, vertex_))
-    std::swap(first, second);
-  descend(first);
-  descend(second);
-}
-
-void NearestSearch::measure(std::uint32_t triangle) {
-  const NearestPoint point = nearest_point(vertex_, surface_.corners(triangle));
-  if (!worth(point.lower)) return;
-  upper_ = std::min(upper_, point.upper);
-  near_.push_back({triangle, point});
-}
-
-void NearestSearch::drop_farther() {
-  std::erase_if(near_, [&](const Candidate& c) { return !worth(c.point.lower); });
-}
-
-void NearestSearch::narrow() {
-  for (Candidate& c : near_) {
-    if (c.point.upper - c.point.lower <= kBoundsWidth * size_) continue;
-    c.point = exact_nearest_point(vertex_, surface_.corners(c.triangle));
-    upper_ = std::min(upper_, c.point.upper);
-  }
-}
-
-WayOut NearestSearch::collect() {
-  const auto touches = [&](const Candidate& c) {
-    return c.point.lower == 0 && point_on_triangle(vertex_, surface_.corners(c.triangle));
+  const auto descend = [&](const auto& self, std::uint32_t index) -> void {
+    const SurfaceTree::Node& node = surface.node(index);
+    if (!worth(distance_to(node.box, vertex))) return;
+    if (node.is_leaf()) {
+      for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
+        if (!worth(distance_to(surface.box_at(place), vertex))) continue;
+        const std::uint32_t triangle = surface.triangle_at(place);
+        const NearestPoint point = nearest_point(vertex, surface.corners(triangle));
+        if (!worth(point.lower)) continue;
+        upper = std::min(upper, point.upper);
+        near.push_back({triangle, point});
+      }
+      return;
+    }
+    std::uint32_t first = index + 1, second = node.second;
+    if (distance_to(surface.node(second).box, vertex) <
+        distance_to(surface.node(first).box, vertex))
+      std::swap(first, second);
+    self(self, first);
+    self(self, second);
   };
-  WayOut out;
-  if (std::any_of(near_.begin(), near_.end(), touches)) return out;
-  std::stable_sort(near_.begin(), near_.end(), [](const Candidate& x, const Candidate& y) {
+  descend(descend, 0);
+
+  const auto drop_farther = [&] {
+    std::erase_if(near, [&](const Candidate& c) { return !worth(c.point.lower); });
+  };
+  drop_farther();
+  for (Candidate& c : near) {
+    if (c.point.upper - c.point.lower <= kBoundsWidth * size) continue;
+    c.point = exact_nearest_point(vertex, surface.corners(c.triangle));
+    upper = std::min(upper, c.point.upper);
+  }
+  drop_farther();
+
+  Penetration out;
+  for (const Candidate& c : near)
+    if (c.point.lower == 0 && point_on_triangle(vertex, surface.corners(c.triangle))) return out;
+  std::stable_sort(near.begin(), near.end(), [](const Candidate& x, const Candidate& y) {
     return x.point.offset.squaredNorm() < y.point.offset.squaredNorm();
   });
-  out.depth = near_.front().point.offset.norm();
-  for (const Candidate& c : near_) {
+  out.depth = near.front().point.offset.norm();
+  for (const Candidate& c : near) {
     const double length = c.point.offset.norm();
     if (length > 0) add_direction(c.point.offset / length, out.directions);
   }
   return out;
 }
 
-WayOut NearestSearch::run() {
-  descend(0);
-  drop_farther();
-  narrow();
-  drop_farther();
-  return collect();
-}
-
-// Depth: the distance from the vertex to the surface, off by less than 1e-12 of `size` or of the
-// depth. Directions: to the nearest point of every triangle that is as near within 1e-9 of `size`,
-// one for those that agree; none when the vertex lies on the surface (exactly).
-// @pre the tree is fitted; all |coordinates| <= 1
-WayOut way_to_surface(const Vec3& vertex, const SurfaceTree& surface, double size) {
-  return NearestSearch(vertex, surface, size).run();
-}
-
-// In fractions of the body size: ways out that differ by less are equally short.
+// In fractions of the body size: depths that differ by less are equal.
 constexpr double kAsShort = 1e-9;
 
 // Relative width of a distance interval above which it is computed in rationals.
@@ -139,15 +101,9 @@ TriangleCorners scaled_corners(const TriangleCorners& t, int exponent) {
           scaled_by_two_to(exponent, t[2])};
 }
 
-std::vector<TriangleCorners> scaled_surface(PieceSurface surface, int exponent) {
-  std::vector<TriangleCorners> out;
-  for (const TriangleCorners& t : surface) out.push_back(scaled_corners(t, exponent));
-  return out;
-}
-
-WayOut unscaled(WayOut way, int exponent) {
-  way.depth = std::ldexp(way.depth, exponent);
-  return way;
+Penetration unscaled(Penetration penetration, int exponent) {
+  penetration.depth = std::ldexp(penetration.depth, exponent);
+  return penetration;
 }
 
 }  // namespace
@@ -214,7 +170,7 @@ struct SurfaceGeometry::Impl {
   BodyGeometry& body(std::uint32_t index);
   TriangleCorners first(const ElementPair& pair) { return body(pair.body_a).corners(pair.a); }
   TriangleCorners second(const ElementPair& pair) { return body(pair.body_b).corners(pair.b); }
-  WayOut part(PieceSurface a, PieceSurface b, double body_side) const;
+  Penetration penetration(PieceSurface a, PieceSurface b, double body_side) const;
   double side(std::uint32_t a, std::uint32_t b) { return std::max(body(a).side, body(b).side); }
 };
 
@@ -224,14 +180,16 @@ BodyGeometry& SurfaceGeometry::Impl::body(std::uint32_t index) {
 }
 
 // Scaled to at most 1, so that no difference overflows.
-WayOut SurfaceGeometry::Impl::part(PieceSurface a, PieceSurface b, double body_side) const {
+Penetration SurfaceGeometry::Impl::penetration(PieceSurface a, PieceSurface b,
+                                               double body_side) const {
   double largest = 0.0;
   for (PieceSurface surface : {a, b})
     for (const TriangleCorners& t : surface) largest = std::max(largest, largest_coordinate(t));
   const int exponent = exponent_above(largest);
-  const std::vector<TriangleCorners> p = scaled_surface(a, -exponent);
-  const std::vector<TriangleCorners> q = scaled_surface(b, -exponent);
-  return unscaled(part_pieces(p, q, std::ldexp(kAsShort * body_side, -exponent)), exponent);
+  std::vector<TriangleCorners> p, q;
+  for (const TriangleCorners& t : a) p.push_back(scaled_corners(t, -exponent));
+  for (const TriangleCorners& t : b) q.push_back(scaled_corners(t, -exponent));
+  return unscaled(convex_penetration(p, q, std::ldexp(kAsShort * body_side, -exponent)), exponent);
 }
 
 SurfaceGeometry::SurfaceGeometry(const std::vector<Body>& bodies)
@@ -261,14 +219,14 @@ double SurfaceGeometry::triangle_distance(const ElementPair& triangles) const {
   DistanceBounds bounds = distance_bounds(p, q);
   if (bounds.upper - bounds.lower > kDistanceWidth * bounds.upper)
     bounds = exact_distance_bounds(p, q);
-  // Scaling may have brought the two together, and the way back may round down.
+  // Scaling may have brought the two together, and scaling back may round down.
   const double upper = std::ldexp(bounds.upper, exponent);
   return upper < std::numeric_limits<double>::min()
              ? std::nextafter(upper, std::numeric_limits<double>::max())
              : upper;
 }
 
-WayOut SurfaceGeometry::vertex_to_surface(const VertexInBody& where) const {
+Penetration SurfaceGeometry::vertex_to_surface(const VertexInBody& where) const {
   const FloatingPointGuard guard;
   const BodyGeometry& from = impl_->body(where.body);
   BodyGeometry& to = impl_->body(where.in);
@@ -276,22 +234,23 @@ WayOut SurfaceGeometry::vertex_to_surface(const VertexInBody& where) const {
   const int exponent = exponent_above(std::max(from.largest, to.largest));
   const double size = std::ldexp(impl_->side(where.body, where.in), -exponent);
   const Vec3 vertex = scaled_by_two_to(-exponent, from.state.vertices[where.vertex]);
-  return unscaled(way_to_surface(vertex, to.fitted_tree(exponent), size), exponent);
+  return unscaled(nearest_points(vertex, to.fitted_tree(exponent), size), exponent);
 }
 
-std::optional<WayOut> SurfaceGeometry::part_triangles(const ElementPair& triangles) const {
+std::optional<Penetration> SurfaceGeometry::triangle_penetration(
+    const ElementPair& triangles) const {
   const FloatingPointGuard guard;
   const TriangleCorners a = impl_->first(triangles), b = impl_->second(triangles);
   if (!triangles_intersect(a, b)) return std::nullopt;
-  return impl_->part({&a, 1}, {&b, 1}, impl_->side(triangles.body_a, triangles.body_b));
+  return impl_->penetration({&a, 1}, {&b, 1}, impl_->side(triangles.body_a, triangles.body_b));
 }
 
-std::optional<WayOut> SurfaceGeometry::part_boxes(const ElementPair& cells) {
+std::optional<Penetration> SurfaceGeometry::box_penetration(const ElementPair& cells) {
   const FloatingPointGuard guard;
   const ConvexHull& a = impl_->body(cells.body_a).hull(cells.a);
   const ConvexHull& b = impl_->body(cells.body_b).hull(cells.b);
   if (!hulls_overlap(a, b)) return std::nullopt;
-  return impl_->part(a.surface, b.surface, impl_->side(cells.body_a, cells.body_b));
+  return impl_->penetration(a.surface, b.surface, impl_->side(cells.body_a, cells.body_b));
 }
 
 }  // namespace contactcheck::oracle

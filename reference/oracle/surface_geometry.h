@@ -13,11 +13,11 @@
 
 namespace contactcheck::oracle {
 
-/// The shortest way apart. "As short": within 1e-9 of the body size, the largest side of the boxes
-/// of the two bodies' vertices.
-struct WayOut {
+/// The shortest translations that separate two pieces, or take a vertex to a surface. "As short":
+/// within 1e-9 of the body size, the largest side of the boxes of the two bodies' vertices.
+struct Penetration {
   double depth = 0.0;            ///< metres
-  std::vector<Vec3> directions;  ///< unit; all as short, nearly equal ones (1e-9) told once
+  std::vector<Vec3> directions;  ///< unit; all as short, nearly equal ones (1e-9) given once
 };
 
 /// Trees and hulls are fitted when a question first needs them: an object serves one thread.
@@ -30,7 +30,7 @@ class SurfaceGeometry {
 
   /// The frame that the questions below are about; its spans must outlive them. Every question is
   /// about bodies and elements of the scene.
-  /// @pre frame has vertices for every body (nodes too for part_boxes), all finite
+  /// @pre frame has vertices for every body (nodes too for box_penetration), all finite
   void set_frame(const Frame& frame);
 
   /// Metres: the diameter of the intersection of two closed triangles, which for two that cross is
@@ -43,14 +43,14 @@ class SurfaceGeometry {
   /// Metres: the distance of a vertex to the surface of another body (`where.in`), off by less than
   /// 1e-12 of the body size or of itself, with the directions from the vertex to its nearest points
   /// there; no directions when it lies on it.
-  WayOut vertex_to_surface(const VertexInBody& where) const;
+  Penetration vertex_to_surface(const VertexInBody& where) const;
   /// The shortest translation of piece b that leaves the two at most touching, by brute force over
   /// all face normals and products of edges, off by less than 1e-12 of the pieces' joint size;
-  /// nothing when they are disjoint. Flat pieces part at 0 when they lie in one plane, along its
-  /// normals; on one line, where all directions across it are as short, four of them are told.
-  std::optional<WayOut> part_triangles(const ElementPair& triangles) const;
+  /// nothing when they are disjoint. Flat pieces in one plane have depth 0 along its normals; on
+  /// one line, where all directions across it are as short, four of them are given.
+  std::optional<Penetration> triangle_penetration(const ElementPair& triangles) const;
   /// The same for the mapped FFD-AABB boxes (convex hulls of 8 nodes) of two kept cells.
-  std::optional<WayOut> part_boxes(const ElementPair& cells);
+  std::optional<Penetration> box_penetration(const ElementPair& cells);
 
  private:
   struct Impl;

@@ -1,9 +1,12 @@
 #include "reference/oracle/vertex_queries.h"
 
+#include <numeric>
+
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/vertex_distance.h"
 
 namespace contactcheck::oracle {
+namespace {
 
 // The winding number is the signed number of crossings of a ray from the point to infinity, for any
 // ray in general position. Here the ray runs along +x from the point displaced by (0, e, e^2), e
@@ -11,7 +14,6 @@ namespace contactcheck::oracle {
 // the boxes that the ray meets are found by comparisons alone. The displacement does not change the
 // answer, for a point that is not on the surface has a neighbourhood free of it.
 // Source of the idea: Edelsbrunner & Muecke, Simulation of Simplicity, ACM TOG 1990.
-namespace {
 
 int sign(double a, double b) { return (a > b) - (a < b); }
 
@@ -66,68 +68,17 @@ bool strictly_inside(const SurfaceTree& surface, const Vec3& point) {
   return surface.bounds().contains(point) && winding_number(surface, point).value_or(0) != 0;
 }
 
+namespace {
+
 // All vertices go down the tree together; each node passes on those near its box.
 //
 // Rounding to nearest is monotone: a gap of at most `margin` rounds to at most `margin`, which is a
 // double itself. So boxes need no growing: a rounded gap above the margin is a true one.
-namespace {
 
 bool within(double margin, const Vec3& p, const Aabb& box) {
   return box.lo.x() - p.x() <= margin && p.x() - box.hi.x() <= margin &&
          box.lo.y() - p.y() <= margin && p.y() - box.hi.y() <= margin &&
          box.lo.z() - p.z() <= margin && p.z() - box.hi.z() <= margin;
-}
-
-class MarginSearch {
- public:
-  MarginSearch(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface,
-               double margin, std::vector<NearPair>& out)
-      : pair_(pair), vertices_(vertices), surface_(surface), margin_(margin), out_(out) {}
-
-  void run() {
-    for (std::uint32_t v = 0; v < vertices_.size(); ++v) passed_.push_back(v);
-    descend(0, 0, passed_.size());
-  }
-
- private:
-  void descend(std::uint32_t index, std::size_t first, std::size_t last);
-  void measure(std::uint32_t place, std::size_t first, std::size_t last);
-
-  BodyPair pair_;
-  std::span<const Vec3> vertices_;
-  const SurfaceTree& surface_;
-  double margin_;
-  std::vector<NearPair>& out_;
-  std::vector<std::uint32_t> passed_;  // the vertices passed on, by every node above the present
-};
-
-// Searches below a node for the vertices passed_[first .. last).
-void MarginSearch::descend(std::uint32_t index, std::size_t first, std::size_t last) {
-  const SurfaceTree::Node& node = surface_.node(index);
-  const std::size_t begin = passed_.size();
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint32_t v = passed_[i];
-    if (within(margin_, vertices_[v], node.box)) passed_.push_back(v);
-  }
-  const std::size_t end = passed_.size();
-  if (begin < end && node.is_leaf()) {
-    for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
-      measure(place, begin, end);
-  } else if (begin < end) {
-    descend(index + 1, begin, end);
-    descend(node.second, begin, end);
-  }
-  passed_.resize(begin);
-}
-
-void MarginSearch::measure(std::uint32_t place, std::size_t first, std::size_t last) {
-  const std::uint32_t triangle = surface_.triangle_at(place);
-  const TriangleCorners corners = surface_.corners(triangle);
-  for (std::size_t i = first; i < last; ++i) {
-    const Vec3& vertex = vertices_[passed_[i]];
-    if (within(margin_, vertex, surface_.box_at(place)) && nearer_than(margin_, vertex, corners))
-      out_.push_back({pair_.a, pair_.b, passed_[i], triangle});
-  }
 }
 
 }  // namespace
@@ -138,7 +89,36 @@ bool boxes_within(double margin, const Aabb& a, const Aabb& b) {
 
 void append_near_pairs(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface,
                        double margin, std::vector<NearPair>& out) {
-  MarginSearch(pair, vertices, surface, margin, out).run();
+  // The vertices passed on, by every node above the present one.
+  std::vector<std::uint32_t> passed(vertices.size());
+  std::iota(passed.begin(), passed.end(), 0u);
+
+  // Searches below a node for the vertices passed[first .. last).
+  const auto descend = [&](const auto& self, std::uint32_t index, std::size_t first,
+                           std::size_t last) -> void {
+    const SurfaceTree::Node& node = surface.node(index);
+    const std::size_t begin = passed.size();
+    for (std::size_t i = first; i < last; ++i)
+      if (const std::uint32_t v = passed[i]; within(margin, vertices[v], node.box))
+        passed.push_back(v);
+    const std::size_t end = passed.size();
+    if (begin < end && node.is_leaf()) {
+      for (std::uint32_t place = node.first; place < node.first + node.count; ++place) {
+        const std::uint32_t triangle = surface.triangle_at(place);
+        const TriangleCorners corners = surface.corners(triangle);
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vec3& vertex = vertices[passed[i]];
+          if (within(margin, vertex, surface.box_at(place)) && nearer_than(margin, vertex, corners))
+            out.push_back({pair.a, pair.b, passed[i], triangle});
+        }
+      }
+    } else if (begin < end) {
+      self(self, index + 1, begin, end);
+      self(self, node.second, begin, end);
+    }
+    passed.resize(begin);
+  };
+  descend(descend, 0, 0, passed.size());
 }
 
 }  // namespace contactcheck::oracle

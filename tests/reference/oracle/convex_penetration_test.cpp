@@ -16,12 +16,12 @@ using Corners3 = oracle::TriangleCorners;
 
 constexpr double kTolerance = 1e-9;
 
-oracle::WayOut part(const Corners3& a, const Corners3& b) {
-  return oracle::part_pieces({&a, 1}, {&b, 1}, kTolerance);
+oracle::Penetration part(const Corners3& a, const Corners3& b) {
+  return oracle::convex_penetration({&a, 1}, {&b, 1}, kTolerance);
 }
 
-oracle::WayOut part(const oracle::ConvexHull& a, const oracle::ConvexHull& b) {
-  return oracle::part_pieces(a.surface, b.surface, kTolerance);
+oracle::Penetration part(const oracle::ConvexHull& a, const oracle::ConvexHull& b) {
+  return oracle::convex_penetration(a.surface, b.surface, kTolerance);
 }
 
 bool overlap(const Corners3& a, const Corners3& b) { return oracle::triangles_intersect(a, b); }
@@ -68,9 +68,9 @@ std::vector<Vec3> directions_everywhere(int per_side) {
 // No direction does better, coarsely all over and finely round the best ones; every direction that
 // is told parts at that depth, and not before. Exact tests say what is separated.
 template <typename Piece>
-void check_way_out(const Piece& a, const Piece& b, TriangleSource& source) {
+void check_penetration(const Piece& a, const Piece& b, TriangleSource& source) {
   static const std::vector<Vec3> everywhere = directions_everywhere(12);
-  const oracle::WayOut way = part(a, b);
+  const oracle::Penetration way = part(a, b);
   const std::string input = hex_points(points_of(a)) + '\n' + hex_points(points_of(b));
   ASSERT_FALSE(way.directions.empty()) << input;
   for (const Vec3& d : everywhere)
@@ -95,10 +95,10 @@ const Corners3 kFloor{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
 
 TEST(PartTriangles, CornerThroughAFaceGoesBackThroughIt) {
   const Corners3 spike{Vec3(0.25, 0.25, -0.0625), Vec3(0.25, 0.25, 0.75), Vec3(0.25, 0.5, 0.75)};
-  const oracle::WayOut way = part(kFloor, spike);
+  const oracle::Penetration way = part(kFloor, spike);
   EXPECT_NEAR(way.depth, 0.0625, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(0, 0, 1))));
-  const oracle::WayOut other = part(spike, kFloor);
+  const oracle::Penetration other = part(spike, kFloor);
   EXPECT_NEAR(other.depth, 0.0625, 1e-15);
   EXPECT_THAT(other.directions, testing::ElementsAre(IsDirection(Vec3(0, 0, -1))));
 }
@@ -107,7 +107,7 @@ TEST(PartTriangles, EdgesThatHookPartAlongTheirCommonNormal) {
   // Two upright triangles, one edge lying 1/8 above the other and across it.
   const Corners3 a{Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0), Vec3(0, 0, -0.875)};
   const Corners3 b{Vec3(0, -0.5, -0.125), Vec3(0, 0.5, -0.125), Vec3(0, 0, 0.75)};
-  const oracle::WayOut way = part(a, b);
+  const oracle::Penetration way = part(a, b);
   EXPECT_NEAR(way.depth, 0.125, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(0, 0, 1))));
 }
@@ -115,7 +115,7 @@ TEST(PartTriangles, EdgesThatHookPartAlongTheirCommonNormal) {
 TEST(PartTriangles, EquallyShortWaysAreAllTold) {
   // A segment through the middle of a square's half: 1/4 up or down.
   const Corners3 needle{Vec3(0.25, 0.25, -0.125), Vec3(0.25, 0.25, 0.125), Vec3(0.25, 0.25, 0.125)};
-  const oracle::WayOut way = part(kFloor, needle);
+  const oracle::Penetration way = part(kFloor, needle);
   EXPECT_NEAR(way.depth, 0.125, 1e-15);
   EXPECT_THAT(way.directions, testing::UnorderedElementsAre(IsDirection(Vec3(0, 0, 1)),
                                                             IsDirection(Vec3(0, 0, -1))));
@@ -123,20 +123,20 @@ TEST(PartTriangles, EquallyShortWaysAreAllTold) {
 
 TEST(PartTriangles, SegmentNearAnEdgeLeavesSideways) {
   const Corners3 needle{Vec3(0.5, 0.0625, -0.5), Vec3(0.5, 0.0625, 0.5), Vec3(0.5, 0.0625, 0)};
-  const oracle::WayOut way = part(kFloor, needle);
+  const oracle::Penetration way = part(kFloor, needle);
   EXPECT_NEAR(way.depth, 0.0625, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(0, -1, 0))));
 }
 
 TEST(PartTriangles, CoplanarPiecesPartAtZeroAlongTheNormal) {
-  const oracle::WayOut way = part(kFloor, kFloor);
+  const oracle::Penetration way = part(kFloor, kFloor);
   EXPECT_EQ(way.depth, 0.0);
   EXPECT_THAT(way.directions, testing::UnorderedElementsAre(IsDirection(Vec3(0, 0, 1)),
                                                             IsDirection(Vec3(0, 0, -1))));
   // Two segments that cross span the plane together.
   const Corners3 p{Vec3(0, 0, 0.5), Vec3(1, 1, 0.5), Vec3(0, 0, 0.5)};
   const Corners3 q{Vec3(0, 1, 0.5), Vec3(1, 0, 0.5), Vec3(0, 1, 0.5)};
-  const oracle::WayOut crossing = part(p, q);
+  const oracle::Penetration crossing = part(p, q);
   EXPECT_EQ(crossing.depth, 0.0);
   EXPECT_THAT(crossing.directions, testing::UnorderedElementsAre(IsDirection(Vec3(0, 0, 1)),
                                                                  IsDirection(Vec3(0, 0, -1))));
@@ -150,7 +150,7 @@ TEST(PartTriangles, CollinearSegmentsAndPointsPartAtZeroAcross) {
   const Corners3 p{Vec3::Zero(), along, 0.5 * along}, q{0.25 * along, 2 * along, along};
   const Corners3 point{along, along, along};
   for (const auto& [a, b] : {std::pair(p, q), std::pair(p, point), std::pair(point, p)}) {
-    const oracle::WayOut way = part(a, b);
+    const oracle::Penetration way = part(a, b);
     EXPECT_NEAR(way.depth, 0.0, 1e-16);
     EXPECT_EQ(way.directions.size(), 4u);
     for (const Vec3& d : way.directions) EXPECT_NEAR(d.dot(along), 0.0, 1e-16);
@@ -166,7 +166,7 @@ TEST(PartTriangles, NoSampledDirectionIsShorter) {
     const Corners3 p = source.triangle(Vec3::Zero(), 0.7), q = source.triangle(Vec3::Zero(), 0.7);
     if (!overlap(p, q)) continue;
     ++overlapping;
-    check_way_out(p, q, source);
+    check_penetration(p, q, source);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(PartTriangles, NoSampledDirectionIsShorterOnAGrid) {
     if (!overlap(p, q)) continue;
     ++overlapping;
     flat += part(p, q).depth == 0.0;
-    check_way_out(p, q, source);
+    check_penetration(p, q, source);
   }
   EXPECT_GT(flat, 20);
   EXPECT_LT(flat, 145);
@@ -202,10 +202,12 @@ oracle::ConvexHull box(const Vec3& lo, const Vec3& hi) {
 
 TEST(PartHulls, AxisAlignedBoxesLeaveByTheLeastOverlap) {
   const auto unit = box(Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.5));
-  const oracle::WayOut way = part(unit, box(Vec3(0.375, 0.125, 0.25), Vec3(0.875, 0.625, 0.75)));
+  const oracle::Penetration way =
+      part(unit, box(Vec3(0.375, 0.125, 0.25), Vec3(0.875, 0.625, 0.75)));
   EXPECT_NEAR(way.depth, 0.125, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(1, 0, 0))));
-  const oracle::WayOut two = part(unit, box(Vec3(0.375, -0.375, 0.125), Vec3(0.875, 0.125, 0.625)));
+  const oracle::Penetration two =
+      part(unit, box(Vec3(0.375, -0.375, 0.125), Vec3(0.875, 0.125, 0.625)));
   EXPECT_NEAR(two.depth, 0.125, 1e-15);
   EXPECT_THAT(two.directions, testing::UnorderedElementsAre(IsDirection(Vec3(1, 0, 0)),
                                                             IsDirection(Vec3(0, -1, 0))));
@@ -214,8 +216,8 @@ TEST(PartHulls, AxisAlignedBoxesLeaveByTheLeastOverlap) {
 }
 
 TEST(PartHulls, TouchingBoxesPartAtZero) {
-  const oracle::WayOut way = part(box(Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.5)),
-                                  box(Vec3(0.5, 0.125, 0.25), Vec3(0.875, 0.25, 0.75)));
+  const oracle::Penetration way = part(box(Vec3(0, 0, 0), Vec3(0.5, 0.5, 0.5)),
+                                       box(Vec3(0.5, 0.125, 0.25), Vec3(0.875, 0.25, 0.75)));
   EXPECT_EQ(way.depth, 0.0);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(1, 0, 0))));
 }
@@ -229,7 +231,7 @@ TEST(PartHulls, CubeOnItsEdgeLeavesAlongTheCommonNormalOfTheEdges) {
     low[i] = Vec3(along, across, -down);
     high[i] = Vec3(across, along, down - 0.0625);
   }
-  const oracle::WayOut way = part(oracle::make_hull(low), oracle::make_hull(high));
+  const oracle::Penetration way = part(oracle::make_hull(low), oracle::make_hull(high));
   EXPECT_NEAR(way.depth, 0.0625, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(0, 0, 1))));
 }
@@ -241,7 +243,7 @@ TEST(PartHulls, FlatSegmentAndPointHulls) {
   EXPECT_EQ(part(plate, plate).depth, 0.0);
   const Vec3 p(0.25, 0.4375, 0.25);
   const auto point = box(p, p);
-  const oracle::WayOut way = part(unit, point);
+  const oracle::Penetration way = part(unit, point);
   EXPECT_NEAR(way.depth, 0.0625, 1e-15);
   EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(0, 1, 0))));
   const auto rod = box(Vec3(0.25, 0.25, -0.5), Vec3(0.25, 0.25, 0.0625));
@@ -266,7 +268,7 @@ TEST(PartHulls, NoSampledDirectionIsShorterForDeformedBoxes) {
       const auto p = oracle::make_hull(a), q = oracle::make_hull(b);
       if (!overlap(p, q)) continue;
       ++overlapping;
-      check_way_out(p, q, source);
+      check_penetration(p, q, source);
     }
   }
 }
@@ -283,7 +285,7 @@ TEST(PartHulls, RotatedBoxesOfOneOrientationPartAlongTheirAxes) {
       a[k] = rotation * a[k];
       b[k] = rotation * (b[k] + offset);
     }
-    const oracle::WayOut way = part(oracle::make_hull(a), oracle::make_hull(b));
+    const oracle::Penetration way = part(oracle::make_hull(a), oracle::make_hull(b));
     EXPECT_NEAR(way.depth, overlaps.x(), 1e-14);
     ASSERT_EQ(way.directions.size(), overlaps.x() < 0.25 ? 1u : 3u);
     if (way.directions.size() == 1) {
@@ -302,7 +304,7 @@ TEST(PartTriangles, NearlyParallelEdges) {
     for (int k = 0; k < 3; ++k) q[k] = source.point(p[k], angle);
     if (!overlap(p, q)) continue;
     ++overlapping;
-    check_way_out(p, q, source);
+    check_penetration(p, q, source);
   }
   EXPECT_GT(overlapping, 20);
 }
@@ -312,13 +314,14 @@ TEST(PartTriangles, ScalesByPowersOfTwo) {
   for (int i = 0; i < 50; ++i) {
     const Corners3 p = source.triangle(Vec3::Zero(), 0.7), q = source.triangle(Vec3::Zero(), 0.7);
     if (!overlap(p, q)) continue;
-    const oracle::WayOut way = part(p, q);
+    const oracle::Penetration way = part(p, q);
     for (double scale : {0x1p-500, 0x1p-900}) {
       const auto small = [&](const Corners3& t) {
         return Corners3{t[0] * scale, t[1] * scale, t[2] * scale};
       };
       const Corners3 a = small(p), b = small(q);
-      const oracle::WayOut scaled_way = oracle::part_pieces({&a, 1}, {&b, 1}, kTolerance * scale);
+      const oracle::Penetration scaled_way =
+          oracle::convex_penetration({&a, 1}, {&b, 1}, kTolerance * scale);
       EXPECT_EQ(scaled_way.depth, way.depth * scale);
       EXPECT_EQ(scaled_way.directions, way.directions);
     }

@@ -51,17 +51,17 @@ Body points(std::vector<Vec3> at) {
   return test::bare_body("points", {std::move(at), {{0, 0, 0}}});
 }
 
-oracle::WayOut way_from(const Vec3& vertex, TriangleMesh mesh) {
+oracle::Penetration way_from(const Vec3& vertex, TriangleMesh mesh) {
   Scene scene({points({vertex}), test::bare_body("surface", std::move(mesh))});
   return scene.geometry.vertex_to_surface({0, 1, 0});
 }
 
 TEST(VertexToSurface, NearestFacesOfABoxAreAllTold) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
-  const oracle::WayOut one = way_from(Vec3(1, 1.5, 2), box);
+  const oracle::Penetration one = way_from(Vec3(1, 1.5, 2), box);
   EXPECT_DOUBLE_EQ(one.depth, 1.0);
   EXPECT_THAT(one.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0))));
-  const oracle::WayOut two = way_from(Vec3(1, 2, 3), box);
+  const oracle::Penetration two = way_from(Vec3(1, 2, 3), box);
   EXPECT_DOUBLE_EQ(two.depth, 1.0);
   EXPECT_THAT(two.directions, testing::UnorderedElementsAre(IsDirection(Vec3(-1, 0, 0)),
                                                             IsDirection(Vec3(0, 0, 1))));
@@ -76,7 +76,7 @@ TEST(VertexToSurface, WithinABillionthOfTheSizeIsAsNear) {
 
 TEST(VertexToSurface, OutsideTheNearestIsAnEdgeOrACorner) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
-  const oracle::WayOut edge = way_from(Vec3(-3, -4, 1.5), box);
+  const oracle::Penetration edge = way_from(Vec3(-3, -4, 1.5), box);
   EXPECT_DOUBLE_EQ(edge.depth, 5.0);
   EXPECT_THAT(edge.directions, testing::ElementsAre(IsDirection(Vec3(0.6, 0.8, 0))));
   EXPECT_DOUBLE_EQ(way_from(Vec3(-1, -2, -2), box).depth, 3.0);
@@ -85,11 +85,11 @@ TEST(VertexToSurface, OutsideTheNearestIsAnEdgeOrACorner) {
 TEST(VertexToSurface, OnTheSurfaceIsZeroWithoutDirections) {
   const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 2);
   for (const Vec3& on : {Vec3(0, 1, 1.5), Vec3(0, 0, 3), Vec3(4, 4, 4)}) {
-    const oracle::WayOut way = way_from(on, box);
+    const oracle::Penetration way = way_from(on, box);
     EXPECT_EQ(way.depth, 0.0);
     EXPECT_TRUE(way.directions.empty());
   }
-  const oracle::WayOut off = way_from(Vec3(0x1p-70, 1, 1.5), box);
+  const oracle::Penetration off = way_from(Vec3(0x1p-70, 1, 1.5), box);
   EXPECT_EQ(off.depth, 0x1p-70);
   EXPECT_THAT(off.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0))));
 }
@@ -99,7 +99,7 @@ TEST(VertexToSurface, EveryScaleOfDoubles) {
   for (double scale : {0x1p-1060, 0x1p-600, 0x1p+600, 0x1p+1021}) {
     TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1);
     box.vertices = scaled(box.vertices, scale);
-    const oracle::WayOut way = way_from(Vec3(1, 1.5, 2) * scale, box);
+    const oracle::Penetration way = way_from(Vec3(1, 1.5, 2) * scale, box);
     EXPECT_EQ(way.depth, scale);
     EXPECT_THAT(way.directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0)))) << scale;
   }
@@ -168,7 +168,7 @@ class VertexToSurfaceAgainstBruteForce : public testing::Test {
 
   void check(Scene& scene, std::uint32_t vertex) {
     const Vec3& p = scene.data.vertices[0][vertex];
-    const oracle::WayOut way = scene.geometry.vertex_to_surface({0, 1, vertex});
+    const oracle::Penetration way = scene.geometry.vertex_to_surface({0, 1, vertex});
     EXPECT_NEAR(way.depth, brute_force_distance(scene, wide(p)), 3e-12) << hex_points({&p, 1});
     ASSERT_FALSE(way.directions.empty());
     if (vertex % 4 != 0) return;  // slow
@@ -213,7 +213,9 @@ class TwoTriangles {
                 test::bare_body("b", triangle_mesh(b[0], b[1], b[2]))}) {}
   double distance() const { return scene_.geometry.triangle_distance({0, 1, 0, 0}); }
   double length() const { return scene_.geometry.intersection_length({0, 1, 0, 0}); }
-  std::optional<oracle::WayOut> way() const { return scene_.geometry.part_triangles({0, 1, 0, 0}); }
+  std::optional<oracle::Penetration> way() const {
+    return scene_.geometry.triangle_penetration({0, 1, 0, 0});
+  }
 
  private:
   Scene scene_;
@@ -258,8 +260,8 @@ TEST(TrianglePairs, PieceBMovesWhicheverBodyItIsOf) {
   Scene scene(
       {test::bare_body("a", triangle_mesh(kFloor[0], kFloor[1], kFloor[2])),
        test::bare_body("b", triangle_mesh(Vec3(1, 1, -0.5), Vec3(1, 1, 1.5), Vec3(1, 2, 1.5)))});
-  const auto up = scene.geometry.part_triangles({0, 1, 0, 0});
-  const auto down = scene.geometry.part_triangles({1, 0, 0, 0});
+  const auto up = scene.geometry.triangle_penetration({0, 1, 0, 0});
+  const auto down = scene.geometry.triangle_penetration({1, 0, 0, 0});
   ASSERT_TRUE(up && down);
   EXPECT_THAT(up->directions, testing::ElementsAre(IsDirection(Vec3(0, 0, 1))));
   EXPECT_THAT(down->directions, testing::ElementsAre(IsDirection(Vec3(0, 0, -1))));
@@ -299,17 +301,17 @@ Scene two_cubes(const Eigen::Matrix3d& turn, const Vec3& offset_b) {
 
 TEST(PartBoxes, CubesOverlappingByATenthPartAlongTheAxis) {
   Scene scene = two_cubes(Eigen::Matrix3d::Identity(), Vec3(0.9, 0.3, -0.2));
-  const auto way = scene.geometry.part_boxes({0, 1, 0, 0});
+  const auto way = scene.geometry.box_penetration({0, 1, 0, 0});
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->depth, 0.1, 1e-15);
   EXPECT_THAT(way->directions, testing::ElementsAre(IsDirection(Vec3(1, 0, 0))));
-  const auto back = scene.geometry.part_boxes({1, 0, 0, 0});
+  const auto back = scene.geometry.box_penetration({1, 0, 0, 0});
   EXPECT_THAT(back->directions, testing::ElementsAre(IsDirection(Vec3(-1, 0, 0))));
 }
 
 TEST(PartBoxes, EqualOverlapsGiveTwoWaysOut) {
   Scene scene = two_cubes(Eigen::Matrix3d::Identity(), Vec3(0.9, -0.9, 0.2));
-  const auto way = scene.geometry.part_boxes({0, 1, 0, 0});
+  const auto way = scene.geometry.box_penetration({0, 1, 0, 0});
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->depth, 0.1, 1e-15);
   EXPECT_THAT(way->directions, testing::UnorderedElementsAre(IsDirection(Vec3(1, 0, 0)),
@@ -321,7 +323,7 @@ TEST(PartBoxes, TurnedTogetherTheWayTurnsToo) {
   for (int i = 0; i < 20; ++i) {
     const Eigen::Matrix3d turn = random_rotation(source);
     Scene scene = two_cubes(turn, Vec3(0.2, 0.3, -0.75));
-    const auto way = scene.geometry.part_boxes({0, 1, 0, 0});
+    const auto way = scene.geometry.box_penetration({0, 1, 0, 0});
     ASSERT_TRUE(way);
     EXPECT_NEAR(way->depth, 0.25, 1e-14);
     ASSERT_EQ(way->directions.size(), 1u);
@@ -331,10 +333,10 @@ TEST(PartBoxes, TurnedTogetherTheWayTurnsToo) {
 
 TEST(PartBoxes, DisjointOnesHaveNoWayOutAndTouchingOnesAnEmptyOne) {
   Scene apart = two_cubes(Eigen::Matrix3d::Identity(), Vec3(1.5, 0, 0));
-  EXPECT_FALSE(apart.geometry.part_boxes({0, 1, 0, 0}));
+  EXPECT_FALSE(apart.geometry.box_penetration({0, 1, 0, 0}));
   // Mapping rounds, so that these two touch or overlap by an ulp.
   Scene touching = two_cubes(Eigen::Matrix3d::Identity(), Vec3(0, 1 - 0x1p-50, 0));
-  const auto way = touching.geometry.part_boxes({0, 1, 0, 0});
+  const auto way = touching.geometry.box_penetration({0, 1, 0, 0});
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->depth, 0.0, 2e-15);
 }
@@ -361,7 +363,7 @@ TEST(PartBoxes, OverlapExactlyWhereTheOracleSaysSo) {
     std::vector<ElementPair> overlapping;
     for (std::uint32_t i = 0; i < cells; ++i)
       for (std::uint32_t j = 0; j < cells; ++j)
-        if (geometry.part_boxes({0, 1, i, j})) overlapping.push_back({0, 1, i, j});
+        if (geometry.box_penetration({0, 1, i, j})) overlapping.push_back({0, 1, i, j});
     EXPECT_EQ(overlapping, truth.boxes);
     separated += overlapping.size();
   }
@@ -379,7 +381,7 @@ TEST(SurfaceGeometryFrames, EveryAnswerIsAboutTheFrameSet) {
         make_frame(bodies, {rest_nodes_at(*bodies[0].shape, Vec3::Zero()),
                             rest_nodes_at(*bodies[1].shape, Vec3(offset, 0.25, 0.25))});
     geometry.set_frame(data.frame());
-    EXPECT_NEAR(geometry.part_boxes({0, 1, 0, 0})->depth, 1 - offset, 1e-14);
+    EXPECT_NEAR(geometry.box_penetration({0, 1, 0, 0})->depth, 1 - offset, 1e-14);
     const auto& vertices = data.vertices[1];
     const auto lowest =
         std::min_element(vertices.begin(), vertices.end(), [](const Vec3& x, const Vec3& y) {
@@ -401,7 +403,7 @@ TEST(SurfaceGeometryFrames, RoundingModeDoesNotChangeTheAnswers) {
     double out = 0;
     for (const ElementPair& pair : truth.surface.triangles) {
       out += scene.geometry.intersection_length(pair);
-      out += scene.geometry.part_triangles(pair)->depth;
+      out += scene.geometry.triangle_penetration(pair)->depth;
       out += scene.geometry.triangle_distance({0, 1, pair.a, (pair.b + 9) % 32});
     }
     for (std::uint32_t v = 0; v < 18; ++v) out += scene.geometry.vertex_to_surface({1, 0, v}).depth;
@@ -413,12 +415,12 @@ TEST(SurfaceGeometryFrames, RoundingModeDoesNotChangeTheAnswers) {
     const ElementPair pair = truth.surface.triangles[3];
     std::fesetround(mode);
     scene.geometry.set_frame(scene.data.frame());
-    const double depth = scene.geometry.part_triangles(pair)->depth;
+    const double depth = scene.geometry.triangle_penetration(pair)->depth;
     const double length = scene.geometry.intersection_length(pair);
     const double way = scene.geometry.vertex_to_surface({1, 0, 3}).depth;
     EXPECT_EQ(std::fegetround(), mode);
     std::fesetround(FE_TONEAREST);
-    EXPECT_EQ(depth, scene.geometry.part_triangles(pair)->depth);
+    EXPECT_EQ(depth, scene.geometry.triangle_penetration(pair)->depth);
     EXPECT_EQ(length, scene.geometry.intersection_length(pair));
     EXPECT_EQ(way, scene.geometry.vertex_to_surface({1, 0, 3}).depth);
     EXPECT_EQ(sum(), expected);
@@ -430,7 +432,7 @@ TEST(SurfaceGeometryDeathTest, WhatIsNotThereIsRefused) {
   EXPECT_DEATH(scene.geometry.vertex_to_surface({0, 2, 0}), "a body of the scene");
   EXPECT_DEATH(scene.geometry.vertex_to_surface({0, 1, 1}), "a vertex of the body");
   EXPECT_DEATH(scene.geometry.intersection_length({0, 1, 0, 12}), "a triangle of the body");
-  EXPECT_DEATH(scene.geometry.part_boxes({0, 1, 0, 0}), "a kept cell");
+  EXPECT_DEATH(scene.geometry.box_penetration({0, 1, 0, 0}), "a kept cell");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct MeshSpec {
   char letter = '\0';                    ///< letters only
   double depth = 0.0;                    ///< letters only
   std::optional<std::size_t> triangles;  ///< simplify to this many
-  std::size_t subdivide = 0;             ///< split every triangle into four, so many times
+  std::size_t subdivide = 0;             ///< times that every triangle is split into four
   std::optional<double> size;            ///< scale so that the largest side has this length, metres
   std::optional<double> scale;           ///< or multiply all coordinates by this
   std::optional<std::array<double, 3>> center;  ///< then move the box's centre here

@@ -132,7 +132,7 @@ bool names_have_their_types(const Header& header) {
   return true;
 }
 
-// A file of flat things may leave z out, but then nobody knows where they are.
+// A file of flat things may leave z out, but then their position is unknown.
 std::string missing_coordinate(const Header& header) {
   for (const Element& element : header.elements)
     for (const char* name : {"x", "y", "z"})
@@ -220,7 +220,7 @@ class Values {
     return " goes on after the last element of its header: " + text::in_quotes(line, 40);
   }
 
-  // False where one is missing or is none of its type.
+  // False where one is missing or not of its type.
   bool read(const Property& property, std::vector<double>& out) {
     out.clear();
     double items = 1.0;
@@ -261,7 +261,7 @@ std::uint32_t corner_of(double index) {
                      : static_cast<std::uint32_t>(index);
 }
 
-// False where a value is missing or is none of its type, or, with a fault, where a line holds more.
+// False where a value is missing or not of its type, or, with a fault, where a line holds more.
 bool read_elements(const Element& element, Values& values, PolygonSoup& soup, std::string& fault) {
   const std::vector<Property>& properties = element.properties;
   const auto first = [&](const char* name) {

@@ -12,7 +12,7 @@ namespace contactcheck::mesh {
 /// False when a value is missing or does not fit its type, a coordinate is not float or double, or
 /// vertex indices are not lists of int or uint; and when x, y or z is missing or the file goes on
 /// after its values, which `fault` then says, as a sentence goes on after the file's name. In text
-/// each element has a line of its own.
+/// each element is one line.
 bool read_ply(const std::string& bytes, PolygonSoup& out, std::string& fault);
 
 }  // namespace contactcheck::mesh

@@ -13,8 +13,8 @@ namespace contactcheck::mesh {
 /// are dropped; the order of the rest is kept. Deterministic.
 ///
 /// meshoptimizer 0.18 may fold thin parts together into a non-manifold edge. For a solid mesh, when
-/// the direct way does so, a few ways over a larger count in between are tried, and the first solid
-/// result of the same size is taken; without one, the direct result stands.
+/// a direct simplification does so, a few that stop at a larger count in between are tried, and the
+/// first solid result of the same size is taken; without one, the direct result stands.
 /// @pre no fatal defect; triangles >= 1. A mesh with no more than `triangles` is returned as it is.
 TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles);
 

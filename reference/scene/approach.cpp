@@ -1,6 +1,7 @@
 #include "reference/scene/approach.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 namespace contactcheck::scene {
@@ -22,9 +23,9 @@ namespace {
 
 // Of the smaller body's largest side.
 constexpr double kDepths[] = {0.08, 0.02, 0.005, 0.00125};
-// Of a depth: how closely contact is watched on the way in, and how far to the sides it must hold.
+// Of a depth: how closely contact is watched on the path in, and how far to the sides it must hold.
 constexpr double kShareStep = 1.0 / 8.0, kAside = 1.0 / 4.0;
-// Of the smaller body's largest side: the way to the first touch ends in steps of this length.
+// Of the smaller body's largest side: the path to the first touch ends in steps of this length.
 constexpr double kNearness = 1.0 / 512.0;
 // Steps to the first touch: distances are walked off at once, and what grazes takes short steps.
 constexpr int kMostApproachSteps = 500;
@@ -51,115 +52,85 @@ std::vector<Vec3> turned(const std::vector<Vec3>& points, int about) {
 }
 
 /// One direction, aim and turn.
-struct Way {
+struct Path {
   AxisDirection from;
   Vec3 aside = Vec3::Zero();  // of the moved body, across the direction
   std::optional<int> turned_about;
-  double apart = 0.0;  // along the direction: from here on, a plane parts the two
-  double end = 0.0;    // and from here on, one that has gone through
+  double separated = 0.0;  // along the direction: from here on, a plane separates the two
+  double end = 0.0;        // below, a plane separates them again: the moved body has gone through
   std::optional<double> touch;
   bool searched = false;
 
   Vec3 at(double along) const { return aside + along * from.vector(); }
 };
 
-class Finder {
- public:
-  Finder(const TriangleMesh& resting, const TriangleMesh& moved,
-         const std::vector<AxisDirection>& directions)
-      : pair_(resting, moved),
-        upright_(moved.vertices),
-        small_(std::min(largest_side(resting.vertices), largest_side(moved.vertices))) {
-    add_ways(std::nullopt, directions);
-    for (int axis = 0; axis < 3; ++axis) add_ways(axis, directions);
-  }
-
-  std::optional<Approach> find() {
-    std::optional<Approach> any;
-    for (const double share : kDepths) {
-      for (Way& way : ways_) {
-        std::optional<Approach> found = try_way(share * small_, way);
-        if (found && found->robust) return found;
-        if (found && !any) any = found;
-      }
-    }
-    return any;
-  }
-
- private:
-  void turn(const std::optional<int>& about) {
-    pair_.turn(about ? turned(upright_, *about) : upright_);
-  }
-
-  void add_ways(const std::optional<int>& about, const std::vector<AxisDirection>& directions) {
-    turn(about);
-    for (const AxisDirection& from : directions) {
-      const Vec3 d = from.vector();
-      const Vec3 &a = foremost(pair_.resting(), d), &b = foremost(pair_.moved(), -d);
-      Way way;
-      way.from = from;
-      way.turned_about = about;
-      way.apart = (a - b).dot(d);
-      way.end = (foremost(pair_.resting(), -d) - foremost(pair_.moved(), d)).dot(d);
-      ways_.push_back(way);
-      way.aside = (a - b) - (a - b).dot(d) * d;
-      ways_.push_back(way);
-    }
-  }
-
-  // A body that moves by less than the distance touches nothing on the way.
-  std::optional<double> first_touch(const Way& way) {
-    double along = way.apart;
-    for (int step = 0; step < kMostApproachSteps && along >= way.end; ++step) {
-      const oracle::DistanceInterval distance = pair_.distance(way.at(along));
-      if (distance.upper == 0.0) return along;
-      along -= std::max(distance.lower, kNearness * small_);
-    }
-    return std::nullopt;
-  }
-
-  bool meets_all_the_way(const Way& way, double depth) {
-    for (double share = kShareStep; share <= 1.0; share += kShareStep)
-      if (!pair_.touches(way.at(*way.touch - share * depth))) return false;
-    return true;
-  }
-
-  bool meets_to_the_sides(const Way& way, double depth) {
-    const Vec3 meeting = way.at(*way.touch - depth);
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double sign : {-1.0, 1.0})
-        if (axis != way.from.axis &&
-            !pair_.touches(meeting + sign * kAside * depth * Vec3::Unit(axis)))
-          return false;
-    return true;
-  }
-
-  std::optional<Approach> try_way(double depth, Way& way) {
-    turn(way.turned_about);
-    if (!way.searched) way.touch = first_touch(way);
-    way.searched = true;
-    if (!way.touch || !meets_all_the_way(way, depth)) return std::nullopt;
-    Approach out;
-    out.from = way.from;
-    out.turned_about = way.turned_about;
-    out.apart = way.at(way.apart);
-    out.meeting = way.at(*way.touch - depth);
-    out.depth = depth;
-    out.robust = meets_to_the_sides(way, depth);
-    return out;
-  }
-
-  RigidPair pair_;
-  const std::vector<Vec3> upright_;
-  const double small_;
-  std::vector<Way> ways_;
-};
-
 }  // namespace
 
 std::optional<Approach> find_approach(const TriangleMesh& resting, const TriangleMesh& moved,
                                       const std::vector<AxisDirection>& directions) {
-  return Finder(resting, moved, directions).find();
+  const double small = std::min(largest_side(resting.vertices), largest_side(moved.vertices));
+  RigidPair pair(resting, moved);
+  const auto turn = [&](const std::optional<int>& about) {
+    pair.turn(about ? turned(moved.vertices, *about) : moved.vertices);
+  };
+
+  std::vector<Path> paths;
+  for (const std::optional<int> about : std::initializer_list<std::optional<int>>{{}, 0, 1, 2}) {
+    turn(about);
+    for (const AxisDirection& from : directions) {
+      const Vec3 d = from.vector();
+      const Vec3 &a = foremost(pair.resting(), d), &b = foremost(pair.moved(), -d);
+      Path path;
+      path.from = from;
+      path.turned_about = about;
+      path.separated = (a - b).dot(d);
+      path.end = (foremost(pair.resting(), -d) - foremost(pair.moved(), d)).dot(d);
+      paths.push_back(path);
+      path.aside = (a - b) - (a - b).dot(d) * d;
+      paths.push_back(path);
+    }
+  }
+
+  // A body that moves by less than the distance touches nothing on its path.
+  const auto first_touch = [&](const Path& path) -> std::optional<double> {
+    double along = path.separated;
+    for (int step = 0; step < kMostApproachSteps && along >= path.end; ++step) {
+      const oracle::DistanceInterval distance = pair.distance(path.at(along));
+      if (distance.upper == 0.0) return along;
+      along -= std::max(distance.lower, kNearness * small);
+    }
+    return std::nullopt;
+  };
+
+  std::optional<Approach> any;
+  for (const double depth_share : kDepths) {
+    const double depth = depth_share * small;
+    for (Path& path : paths) {
+      turn(path.turned_about);
+      if (!path.searched) path.touch = first_touch(path);
+      path.searched = true;
+      if (!path.touch) continue;
+      bool meets_on_path = true;
+      for (double share = kShareStep; share <= 1.0 && meets_on_path; share += kShareStep)
+        meets_on_path = pair.touches(path.at(*path.touch - share * depth));
+      if (!meets_on_path) continue;
+
+      Approach found;
+      found.from = path.from;
+      found.turned_about = path.turned_about;
+      found.separated = path.at(path.separated);
+      found.meeting = path.at(*path.touch - depth);
+      found.depth = depth;
+      found.robust = true;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0})
+          if (found.robust && axis != path.from.axis)
+            found.robust = pair.touches(found.meeting + sign * kAside * depth * Vec3::Unit(axis));
+      if (found.robust) return found;
+      if (!any) any = found;
+    }
+  }
+  return any;
 }
 
 }  // namespace contactcheck::scene

@@ -1,18 +1,16 @@
 // How one body comes to another that rests, so that they really meet: along an axis, from where a
-// plane parts them, until their surfaces cross.
+// plane separates them, until their surfaces cross.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "core/types/mesh.h"
-
 #include "reference/oracle/oracle.h"
 
 namespace contactcheck::scene {
 
-// Two rigid bodies, one of which is moved: how far apart are they, do they touch?
-
+/// Two rigid bodies, one of which is moved: their distance, and whether they touch.
 class RigidPair {
  public:
   /// @throws InputError when a mesh has a fatal defect
@@ -45,15 +43,15 @@ struct AxisDirection {
 struct Approach {
   AxisDirection from;               ///< seen from the resting body
   std::optional<int> turned_about;  ///< the moved body is turned by 90 degrees about this axis
-  Vec3 apart = Vec3::Zero();        ///< from here on, a plane across `from` parts the two
+  Vec3 separated = Vec3::Zero();    ///< from here on, a plane across `from` separates the two
   Vec3 meeting = Vec3::Zero();      ///< `depth` beyond the place where the surfaces first touch
   double depth = 0.0;               ///< metres along `from`, above 0
   /// Moved a little to any side, the surfaces still meet: no question of rounding.
   bool robust = false;
 };
 
-/// The first that is robust among the directions, ways to aim (box centre at box centre, foremost
-/// point at foremost point) and turns, with the largest depth that one allows: 8 % of the smaller
+/// The first that is robust among the directions, aims (box centre at box centre, foremost point at
+/// foremost point) and turns, with the largest depth that one allows: 8 % of the smaller
 /// body's largest side, or 2 %, 0.5 %, 0.125 %. One that is not robust where no other is found, and
 /// nothing where the surfaces do not meet over any of these depths.
 /// @pre the centre of each mesh's box is the origin, and no box is a point; at least one direction

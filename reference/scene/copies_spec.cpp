@@ -21,25 +21,25 @@ std::array<std::size_t, 3> parse_counts(const text::JsonField& field) {
   return counts;
 }
 
-void shift_time(double way, Curve& curve) {
-  for (Curve::Key& key : curve.keys) key.time += way;
+void shift_time(double seconds, Curve& curve) {
+  for (Curve::Key& key : curve.keys) key.time += seconds;
 }
 
 struct Delay {
-  double way;
-  void operator()(Twist& d) const { shift_time(way, d.angle); }
-  void operator()(Bend& d) const { shift_time(way, d.angle); }
-  void operator()(Taper& d) const { shift_time(way, d.amount); }
-  void operator()(Stretch& d) const { shift_time(way, d.amount); }
+  double seconds;
+  void operator()(Twist& d) const { shift_time(seconds, d.angle); }
+  void operator()(Bend& d) const { shift_time(seconds, d.angle); }
+  void operator()(Taper& d) const { shift_time(seconds, d.amount); }
+  void operator()(Stretch& d) const { shift_time(seconds, d.amount); }
   void operator()(NodeKeys& d) const {
-    for (NodeKeys::Key& key : d.keys) key.time += way;
+    for (NodeKeys::Key& key : d.keys) key.time += seconds;
   }
 };
 
-void delay_all(double way, Motion& motion) {
-  for (Deformer& deformer : motion.deformers) std::visit(Delay{way}, deformer);
-  for (RigidPath::Spin& spin : motion.path.spins) shift_time(way, spin.angle);
-  for (Curve& curve : motion.path.position) shift_time(way, curve);
+void delay_all(double seconds, Motion& motion) {
+  for (Deformer& deformer : motion.deformers) std::visit(Delay{seconds}, deformer);
+  for (RigidPath::Spin& spin : motion.path.spins) shift_time(seconds, spin.angle);
+  for (Curve& curve : motion.path.position) shift_time(seconds, curve);
 }
 
 }  // namespace

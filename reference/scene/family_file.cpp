@@ -47,30 +47,6 @@ struct FamilyStep {
 
 constexpr std::size_t kMostNodesPerAxis = 129, kLargestVertex = 10'000'000;
 
-AmountVector parse_scale(const text::JsonField& field) {
-  if (field.is(text::JsonValue::Kind::kArray)) return parse_amount_vector(field);
-  const Amount all = parse_amount(field);
-  return {all, all, all};
-}
-
-std::array<Amount, 4> parse_quaternion(const text::JsonField& field) {
-  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 4)
-    field.refuse("an array of four amounts: w, x, y, z");
-  const std::vector<text::JsonField> parts = field.items();
-  return {parse_amount(parts[0]), parse_amount(parts[1]), parse_amount(parts[2]),
-          parse_amount(parts[3])};
-}
-
-GridIndex parse_node(const text::JsonField& field) {
-  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 3)
-    field.refuse("an array of three whole numbers");
-  const std::vector<text::JsonField> parts = field.items();
-  GridIndex node;
-  for (std::size_t k = 0; k < 3; ++k)
-    node[k] = static_cast<std::uint32_t>(parts[k].whole(0, kMostNodesPerAxis - 1));
-  return node;
-}
-
 // Rows of the rotation matrix of a quaternion, times its squared length.
 std::array<Vec3, 3> rotation_rows(double w, double x, double y, double z) {
   const double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
@@ -83,49 +59,51 @@ double sum_of_products(const Vec3& a, const Vec3& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
 
-void rotate(const FamilyStep& step, double parameter, std::span<Vec3> positions) {
-  std::array<double, 4> q;
-  for (std::size_t i = 0; i < 4; ++i) q[i] = step.quaternion[i].at(parameter);
-  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  const std::array<Vec3, 3> rows = rotation_rows(q[0], q[1], q[2], q[3]);
-  for (Vec3& p : positions)
-    p = Vec3(sum_of_products(rows[0], p), sum_of_products(rows[1], p),
-             sum_of_products(rows[2], p)) /
-        square;
-}
-
-void round_to(double unit, std::span<Vec3> positions) {
-  for (Vec3& p : positions)
-    for (int k = 0; k < 3; ++k) p[k] = std::nearbyint(p[k] / unit) * unit;
-}
-
 // @throws InputError
 FamilyStep parse_family_step(const text::JsonField& field) {
+  const auto parts_of = [](const text::JsonField& list, std::size_t count, const char* allowed) {
+    if (!list.is(text::JsonValue::Kind::kArray) || list.value().items.size() != count)
+      list.refuse(allowed);
+    return list.items();
+  };
   FamilyStep step;
   const std::string kind =
       field.exactly_one_of({"scale", "translate", "rotate", "round", "node", "vertex"});
-  if (kind == "node" || kind == "vertex") {
+  const bool moves_one = kind == "node" || kind == "vertex";
+  if (moves_one) {
     field.only_keys({kind, "by"});
-    step.kind = kind == "node" ? FamilyStep::Kind::kMoveNode : FamilyStep::Kind::kMoveVertex;
-    if (kind == "node") step.node = parse_node(field.at("node"));
-    if (kind == "vertex") step.vertex = field.at("vertex").whole(0, kLargestVertex);
-    step.vector = parse_amount_vector(field.at("by"));
-    return step;
+  } else {
+    field.only_keys({kind});
   }
-  field.only_keys({kind});
   const text::JsonField value = field.at(kind);
-  if (kind == "scale") {
-    step.vector = parse_scale(value);
+  if (kind == "node") {
+    step.kind = FamilyStep::Kind::kMoveNode;
+    const std::vector<text::JsonField> parts =
+        parts_of(value, 3, "an array of three whole numbers");
+    for (std::size_t k = 0; k < 3; ++k)
+      step.node[k] = static_cast<std::uint32_t>(parts[k].whole(0, kMostNodesPerAxis - 1));
+  } else if (kind == "vertex") {
+    step.kind = FamilyStep::Kind::kMoveVertex;
+    step.vertex = value.whole(0, kLargestVertex);
+  } else if (kind == "scale") {
+    if (value.is(text::JsonValue::Kind::kArray)) {
+      step.vector = parse_amount_vector(value);
+    } else {
+      step.vector.fill(parse_amount(value));
+    }
   } else if (kind == "translate") {
     step.kind = FamilyStep::Kind::kTranslate;
     step.vector = parse_amount_vector(value);
   } else if (kind == "rotate") {
     step.kind = FamilyStep::Kind::kRotate;
-    step.quaternion = parse_quaternion(value);
+    const std::vector<text::JsonField> parts =
+        parts_of(value, 4, "an array of four amounts: w, x, y, z");
+    for (std::size_t k = 0; k < 4; ++k) step.quaternion[k] = parse_amount(parts[k]);
   } else {
     step.kind = FamilyStep::Kind::kRound;
     step.amount = parse_amount(value);
   }
+  if (moves_one) step.vector = parse_amount_vector(field.at("by"));
   return step;
 }
 
@@ -140,10 +118,23 @@ void apply(const FamilyStep& step, double parameter, const Lattice* lattice,
     case FamilyStep::Kind::kTranslate:
       for (Vec3& p : positions) p += vector;
       return;
-    case FamilyStep::Kind::kRotate:
-      return rotate(step, parameter, positions);
-    case FamilyStep::Kind::kRound:
-      return round_to(step.amount.at(parameter), positions);
+    case FamilyStep::Kind::kRotate: {
+      std::array<double, 4> q;
+      for (std::size_t i = 0; i < 4; ++i) q[i] = step.quaternion[i].at(parameter);
+      const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+      const std::array<Vec3, 3> rows = rotation_rows(q[0], q[1], q[2], q[3]);
+      for (Vec3& p : positions)
+        p = Vec3(sum_of_products(rows[0], p), sum_of_products(rows[1], p),
+                 sum_of_products(rows[2], p)) /
+            square;
+      return;
+    }
+    case FamilyStep::Kind::kRound: {
+      const double unit = step.amount.at(parameter);
+      for (Vec3& p : positions)
+        for (int k = 0; k < 3; ++k) p[k] = std::nearbyint(p[k] / unit) * unit;
+      return;
+    }
     case FamilyStep::Kind::kMoveNode: {
       CONTACTCHECK_INVARIANT(lattice != nullptr, "nodes are moved in a lattice");
       const auto node = std::find(lattice->nodes.begin(), lattice->nodes.end(), step.node);
@@ -299,25 +290,6 @@ CaseFamily parse_parameter(const text::JsonField& root, std::vector<double>& val
   return family;
 }
 
-void require_finite(const std::vector<Vec3>& nodes, const text::JsonField& body,
-                    const std::string& value) {
-  for (const Vec3& n : nodes)
-    if (!n.allFinite()) body.fail("has a position that is not finite at the value " + value);
-}
-
-void add_body(const text::JsonField& field, const std::filesystem::path& folder,
-              const std::vector<double>& values, Scene& scene) {
-  field.only_keys({"name", "mesh", "lattice", "steps"});
-  const std::string name = parse_body_name(field.at("name"), scene.bodies);
-  const FamilyBody body(field, folder, values[0]);
-  scene.bodies.push_back({name, body.shape()});
-  scene.origins.push_back({name, body.base().source, body.base().notes});
-  for (std::size_t f = 0; f < values.size(); ++f) {
-    scene.recorded[f].push_back(body.nodes(values[f]));
-    require_finite(scene.recorded[f].back(), field, scene.family->values[f]);
-  }
-}
-
 }  // namespace
 
 Scene parse_family(const text::JsonField& root, const std::filesystem::path& folder) {
@@ -332,8 +304,18 @@ Scene parse_family(const text::JsonField& root, const std::filesystem::path& fol
   scene.levels = {Level::kBody, Level::kContainment, Level::kCell, Level::kTriangle, Level::kNear};
   if (root.has("levels")) scene.levels = parse_levels(root.at("levels"));
   scene.recorded.resize(values.size());
-  for (const text::JsonField& body : root.at("bodies").items(1)) {
-    add_body(body, folder, values, scene);
+  for (const text::JsonField& field : root.at("bodies").items(1)) {
+    field.only_keys({"name", "mesh", "lattice", "steps"});
+    const std::string name = parse_body_name(field.at("name"), scene.bodies);
+    const FamilyBody body(field, folder, values[0]);
+    scene.bodies.push_back({name, body.shape()});
+    scene.origins.push_back({name, body.base().source, body.base().notes});
+    for (std::size_t f = 0; f < values.size(); ++f) {
+      scene.recorded[f].push_back(body.nodes(values[f]));
+      for (const Vec3& n : scene.recorded[f].back())
+        if (!n.allFinite())
+          field.fail("has a position that is not finite at the value " + scene.family->values[f]);
+    }
   }
   return scene;
 }

@@ -68,47 +68,37 @@ std::string vector_text(const Vec3& v) {
   return "[" + text::shown(v.x()) + ", " + text::shown(v.y()) + ", " + text::shown(v.z()) + "]";
 }
 
-std::string mesh_text(const BodyPlan& body) {
-  std::string out = "\"mesh\": {\"file\": " + quoted(body.path);
-  if (body.size) out += ", \"size\": " + text::shown(*body.size);
-  return out + ", \"center\": [0, 0, 0]}";
-}
-
-std::string position_text(const std::vector<BodyPlan::Key>& keys) {
-  std::vector<std::string> lines;
-  for (const BodyPlan::Key& key : keys)
-    lines.push_back("[" + text::shown(key.time) + ", " + vector_text(key.position) + "]");
-  return "\"position\": [" + joined_lines(lines, "\n          ") + "\n        ]";
-}
-
-std::string deformation_text(const BodyPlan::Deformation& d) {
-  std::vector<std::string> keys;
-  for (const auto& [time, value] : d.keys)
-    keys.push_back("[" + text::shown(time) + ", " + text::shown(value) + "]");
-  return "{" + quoted(d.kind) + ": {\"axis\": " + axis_name(d.axis) + ", " + quoted(d.amount) +
-         ": [" + joined_lines(keys, " ").substr(1) + "]}}";
-}
-
-// Empty for a body that rests.
-std::string motion_text(const BodyPlan& body) {
-  std::vector<std::string> parts;
-  if (!body.keys.empty()) parts.push_back(position_text(body.keys));
-  if (body.turned_about)
-    parts.push_back("\"spins\": [{\"axis\": " + axis_name(*body.turned_about) +
-                    ", \"degrees\": 90}]");
-  std::vector<std::string> deformers;
-  for (const BodyPlan::Deformation& d : body.deformations) deformers.push_back(deformation_text(d));
-  if (!deformers.empty())
-    parts.push_back("\"deformers\": [" + joined_lines(deformers, "\n          ") + "\n        ]");
-  if (parts.empty()) return "";
-  parts.insert(parts.begin(), "\"ease\": \"smooth\"");
-  return "\"motion\": {" + joined_lines(parts, "\n        ") + "\n      }";
-}
-
 std::string body_text(const BodyPlan& body, bool lattices) {
-  std::vector<std::string> parts = {"\"name\": " + quoted(body.name), mesh_text(body)};
+  std::string mesh = "\"mesh\": {\"file\": " + quoted(body.path);
+  if (body.size) mesh += ", \"size\": " + text::shown(*body.size);
+  std::vector<std::string> parts = {"\"name\": " + quoted(body.name),
+                                    mesh + ", \"center\": [0, 0, 0]}"};
   if (lattices) parts.emplace_back(kLattice);
-  if (const std::string motion = motion_text(body); !motion.empty()) parts.push_back(motion);
+
+  std::vector<std::string> motion;
+  if (!body.keys.empty()) {
+    std::vector<std::string> keys;
+    for (const BodyPlan::Key& key : body.keys)
+      keys.push_back("[" + text::shown(key.time) + ", " + vector_text(key.position) + "]");
+    motion.push_back("\"position\": [" + joined_lines(keys, "\n          ") + "\n        ]");
+  }
+  if (body.turned_about)
+    motion.push_back("\"spins\": [{\"axis\": " + axis_name(*body.turned_about) +
+                     ", \"degrees\": 90}]");
+  std::vector<std::string> deformers;
+  for (const BodyPlan::Deformation& d : body.deformations) {
+    std::vector<std::string> keys;
+    for (const auto& [time, value] : d.keys)
+      keys.push_back("[" + text::shown(time) + ", " + text::shown(value) + "]");
+    deformers.push_back("{" + quoted(d.kind) + ": {\"axis\": " + axis_name(d.axis) + ", " +
+                        quoted(d.amount) + ": [" + joined_lines(keys, " ").substr(1) + "]}}");
+  }
+  if (!deformers.empty())
+    motion.push_back("\"deformers\": [" + joined_lines(deformers, "\n          ") + "\n        ]");
+  if (!motion.empty()) {
+    motion.insert(motion.begin(), "\"ease\": \"smooth\"");
+    parts.push_back("\"motion\": {" + joined_lines(motion, "\n        ") + "\n      }");
+  }
   return "{" + joined_lines(parts, "\n      ") + "\n    }";
 }
 
@@ -129,10 +119,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDocument = "the scene of --mesh";
 constexpr double kLargest = 1e6;  // metres, of a mesh as it is in its file
-// Of the smaller body's largest side, metres: the way out of contact, how much deeper press goes.
+// Of the smaller body's largest side: the gap out of contact, how much deeper press goes.
 constexpr double kGap = 0.35, kDeeper = 0.1;
 constexpr double kStretch = -0.15, kTwist = 30.0;  // at the deepest; degrees over the body
-// Seconds: out of contact, in it, at the deepest, and the same way back. (pass: a shorter stay.)
+// Seconds: in contact, at the deepest, in contact, out of contact. (pass: a shorter stay.)
 constexpr double kMeet = 0.8, kDeepest = 1.0, kPart = 1.2, kEnd = 2.0;
 constexpr double kPassMeet = 0.9, kPassPart = 1.1;
 
@@ -198,136 +188,43 @@ double half_side(const TriangleMesh& mesh) {
   return 0.5 * bounding_box(mesh.vertices).extent().maxCoeff();
 }
 
-class Planner {
- public:
-  Planner(const MeshSceneRequest& request, const fs::path& folder) : motion_(request.motion) {
-    plan_.id = id_of(request);
-    for (const fs::path& mesh : request.meshes) {
-      BodyPlan body;
-      body.name = free_name(stem_of(mesh), plan_.bodies);
-      body.path = path_from(folder, mesh);
-      body.size = request.size;
-      plan_.title += (plan_.title.empty() ? "" : ", ") + body.name;
-      plan_.bodies.push_back(std::move(body));
-    }
-    plan_.title += ": " + motion_;
-    load_meshes(folder);
+// As every other scene gets them: from the text of the scene, here without lattices and motions.
+std::vector<TriangleMesh> load_meshes(ScenePlan plan, const fs::path& folder) {
+  plan.lattices = false;
+  const Scene scene = load_scene_text({scene_text(plan), kDocument, folder});
+  std::vector<TriangleMesh> meshes;
+  for (const Body& body : scene.bodies) {
+    const double side = 2.0 * half_side(body.shape->mesh);
+    const std::string what =
+        std::string(kDocument) + ": the mesh of body " + text::in_quotes(body.name);
+    if (!(side > 0.0)) throw InputError(what + " is a point and can meet nothing");
+    if (!(side <= kLargest))
+      throw InputError(what + " is " + text::shown(side) +
+                       " m large; --size file allows at most 1000000 m");
+    meshes.push_back(body.shape->mesh);
   }
+  return meshes;
+}
 
-  std::string text() {
-    find_approaches();
-    for (std::size_t i = 1; i < meshes_.size(); ++i) move_body(i);
-    if (!plan_.bodies[1].keys.empty()) deform(approaches_.front().from.axis, -1.0, plan_.bodies[0]);
-    return scene_text(plan_);
+// Of the second body and those after it, each along another direction.
+std::vector<Approach> find_approaches(const ScenePlan& plan,
+                                      const std::vector<TriangleMesh>& meshes) {
+  std::vector<AxisDirection> free;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) free.push_back({axis, sign});
+  std::vector<Approach> approaches;
+  for (std::size_t i = 1; i < meshes.size(); ++i) {
+    const auto found = find_approach(meshes[0], meshes[i], free);
+    if (!found)
+      throw InputError(std::string(kDocument) + ": no axis on which body " +
+                       text::in_quotes(plan.bodies[i].name) + " comes leads into contact with " +
+                       text::in_quotes(plan.bodies[0].name) +
+                       "; a scene file of your own can place them");
+    free.erase(std::find(free.begin(), free.end(), found->from));
+    approaches.push_back(*found);
   }
-
- private:
-  // As every other scene gets them: first without lattices and motions.
-  void load_meshes(const fs::path& folder) {
-    ScenePlan bare = plan_;
-    bare.lattices = false;
-    const Scene scene = load_scene_text({scene_text(bare), kDocument, folder});
-    for (const Body& body : scene.bodies) {
-      const double side = 2.0 * half_side(body.shape->mesh);
-      const std::string what =
-          std::string(kDocument) + ": the mesh of body " + text::in_quotes(body.name);
-      if (!(side > 0.0)) throw InputError(what + " is a point and can meet nothing");
-      if (!(side <= kLargest))
-        throw InputError(what + " is " + text::shown(side) +
-                         " m large; --size file allows at most 1000000 m");
-      meshes_.push_back(body.shape->mesh);
-    }
-  }
-
-  void find_approaches() {
-    std::vector<AxisDirection> free;
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double sign : {1.0, -1.0}) free.push_back({axis, sign});
-    for (std::size_t i = 1; i < meshes_.size(); ++i) {
-      const auto found = find_approach(meshes_[0], meshes_[i], free);
-      if (!found)
-        throw InputError(std::string(kDocument) + ": no axis on which body " +
-                         text::in_quotes(plan_.bodies[i].name) + " comes leads into contact with " +
-                         text::in_quotes(plan_.bodies[0].name) +
-                         "; a scene file of your own can place them");
-      free.erase(std::find(free.begin(), free.end(), found->from));
-      approaches_.push_back(*found);
-    }
-  }
-
-  double smaller_side(std::size_t i) const {
-    return 2.0 * std::min(half_side(meshes_[0]), half_side(meshes_[i]));
-  }
-
-  // With more than two bodies each one starts beyond all others, on its own side.
-  double reach() const {
-    double out = 0.0;
-    for (std::size_t i = 1; i < meshes_.size(); ++i) {
-      const Approach& way = approaches_[i - 1];
-      Vec3 aside = way.meeting;
-      aside[way.from.axis] = 0.0;
-      out = std::max(out, half_side(meshes_[i]) + aside.cwiseAbs().maxCoeff());
-    }
-    return meshes_.size() > 2 ? out : 0.0;
-  }
-
-  Vec3 start_of(std::size_t i) const {
-    const Approach& way = approaches_[i - 1];
-    const Vec3 from = way.from.vector();
-    const double gap = kGap * smaller_side(i), along = way.apart.dot(from) + gap;
-    const double beyond = reach() > 0.0 ? reach() + half_side(meshes_[i]) + gap : along;
-    return way.apart + (std::max(along, beyond) - way.apart.dot(from)) * from;
-  }
-
-  void move_body(std::size_t i) {
-    const Approach& way = approaches_[i - 1];
-    BodyPlan& body = plan_.bodies[i];
-    body.turned_about = way.turned_about;
-    body.keys = motion_ == "pass" ? keys_of_pass(i) : keys_of_approach(i);
-    // Deformers come before the turn, which leads one axis of the body to that of the way.
-    int own = way.from.axis;
-    if (way.turned_about && own != *way.turned_about) own = 3 - own - *way.turned_about;
-    deform(own, 1.0, body);
-  }
-
-  std::vector<BodyPlan::Key> keys_of_approach(std::size_t i) const {
-    const Approach& way = approaches_[i - 1];
-    const Vec3 start = start_of(i);
-    std::vector<BodyPlan::Key> keys = {{0.0, start}, {kMeet, way.meeting}};
-    if (motion_ == "press")
-      keys.push_back({kDeepest, way.meeting - kDeeper * smaller_side(i) * way.from.vector()});
-    keys.push_back({kPart, way.meeting});
-    keys.push_back({kEnd, start});
-    return keys;
-  }
-
-  // Across the way of the approach, from beyond the resting body to beyond it.
-  std::vector<BodyPlan::Key> keys_of_pass(std::size_t i) const {
-    const Approach& way = approaches_[i - 1];
-    const int across = (way.from.axis + 1) % 3;
-    const double reach = half_side(meshes_[0]) + half_side(meshes_[i]) +
-                         std::abs(way.meeting[across]) + kGap * smaller_side(i);
-    const Vec3 out = reach * Vec3::Unit(across);
-    return {{0.0, way.meeting + out},
-            {kPassMeet, way.meeting},
-            {kPassPart, way.meeting},
-            {kEnd, way.meeting - out}};
-  }
-
-  void deform(int axis, double sign, BodyPlan& body) const {
-    if (motion_ == "press")
-      body.deformations.push_back(
-          {"stretch", "amount", axis, {{kMeet, 0.0}, {kDeepest, kStretch}, {kPart, 0.0}}});
-    if (motion_ == "twist")
-      body.deformations.push_back(
-          {"twist", "degrees", axis, {{kMeet, 0.0}, {kDeepest, sign * kTwist}, {kPart, 0.0}}});
-  }
-
-  const std::string motion_;
-  ScenePlan plan_;
-  std::vector<TriangleMesh> meshes_;
-  std::vector<Approach> approaches_;  // of the second body and those after it
-};
+  return approaches;
+}
 
 }  // namespace
 
@@ -342,7 +239,71 @@ const std::vector<NamedMotion>& named_motions() {
 
 SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
   check(request);
-  return {Planner(request, folder).text(), kDocument, folder};
+  const std::string& motion = request.motion;
+  ScenePlan plan;
+  plan.id = id_of(request);
+  for (const fs::path& mesh : request.meshes) {
+    BodyPlan body;
+    body.name = free_name(stem_of(mesh), plan.bodies);
+    body.path = path_from(folder, mesh);
+    body.size = request.size;
+    plan.title += (plan.title.empty() ? "" : ", ") + body.name;
+    plan.bodies.push_back(std::move(body));
+  }
+  plan.title += ": " + motion;
+  const std::vector<TriangleMesh> meshes = load_meshes(plan, folder);
+  const std::vector<Approach> approaches = find_approaches(plan, meshes);
+
+  const auto deform = [&](int axis, double sign, BodyPlan& body) {
+    if (motion == "press")
+      body.deformations.push_back(
+          {"stretch", "amount", axis, {{kMeet, 0.0}, {kDeepest, kStretch}, {kPart, 0.0}}});
+    if (motion == "twist")
+      body.deformations.push_back(
+          {"twist", "degrees", axis, {{kMeet, 0.0}, {kDeepest, sign * kTwist}, {kPart, 0.0}}});
+  };
+  // With more than two bodies each one starts beyond all others, on its own side.
+  double reach = 0.0;
+  for (std::size_t i = 1; i < meshes.size() && meshes.size() > 2; ++i) {
+    const Approach& approach = approaches[i - 1];
+    Vec3 aside = approach.meeting;
+    aside[approach.from.axis] = 0.0;
+    reach = std::max(reach, half_side(meshes[i]) + aside.cwiseAbs().maxCoeff());
+  }
+  for (std::size_t i = 1; i < meshes.size(); ++i) {
+    const Approach& approach = approaches[i - 1];
+    const Vec3& meeting = approach.meeting;
+    const double smaller_side = 2.0 * std::min(half_side(meshes[0]), half_side(meshes[i]));
+    BodyPlan& body = plan.bodies[i];
+    body.turned_about = approach.turned_about;
+    if (motion == "pass") {
+      // Across the direction of the approach, from beyond the resting body to beyond it.
+      const int across = (approach.from.axis + 1) % 3;
+      const double beyond = half_side(meshes[0]) + half_side(meshes[i]) +
+                            std::abs(meeting[across]) + kGap * smaller_side;
+      const Vec3 out = beyond * Vec3::Unit(across);
+      body.keys = {
+          {0.0, meeting + out}, {kPassMeet, meeting}, {kPassPart, meeting}, {kEnd, meeting - out}};
+    } else {
+      const Vec3 from = approach.from.vector();
+      const double separated = approach.separated.dot(from), gap = kGap * smaller_side,
+                   beyond = reach > 0.0 ? reach + half_side(meshes[i]) + gap : separated + gap;
+      const Vec3 start =
+          approach.separated + (std::max(separated + gap, beyond) - separated) * from;
+      body.keys = {{0.0, start}, {kMeet, meeting}};
+      if (motion == "press")
+        body.keys.push_back({kDeepest, meeting - kDeeper * smaller_side * from});
+      body.keys.push_back({kPart, meeting});
+      body.keys.push_back({kEnd, start});
+    }
+    // Deformers come before the turn, which leads one axis of the body to that of the approach.
+    int own = approach.from.axis;
+    if (approach.turned_about && own != *approach.turned_about)
+      own = 3 - own - *approach.turned_about;
+    deform(own, 1.0, body);
+  }
+  deform(approaches.front().from.axis, -1.0, plan.bodies[0]);
+  return {scene_text(plan), kDocument, folder};
 }
 
 }  // namespace contactcheck::scene

@@ -1,4 +1,4 @@
-// A scene out of mesh files alone: `run --mesh a.obj --mesh b.obj --motion approach`.
+// A scene made of mesh files alone: `run --mesh a.obj --mesh b.obj --motion approach`.
 #pragma once
 
 #include <filesystem>
@@ -23,15 +23,16 @@ struct NamedMotion {
   const char* says;  ///< what happens, for a person
 };
 
-/// Every motion leads from apart (a plane parts the first body from each other one, and the other
-/// ones from one another) into contact, kept for a tenth of the time at least, and apart again.
+/// Every motion starts with disjoint bodies (a plane separates the first body from each other one,
+/// and the other ones from one another), leads into contact for at least a tenth of the time, and
+/// separates them again.
 const std::vector<NamedMotion>& named_motions();
 
 /// The scene file that the request amounts to, with paths relative to `folder`: bodies named after
 /// the files, in lattices of about 150 kept cells; the first one in the origin, the others come to
 /// it, each from a side of its own. Where the surfaces meet is found with the oracle (approach.h).
 /// @throws InputError, one sentence: an unknown motion, a file that is no mesh, a mesh that is a
-/// point or too large, meshes that no way brings into contact, a number of meshes that is not meant
+/// point or too large, meshes that no axis leads into contact, a number of meshes that is not meant
 SceneText mesh_scene(const MeshSceneRequest& request, const std::filesystem::path& folder);
 
 }  // namespace contactcheck::scene

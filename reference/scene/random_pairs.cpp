@@ -69,7 +69,7 @@ class PairMaker {
       case PairKind::kCoplanar:
         return coplanar();
       case PairKind::kSliver:
-        return sliver();
+        return across_edge(false);
       case PairKind::kSegment:
         return segment();
       case PairKind::kPoint:
@@ -227,7 +227,7 @@ class PairMaker {
     return {t, on_grid(plane, 1, shift_i, shift_j)};
   }
 
-  // A segment across an edge of the base; `third` is to be a corner on it.
+  // A segment across an edge of the base, or a sliver along such a segment.
   HardPair across_edge(bool degenerate) {
     const Base base = this->base();
     const Vec3 target = base.at(share(), 0.0), direction = crossing_direction(base);
@@ -236,7 +236,6 @@ class PairMaker {
                to = near(target + place_.size * forth * direction);
     return {base.t, {from, to, degenerate ? from : nudged(from + share() * (to - from), random_)}};
   }
-  HardPair sliver() { return across_edge(false); }
 
   HardPair segment() {
     const int variant = random_.below(4);
@@ -363,8 +362,8 @@ RandomPairs::Regime RandomPairs::regime_of(std::size_t frame) const {
   PairRandom random(spec_.seed, 2 * frame + 1);
   Regime regime;
   regime.size = std::ldexp(1.0, random.between(-kScales, kScales));
-  const int apart = random.coin() ? kNearest : random.between(kNearest, kFarthest);
-  regime.spacing = std::ldexp(regime.size, apart);
+  const int exponent = random.coin() ? kNearest : random.between(kNearest, kFarthest);
+  regime.spacing = std::ldexp(regime.size, exponent);
   for (int k = 0; k < 3; ++k) {
     const double far = std::ldexp(regime.spacing, random.between(0, kMostSteps));
     if (random.coin()) regime.origin[k] = random.coin() ? far : -far;

@@ -19,7 +19,7 @@ namespace contactcheck::scene {
 
 class PairRandom {
  public:
-  /// Every stream of a seed is a sequence of its own: any pair can be made without those before it.
+  /// Every stream of a seed is another sequence: any pair can be made without those before it.
   PairRandom(std::uint64_t seed, std::uint64_t stream) : state_(mixed(mixed(seed) + stream)) {}
 
   std::uint64_t bits() { return mixed(state_ += 0x9e3779b97f4a7c15ull); }
@@ -43,7 +43,7 @@ class PairRandom {
   std::uint64_t state_;
 };
 
-// Pairs of triangles that touch or just do not, each kind hard in a way of its own.
+// Pairs of triangles that touch or just do not, each kind hard for another reason.
 
 /// Where two triangles all but touch, or what they are.
 enum class PairKind {
@@ -86,13 +86,13 @@ constexpr std::uint64_t kMostPairs = 100'000'000;
 constexpr std::uint64_t kLargestPairSeed = (std::uint64_t{1} << 53) - 1;  ///< whole in every JSON
 
 /// Two bodies of kSlots separate triangles each; frame f gives pairs f * kSlots and on. Triangle i
-/// of the one and triangle i of the other are a pair and have a slot of their own, a box that is
-/// disjoint from all other slots: no other pairs can touch. Slots that are left over in the last
-/// frame hold two points that are apart.
+/// of the one and triangle i of the other are a pair in one slot, a box that is disjoint from all
+/// other slots: no other pairs can touch. Slots that are left over in the last
+/// frame contain two disjoint points.
 ///
-/// Every frame has a scale (2^-30 to 2^30 m), a distance between slots (2^4 to 2^24 times the
-/// triangles' size) and a place (up to 2^16 times that distance from the origin) of its own. Every
-/// kind of pair is in every frame and, in turn, in every slot.
+/// Every frame has its scale (2^-30 to 2^30 m), its distance between slots (2^4 to 2^24 times the
+/// triangles' size) and its place (up to 2^16 times that distance from the origin). Every kind of
+/// pair is in every frame and, in turn, in every slot.
 ///
 /// Nothing is kept: a frame is made when it is asked for, the same each time.
 class RandomPairs {

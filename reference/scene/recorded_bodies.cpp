@@ -237,7 +237,7 @@ void require_no_other_motion(const text::JsonField& body, const Scene& scene) {
     if (body.has(key)) body.at(key).fail("is not allowed beside a \"recording\"");
 }
 
-// The recording has the vertices that the mesh has; what changes them would part the two.
+// The recording has the vertices that the mesh has; what changes them would make the two differ.
 mesh::LoadedMesh mesh_of(const text::JsonField& body, const RecordedFrames& frames,
                          const std::filesystem::path& folder) {
   if (!body.has("mesh") && frames.spec().numbered) return frames.first_mesh();

@@ -24,7 +24,7 @@ struct RecordingSpec {
   /// cache has its whole path before the number.
   std::string before_number, after_number;
   bool numbered = false;
-  std::size_t digits = 0;  ///< at least so many, with leading zeros
+  std::size_t digits = 0;  ///< at least this many, with leading zeros
   std::size_t first = 0, step = 1;
   double scale = 1.0;             ///< of all coordinates, then
   Vec3 translate = Vec3::Zero();  ///< metres

@@ -31,7 +31,7 @@ struct SimulationSpec {
   SimulationSettings settings;
   std::vector<std::optional<Material>> materials;  ///< per body; without one it cannot be moved
   std::vector<Vec3> velocities;  ///< per body, m/s at time 0; zero for what cannot be moved
-  std::string driver;            ///< name of the detector whose answers move bodies apart
+  std::string driver;            ///< the detector whose contacts are resolved, by its name
   std::size_t every = 1;         ///< steps from one judged frame to the next
 };
 

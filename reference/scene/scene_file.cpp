@@ -21,31 +21,6 @@
 namespace contactcheck::scene {
 namespace {
 
-// How a scene file asks for poses of two bodies at given separations.
-
-// Of the size: deeper, a body may have gone through the other one.
-constexpr text::NumberRange kSeparation = {-0.5, false, 10.0, false};
-constexpr std::size_t kMostOrientations = 10'000, kLargestSeed = 1'000'000'000;
-constexpr std::size_t kMostPoses = 100'000;
-
-// The "sweep" of a scene, all defaults filled in. @throws InputError
-SweepSpec parse_sweep(const text::JsonField& field) {
-  field.only_keys({"separations", "orientations", "seed"});
-  SweepSpec spec;
-  for (const text::JsonField& item : field.at("separations").items(1)) {
-    const double separation = item.number(kSeparation);
-    if (!spec.separations.empty() && !(separation > spec.separations.back()))
-      item.refuse("above " + text::shown(spec.separations.back()) + ", the one before");
-    spec.separations.push_back(separation);
-  }
-  if (field.has("orientations"))
-    spec.orientations = field.at("orientations").whole(1, kMostOrientations);
-  if (field.has("seed")) spec.seed = field.at("seed").whole(0, kLargestSeed);
-  if (spec.separations.size() * spec.orientations > kMostPoses)
-    field.fail("asks for more than " + std::to_string(kMostPoses) + " poses");
-  return spec;
-}
-
 constexpr std::size_t kMostFrames = 100'000;
 constexpr double kLongest = 1e6;  // seconds
 constexpr text::NumberRange kSeconds = {0.0, true, kLongest, false};
@@ -152,19 +127,37 @@ void parse_body(const text::JsonField& field, const std::filesystem::path& folde
   add_body(field, name, made, mesh, std::move(motion), scene);
 }
 
-void parse_sweep_frames(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
+// Poses of two bodies at given separations, all defaults filled in: a frame for each.
+void parse_sweep(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
+  // Of the size: deeper, a body may have gone through the other one.
+  constexpr text::NumberRange kSeparation = {-0.5, false, 10.0, false};
+  constexpr std::size_t kMostOrientations = 10'000, kLargestSeed = 1'000'000'000;
+  constexpr std::size_t kMostPoses = 100'000;
   for (const char* key : {"frames", "duration", "time_step", "simulation"})
     if (root.has(key))
       root.at(key).fail("is not allowed beside \"sweep\", which says what frames there are");
-  scene.sweep = parse_sweep(root.at("sweep"));
+  const text::JsonField field = root.at("sweep");
+  field.only_keys({"separations", "orientations", "seed"});
+  SweepSpec& spec = scene.sweep.emplace();
+  for (const text::JsonField& item : field.at("separations").items(1)) {
+    const double separation = item.number(kSeparation);
+    if (!spec.separations.empty() && !(separation > spec.separations.back()))
+      item.refuse("above " + text::shown(spec.separations.back()) + ", the one before");
+    spec.separations.push_back(separation);
+  }
+  if (field.has("orientations"))
+    spec.orientations = field.at("orientations").whole(1, kMostOrientations);
+  if (field.has("seed")) spec.seed = field.at("seed").whole(0, kLargestSeed);
+  if (spec.separations.size() * spec.orientations > kMostPoses)
+    field.fail("asks for more than " + std::to_string(kMostPoses) + " poses");
   if (wanted_frames > 0)
     throw InputError("--frames: scene " + text::in_quotes(scene.id) +
                      " is a sweep, has a frame for every pose and cannot be given others");
-  scene.frames = scene.sweep->separations.size() * scene.sweep->orientations;
+  scene.frames = spec.separations.size() * spec.orientations;
   scene.time_step = 1.0;
 }
 
-// Two that have no motion of their own.
+// Two bodies that do not move by themselves.
 void require_sweep_bodies(const text::JsonField& root, const Scene& scene) {
   const std::vector<text::JsonField> bodies = root.at("bodies").items();
   for (const text::JsonField& body : bodies)
@@ -219,7 +212,7 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   scene.id = text::parse_id(root.at("id"));
   scene.title = root.has("title") ? root.at("title").text() : scene.id;
   if (root.has("sweep")) {
-    parse_sweep_frames(root, wanted_frames, scene);
+    parse_sweep(root, wanted_frames, scene);
   } else if (root.has("simulation")) {
     parse_simulated_times(root, wanted_frames, scene);
   } else if (!any_recording(root)) {

@@ -16,12 +16,6 @@ double total_mass(const Scene& scene) {
                          [](double sum, const auto& m) { return sum + (m ? m->mass : 0.0); });
 }
 
-// Element pairs imply their bodies only once the set is canonical.
-void keep_frame(const DrivenSimulation& driven, SimulatedMotion& motion) {
-  motion.frames.push_back(driven.nodes());
-  motion.reported.push_back(driven.contacts().bodies);
-}
-
 std::string place_of(const Scene& scene) {
   return "scene \"" + scene.id + "\", driver " + scene.simulation->driver + ": ";
 }
@@ -47,7 +41,10 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
     motion.energy.push_back(energy.total());
     motion.highest_kinetic = std::max(motion.highest_kinetic, energy.kinetic);
     motion.last_speed = std::sqrt(2.0 * energy.kinetic / std::max(total_mass(scene), 1e-300));
-    if ((step + 1) % every == 0) keep_frame(driven, motion);
+    if ((step + 1) % every != 0) continue;
+    motion.frames.push_back(driven.nodes());
+    // Element pairs imply their bodies: the set is canonical after a step.
+    motion.reported.push_back(driven.contacts().bodies);
   }
   return motion;
 }

@@ -39,7 +39,7 @@ fs::path parse_scene_path(const text::JsonField& field, const fs::path& suite) {
   return beside(suite, path);
 }
 
-// "ID", or an object where the scene has detectors of its own or is a file.
+// "ID", or an object where the scene names its detectors or is a file.
 SuiteScene parse_scene(const text::JsonField& field, const fs::path& suite) {
   SuiteScene scene;
   if (!field.is(text::JsonValue::Kind::kObject)) {

@@ -15,7 +15,7 @@ namespace {
 
 using Nodes = std::vector<Vec3>;
 
-constexpr int kMostSweepSteps = 20'000;  // of one way: what grazes comes nearer and nearer
+constexpr int kMostSweepSteps = 20'000;  // of one path: what grazes comes nearer and nearer
 constexpr int kMostDraws = 200;          // of one orientation
 
 // No library function: the same bits on every machine.
@@ -23,7 +23,7 @@ class Draws {
  public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in the unit sphere of so many dimensions, and not too near its centre; normalised.
+  /// Uniform in the unit ball of N dimensions, and not too near its centre; normalised.
   template <std::size_t N>
   std::array<double, N> unit() {
     while (true) {
@@ -66,11 +66,12 @@ class Poses {
         still_(scene.nodes_at(0.0)),
         target_(bounding_box(mapped(0, still_[0])).center()) {}
 
-  /// The nodes of the second body at every separation, or nothing when this way misses.
-  std::optional<std::vector<Nodes>> along(const std::array<double, 4>& turn, const Vec3& way) {
-    aim(turn, way);
+  /// The nodes of the second body at every separation, or nothing when this path misses.
+  std::optional<std::vector<Nodes>> along(const std::array<double, 4>& turn,
+                                          const Vec3& direction) {
+    aim(turn, direction);
     std::vector<Nodes> out(separations().size());
-    double at = apart_ + std::max(0.0, separations().back()) * size_;
+    double at = separated_ + std::max(0.0, separations().back()) * size_;
     for (std::size_t s = separations().size(); s-- > 0 && separations()[s] > 0.0;) {
       if (!walk(separations()[s] * size_, at)) return std::nullopt;
       out[s] = placed(at);
@@ -92,19 +93,20 @@ class Poses {
     return out;
   }
 
-  void aim(const std::array<double, 4>& turn, const Vec3& way) {
-    way_ = way;
+  void aim(const std::array<double, 4>& turn, const Vec3& direction) {
+    direction_ = direction;
     turned_ = still_[1];
     const Vec3 center = bounding_box(mapped(1, still_[1])).center();
     for (Vec3& p : turned_) p = rotated(turn, p - center);
     const Nodes surface = mapped(0, still_[0]), moving = mapped(1, turned_);
-    apart_ = support(surface, way) + support(moving, -way) - target_.dot(way);
-    through_ = -(support(surface, -way) + support(moving, way) + target_.dot(way));
+    separated_ = support(surface, direction) + support(moving, -direction) - target_.dot(direction);
+    through_ =
+        -(support(surface, -direction) + support(moving, direction) + target_.dot(direction));
   }
 
   Nodes placed(double at) const {
     Nodes out = turned_;
-    const Vec3 place = target_ + at * way_;
+    const Vec3 place = target_ + at * direction_;
     for (Vec3& p : out) p += place;
     return out;
   }
@@ -133,15 +135,15 @@ class Poses {
   const std::vector<Nodes> still_;
   const Vec3 target_;
   Nodes turned_;  // about the origin
-  Vec3 way_ = Vec3::UnitX();
-  double apart_ = 0.0, through_ = 0.0;
+  Vec3 direction_ = Vec3::UnitX();
+  double separated_ = 0.0, through_ = 0.0;
 };
 
 std::vector<Nodes> drawn(const Scene& scene, std::size_t orientation, Draws& draws, Poses& poses) {
   for (int draw = 0; draw < kMostDraws; ++draw) {
     const auto turn = draws.unit<4>();
-    const auto way = draws.unit<3>();
-    if (auto found = poses.along(turn, Vec3(way.data()))) return std::move(*found);
+    const auto direction = draws.unit<3>();
+    if (auto found = poses.along(turn, Vec3(direction.data()))) return std::move(*found);
   }
   throw InputError("scene \"" + scene.id + "\": of " + std::to_string(kMostDraws) +
                    " ways for orientation " + std::to_string(orientation) +

@@ -15,11 +15,12 @@ using OnPose = std::function<void(std::size_t)>;
 ///
 /// The first body stays as it is. For every orientation the second one is turned by a random
 /// rotation about the centre of its box, and comes along a random direction straight towards the
-/// centre of the first one's box, from where a plane parts them. At a separation s > 0 it stands
-/// where the certified distance of the two surfaces first is s; at 0 where they first touch; and at
-/// s < 0 by |s| beyond that place, in the same direction (the depth is along the way: surfaces that
-/// have slipped past each other need not touch). "First" and "is" within kSweepTolerance of the
-/// scene's size. Orientations whose way misses the first body are drawn again.
+/// centre of the first one's box, from where a plane separates them. At a separation s > 0 it
+/// stands where the certified distance of the two surfaces first is s; at 0 where they first touch;
+/// and at s < 0 by |s| beyond that place, in the same direction (the depth is along the path:
+/// surfaces that have slipped past each other need not touch). "First" and "is" within
+/// kSweepTolerance of the scene's size. Orientations whose path misses the first body are drawn
+/// again.
 ///
 /// Frames are ordered by separation, then orientation. The same seed gives the same bits on every
 /// machine.

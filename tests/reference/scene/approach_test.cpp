@@ -18,7 +18,7 @@ TEST(Approach, OfTwoBoxesGoesEightPercentDeepAlongTheAxisGiven) {
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->robust);
   EXPECT_FALSE(found->turned_about);
-  EXPECT_EQ(found->apart, Vec3(1, 0, 0));  // where the faces are on one another
+  EXPECT_EQ(found->separated, Vec3(1, 0, 0));  // where the faces are on one another
   EXPECT_DOUBLE_EQ(found->depth, 0.08);
   EXPECT_NEAR(found->meeting.x(), 0.92, 1e-12);
 }
@@ -69,7 +69,7 @@ TEST(Approach, OfOddMeshesLeadsIntoContact) {
       if (found->turned_about) continue;
       RigidPair pair(resting, moved);
       EXPECT_TRUE(pair.touches(found->meeting));
-      EXPECT_GT(pair.distance(found->apart + 0.01 * found->from.vector()).lower, 0.0099);
+      EXPECT_GT(pair.distance(found->separated + 0.01 * found->from.vector()).lower, 0.0099);
     }
 }
 

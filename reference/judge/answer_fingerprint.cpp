@@ -7,14 +7,14 @@
 namespace contactcheck::judge {
 namespace {
 
-enum List : std::size_t { kBodies, kCells, kTriangles, kVertices, kNear, kPieces, kWaysOut };
+enum List : std::size_t { kBodies, kCells, kTriangles, kVertices, kNear, kPieces, kVertexContacts };
 
 constexpr const char* kRecords[kAnswerLists] = {
     "pairs of bodies", "pairs of cells",     "pairs of triangles",  "vertices in bodies",
     "near pairs",      "contacts of pieces", "contacts of vertices"};
 
 // What is judged of the answer (accuracy.h). A question `body` may end at the first pair of
-// triangles that it finds: which one is nobody's claim.
+// triangles that it finds: detectors do not claim which one.
 bool is_compared(std::size_t list, const Asked& asked) {
   switch (list) {
     case kBodies:
@@ -71,7 +71,7 @@ std::uint64_t hash_of(const ContactSet& contacts, std::size_t list) {
   }
 }
 
-bool is_of_contacts(std::size_t list) { return list == kPieces || list == kWaysOut; }
+bool is_of_contacts(std::size_t list) { return list == kPieces || list == kVertexContacts; }
 
 // Libraries that give depths are not always sure of themselves: FCL 0.7 has two contacts or none of
 // a triangle that is a point, from call to call. Of contacts only a number of another size counts.
@@ -96,13 +96,13 @@ AnswerSizes sizes_of(const ContactSet& c) {
 
 AnswerFingerprint fingerprint_of(const ContactSet& contacts, const Asked& asked) {
   const AnswerSizes sizes = sizes_of(contacts);
-  AnswerFingerprint print;
+  AnswerFingerprint out;
   for (std::size_t list = 0; list < kAnswerLists; ++list) {
     if (!is_compared(list, asked)) continue;
-    print.sizes[list] = sizes[list];
-    print.hashes[list] = hash_of(contacts, list);
+    out.sizes[list] = sizes[list];
+    out.hashes[list] = hash_of(contacts, list);
   }
-  return print;
+  return out;
 }
 
 std::string answer_difference(const AnswerFingerprint& answer, const AnswerFingerprint& judged) {

@@ -17,42 +17,34 @@ Vec3 center_of(const std::vector<Vec3>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
-/// Counts pairs of bodies that leave a true contact on the other side from where they came.
-class TunnellingWatch {
- public:
-  explicit TunnellingWatch(const JudgedScene& judged) : judged_(judged) {}
-
-  std::size_t count() {
-    for (std::size_t f = 0; f < judged_.scene->frames; ++f) {
-      const std::vector<BodyPair>& touching = judged_.truth[f].surface.bodies;
-      for (std::uint32_t a = 0; a < judged_.positions[f].nodes.size(); ++a)
-        for (std::uint32_t b = a + 1; b < judged_.positions[f].nodes.size(); ++b)
-          look_at({a, b}, f, std::binary_search(touching.begin(), touching.end(), BodyPair{a, b}));
-    }
-    return events_;
+// How often a pair of bodies leaves a true contact on the other side from where it came.
+std::size_t count_tunnelling(const JudgedScene& judged) {
+  struct Passage {
+    Vec3 before;  // from a to b, in the last frame without contact
+    bool in_contact = false;
+  };
+  std::map<BodyPair, Passage> passages;
+  std::size_t events = 0;
+  for (std::size_t f = 0; f < judged.scene->frames; ++f) {
+    const std::vector<BodyPair>& touching = judged.truth[f].surface.bodies;
+    const std::vector<std::vector<Vec3>>& nodes = judged.positions[f].nodes;
+    for (std::uint32_t a = 0; a < nodes.size(); ++a)
+      for (std::uint32_t b = a + 1; b < nodes.size(); ++b) {
+        const Vec3 direction = center_of(nodes[b]) - center_of(nodes[a]);
+        Passage& passage =
+            passages.try_emplace(BodyPair{a, b}, Passage{direction, false}).first->second;
+        if (std::binary_search(touching.begin(), touching.end(), BodyPair{a, b})) {
+          passage.in_contact = true;
+          continue;
+        }
+        if (passage.in_contact && direction.dot(passage.before) < 0.0) ++events;
+        passage = {direction, false};
+      }
   }
+  return events;
+}
 
- private:
-  void look_at(BodyPair pair, std::size_t f, bool touching) {
-    const Vec3 direction = center_of(judged_.positions[f].nodes[pair.b]) -
-                           center_of(judged_.positions[f].nodes[pair.a]);
-    const auto before = before_.try_emplace(pair, direction).first;
-    if (touching) {
-      in_contact_[pair] = true;
-      return;
-    }
-    if (in_contact_[pair] && direction.dot(before->second) < 0.0) ++events_;
-    in_contact_[pair] = false;
-    before->second = direction;
-  }
-
-  const JudgedScene& judged_;
-  std::map<BodyPair, Vec3> before_;  // from a to b, in the last frame without contact
-  std::map<BodyPair, bool> in_contact_;
-  std::size_t events_ = 0;
-};
-
-// The distances of the pairs that are said to touch in the last tenth of the frames.
+// The distances of the pairs that are reported in contact in the last tenth of the frames.
 void measure_hover(JudgingTools& tools, const scene::SimulatedMotion& motion,
                    results::ClosedLoop& out) {
   constexpr std::size_t kTenth = 10;
@@ -83,14 +75,6 @@ void measure_penetration(JudgingTools& tools, results::ClosedLoop& out) {
   }
 }
 
-void measure_energy(const scene::SimulatedMotion& motion, results::ClosedLoop& out) {
-  const double highest = *std::max_element(motion.energy.begin(), motion.energy.end());
-  if (motion.highest_kinetic > 0.0)
-    out.energy_gain = (highest - motion.energy.front()) / motion.highest_kinetic;
-  out.last_speed = motion.last_speed;
-  out.steps = motion.energy.size() - 1;
-}
-
 }  // namespace
 
 results::ClosedLoop run_closed_loop(const scene::Scene& scene, std::uint32_t position,
@@ -111,10 +95,14 @@ results::ClosedLoop run_closed_loop(const scene::Scene& scene, std::uint32_t pos
   own.recorded = motion.frames;
   const JudgedScene judged = judge_scene(own, progress);
   JudgingTools tools(judged);
-  measure_energy(motion, out);
+  const double highest = *std::max_element(motion.energy.begin(), motion.energy.end());
+  if (motion.highest_kinetic > 0.0)
+    out.energy_gain = (highest - motion.energy.front()) / motion.highest_kinetic;
+  out.last_speed = motion.last_speed;
+  out.steps = motion.energy.size() - 1;
   measure_hover(tools, motion, out);
   measure_penetration(tools, out);
-  out.tunnelling_events = TunnellingWatch(judged).count();
+  out.tunnelling_events = count_tunnelling(judged);
   results::Run run;
   progress.enter(position, 0, process::Phase::kPrepare);
   const std::unique_ptr<Detector> again = make();

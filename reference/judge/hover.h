@@ -1,4 +1,4 @@
-// How far apart two bodies truly are when a detector first reports them in contact.
+// The true distance of two bodies when a detector first reports them in contact.
 #pragma once
 
 #include <cstdint>

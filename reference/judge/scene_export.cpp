@@ -13,6 +13,7 @@
 #include "core/deform/byte_stream.h"
 #include "core/types/check.h"
 #include "core/types/mesh.h"
+#include "reference/judge/judged_scene.h"
 #include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/oracle.h"
 #include "reference/results/results.h"
@@ -94,7 +95,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char *kSchema = "contactcheck-certificates/1", *kIndex = "scene.json";
 
-// Names of bodies may hold anything; the number keeps those apart that end up alike.
+// Names of bodies may contain anything; the number distinguishes those that end up alike.
 std::string folder_of_body(std::size_t index, const std::string& name) {
   constexpr std::size_t kLongest = 60;
   std::string out = "bodies/" + std::to_string(index) + "-";
@@ -118,131 +119,93 @@ std::string crc32_of(const std::string& bytes) {
   return text;
 }
 
-class Exporter {
- public:
-  Exporter(const scene::Scene& scene, fs::path folder)
-      : scene_(scene), folder_(std::move(folder)), oracle_(scene.bodies), certifier_(scene.bodies) {
-    make_folder("truth");
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b) add_body(b);
-    write_file_atomically(folder_ / "check.py", kCheckScript);
-  }
-
-  void add_frame(std::size_t index) {
-    const auto nodes = scene_.nodes_of_frame(index);
-    const auto vertices = map_bodies(index, nodes);
-    Frame frame{index, scene_.time_of(index), {}};
-    for (std::size_t b = 0; b < nodes.size(); ++b) frame.bodies.push_back({nodes[b], vertices[b]});
-    const ContactSet truth = oracle_.judge(frame, {}).surface;
-    const oracle::certify::FrameCertificate certificate =
-        certifier_.certify(frame, truth.triangles);
-    write_surfaces(index, vertices);
-    write("truth/" + frame_name(index) + ".json", frame_text(index, truth.bodies, certificate));
-    list_frame(index, truth, certificate);
-  }
-
-  ExportSummary finish(std::size_t every) {
-    const Json index = {{"schema", kSchema},
-                        {"version", CONTACTCHECK_VERSION},
-                        {"scene", scene_.id},
-                        {"title", scene_.title},
-                        {"scene_frames", scene_.frames},
-                        {"every", every},
-                        {"contact_hash", results::hex(summary_.contact_hash)},
-                        {"bodies", bodies_},
-                        {"frames", frames_},
-                        {"crc32", checksums_}};
-    write_file_atomically(folder_ / kIndex, index.dump(1) + "\n");
-    return summary_;
-  }
-
- private:
-  void add_body(std::size_t b) {
-    const Body& body = scene_.bodies[b];
-    const std::string folder = folder_of_body(b, body.name);
-    make_folder(folder);
-    bodies_.push_back({{"name", body.name},
-                       {"folder", folder},
-                       {"vertices", body.shape->mesh.vertices.size()},
-                       {"triangles", body.shape->mesh.triangles.size()}});
-    write(folder + "/order.json", Json(certifier_.order(b)).dump() + "\n");
-  }
-
-  std::vector<std::vector<Vec3>> map_bodies(std::size_t frame,
-                                            const std::vector<std::vector<Vec3>>& nodes) const {
-    std::vector<std::vector<Vec3>> out;
-    for (std::size_t b = 0; b < nodes.size(); ++b) {
-      const BodyShape& shape = *scene_.bodies[b].shape;
-      out.emplace_back(shape.mesh.vertices.size());
-      require_finite(frame, b, "node", nodes[b]);
-      map_body(shape, nodes[b], out.back());
-      require_finite(frame, b, "vertex", out.back());
-    }
-    return out;
-  }
-
-  void require_finite(std::size_t frame, std::size_t body, const char* kind,
-                      const std::vector<Vec3>& points) const {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (!points[i].allFinite())
-        throw InputError("scene " + text::in_quotes(scene_.id) + ", frame " +
-                         std::to_string(frame) + ", body " +
-                         text::in_quotes(scene_.bodies[body].name) + ": " + kind + " " +
-                         std::to_string(i) + " is not finite");
-  }
-
-  void write_surfaces(std::size_t frame, const std::vector<std::vector<Vec3>>& vertices) {
-    for (std::size_t b = 0; b < vertices.size(); ++b)
-      write(bodies_[b].at("folder").get<std::string>() + "/" + frame_name(frame) + ".ply",
-            ply_bytes(vertices[b], scene_.bodies[b].shape->mesh.triangles,
-                      "contactcheck export: vertices in metres"));
-  }
-
-  void list_frame(std::size_t index, const ContactSet& truth,
-                  const oracle::certify::FrameCertificate& certificate) {
-    summary_.frames += 1;
-    summary_.contacts += certificate.contacts.size();
-    summary_.gaps += certificate.gaps.size();
-    summary_.contact_hash = chain_hash(summary_.contact_hash, index, truth);
-    Json entry = {{"frame", index}, {"time", scene_.time_of(index)}};
-    if (scene_.family) entry["case"] = scene_.family->values[index];
-    entry["body_pairs"] = truth.bodies.size();
-    entry["contacts"] = certificate.contacts.size();
-    entry["gaps"] = certificate.gaps.size();
-    frames_.push_back(std::move(entry));
-  }
-
-  void write(const std::string& name, const std::string& bytes) {
-    write_file_atomically(folder_ / name, bytes);
-    checksums_[name] = crc32_of(bytes);
-  }
-
-  void make_folder(const std::string& name) const {
-    std::error_code error;
-    fs::create_directories(folder_ / name, error);
-    if (error)
-      throw InputError("cannot create " + text::in_quotes((folder_ / name).string()) + ": " +
-                       error.message());
-  }
-
-  const scene::Scene& scene_;
-  const fs::path folder_;
-  oracle::Oracle oracle_;
-  oracle::certify::Certifier certifier_;
-  Json bodies_ = Json::array(), frames_ = Json::array(), checksums_ = Json::object();
-  ExportSummary summary_;
-};
+void require_finite(const scene::Scene& scene, std::size_t frame, std::size_t body,
+                    const char* kind, const std::vector<Vec3>& points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      throw InputError("scene " + text::in_quotes(scene.id) + ", frame " + std::to_string(frame) +
+                       ", body " + text::in_quotes(scene.bodies[body].name) + ": " + kind + " " +
+                       std::to_string(i) + " is not finite");
+}
 
 }  // namespace
 
 ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const fs::path& folder,
                            const std::function<void()>& before_frame) {
   CONTACTCHECK_INVARIANT(every > 0, "every frame, every second, ...");
-  Exporter exporter(scene, folder);
+  oracle::Oracle oracle(scene.bodies);
+  oracle::certify::Certifier certifier(scene.bodies);
+  Json bodies = Json::array(), frames = Json::array(), checksums = Json::object();
+  ExportSummary summary;
+  const auto make_folder = [&](const std::string& name) {
+    std::error_code error;
+    fs::create_directories(folder / name, error);
+    if (error)
+      throw InputError("cannot create " + text::in_quotes((folder / name).string()) + ": " +
+                       error.message());
+  };
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    write_file_atomically(folder / name, bytes);
+    checksums[name] = crc32_of(bytes);
+  };
+
+  make_folder("truth");
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    const std::string body_folder = folder_of_body(b, body.name);
+    make_folder(body_folder);
+    bodies.push_back({{"name", body.name},
+                      {"folder", body_folder},
+                      {"vertices", body.shape->mesh.vertices.size()},
+                      {"triangles", body.shape->mesh.triangles.size()}});
+    write(body_folder + "/order.json", Json(certifier.order(b)).dump() + "\n");
+  }
+  write_file_atomically(folder / "check.py", kCheckScript);
+
   for (std::size_t f = 0; f < scene.frames; f += every) {
     before_frame();
-    exporter.add_frame(f);
+    const std::vector<std::vector<Vec3>> nodes = scene.nodes_of_frame(f);
+    std::vector<std::vector<Vec3>> vertices;
+    for (std::size_t b = 0; b < nodes.size(); ++b) {
+      const BodyShape& shape = *scene.bodies[b].shape;
+      vertices.emplace_back(shape.mesh.vertices.size());
+      require_finite(scene, f, b, "node", nodes[b]);
+      map_body(shape, nodes[b], vertices.back());
+      require_finite(scene, f, b, "vertex", vertices.back());
+    }
+    const Frame frame = make_frame(f, scene.time_of(f), nodes, vertices);
+    const ContactSet truth = oracle.judge(frame, {}).surface;
+    const oracle::certify::FrameCertificate certificate = certifier.certify(frame, truth.triangles);
+    for (std::size_t b = 0; b < vertices.size(); ++b)
+      write(bodies[b].at("folder").get<std::string>() + "/" + frame_name(f) + ".ply",
+            ply_bytes(vertices[b], scene.bodies[b].shape->mesh.triangles,
+                      "contactcheck export: vertices in metres"));
+    write("truth/" + frame_name(f) + ".json", frame_text(f, truth.bodies, certificate));
+
+    summary.frames += 1;
+    summary.contacts += certificate.contacts.size();
+    summary.gaps += certificate.gaps.size();
+    summary.contact_hash = chain_hash(summary.contact_hash, f, truth);
+    Json entry = {{"frame", f}, {"time", scene.time_of(f)}};
+    if (scene.family) entry["case"] = scene.family->values[f];
+    entry["body_pairs"] = truth.bodies.size();
+    entry["contacts"] = certificate.contacts.size();
+    entry["gaps"] = certificate.gaps.size();
+    frames.push_back(std::move(entry));
   }
-  return exporter.finish(every);
+
+  const Json index = {{"schema", kSchema},
+                      {"version", CONTACTCHECK_VERSION},
+                      {"scene", scene.id},
+                      {"title", scene.title},
+                      {"scene_frames", scene.frames},
+                      {"every", every},
+                      {"contact_hash", results::hex(summary.contact_hash)},
+                      {"bodies", bodies},
+                      {"frames", frames},
+                      {"crc32", checksums}};
+  write_file_atomically(folder / kIndex, index.dump(1) + "\n");
+  return summary;
 }
 
 bool is_export(const fs::path& folder) {

@@ -8,10 +8,8 @@
 namespace contactcheck::judge {
 namespace {
 
-using LevelTruth = std::map<Level, std::variant<std::uint64_t, std::string>>;
-
 // Summed over frames; levels that the scene does not ask for are absent.
-LevelTruth truth_of(const JudgedScene& judged) {
+std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedScene& judged) {
   std::map<Level, std::uint64_t> sums;
   for (const oracle::Truth& t : judged.truth) {
     sums[Level::kBody] += t.surface.bodies.size();
@@ -20,7 +18,7 @@ LevelTruth truth_of(const JudgedScene& judged) {
     sums[Level::kTriangle] += t.surface.triangles.size();
     sums[Level::kVertex] += t.surface.vertices.size();
   }
-  LevelTruth out;
+  std::map<Level, std::variant<std::uint64_t, std::string>> out;
   for (const auto& [level, sum] : sums) {
     if (!judged.scene->judges(level)) continue;
     const std::string why = obstacle_to_judging(level, judged.scene->bodies);
@@ -33,25 +31,6 @@ LevelTruth truth_of(const JudgedScene& judged) {
   return out;
 }
 
-std::uint64_t truth_hash(const JudgedScene& judged) {
-  std::uint64_t hash = 0;
-  for (std::size_t f = 0; f < judged.truth.size(); ++f) {
-    ContactSet surface = judged.truth[f].surface;
-    surface.vertices.clear();  // triangle detectors report none
-    hash = chain_hash(hash, f, surface);
-  }
-  return hash;
-}
-
-// Per value, so that a report can set answers beside it.
-results::Family family_of(const JudgedScene& judged) {
-  const scene::CaseFamily& family = *judged.scene->family;
-  results::Family out{family.parameter, family.origin, family.stresses, family.values,
-                      /*true_pairs=*/{}};
-  for (const oracle::Truth& t : judged.truth) out.true_pairs.push_back(t.surface.triangles.size());
-  return out;
-}
-
 results::RandomPairs pairs_of(const scene::PairSpec& spec, const PairTally& tally) {
   results::RandomPairs out{spec.count, spec.seed,       tally.touching(),
                            {},         tally.checked(), tally.oracle_wrong};
@@ -60,17 +39,6 @@ results::RandomPairs pairs_of(const scene::PairSpec& spec, const PairTally& tall
         scene::name_of(static_cast<scene::PairKind>(k)),
         results::PairKindTally{tally.kinds[k].pairs, tally.kinds[k].touching});
   return out;
-}
-
-std::vector<results::SceneBody> bodies_of(const scene::Scene& scene) {
-  std::vector<results::SceneBody> bodies;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const BodyShape& shape = *scene.bodies[b].shape;
-    bodies.push_back({scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
-                      shape.mesh.vertices.size(), shape.mesh.triangles.size(),
-                      shape.lattice ? shape.lattice->cells.size() : 0, shape.topology.solid});
-  }
-  return bodies;
 }
 
 }  // namespace
@@ -86,10 +54,27 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   out.size = scene.size();
   out.contact_frames = static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
   out.truth = truth_of(judged);
-  out.truth_hash = results::hex(truth_hash(judged));
-  out.bodies = bodies_of(scene);
+  std::uint64_t hash = 0;
+  for (std::size_t f = 0; f < judged.truth.size(); ++f) {
+    ContactSet surface = judged.truth[f].surface;
+    surface.vertices.clear();  // triangle detectors report none
+    hash = chain_hash(hash, f, surface);
+  }
+  out.truth_hash = results::hex(hash);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyShape& shape = *scene.bodies[b].shape;
+    out.bodies.push_back({scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
+                          shape.mesh.vertices.size(), shape.mesh.triangles.size(),
+                          shape.lattice ? shape.lattice->cells.size() : 0, shape.topology.solid});
+  }
   out.separation = separations;
-  if (scene.family) out.family = family_of(judged);
+  if (scene.family) {
+    out.family = {scene.family->parameter, scene.family->origin, scene.family->stresses,
+                  scene.family->values, /*true_pairs=*/{}};
+    // Per value, so that a report can set answers beside it.
+    for (const oracle::Truth& t : judged.truth)
+      out.family->true_pairs.push_back(t.surface.triangles.size());
+  }
   if (scene.sweep)
     out.sweep = {scene.sweep->separations, scene.sweep->orientations, scene.sweep->seed,
                  scene::kSweepTolerance * scene.size()};

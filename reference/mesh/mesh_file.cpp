@@ -187,59 +187,6 @@ void refuse_bad_values(const PolygonSoup& soup, const std::string& name) {
   }
 }
 
-/// How many polygons were split in which way.
-struct SplitCounts {
-  std::size_t all = 0, concave = 0, crossing = 0, dropped = 0;
-};
-
-std::vector<Triangle> triangles_of(const PolygonSoup& soup, std::size_t face,
-                                   const std::string& name, SplitCounts& counts) {
-  const std::vector<std::uint32_t>& polygon = soup.polygons[face];
-  auto split = split_polygon(soup.points, polygon);
-  // Warped, or flat to rounding: either diagonal gives a surface of the four corners.
-  if (!split && polygon.size() == 4) {
-    ++counts.crossing;
-    return {{polygon[0], polygon[1], polygon[2]}, {polygon[0], polygon[2], polygon[3]}};
-  }
-  if (!split) {
-    const std::string place = name + ": face " + std::to_string(face) + ", a polygon of " +
-                              std::to_string(polygon.size()) + " corners, ";
-    if (polygon.size() > kMostConcaveCorners)
-      throw InputError(place + "is concave; concave polygons may have at most " +
-                       std::to_string(kMostConcaveCorners) + " corners.");
-    throw InputError(place + "crosses or folds back on itself and cannot be split into triangles.");
-  }
-  counts.concave += split->concave ? 1 : 0;
-  return std::move(split->triangles);
-}
-
-void add_notes(const SplitCounts& counts, std::string& notes) {
-  std::string split = std::to_string(counts.all) + " polygons split into triangles";
-  if (counts.concave > 0) split += ", " + std::to_string(counts.concave) + " of them concave";
-  if (counts.crossing > 0)
-    split += ", " + std::to_string(counts.crossing) + " of four corners cross themselves";
-  if (counts.all > 0) add_note(notes, split);
-  if (counts.dropped > 0)
-    add_note(notes,
-             std::to_string(counts.dropped) + " faces with fewer than three corners left out");
-}
-
-LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {
-  LoadedMesh out;
-  out.mesh.vertices = soup.points;
-  SplitCounts counts;
-  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
-    const std::size_t corners = soup.polygons[f].size();
-    counts.all += corners > 3 ? 1 : 0;
-    counts.dropped += corners < 3 ? 1 : 0;
-    if (corners < 3) continue;
-    const std::vector<Triangle> triangles = triangles_of(soup, f, name, counts);
-    out.mesh.triangles.insert(out.mesh.triangles.end(), triangles.begin(), triangles.end());
-  }
-  add_notes(counts, out.notes);
-  return out;
-}
-
 }  // namespace
 
 void add_note(std::string& notes, const std::string& note) {
@@ -248,6 +195,44 @@ void add_note(std::string& notes, const std::string& note) {
 }
 
 namespace {
+
+LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {
+  LoadedMesh out;
+  out.mesh.vertices = soup.points;
+  std::vector<Triangle>& triangles = out.mesh.triangles;
+  std::size_t polygons = 0, concave = 0, crossing = 0, dropped = 0;
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const std::vector<std::uint32_t>& polygon = soup.polygons[f];
+    polygons += polygon.size() > 3 ? 1 : 0;
+    dropped += polygon.size() < 3 ? 1 : 0;
+    if (polygon.size() < 3) continue;
+    const std::optional<SplitPolygon> split = split_polygon(soup.points, polygon);
+    if (split) {
+      concave += split->concave ? 1 : 0;
+      triangles.insert(triangles.end(), split->triangles.begin(), split->triangles.end());
+    } else if (polygon.size() == 4) {
+      // Warped, or flat to rounding: either diagonal gives a surface of the four corners.
+      ++crossing;
+      triangles.push_back({polygon[0], polygon[1], polygon[2]});
+      triangles.push_back({polygon[0], polygon[2], polygon[3]});
+    } else {
+      const std::string place = name + ": face " + std::to_string(f) + ", a polygon of " +
+                                std::to_string(polygon.size()) + " corners, ";
+      if (polygon.size() > kMostConcaveCorners)
+        throw InputError(place + "is concave; concave polygons may have at most " +
+                         std::to_string(kMostConcaveCorners) + " corners.");
+      throw InputError(place +
+                       "crosses or folds back on itself and cannot be split into triangles.");
+    }
+  }
+  std::string note = std::to_string(polygons) + " polygons split into triangles";
+  if (concave > 0) note += ", " + std::to_string(concave) + " of them concave";
+  if (crossing > 0) note += ", " + std::to_string(crossing) + " of four corners cross themselves";
+  if (polygons > 0) add_note(out.notes, note);
+  if (dropped > 0)
+    add_note(out.notes, std::to_string(dropped) + " faces with fewer than three corners left out");
+  return out;
+}
 
 PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::string& name) {
   refuse_lying_counts(format, bytes, name);

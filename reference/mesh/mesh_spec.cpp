@@ -36,27 +36,20 @@ const std::vector<ShapeRule>& shape_rules() {
   return rules;
 }
 
-const ShapeRule& rule_of(const text::JsonField& shape) {
+// `keys`: what else the mesh may have.
+void parse_shape(const text::JsonField& field, std::vector<std::string> keys, MeshSpec& spec) {
   std::vector<std::string> names;
   for (const ShapeRule& rule : shape_rules()) names.emplace_back(rule.name);
-  const std::string name = shape.one_of(names);
+  spec.name = field.at("shape").one_of(names);
   const auto rule = std::find_if(shape_rules().begin(), shape_rules().end(),
-                                 [&](const ShapeRule& r) { return name == r.name; });
+                                 [&](const ShapeRule& r) { return spec.name == r.name; });
   CONTACTCHECK_INVARIANT(rule != shape_rules().end(), "one_of allows known shapes alone");
-  return *rule;
-}
-
-char parse_letter(const text::JsonField& field) {
-  std::vector<std::string> letters;
-  for (const char c : known_letters()) letters.emplace_back(1, c);
-  return field.one_of(letters)[0];
-}
-
-void parse_shape(const text::JsonField& field, const ShapeRule& rule, MeshSpec& spec) {
-  spec.name = rule.name;
-  spec.divisions = rule.usual;
+  keys.emplace_back("divisions");
+  keys.insert(keys.end(), rule->own_keys.begin(), rule->own_keys.end());
+  field.only_keys(keys);
+  spec.divisions = rule->usual;
   if (field.has("divisions")) {
-    spec.divisions = field.at("divisions").whole(rule.fewest, rule.most);
+    spec.divisions = field.at("divisions").whole(rule->fewest, rule->most);
   }
   if (spec.name == "box") {
     const Vec3 sides = field.has("sides") ? field.at("sides").vector(kLength) : Vec3::Ones();
@@ -64,31 +57,11 @@ void parse_shape(const text::JsonField& field, const ShapeRule& rule, MeshSpec& 
   } else if (spec.name == "torus") {
     spec.tube = field.has("tube") ? field.at("tube").number({0.0, true, 1.0, true}) : 0.4;
   } else if (spec.name == "letter") {
-    spec.letter = parse_letter(field.at("letter"));
+    std::vector<std::string> letters;
+    for (const char c : known_letters()) letters.emplace_back(1, c);
+    spec.letter = field.at("letter").one_of(letters)[0];
     spec.depth = field.has("depth") ? field.at("depth").number({0.0, true, 4.0, false}) : 0.2;
   }
-}
-
-void parse_placing(const text::JsonField& field, MeshSpec& spec) {
-  if (field.has("triangles")) spec.triangles = field.at("triangles").whole(4, kMostTriangles);
-  if (field.has("subdivide")) spec.subdivide = field.at("subdivide").whole(0, kMostSubdivisions);
-  if (field.has("size") && field.has("scale")) {
-    field.fail("has both \"size\" and \"scale\"; at most one of them is allowed");
-  }
-  if (field.has("size")) spec.size = field.at("size").number(kLength);
-  if (field.has("scale")) spec.scale = field.at("scale").number({0.0, true, kLargestScale, false});
-  if (field.has("center")) {
-    const Vec3 c = field.at("center").vector({-kLargestLength, false, kLargestLength, false});
-    spec.center = std::array<double, 3>{c.x(), c.y(), c.z()};
-  }
-}
-
-TriangleMesh make_builtin(const MeshSpec& spec) {
-  if (spec.name == "box") return make_box(Vec3(spec.sides.data()), spec.divisions);
-  if (spec.name == "sphere") return make_sphere(spec.divisions);
-  if (spec.name == "torus") return make_torus(spec.tube, spec.divisions);
-  if (spec.name == "letter") return make_letter(spec.letter, spec.depth, spec.divisions);
-  return make_teapot(spec.divisions);
 }
 
 LoadedMesh load_source(const MeshSpec& spec) {
@@ -100,20 +73,11 @@ LoadedMesh load_source(const MeshSpec& spec) {
     case MeshSpec::Source::kShape:
       break;
   }
-  return {make_builtin(spec), ""};
-}
-
-void simplify_to(std::size_t wanted, const text::JsonField& field, LoadedMesh& loaded) {
-  const std::size_t given = loaded.mesh.triangles.size();
-  if (wanted > given) {
-    field.at("triangles").refuse("at most " + std::to_string(given) + ", the mesh's own number");
-  }
-  loaded.mesh = simplify(loaded.mesh, wanted);
-  const std::size_t reached = loaded.mesh.triangles.size();
-  if (reached != wanted) {
-    add_note(loaded.notes, "simplified to " + std::to_string(reached) + " triangles, asked for " +
-                               std::to_string(wanted));
-  }
+  if (spec.name == "box") return {make_box(Vec3(spec.sides.data()), spec.divisions), ""};
+  if (spec.name == "sphere") return {make_sphere(spec.divisions), ""};
+  if (spec.name == "torus") return {make_torus(spec.tube, spec.divisions), ""};
+  if (spec.name == "letter") return {make_letter(spec.letter, spec.depth, spec.divisions), ""};
+  return {make_teapot(spec.divisions), ""};
 }
 
 void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mesh) {
@@ -140,18 +104,24 @@ MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::pa
   std::vector<std::string> keys = {source, "triangles", "subdivide", "size", "scale", "center"};
   MeshSpec spec;
   if (source == "shape") {
-    const ShapeRule& rule = rule_of(field.at("shape"));
-    keys.emplace_back("divisions");
-    keys.insert(keys.end(), rule.own_keys.begin(), rule.own_keys.end());
-    field.only_keys(keys);
-    parse_shape(field, rule, spec);
+    parse_shape(field, std::move(keys), spec);
   } else {
     field.only_keys(keys);
     spec.source = source == "file" ? MeshSpec::Source::kFile : MeshSpec::Source::kDataset;
     spec.name = field.at(source).text();
     if (source == "file") spec.name = (folder / spec.name).lexically_normal().string();
   }
-  parse_placing(field, spec);
+  if (field.has("triangles")) spec.triangles = field.at("triangles").whole(4, kMostTriangles);
+  if (field.has("subdivide")) spec.subdivide = field.at("subdivide").whole(0, kMostSubdivisions);
+  if (field.has("size") && field.has("scale")) {
+    field.fail("has both \"size\" and \"scale\"; at most one of them is allowed");
+  }
+  if (field.has("size")) spec.size = field.at("size").number(kLength);
+  if (field.has("scale")) spec.scale = field.at("scale").number({0.0, true, kLargestScale, false});
+  if (field.has("center")) {
+    const Vec3 c = field.at("center").vector({-kLargestLength, false, kLargestLength, false});
+    spec.center = std::array<double, 3>{c.x(), c.y(), c.z()};
+  }
   return spec;
 }
 
@@ -163,7 +133,16 @@ LoadedMesh build_mesh(const MeshSpec& spec, const text::JsonField& field) {
     // The sentence goes on after the field that asked for the mesh.
     field.fail("cannot be loaded: " + text::without_full_stop(error.what()));
   }
-  if (spec.triangles) simplify_to(*spec.triangles, field, loaded);
+  if (spec.triangles) {
+    const std::size_t given = loaded.mesh.triangles.size(), wanted = *spec.triangles;
+    if (wanted > given)
+      field.at("triangles").refuse("at most " + std::to_string(given) + ", the mesh's own number");
+    loaded.mesh = simplify(loaded.mesh, wanted);
+    const std::size_t reached = loaded.mesh.triangles.size();
+    if (reached != wanted)
+      add_note(loaded.notes, "simplified to " + std::to_string(reached) + " triangles, asked for " +
+                                 std::to_string(wanted));
+  }
   const std::size_t finer = loaded.mesh.triangles.size() << (2 * spec.subdivide);
   if (finer > kMostTriangles) {
     field.at("subdivide")

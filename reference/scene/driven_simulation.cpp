@@ -12,14 +12,6 @@ const Semantics& prepared(Detector& detector, const Scene& scene) {
   return detector.semantics();
 }
 
-Question driving_question(const Semantics& semantics) {
-  return semantics.answers(Question::kTriangles) ? Question::kTriangles : Question::kCells;
-}
-
-ContactVolume volume_of(const Semantics& semantics) {
-  return semantics.whole_cells ? ContactVolume::kCell : ContactVolume::kFfdAabb;
-}
-
 }  // namespace
 
 std::vector<NodeState> start_of(const Scene& scene) {
@@ -40,10 +32,12 @@ std::string why_no_driver(const Semantics& semantics) {
 DrivenSimulation::DrivenSimulation(const Scene& scene, Detector& detector)
     : scene_(scene),
       detector_(detector),
-      question_(driving_question(prepared(detector, scene))),
+      question_(prepared(detector, scene).answers(Question::kTriangles) ? Question::kTriangles
+                                                                        : Question::kCells),
       simulation_(scene.bodies, scene.simulation->materials, scene.simulation->settings,
                   start_of(scene)),
-      points_(scene.bodies, volume_of(detector.semantics())) {
+      points_(scene.bodies,
+              detector.semantics().whole_cells ? ContactVolume::kCell : ContactVolume::kFfdAabb) {
   for (const Body& body : scene.bodies) {
     nodes_.emplace_back(body.shape->node_count(), Vec3::Zero());
     vertices_.emplace_back(body.shape->mesh.vertices.size(), Vec3::Zero());

@@ -26,12 +26,6 @@ Rows rows_of(std::span<const Vec3> points) {
   return out;
 }
 
-std::vector<Vec3> points_of(const Rows& rows) {
-  std::vector<Vec3> out;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) out.emplace_back(rows.row(i).transpose());
-  return out;
-}
-
 // Trilinear, as map_point blends.
 Sparse weights_of(const BodyShape& shape) {
   const Lattice& lattice = *shape.lattice;
@@ -53,22 +47,17 @@ Sparse weights_of(const BodyShape& shape) {
   return out;
 }
 
-// Edges of kept cells, each once.
-std::set<std::pair<std::uint32_t, std::uint32_t>> edges_of(const Lattice& lattice) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+// L^T L + kAnchor I
+Sparse smoother_of(const Lattice& lattice) {
+  const auto nodes = static_cast<Eigen::Index>(lattice.nodes.size());
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;  // of kept cells, each once
   for (const CornerIds& ids : lattice.cell_nodes)
     for (int c = 0; c < 8; ++c)
       for (int k = 0; k < 3; ++k)
         if ((c >> k & 1) == 0) edges.emplace(ids[c], ids[c | 1 << k]);
-  return edges;
-}
-
-// L^T L + kAnchor I
-Sparse smoother_of(const Lattice& lattice) {
-  const auto nodes = static_cast<Eigen::Index>(lattice.nodes.size());
   Entries entries;
   for (Eigen::Index n = 0; n < nodes; ++n) entries.emplace_back(n, n, kAnchor);
-  for (const auto& [a, b] : edges_of(lattice)) {
+  for (const auto& [a, b] : edges) {
     entries.emplace_back(a, a, 1.0);
     entries.emplace_back(b, b, 1.0);
     entries.emplace_back(a, b, -1.0);
@@ -94,20 +83,6 @@ Rows posed(const Rows& nodes, const Rows& rest, const Rows& frame) {
   return ((nodes.rowwise() - from) * turn).rowwise() + to;
 }
 
-void append_error(const BodyShape& shape, const std::vector<Vec3>& nodes,
-                  std::span<const Vec3> vertices, FitError& error) {
-  std::vector<Vec3> mapped(vertices.size());
-  map_body(shape, nodes, mapped);
-  double largest = 0.0, sum = 0.0;
-  for (std::size_t v = 0; v < mapped.size(); ++v)
-    largest = std::max(largest, (mapped[v] - vertices[v]).stableNorm());
-  // Relative to the largest, so that tiny distances do not underflow.
-  for (std::size_t v = 0; v < mapped.size() && largest > 0.0; ++v)
-    sum += ((mapped[v] - vertices[v]) / largest).squaredNorm();
-  error.max.push_back(largest);
-  error.rms.push_back(largest * std::sqrt(sum / static_cast<double>(mapped.size())));
-}
-
 }  // namespace
 
 struct LatticeFit::Impl {
@@ -115,15 +90,6 @@ struct LatticeFit::Impl {
   Sparse weights;
   Rows rest_vertices, rest_nodes;
   Eigen::SimplicialLDLT<Sparse> solver;
-
-  Rows solved(const Rows& frame) const {
-    Rows nodes = posed(rest_nodes, rest_vertices, frame);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      const Rows off = weights.transpose() * (frame - weights * nodes);
-      nodes += Rows(solver.solve(off));
-    }
-    return nodes;
-  }
 };
 
 LatticeFit::LatticeFit(const BodyShape& shape, double smoothing)
@@ -145,8 +111,25 @@ LatticeFit::~LatticeFit() = default;
 std::vector<Vec3> LatticeFit::fitted(std::span<const Vec3> vertices, FitError& error) const {
   CONTACTCHECK_INVARIANT(vertices.size() == impl_->shape.mesh.vertices.size(),
                          "one position per vertex");
-  std::vector<Vec3> nodes = points_of(impl_->solved(rows_of(vertices)));
-  append_error(impl_->shape, nodes, vertices, error);
+  const Rows frame = rows_of(vertices);
+  Rows rows = posed(impl_->rest_nodes, impl_->rest_vertices, frame);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const Rows off = impl_->weights.transpose() * (frame - impl_->weights * rows);
+    rows += Rows(impl_->solver.solve(off));
+  }
+  std::vector<Vec3> nodes;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) nodes.emplace_back(rows.row(i).transpose());
+
+  std::vector<Vec3> mapped(vertices.size());
+  map_body(impl_->shape, nodes, mapped);
+  double largest = 0.0, sum = 0.0;
+  for (std::size_t v = 0; v < mapped.size(); ++v)
+    largest = std::max(largest, (mapped[v] - vertices[v]).stableNorm());
+  // Relative to the largest, so that tiny distances do not underflow.
+  for (std::size_t v = 0; v < mapped.size() && largest > 0.0; ++v)
+    sum += ((mapped[v] - vertices[v]) / largest).squaredNorm();
+  error.max.push_back(largest);
+  error.rms.push_back(largest * std::sqrt(sum / static_cast<double>(mapped.size())));
   return nodes;
 }
 

@@ -13,8 +13,8 @@ namespace {
 // Far outside any real motion; keeps sums and products finite.
 constexpr text::NumberRange kTime = {0.0, false, 1e9, false};     // seconds
 constexpr text::NumberRange kOffset = {-1e6, false, 1e6, false};  // metres
-constexpr text::NumberRange kPlace = {-1e7, false, 1e7,
-                                      false};  // metres: apart from the largest body
+// metres: beside the largest body
+constexpr text::NumberRange kPlace = {-1e7, false, 1e7, false};
 constexpr text::NumberRange kDegrees = {-1e6, false, 1e6, false};
 constexpr text::NumberRange kTaperAmount = {-100.0, false, 100.0, false};
 constexpr text::NumberRange kStretchAmount = {-1.0, true, 100.0, false};
@@ -61,16 +61,14 @@ std::array<Curve, 3> constant_curves(const Vec3& value) {
   return curves;
 }
 
-bool all_numbers(const text::JsonValue& value) {
-  return std::all_of(value.items.begin(), value.items.end(), [](const text::JsonValue& item) {
-    return item.kind == text::JsonValue::Kind::kNumber;
-  });
-}
-
 // [x, y, z], or keys [[time, [x, y, z]], ...].
 std::array<Curve, 3> parse_position(const text::JsonField& field, bool smooth) {
   if (!field.is(text::JsonValue::Kind::kArray)) field.refuse("[x, y, z] or an array of keys");
-  if (all_numbers(field.value())) return constant_curves(field.vector(kPlace));
+  const std::vector<text::JsonValue>& items = field.value().items;
+  if (std::all_of(items.begin(), items.end(), [](const text::JsonValue& item) {
+        return item.kind == text::JsonValue::Kind::kNumber;
+      }))
+    return constant_curves(field.vector(kPlace));
   std::array<Curve, 3> curves;
   for (Curve& curve : curves) curve.smooth = smooth;
   const std::vector<text::JsonField> keys = field.items(1);
@@ -95,50 +93,10 @@ Vec3 parse_direction(const text::JsonField& field) {
   return direction;
 }
 
-Deformer parse_bend(const text::JsonField& field, bool smooth) {
-  field.only_keys({"axis", "toward", "degrees"});
-  Bend bend;
-  bend.axis = parse_axis(field.at("axis"));
-  bend.toward = parse_axis(field.at("toward"));
-  if (bend.toward == bend.axis) field.at("toward").refuse("another axis than \"axis\"");
-  bend.angle = parse_curve(field.at("degrees"), kDegrees, smooth);
-  return bend;
-}
-
-Deformer parse_twist(const text::JsonField& field, bool smooth) {
-  field.only_keys({"axis", "degrees"});
-  return Twist{parse_axis(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
-}
-
-Deformer parse_taper(const text::JsonField& field, bool smooth) {
-  field.only_keys({"axis", "amount"});
-  return Taper{parse_axis(field.at("axis")), parse_curve(field.at("amount"), kTaperAmount, smooth)};
-}
-
-Deformer parse_stretch(const text::JsonField& field, bool smooth) {
-  field.only_keys({"axis", "amount"});
-  return Stretch{parse_axis(field.at("axis")),
-                 parse_curve(field.at("amount"), kStretchAmount, smooth)};
-}
-
-GridIndex parse_node(const text::JsonField& field, const Lattice& lattice) {
-  if (!field.is(text::JsonValue::Kind::kArray) || field.value().items.size() != 3) {
-    field.refuse("an array of three whole numbers");
-  }
-  const std::vector<text::JsonField> parts = field.items();
-  GridIndex node;
-  for (std::size_t k = 0; k < 3; ++k) {
-    node[k] = static_cast<std::uint32_t>(parts[k].whole(0, lattice.lines[k].size() - 1));
-  }
-  if (std::find(lattice.nodes.begin(), lattice.nodes.end(), node) == lattice.nodes.end()) {
-    field.fail("is no node of the body's lattice; only cells that hold surface are kept");
-  }
-  return node;
-}
-
 // [[time, [{"node": [i, j, k], "offset": [x, y, z]}, ...]], ...]
 Deformer parse_nodes(const text::JsonField& field, const BodyShape& shape) {
   if (!shape.lattice) field.fail("needs a lattice; this body has none");
+  const Lattice& lattice = *shape.lattice;
   NodeKeys out;
   const std::vector<text::JsonField> keys = field.items(1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -148,8 +106,18 @@ Deformer parse_nodes(const text::JsonField& field, const BodyShape& shape) {
     std::set<GridIndex> seen;
     for (const text::JsonField& entry : list.items()) {
       entry.only_keys({"node", "offset"});
-      const GridIndex node = parse_node(entry.at("node"), *shape.lattice);
-      if (!seen.insert(node).second) entry.at("node").fail("is named twice in this key");
+      const text::JsonField field_of_node = entry.at("node");
+      if (!field_of_node.is(text::JsonValue::Kind::kArray) ||
+          field_of_node.value().items.size() != 3)
+        field_of_node.refuse("an array of three whole numbers");
+      const std::vector<text::JsonField> parts = field_of_node.items();
+      GridIndex node;
+      for (std::size_t k = 0; k < 3; ++k)
+        node[k] = static_cast<std::uint32_t>(parts[k].whole(0, lattice.lines[k].size() - 1));
+      if (std::find(lattice.nodes.begin(), lattice.nodes.end(), node) == lattice.nodes.end())
+        field_of_node.fail(
+            "is no node of the body's lattice; only cells that hold surface are kept");
+      if (!seen.insert(node).second) field_of_node.fail("is named twice in this key");
       key.offsets.emplace_back(node, entry.at("offset").vector(kOffset));
     }
     out.keys.push_back(std::move(key));
@@ -162,16 +130,23 @@ Deformer parse_deformer(const text::JsonField& field, const BodyShape& shape, bo
   field.only_keys(kinds);
   const std::string kind = field.exactly_one_of(kinds);
   const text::JsonField inner = field.at(kind);
-  if (kind == "twist") return parse_twist(inner, smooth);
-  if (kind == "bend") return parse_bend(inner, smooth);
-  if (kind == "taper") return parse_taper(inner, smooth);
-  if (kind == "stretch") return parse_stretch(inner, smooth);
-  return parse_nodes(inner, shape);
-}
-
-RigidPath::Spin parse_spin(const text::JsonField& field, bool smooth) {
-  field.only_keys({"axis", "degrees"});
-  return {parse_direction(field.at("axis")), parse_curve(field.at("degrees"), kDegrees, smooth)};
+  if (kind == "nodes") return parse_nodes(inner, shape);
+  if (kind == "bend") {
+    inner.only_keys({"axis", "toward", "degrees"});
+    Bend bend;
+    bend.axis = parse_axis(inner.at("axis"));
+    bend.toward = parse_axis(inner.at("toward"));
+    if (bend.toward == bend.axis) inner.at("toward").refuse("another axis than \"axis\"");
+    bend.angle = parse_curve(inner.at("degrees"), kDegrees, smooth);
+    return bend;
+  }
+  const std::string amount = kind == "twist" ? "degrees" : "amount";
+  inner.only_keys({"axis", amount});
+  const int axis = parse_axis(inner.at("axis"));
+  const text::JsonField curve = inner.at(amount);
+  if (kind == "twist") return Twist{axis, parse_curve(curve, kDegrees, smooth)};
+  if (kind == "taper") return Taper{axis, parse_curve(curve, kTaperAmount, smooth)};
+  return Stretch{axis, parse_curve(curve, kStretchAmount, smooth)};
 }
 
 }  // namespace
@@ -188,7 +163,9 @@ Motion parse_motion(const text::JsonField& field, const BodyShape& shape) {
   }
   if (field.has("spins")) {
     for (const text::JsonField& item : field.at("spins").items()) {
-      motion.path.spins.push_back(parse_spin(item, smooth));
+      item.only_keys({"axis", "degrees"});
+      const Vec3 axis = parse_direction(item.at("axis"));
+      motion.path.spins.push_back({axis, parse_curve(item.at("degrees"), kDegrees, smooth)});
     }
   }
   if (field.has("position")) {

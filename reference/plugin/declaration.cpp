@@ -1,9 +1,11 @@
 #include "reference/plugin/declaration.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "reference/plugin/header_order.h"
+#include "core/types/check.h"
 #include "reference/results/results_json.h"
 #include "reference/text/id_check.h"
 
@@ -143,6 +145,82 @@ nlohmann::ordered_json to_json(const Declaration& d) {
   semantics["whole_cells"] = d.semantics.whole_cells;  // which results.json does not have
   return {{"id", d.id},         {"summary", d.summary}, {"version", d.version},
           {"options", options}, {"needs", needs},       {"semantics", semantics}};
+}
+
+namespace {
+
+std::string levels_fault(const Semantics& s) {
+  std::set<Level> levels(s.levels.begin(), s.levels.end());
+  levels.insert(s.informative.begin(), s.informative.end());
+  if (levels.empty()) return "it claims no level";
+  if (levels.size() != s.levels.size() + s.informative.size())
+    return "it names a level twice (one that is claimed is not informative beside)";
+  if (s.exact && s.levels.empty()) return "it is exact at no level";
+  return "";
+}
+
+// What is judged must have been asked for.
+std::string questions_fault(const Semantics& s) {
+  if (s.questions.empty()) return "it answers no question";
+  if (std::set<Question>(s.questions.begin(), s.questions.end()).size() != s.questions.size())
+    return "it names a question twice";
+  if (s.claims(Level::kTriangle) && !s.answers(Question::kTriangles))
+    return "it claims the level triangle and does not answer the question triangles";
+  if (s.claims(Level::kCell) && !s.answers(Question::kCells))
+    return "it claims the level cell and does not answer the question cells";
+  if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
+    return "the question contacts and a kind of depth go together, and it declares one of them";
+  return "";
+}
+
+std::string numbers_fault(const Semantics& s) {
+  if (!std::isfinite(s.margin) || s.margin < 0.0) return "its margin is no number from 0 on";
+  if (s.claims(Level::kNear) && s.margin == 0.0)
+    return "it claims the level near with a margin of 0: nothing is nearer than that";
+  if (!std::isfinite(s.scale) || s.scale <= 0.0) return "its scale is no number above 0";
+  if (s.precision == Precision::kDouble && s.scale != 1.0)
+    return "it has a scale and no single precision";
+  if (s.local_origin && (s.precision == Precision::kDouble || s.scale != 1.0))
+    return "it has a local origin and no single precision at scale 1";
+  return "";
+}
+
+}  // namespace
+
+std::string semantics_fault(const Semantics& semantics) {
+  for (const auto fault : {levels_fault, questions_fault, numbers_fault}) {
+    std::string found = fault(semantics);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+namespace {
+
+// The first that differs, by its key in a declaration.
+const char* changed_key(const Semantics& before, const Semantics& now) {
+  if (before.levels != now.levels) return "levels";
+  if (before.informative != now.informative) return "informative";
+  if (before.questions != now.questions) return "questions";
+  if (before.solid != now.solid) return "body";
+  if (before.closed != now.closed) return "touching";
+  if (before.exact != now.exact) return "exact";
+  if (before.precision != now.precision) return "precision";
+  if (before.depth != now.depth) return "depth_kind";
+  if (before.whole_cells != now.whole_cells) return "whole_cells";
+  if (before.means != now.means) return "means";
+  return nullptr;
+}
+
+}  // namespace
+
+void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now) {
+  if (const char* const key = changed_key(before, now)) refuse_change(from, key);
+}
+
+void refuse_change(const std::string& from, const std::string& key) {
+  throw InputError(from + " declares another \"" + key +
+                   "\" after prepare than before: only scale and margin may change then");
 }
 
 }  // namespace contactcheck::plugin

@@ -11,6 +11,16 @@
 
 namespace contactcheck::plugin {
 
+// What contactcheck_plugin.h numbers from 0 on, in the order of its numbers; all values there are.
+inline constexpr Level kHeaderLevels[] = {Level::kBody, Level::kContainment, Level::kCell,
+                                          Level::kBox,  Level::kTriangle,    Level::kVertex,
+                                          Level::kNear};
+inline constexpr Question kHeaderQuestions[] = {Question::kTriangles, Question::kBody,
+                                                Question::kCells, Question::kContacts};
+inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
+inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
+                                                  DepthKind::kConvexPair};
+
 struct Declaration {
   std::string id, summary, version;
   std::vector<OptionInfo> options;

@@ -1,16 +1,188 @@
 #include <array>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <vector>
 
+#include "core/deform/body.h"
 #include "core/types/check.h"
+#include "core/types/contact_set.h"
+#include "core/types/semantics.h"
+#include "reference/plugin/contactcheck_plugin.h"
+#include "reference/plugin/declaration.h"
 #include "reference/plugin/library_told.h"
-#include "reference/plugin/library_views.h"
 #include "reference/plugin/plugin_library.h"
 
 namespace contactcheck::plugin {
 namespace {
+
+// What is passed without a copy must lie in memory as the header says.
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+static_assert(sizeof(CornerIds) == 8 * sizeof(std::uint32_t));
+static_assert(std::is_same_v<std::uint32_t, decltype(ElementPair::a)>);
+
+template <typename Ids>
+const std::uint32_t* flat(const std::vector<Ids>& ids) {
+  return ids.empty() ? nullptr : ids.front().data();
+}
+
+template <typename Value, std::size_t N>
+std::vector<Value> values_of(std::uint32_t bits, const Value (&order)[N], const char* what) {
+  std::vector<Value> out;
+  for (std::size_t i = 0; i < N; ++i)
+    if ((bits >> i & 1u) != 0) out.push_back(order[i]);
+  if (bits >> N != 0) throw InputError(std::string("declares ") + what + " that do not exist");
+  return out;
+}
+
+template <typename Value, std::size_t N>
+Value value_of(std::uint32_t number, const Value (&order)[N], const char* what) {
+  if (number >= N)
+    throw InputError(std::string("declares ") + what + " " + std::to_string(number) +
+                     ", which does not exist");
+  return order[number];
+}
+
+constexpr std::size_t kLongestMeaning = 200;  // bytes
+
+// The host's side of contactcheck_answer. No exception may pass through the plug-in's frames, but
+// for the end of memory, which ends the worker there as anywhere else.
+ContactSet& answer_of(void* host) { return *static_cast<ContactSet*>(host); }
+
+ElementPair pair_of(const contactcheck_element_pair& p) { return {p.body_a, p.body_b, p.a, p.b}; }
+VertexInBody vertex_of(const contactcheck_vertex_in_body& v) { return {v.body, v.in, v.vertex}; }
+
+template <typename From, typename To, typename Convert>
+void append(const From* items, std::size_t count, std::vector<To>& out, Convert&& convert) {
+  for (std::size_t i = 0; i < count; ++i) out.push_back(convert(items[i]));
+}
+
+void add_bodies(void* host, const contactcheck_body_pair* items, std::size_t count) noexcept {
+  append(items, count, answer_of(host).bodies, [](const contactcheck_body_pair& p) {
+    return BodyPair{p.a, p.b};
+  });
+}
+void add_triangles(void* host, const contactcheck_element_pair* items, std::size_t count) noexcept {
+  append(items, count, answer_of(host).triangles, pair_of);
+}
+void add_cells(void* host, const contactcheck_element_pair* items, std::size_t count) noexcept {
+  append(items, count, answer_of(host).cells, pair_of);
+}
+void add_vertices(void* host, const contactcheck_vertex_in_body* items,
+                  std::size_t count) noexcept {
+  append(items, count, answer_of(host).vertices, vertex_of);
+}
+void add_near(void* host, const contactcheck_near_pair* items, std::size_t count) noexcept {
+  append(items, count, answer_of(host).near, [](const contactcheck_near_pair& p) {
+    return NearPair{p.body, p.other, p.vertex, p.triangle};
+  });
+}
+void add_pieces(void* host, const contactcheck_piece_contact* items, std::size_t count) noexcept {
+  append(items, count, answer_of(host).piece_contacts, [](const contactcheck_piece_contact& c) {
+    return PieceContact{pair_of(c.pieces), c.depth, {c.normal[0], c.normal[1], c.normal[2]}};
+  });
+}
+void add_vertex_contacts(void* host, const contactcheck_vertex_contact* items,
+                         std::size_t count) noexcept {
+  append(items, count, answer_of(host).vertex_contacts, [](const contactcheck_vertex_contact& c) {
+    return VertexContact{vertex_of(c.where), c.depth, {c.normal[0], c.normal[1], c.normal[2]}};
+  });
+}
+
+/// Numbers of points, one after the other.
+const double* numbers(std::span<const Vec3> points) {
+  return points.empty() ? nullptr : points.front().data();
+}
+
+/// A body as a plug-in sees it. Points into the body's shape, which it keeps.
+class BodyView {
+ public:
+  explicit BodyView(const Body& from);
+  BodyView(const BodyView&) = delete;
+  BodyView& operator=(const BodyView&) = delete;
+
+  const contactcheck_body& body() const { return body_; }
+
+ private:
+  void add_lattice(const Lattice& from, const Embedding& embedding);
+
+  Body from_;
+  std::vector<Vec3> rest_nodes_;
+  contactcheck_lattice lattice_ = {};
+  contactcheck_body body_ = {};
+};
+
+BodyView::BodyView(const Body& from) : from_(from) {
+  const TriangleMesh& mesh = from_.shape->mesh;
+  body_.name = from_.name.c_str();
+  body_.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
+  body_.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
+  body_.vertices = numbers(mesh.vertices);
+  body_.triangles = flat(mesh.triangles);
+  if (from_.shape->lattice) add_lattice(*from_.shape->lattice, from_.shape->embedding);
+}
+
+void BodyView::add_lattice(const Lattice& from, const Embedding& embedding) {
+  rest_nodes_ = from.rest_nodes();
+  lattice_.node_count = static_cast<std::uint32_t>(from.nodes.size());
+  lattice_.cell_count = static_cast<std::uint32_t>(from.cells.size());
+  lattice_.rest_nodes = numbers(rest_nodes_);
+  lattice_.cell_nodes = flat(from.cell_nodes);
+  lattice_.home_cell = embedding.home_cell.data();
+  lattice_.local = numbers(embedding.local);
+  lattice_.label_begin = embedding.label_begin.data();
+  lattice_.label_cells = embedding.label_cells.data();
+  body_.lattice = &lattice_;
+}
+
+/// As they are before a plug-in says anything.
+contactcheck_semantics default_semantics() {
+  contactcheck_semantics said = {};
+  said.touching_counts = said.needs_vertices = 1;
+  said.scale = 1.0;
+  return said;
+}
+
+/// @throws InputError for what does not exist or does not fit together
+Semantics semantics_of(const contactcheck_semantics& from) {
+  Semantics s;
+  s.levels = values_of(from.levels, kHeaderLevels, "levels");
+  s.informative = values_of(from.informative, kHeaderLevels, "levels");
+  if (from.question_count > std::size(from.questions))
+    throw InputError("declares too many questions");
+  for (std::uint32_t i = 0; i < from.question_count; ++i)
+    s.questions.push_back(value_of(from.questions[i], kHeaderQuestions, "question"));
+  s.solid = from.solid != 0;
+  s.closed = from.touching_counts != 0;
+  s.exact = from.exact != 0;
+  s.margin = from.margin;
+  s.precision = value_of(from.precision, kHeaderPrecisions, "precision");
+  s.scale = from.scale;
+  s.depth = value_of(from.depth_kind, kHeaderDepthKinds, "kind of depth");
+  s.whole_cells = from.whole_cells != 0;
+  if (from.means != nullptr) s.means = std::string(from.means).substr(0, kLongestMeaning);
+  const std::string fault = semantics_fault(s);
+  if (!fault.empty()) throw InputError("declares what does not fit together: " + fault);
+  return s;
+}
+
+std::uint32_t number_of(Question question) {
+  for (std::uint32_t i = 0; i < std::size(kHeaderQuestions); ++i)
+    if (kHeaderQuestions[i] == question) return i;
+  return CONTACTCHECK_ASK_TRIANGLES;
+}
+
+/// Functions that append to `out`.
+contactcheck_answer answer_into(ContactSet& out) {
+  return {&out,         add_bodies, add_triangles, add_cells,
+          add_vertices, add_near,   add_pieces,    add_vertex_contacts};
+}
 
 class LibraryDetector : public Detector {
  public:

@@ -98,12 +98,6 @@ std::vector<OptionInfo> read_options(const text::JsonField& field) {
   return options;
 }
 
-void read_needs(const text::JsonField& field, Declaration& out) {
-  out.needs_vertices = out.needs_nodes = false;
-  for (const text::JsonField& item : field.items())
-    (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
-}
-
 }  // namespace
 
 Semantics read_semantics(const text::JsonField& field) {
@@ -132,7 +126,11 @@ Declaration read_declaration(const text::JsonField& field) {
   out.summary = optional_line(field, "summary");
   out.version = optional_line(field, "version");
   if (field.has("options")) out.options = read_options(field.at("options"));
-  if (field.has("needs")) read_needs(field.at("needs"), out);
+  if (field.has("needs")) {
+    out.needs_vertices = out.needs_nodes = false;
+    for (const text::JsonField& item : field.at("needs").items())
+      (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
+  }
   out.semantics = read_semantics(field.at("semantics"));
   return out;
 }
@@ -147,20 +145,15 @@ nlohmann::ordered_json to_json(const Declaration& d) {
           {"options", options}, {"needs", needs},       {"semantics", semantics}};
 }
 
-namespace {
-
-std::string levels_fault(const Semantics& s) {
+std::string semantics_fault(const Semantics& s) {
   std::set<Level> levels(s.levels.begin(), s.levels.end());
   levels.insert(s.informative.begin(), s.informative.end());
   if (levels.empty()) return "it claims no level";
   if (levels.size() != s.levels.size() + s.informative.size())
     return "it names a level twice (one that is claimed is not informative beside)";
   if (s.exact && s.levels.empty()) return "it is exact at no level";
-  return "";
-}
 
-// What is judged must have been asked for.
-std::string questions_fault(const Semantics& s) {
+  // What is judged must have been asked for.
   if (s.questions.empty()) return "it answers no question";
   if (std::set<Question>(s.questions.begin(), s.questions.end()).size() != s.questions.size())
     return "it names a question twice";
@@ -170,10 +163,7 @@ std::string questions_fault(const Semantics& s) {
     return "it claims the level cell and does not answer the question cells";
   if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
     return "the question contacts and a kind of depth go together, and it declares one of them";
-  return "";
-}
 
-std::string numbers_fault(const Semantics& s) {
   if (!std::isfinite(s.margin) || s.margin < 0.0) return "its margin is no number from 0 on";
   if (s.claims(Level::kNear) && s.margin == 0.0)
     return "it claims the level near with a margin of 0: nothing is nearer than that";
@@ -185,37 +175,22 @@ std::string numbers_fault(const Semantics& s) {
   return "";
 }
 
-}  // namespace
-
-std::string semantics_fault(const Semantics& semantics) {
-  for (const auto fault : {levels_fault, questions_fault, numbers_fault}) {
-    std::string found = fault(semantics);
-    if (!found.empty()) return found;
-  }
-  return "";
-}
-
-namespace {
-
-// The first that differs, by its key in a declaration.
-const char* changed_key(const Semantics& before, const Semantics& now) {
-  if (before.levels != now.levels) return "levels";
-  if (before.informative != now.informative) return "informative";
-  if (before.questions != now.questions) return "questions";
-  if (before.solid != now.solid) return "body";
-  if (before.closed != now.closed) return "touching";
-  if (before.exact != now.exact) return "exact";
-  if (before.precision != now.precision) return "precision";
-  if (before.depth != now.depth) return "depth_kind";
-  if (before.whole_cells != now.whole_cells) return "whole_cells";
-  if (before.means != now.means) return "means";
-  return nullptr;
-}
-
-}  // namespace
-
 void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now) {
-  if (const char* const key = changed_key(before, now)) refuse_change(from, key);
+  const struct {
+    bool changed;
+    const char* key;  // in a declaration
+  } claims[] = {{before.levels != now.levels, "levels"},
+                {before.informative != now.informative, "informative"},
+                {before.questions != now.questions, "questions"},
+                {before.solid != now.solid, "body"},
+                {before.closed != now.closed, "touching"},
+                {before.exact != now.exact, "exact"},
+                {before.precision != now.precision, "precision"},
+                {before.depth != now.depth, "depth_kind"},
+                {before.whole_cells != now.whole_cells, "whole_cells"},
+                {before.means != now.means, "means"}};
+  for (const auto& claim : claims)
+    if (claim.changed) refuse_change(from, claim.key);
 }
 
 void refuse_change(const std::string& from, const std::string& key) {

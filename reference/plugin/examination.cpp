@@ -30,87 +30,49 @@ constexpr double kMostSeconds = 30.0;
 constexpr std::size_t kLongestAnswer = std::size_t{1} << 20;
 constexpr std::uint64_t kOutputLimit = std::uint64_t{64} << 20;  // as for workers
 
-/// The child that examines, and its limits.
-class Examination {
- public:
-  Examination(const PluginSource& source, const std::filesystem::path& executable,
-              const suite::RunSettings& settings)
-      : source_(source),
-        memory_limit_(settings.memory_limit),
-        seconds_(std::min(settings.call_limit, kMostSeconds)),
-        answer_("contactcheck-examination"),
-        process_(executable,
-                 {"examine", name_of(source.kind),
-                  // A word of its own that begins with '-' would be a flag.
-                  "--text=" + source.text, "--answer-fd",
-                  std::to_string(process::WorkerProcess::kInheritedFd)},
-                 answer_.fd()) {}
-
-  std::string answer() {
-    const std::string limit = watch_to_the_end();
-    const int status = process_.reap();
-    std::string text = answer_.text(kLongestAnswer);
-    // The exit code says nothing: a library may end the process in its own ways afterwards.
-    if (!limit.empty()) refuse(limit);
-    if (text.empty()) refuse("ended in " + process::describe_status(status) + last_words());
-    return text;
-  }
-
- private:
-  std::string watch_to_the_end() {
+/// What a child of this program, which examines the source, has written within its limits.
+std::string answer_of_child(const PluginSource& source, const std::filesystem::path& executable,
+                            const suite::RunSettings& settings) {
+  const double most_seconds = std::min(settings.call_limit, kMostSeconds);
+  process::MemoryFile answer("contactcheck-examination");
+  process::WorkerProcess process(executable,
+                                 {"examine", name_of(source.kind),
+                                  // A text that begins with '-' would be a flag.
+                                  "--text=" + source.text, "--answer-fd",
+                                  std::to_string(process::WorkerProcess::kInheritedFd)},
+                                 answer.fd());
+  std::string fault;  // the limit that it has passed
+  {
     process::InterruptGuard interrupts;
     const Clock::time_point start = Clock::now();
-    while (!process_.has_ended()) {
+    while (fault.empty() && !process.has_ended()) {
       std::this_thread::sleep_for(kPollInterval);
       if (interrupts.interrupted()) {
-        process_.kill();
-        process_.reap();
+        process.kill();
+        process.reap();
         interrupts.pass_on();
       }
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      std::string limit = broken_limit(seconds);
-      if (limit.empty()) continue;
-      process_.kill();
-      return limit;
+      if (std::chrono::duration<double>(Clock::now() - start).count() > most_seconds)
+        fault = "said nothing for " + text::shown(most_seconds) + " s (time limit)";
+      else if (process.resident_bytes() > settings.memory_limit)
+        fault =
+            "took more than " + std::to_string(settings.memory_limit >> 20) + " MiB (memory limit)";
+      else if (process.output_bytes() > kOutputLimit)
+        fault = "wrote without end (output limit)";
     }
-    return "";
+    if (!fault.empty()) process.kill();
   }
-
-  std::string broken_limit(double seconds) const {
-    if (seconds > seconds_) return "said nothing for " + text::shown(seconds_) + " s (time limit)";
-    if (process_.resident_bytes() > memory_limit_)
-      return "took more than " + std::to_string(memory_limit_ >> 20) + " MiB (memory limit)";
-    if (process_.output_bytes() > kOutputLimit) return "wrote without end (output limit)";
-    return "";
+  const int status = process.reap();
+  std::string text = answer.text(kLongestAnswer);
+  // The exit code says nothing: a library may end the process in its own ways afterwards.
+  if (fault.empty() && text.empty()) {
+    const std::string last_words = text::printable_line(process.error_text());
+    fault = "ended in " + process::describe_status(status) +
+            (last_words.empty() ? "" : ": " + last_words);
   }
-
-  std::string last_words() const {
-    const std::string words = text::printable_line(process_.error_text());
-    return words.empty() ? "" : ": " + words;
-  }
-
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError(described(source_) + " " + what + " when it was asked what it is");
-  }
-
-  const PluginSource& source_;
-  std::uint64_t memory_limit_;
-  double seconds_;
-  process::MemoryFile answer_;
-  process::WorkerProcess process_;
-};
-
-Declaration declaration_of(const PluginSource& source) {
-  return source.kind == PluginKind::kLibrary ? PluginLibrary(source.text).declare()
-                                             : declare_command(source.text);
-}
-
-Json answer_of(const PluginSource& source) {
-  try {
-    return {{"declaration", to_json(declaration_of(source))}};
-  } catch (...) {
-    return {{"fault", text::current_exception_text()}};
-  }
+  if (!fault.empty())
+    throw InputError(described(source) + " " + fault + " when it was asked what it is");
+  return text;
 }
 
 void write_all(int fd, const std::string& text) {
@@ -122,12 +84,6 @@ void write_all(int fd, const std::string& text) {
   }
 }
 
-// A sentence of ours names its source already.
-[[noreturn]] void refuse(const PluginSource& source, const std::string& fault) {
-  const std::string name = described(source);
-  throw InputError(fault.rfind(name, 0) == 0 ? fault : name + " cannot be used: " + fault);
-}
-
 }  // namespace
 
 Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& executable,
@@ -135,20 +91,32 @@ Plugin examine_plugin(const PluginSource& source, const std::filesystem::path& e
   Plugin plugin;
   plugin.source = source;
   plugin.content = content_of(source);
-  const std::string text = Examination(source, executable, settings).answer();
+  const std::string text = answer_of_child(source, executable, settings);
   // What the child has written was in reach of the plug-in.
   const std::string document = described(source);
   const text::JsonValue value = text::parse_json(text, document);
   const text::JsonField answer(value, document);
   if (value.kind != text::JsonValue::Kind::kObject) answer.refuse("an object");
-  if (answer.has("fault")) refuse(source, answer.at("fault").text());
+  if (answer.has("fault")) {
+    const std::string fault = answer.at("fault").text();
+    const bool names_source = fault.rfind(document, 0) == 0;  // a sentence of ours does
+    throw InputError(names_source ? fault : document + " cannot be used: " + fault);
+  }
   plugin.declaration = read_declaration(answer.at("declaration"));
   return plugin;
 }
 
 int run_examination(const PluginSource& source, int answer_fd) {
   process::end_with_supervisor();
-  write_all(answer_fd, answer_of(source).dump(-1, ' ', false, Json::error_handler_t::replace));
+  Json answer;
+  try {
+    answer["declaration"] =
+        to_json(source.kind == PluginKind::kLibrary ? PluginLibrary(source.text).declare()
+                                                    : declare_command(source.text));
+  } catch (...) {
+    answer["fault"] = text::current_exception_text();
+  }
+  write_all(answer_fd, answer.dump(-1, ' ', false, Json::error_handler_t::replace));
   _exit(0);  // its destructors may hang
 }
 

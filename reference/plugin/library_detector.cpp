@@ -110,8 +110,6 @@ class BodyView {
   const contactcheck_body& body() const { return body_; }
 
  private:
-  void add_lattice(const Lattice& from, const Embedding& embedding);
-
   Body from_;
   std::vector<Vec3> rest_nodes_;
   contactcheck_lattice lattice_ = {};
@@ -125,15 +123,14 @@ BodyView::BodyView(const Body& from) : from_(from) {
   body_.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   body_.vertices = numbers(mesh.vertices);
   body_.triangles = flat(mesh.triangles);
-  if (from_.shape->lattice) add_lattice(*from_.shape->lattice, from_.shape->embedding);
-}
-
-void BodyView::add_lattice(const Lattice& from, const Embedding& embedding) {
-  rest_nodes_ = from.rest_nodes();
-  lattice_.node_count = static_cast<std::uint32_t>(from.nodes.size());
-  lattice_.cell_count = static_cast<std::uint32_t>(from.cells.size());
+  if (!from_.shape->lattice) return;
+  const Lattice& lattice = *from_.shape->lattice;
+  const Embedding& embedding = from_.shape->embedding;
+  rest_nodes_ = lattice.rest_nodes();
+  lattice_.node_count = static_cast<std::uint32_t>(lattice.nodes.size());
+  lattice_.cell_count = static_cast<std::uint32_t>(lattice.cells.size());
   lattice_.rest_nodes = numbers(rest_nodes_);
-  lattice_.cell_nodes = flat(from.cell_nodes);
+  lattice_.cell_nodes = flat(lattice.cell_nodes);
   lattice_.home_cell = embedding.home_cell.data();
   lattice_.local = numbers(embedding.local);
   lattice_.label_begin = embedding.label_begin.data();

@@ -30,55 +30,45 @@ bool is_name(const std::string& text) {
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
 
-/// The pairs of one stage against the bodies that there are.
-class StageCheck {
- public:
-  StageCheck(const StageRecord& stage, std::span<const contactcheck_body> bodies)
-      : stage_(stage), bodies_(bodies) {}
+void check_number(std::uint64_t number, const std::string& of) {
+  if (number > kMostOfFrame)
+    fail(of + " is " + std::to_string(number) + "; allowed in a frame: up to " +
+         std::to_string(kMostOfFrame));
+}
 
-  void operator()() const {
-    if (stage_.kind == StageRecord::Kind::kLabelCells) check_lattices();
-    for (const BodyPair& pair : stage_.bodies) check_bodies(pair.a, pair.b);
-    for (const ElementPair& pair : stage_.elements) {
-      check_bodies(pair.body_a, pair.body_b);
-      check_element(pair.body_a, pair.a);
-      check_element(pair.body_b, pair.b);
-    }
-  }
-
- private:
-  // Every true pair is looked up in the labels.
-  void check_lattices() const {
-    for (const contactcheck_body& body : bodies_)
+/// The numbers and pairs of one stage against the bodies that there are.
+void check_stage(const StageRecord& stage, std::span<const contactcheck_body> bodies) {
+  const std::string name = "trace: stage \"" + stage.name + "\"";
+  check_number(stage.in, name + ": in");
+  check_number(stage.out, name + ": out");
+  check_number(stage.visited, name + ": visited");
+  if (stage.kind == StageRecord::Kind::kLabelCells)  // every true pair is looked up in the labels
+    for (const contactcheck_body& body : bodies)
       if (body.lattice == nullptr)
-        fail("trace: stage \"" + stage_.name + "\" covers cells, and body \"" + body.name +
-             "\" has none");
-  }
+        fail(name + " covers cells, and body \"" + body.name + "\" has none");
 
-  void check_bodies(std::uint32_t a, std::uint32_t b) const {
-    if (std::max(a, b) >= bodies_.size())
-      refuse("body " + std::to_string(std::max(a, b)) + " of " + std::to_string(bodies_.size()) +
-             " bodies");
-    if (a == b) refuse("body \"" + std::string(bodies_[a].name) + "\" with itself");
-  }
-
-  void check_element(std::uint32_t body, std::uint32_t id) const {
-    const bool triangles = stage_.kind == StageRecord::Kind::kTriangles;
-    const contactcheck_body& of = bodies_[body];
+  const auto check_bodies = [&](std::uint32_t a, std::uint32_t b) {
+    if (std::max(a, b) >= bodies.size())
+      fail(name + " names body " + std::to_string(std::max(a, b)) + " of " +
+           std::to_string(bodies.size()) + " bodies");
+    if (a == b) fail(name + " names body \"" + bodies[a].name + "\" with itself");
+  };
+  const auto check_element = [&](std::uint32_t body, std::uint32_t id) {
+    const bool triangles = stage.kind == StageRecord::Kind::kTriangles;
+    const contactcheck_body& of = bodies[body];
     const std::uint32_t cells = of.lattice == nullptr ? 0 : of.lattice->cell_count;
     const std::uint32_t count = triangles ? of.triangle_count : cells;
     if (id >= count)
-      refuse((triangles ? "triangle " : "cell ") + std::to_string(id) + " of body \"" + of.name +
-             "\", which has " + std::to_string(count));
+      fail(name + " names " + (triangles ? "triangle " : "cell ") + std::to_string(id) +
+           " of body \"" + of.name + "\", which has " + std::to_string(count));
+  };
+  for (const BodyPair& pair : stage.bodies) check_bodies(pair.a, pair.b);
+  for (const ElementPair& pair : stage.elements) {
+    check_bodies(pair.body_a, pair.body_b);
+    check_element(pair.body_a, pair.a);
+    check_element(pair.body_b, pair.b);
   }
-
-  [[noreturn]] void refuse(const std::string& what) const {
-    fail("trace: stage \"" + stage_.name + "\" names " + what);
-  }
-
-  const StageRecord& stage_;
-  std::span<const contactcheck_body> bodies_;
-};
+}
 
 // A stage of owner cells asks for the owner of every triangle.
 void check_owners(const StageTrace& trace, std::span<const contactcheck_body> bodies) {
@@ -96,26 +86,6 @@ void check_owners(const StageTrace& trace, std::span<const contactcheck_body> bo
         fail("trace: owners() names cell " + std::to_string(cell) + " of " + name + ", which has " +
              std::to_string(cells));
   }
-}
-
-void check_number(std::uint64_t number, const std::string& of) {
-  if (number > kMostOfFrame)
-    fail(of + " is " + std::to_string(number) + "; allowed in a frame: up to " +
-         std::to_string(kMostOfFrame));
-}
-
-void check_numbers(const StageRecord& stage) {
-  const std::string of = "trace: stage \"" + stage.name + "\": ";
-  check_number(stage.in, of + "in");
-  check_number(stage.out, of + "out");
-  check_number(stage.visited, of + "visited");
-}
-
-void make_set(StageRecord& stage) {
-  canonicalize(stage.elements);
-  for (BodyPair& pair : stage.bodies)
-    if (pair.a > pair.b) std::swap(pair.a, pair.b);
-  std::sort(stage.bodies.begin(), stage.bodies.end());
 }
 
 }  // namespace
@@ -174,9 +144,11 @@ StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
     if (covers_[i] > CONTACTCHECK_COVERS_TRIANGLES)
       fail("trace: stage \"" + stage.name + "\" covers what does not exist (" +
            std::to_string(covers_[i]) + ")");
-    check_numbers(stage);
-    StageCheck(stage, bodies)();
-    make_set(stage);
+    check_stage(stage, bodies);
+    canonicalize(stage.elements);
+    for (BodyPair& pair : stage.bodies)
+      if (pair.a > pair.b) std::swap(pair.a, pair.b);
+    std::sort(stage.bodies.begin(), stage.bodies.end());
     owners = owners || stage.kind == StageRecord::Kind::kOwnerCells;
   }
   if (owners) check_owners(frame_, bodies);

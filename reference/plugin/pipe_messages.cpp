@@ -36,34 +36,14 @@ std::string message(Json line, const std::string& payload = "") {
   return line.dump() + "\n" + payload;
 }
 
-Json lattice_json(const BodyShape& shape) {
-  if (!shape.lattice) return nullptr;
-  return {{"nodes", shape.lattice->nodes.size()},
-          {"cells", shape.lattice->cells.size()},
-          {"labels", shape.embedding.label_cells.size()}};
-}
-
-void append_lattice(const BodyShape& shape, std::string& out) {
-  append(shape.lattice->rest_nodes(), out);
-  append(shape.lattice->cell_nodes, out);
-  append(shape.embedding.home_cell, out);
-  append(shape.embedding.local, out);
-  append(shape.embedding.label_begin, out);
-  append(shape.embedding.label_cells, out);
-}
-
-// What a command prints for people lands among its messages: then that is what has to be said.
-[[noreturn]] void refuse_words(const std::string& line, const std::string& from,
-                               const char* message) {
-  throw InputError(from + " wrote \"" + text::printable_line(line, kLongestShownLine) +
-                   "\" where its message \"" + message +
-                   "\" was due; standard output is for messages alone, what it prints for people "
-                   "belongs on standard error");
-}
-
 text::JsonValue parsed(const std::string& line, const std::string& from, const char* message) {
   const std::size_t begin = line.find_first_not_of(" \t");
-  if (begin == std::string::npos || line[begin] != '{') refuse_words(line, from, message);
+  // What a command prints for people is among its messages.
+  if (begin == std::string::npos || line[begin] != '{')
+    throw InputError(from + " wrote \"" + text::printable_line(line, kLongestShownLine) +
+                     "\" where its message \"" + message +
+                     "\" was due; standard output is for messages alone, what it prints for people "
+                     "belongs on standard error");
   return text::parse_json(line, from);
 }
 
@@ -76,13 +56,26 @@ std::string prepare_message(const std::vector<Body>& bodies, const Options& opti
   std::string payload;
   for (const Body& body : bodies) {
     const TriangleMesh& mesh = body.shape->mesh;
+    append(mesh.vertices, payload);
+    append(mesh.triangles, payload);
+    Json lattice_json;  // null without a lattice
+    if (body.shape->lattice) {
+      const Lattice& lattice = *body.shape->lattice;
+      const Embedding& embedding = body.shape->embedding;
+      lattice_json = {{"nodes", lattice.nodes.size()},
+                      {"cells", lattice.cells.size()},
+                      {"labels", embedding.label_cells.size()}};
+      append(lattice.rest_nodes(), payload);
+      append(lattice.cell_nodes, payload);
+      append(embedding.home_cell, payload);
+      append(embedding.local, payload);
+      append(embedding.label_begin, payload);
+      append(embedding.label_cells, payload);
+    }
     list.push_back({{"name", body.name},
                     {"vertices", mesh.vertices.size()},
                     {"triangles", mesh.triangles.size()},
-                    {"lattice", lattice_json(*body.shape)}});
-    append(mesh.vertices, payload);
-    append(mesh.triangles, payload);
-    if (body.shape->lattice) append_lattice(*body.shape, payload);
+                    {"lattice", lattice_json}});
   }
   return message({{"message", "prepare"}, {"options", Json(options)}, {"bodies", list}}, payload);
 }
@@ -102,10 +95,6 @@ std::string query_message(Question question) {
 
 Reply::Reply(const std::string& line, std::string from, const char* message)
     : from_(std::move(from)), value_(parsed(line, from_, message)) {
-  require_message(message);
-}
-
-void Reply::require_message(const char* message) const {
   const std::string kind = root().at("message").text();
   if (kind != "error" && kind != "refused") {
     if (kind != message) root().at("message").refuse("\"" + std::string(message) + "\"");
@@ -180,33 +169,6 @@ class Reader {
   std::string_view bytes_;
 };
 
-BodyPair read_bodies(Reader& in) {
-  const std::uint32_t a = in.word(), b = in.word();
-  return {a, b};
-}
-
-NearPair read_near(Reader& in) {
-  const std::uint32_t body = in.word(), other = in.word(), vertex = in.word(), t = in.word();
-  return {body, other, vertex, t};
-}
-
-PieceContact read_piece(Reader& in) {
-  PieceContact contact;
-  contact.pieces = in.elements();
-  contact.depth = in.number();
-  contact.normal = in.vector();
-  return contact;
-}
-
-VertexContact read_vertex_contact(Reader& in) {
-  VertexContact contact;
-  contact.where = in.vertex();
-  in.word();  // keeps the numbers behind it at a multiple of eight
-  contact.depth = in.number();
-  contact.normal = in.vector();
-  return contact;
-}
-
 }  // namespace
 
 void check_contact_counts(const Reply& reply) {
@@ -226,13 +188,32 @@ void read_contacts(const Reply& reply, std::string_view bytes, ContactSet& out) 
     const std::size_t count = count_of(reply, kLists[list++]);
     for (std::size_t i = 0; i < count; ++i) items.push_back(one(in));
   };
-  read(out.bodies, read_bodies);
+  read(out.bodies, [](Reader& r) {
+    const std::uint32_t a = r.word(), b = r.word();
+    return BodyPair{a, b};
+  });
   read(out.triangles, [](Reader& r) { return r.elements(); });
   read(out.cells, [](Reader& r) { return r.elements(); });
   read(out.vertices, [](Reader& r) { return r.vertex(); });
-  read(out.near, read_near);
-  read(out.piece_contacts, read_piece);
-  read(out.vertex_contacts, read_vertex_contact);
+  read(out.near, [](Reader& r) {
+    const std::uint32_t body = r.word(), other = r.word(), vertex = r.word(), t = r.word();
+    return NearPair{body, other, vertex, t};
+  });
+  read(out.piece_contacts, [](Reader& r) {
+    PieceContact contact;
+    contact.pieces = r.elements();
+    contact.depth = r.number();
+    contact.normal = r.vector();
+    return contact;
+  });
+  read(out.vertex_contacts, [](Reader& r) {
+    VertexContact contact;
+    contact.where = r.vertex();
+    r.word();  // keeps the numbers behind it at a multiple of eight
+    contact.depth = r.number();
+    contact.normal = r.vector();
+    return contact;
+  });
 }
 
 }  // namespace contactcheck::plugin

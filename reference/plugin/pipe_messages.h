@@ -44,8 +44,6 @@ class Reply {
   std::size_t bytes() const;
 
  private:
-  void require_message(const char* message) const;
-
   std::string from_;
   text::JsonValue value_;
 };

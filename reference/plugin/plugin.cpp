@@ -26,44 +26,6 @@ void add_file(const fs::path& file, Fnv1a& hash) {
   hash.bytes(bytes.data(), bytes.size());
 }
 
-// A script is edited where its command line stays.
-void add_named_files(const std::string& command, Fnv1a& hash) {
-  hash.bytes(command.data(), command.size());
-  for (const std::string& word : text::shell_words(command)) {
-    std::error_code ignored;
-    if (fs::is_regular_file(word, ignored)) add_file(word, hash);
-  }
-}
-
-// Under the name of another detector, or of a library whose known defects are listed, results would
-// be taken for theirs.
-void require_free_id(const Plugin& plugin, const DetectorCatalog& catalog) {
-  const std::string& id = plugin.declaration.id;
-  const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
-  if (catalog.find(id) != nullptr) throw InputError(claim + "which is another detector's name");
-  if (id == kOracle || adapters::library_of(id) != "contactcheck")
-    throw InputError(claim + "a name that is kept for " +
-                     (id == kOracle ? "the oracle" : adapters::library_of(id)));
-}
-
-DetectorInfo info_of(const Plugin& plugin) {
-  DetectorInfo info;
-  info.id = plugin.declaration.id;
-  info.summary = plugin.declaration.summary;
-  info.options = plugin.declaration.options;
-  const std::string text = plugin.source.text;
-  if (plugin.source.kind == PluginKind::kLibrary) {
-    info.make = [text](const Options& options) {
-      return make_library_detector(PluginLibrary(text), options);
-    };
-  } else {
-    info.make = [text, id = info.id](const Options& options) {
-      return make_pipe_detector(text, id, options);
-    };
-  }
-  return info;
-}
-
 }  // namespace
 
 const char* name_of(PluginKind kind) { return kind == PluginKind::kLibrary ? kLibrary : kCommand; }
@@ -83,7 +45,11 @@ std::string content_of(const PluginSource& source) {
   if (source.kind == PluginKind::kLibrary) {
     add_file(source.text, hash);
   } else {
-    add_named_files(source.text, hash);
+    hash.bytes(source.text.data(), source.text.size());
+    for (const std::string& word : text::shell_words(source.text)) {
+      std::error_code ignored;  // a script is edited and its command line stays
+      if (fs::is_regular_file(word, ignored)) add_file(word, hash);
+    }
   }
   return results::hex(hash.digest());
 }
@@ -107,9 +73,25 @@ Plugin plugin_from_text(const std::string& json) {
 }
 
 void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
-  require_free_id(plugin, catalog);
+  // Under the name of another detector, or of a library whose known defects are listed, results
+  // would be taken for theirs.
+  const std::string& id = plugin.declaration.id;
+  const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
+  if (catalog.find(id) != nullptr) throw InputError(claim + "which is another detector's name");
+  if (id == kOracle || adapters::library_of(id) != "contactcheck")
+    throw InputError(claim + "a name that is kept for " +
+                     (id == kOracle ? "the oracle" : adapters::library_of(id)));
+  DetectorInfo info;
+  info.id = id;
+  info.summary = plugin.declaration.summary;
+  info.options = plugin.declaration.options;
+  info.make = [source = plugin.source, id](const Options& options) {
+    return source.kind == PluginKind::kLibrary
+               ? make_library_detector(PluginLibrary(source.text), options)
+               : make_pipe_detector(source.text, id, options);
+  };
   try {
-    catalog.add(info_of(plugin));
+    catalog.add(std::move(info));
   } catch (const InputError& e) {
     throw InputError(described(plugin.source) + " cannot be used: " + e.what());
   }

@@ -19,15 +19,6 @@ constexpr const char* kStructs[] = {
     "vertex_in_body", "near_pair",  "piece_contact", "vertex_contact", "answer"};
 static_assert(std::size(kStructs) == CONTACTCHECK_STRUCT_COUNT);
 
-using Entry = const contactcheck_plugin* (*)();
-
-Entry entry_of(void* library) { return reinterpret_cast<Entry>(dlsym(library, kEntry)); }
-
-std::string last_error() {
-  const char* const text = dlerror();
-  return text == nullptr ? "no reason was given" : text;
-}
-
 std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
 constexpr const char* kToldStructs[] = {"stage", "trace", "counts"};
@@ -35,13 +26,6 @@ static_assert(std::size(kToldStructs) == CONTACTCHECK_TOLD_COUNT);
 constexpr std::uint32_t kFirstVersion = 1;
 // Of version 1 the table is what stands before the first field that version 2 has added.
 constexpr std::size_t kFirstTableSize = offsetof(contactcheck_plugin, told_sizes);
-
-std::string version_fault(std::uint32_t version) {
-  if (version == kFirstVersion || version == CONTACTCHECK_PLUGIN_ABI) return "";
-  return "speaks version " + std::to_string(version) +
-         " of contactcheck_plugin.h; this program speaks version " + std::to_string(kFirstVersion) +
-         " and version " + std::to_string(CONTACTCHECK_PLUGIN_ABI);
-}
 
 std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t own) {
   if (said == own) return "";
@@ -52,21 +36,17 @@ std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t 
 // Only the first two fields may be read before they are known to be right.
 std::string layout_fault(const contactcheck_plugin* table) {
   if (table == nullptr) return std::string("gave no table from ") + kEntry + "()";
-  std::string fault = version_fault(table->abi_version);
-  if (!fault.empty()) return fault;
+  const std::uint32_t version = table->abi_version;
+  if (version != kFirstVersion && version != CONTACTCHECK_PLUGIN_ABI)
+    return "speaks version " + std::to_string(version) +
+           " of contactcheck_plugin.h; this program speaks version " +
+           std::to_string(kFirstVersion) + " and version " +
+           std::to_string(CONTACTCHECK_PLUGIN_ABI);
   std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;
-  if (table->abi_version == kFirstVersion) own[0] = kFirstTableSize;
-  for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
-    fault = size_fault(kStructs[i], table->struct_sizes[i], own[i]);
-  return fault;
-}
-
-std::string told_fault(const contactcheck_plugin& table) {
-  if (table.trace == nullptr && table.counts == nullptr) return "";
-  const std::uint32_t own[] = CONTACTCHECK_TOLD_SIZES;
+  if (version == kFirstVersion) own[0] = kFirstTableSize;
   std::string fault;
   for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
-    fault = size_fault(kToldStructs[i], table.told_sizes[i], own[i]);
+    fault = size_fault(kStructs[i], table->struct_sizes[i], own[i]);
   return fault;
 }
 
@@ -76,21 +56,13 @@ std::string content_fault(const contactcheck_plugin& table) {
   const bool complete = table.create != nullptr && table.destroy != nullptr &&
                         table.declare != nullptr && table.prepare != nullptr &&
                         table.update != nullptr && table.query != nullptr;
-  return complete ? told_fault(table) : "lacks one of its functions";
-}
-
-OptionInfo option_of(const contactcheck_option& option) {
-  OptionInfo out;
-  out.name = text_of(option.name);
-  out.default_value = text_of(option.default_value);
-  out.help = text_of(option.help);
-  if (option.choices != nullptr)
-    for (const char* const* choice = option.choices; *choice != nullptr; ++choice)
-      out.choices.emplace_back(*choice);
-  out.min = option.min;
-  out.max = option.max;
-  out.integer = option.integer != 0;
-  return out;
+  if (!complete) return "lacks one of its functions";
+  std::string fault;
+  if (table.trace == nullptr && table.counts == nullptr) return fault;
+  const std::uint32_t own[] = CONTACTCHECK_TOLD_SIZES;
+  for (std::size_t i = 0; i < std::size(own) && fault.empty(); ++i)
+    fault = size_fault(kToldStructs[i], table.told_sizes[i], own[i]);
+  return fault;
 }
 
 }  // namespace
@@ -98,8 +70,13 @@ OptionInfo option_of(const contactcheck_option& option) {
 PluginLibrary::PluginLibrary(const std::filesystem::path& file)
     : name_("library \"" + file.string() + "\"") {
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  if (library == nullptr) throw InputError(name_ + " cannot be loaded: " + last_error());
-  const Entry entry = entry_of(library);
+  if (library == nullptr) {
+    const char* const error = dlerror();
+    throw InputError(name_ +
+                     " cannot be loaded: " + (error == nullptr ? "no reason was given" : error));
+  }
+  using Entry = const contactcheck_plugin* (*)();
+  const auto entry = reinterpret_cast<Entry>(dlsym(library, kEntry));
   if (entry == nullptr)
     throw InputError(name_ + " is no detector: it has no function " + kEntry +
                      " (contactcheck_plugin.h)");
@@ -112,21 +89,26 @@ PluginLibrary::PluginLibrary(const std::filesystem::path& file)
   if (!fault.empty()) throw InputError(name_ + " cannot be used: it " + fault);
 }
 
-std::vector<OptionInfo> PluginLibrary::options() const {
-  std::vector<OptionInfo> out;
-  for (std::uint32_t i = 0; i < table_.option_count; ++i)
-    out.push_back(option_of(table_.options[i]));
-  return out;
-}
-
 Declaration PluginLibrary::declare() const {
   Declaration out;
   out.id = text_of(table_.id);
   out.summary = text_of(table_.summary);
   out.version = text_of(table_.version);
-  out.options = options();
   Options defaults;
-  for (const OptionInfo& option : out.options) defaults[option.name] = option.default_value;
+  for (std::uint32_t i = 0; i < table_.option_count; ++i) {
+    const contactcheck_option& from = table_.options[i];
+    OptionInfo& option = out.options.emplace_back();
+    option.name = text_of(from.name);
+    option.default_value = text_of(from.default_value);
+    option.help = text_of(from.help);
+    if (from.choices != nullptr)
+      for (const char* const* choice = from.choices; *choice != nullptr; ++choice)
+        option.choices.emplace_back(*choice);
+    option.min = from.min;
+    option.max = from.max;
+    option.integer = from.integer != 0;
+    defaults[option.name] = option.default_value;
+  }
   const std::unique_ptr<Detector> detector = make_library_detector(*this, defaults);
   out.semantics = detector->semantics();
   out.needs_vertices = detector->needs_vertices();

@@ -26,8 +26,6 @@ class PluginLibrary {
   Declaration declare() const;
 
  private:
-  std::vector<OptionInfo> options() const;
-
   std::string name_;  ///< library "PATH"
   contactcheck_plugin table_ = {};
 };

@@ -12,7 +12,6 @@
 #include "reference/cli/own_detectors.h"
 #include "reference/reduce/defect_search.h"
 #include "reference/reduce/minimal_case.h"
-#include "reference/reduce/printed_test.h"
 #include "reference/reduce/reduction.h"
 #include "reference/reduce/simple_number.h"
 #include "reference/scene/catalogue.h"

@@ -1,4 +1,5 @@
-// A reduced case as text: a family of hard cases with one value, which `contactcheck run` takes.
+// A reduced case as text: a family of hard cases with one value, which `contactcheck run` takes,
+// and a test that the detector's maintainers paste into their suite.
 #pragma once
 
 #include <string>
@@ -30,5 +31,15 @@ std::string family_text(const MinimalCase& minimal);
 
 /// An id made of `words`, as is_id wants it.
 std::string id_from(const std::string& words);
+
+/// What is exactly true of the case and what the detector answered, one sentence each.
+struct CaseAnswers {
+  std::string exact, detector;
+};
+CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
+
+/// A GoogleTest in plain C++17 that needs `<array>` alone: the vertices and triangles of both
+/// meshes bit for bit, with what is to be expected, and what was answered, in comments.
+std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers);
 
 }  // namespace contactcheck::reduce

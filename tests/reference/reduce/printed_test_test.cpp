@@ -1,4 +1,4 @@
-#include "reference/reduce/printed_test.h"
+#include "reference/reduce/minimal_case.h"
 
 #include <gmock/gmock.h>
 

@@ -49,7 +49,7 @@ class ReduceCommand {
     check_words();
     const std::vector<reduce::ReductionTask> tasks = read_tasks();
     make_probe(tasks.front());
-    const reduce::Defect defect = reduce::DefectSearch(*probe_, detector_, is_case_).find(tasks);
+    const reduce::Defect defect = reduce::find_defect(*probe_, detector_, is_case_, tasks);
     const reduce::CaseCandidate whole = reduce::candidate_of(defect.task.snapshot);
     const std::optional<reduce::Reduction> reduction = reduce_defect(defect, whole);
     if (!reduction) refuse_own_lattice(defect);

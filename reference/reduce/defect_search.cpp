@@ -119,11 +119,21 @@ Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
   return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
 }
 
-Defect with_position(Defect defect) {
-  if (names_triangles(defect.finding) && defect.task.pair)
-    defect.finding.general =
-        in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
-  return defect;
+[[noreturn]] void refuse_without_finding(const std::vector<ReductionTask>& tasks,
+                                         const std::string& detector, bool is_case,
+                                         const ProbeVerdict& last) {
+  const ReductionTask& task = tasks.front();
+  const std::string place = tasks.size() == 1 ? where(task) : task.scene + ", every frame";
+  const std::string wanted = (task.kind.empty() ? "wrong" : task.kind) +
+                             (task.level.empty() ? "" : " at level " + task.level);
+  if (last.status != results::Status::kOk)
+    throw InputError(place + ": nothing is " + wanted + ": the answer of " + detector + " is \"" +
+                     name_of(last.status) + "\": " + last.message);
+  std::string why_not_judged;
+  for (const auto& [judged, why] : last.not_judged)
+    if (task.level == name_of(judged)) why_not_judged = ": " + why;
+  throw InputError(place + ": nothing is " + wanted + (is_case ? " any more" : "") +
+                   " in the answer of " + detector + why_not_judged);
 }
 
 }  // namespace
@@ -146,72 +156,52 @@ void require_reducible(const std::string& level) {
                        "one is open");
 }
 
-Defect DefectSearch::find(const std::vector<ReductionTask>& tasks) {
+Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
+                   const std::vector<ReductionTask>& tasks) {
+  std::optional<Defect> found;
+  ProbeVerdict verdict;  // the last one
   for (const ReductionTask& task : tasks) {
     if (task.snapshot.bodies.size() < 2) continue;
-    const ProbeVerdict verdict = probe_.ask(task.snapshot, levels_of(task));
-    const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind);
-    if (finding) return defect_of(task, verdict, *finding);
-    last_ = verdict;
-  }
-  refuse_without_finding(tasks);
-}
-
-Defect DefectSearch::defect_of(const ReductionTask& task, const ProbeVerdict& verdict,
-                               const Finding& finding) {
-  require_reducible(finding.level);
-  Defect defect{task, finding};
-  if (is_case_) return with_position(std::move(defect));
-  if (finding.kind == "error") {
-    defect.task.snapshot = bodies_of_error(task, finding);
-    return defect;
-  }
-  const judge::Disagreement& shown = disagreement_of(verdict, finding);
-  const auto [a, b] = std::minmax(shown.pair.body_a, shown.pair.body_b);
-  defect.task.snapshot = two_of(task.snapshot, a, b);
-  defect.task.pair = triangles_of(shown, task.snapshot);
-  defect.task.cells = cells_of(shown);
-  return with_two_bodies(with_position(std::move(defect)));
-}
-
-Snapshot DefectSearch::bodies_of_error(const ReductionTask& task, const Finding& finding) {
-  const std::size_t count = task.snapshot.bodies.size();
-  for (std::size_t a = 0; a < count; ++a)
-    for (std::size_t b = a + 1; b < count; ++b) {
-      Snapshot two = two_of(task.snapshot, a, b);
-      if (shows(probe_.ask(two, levels_for(finding.level)), finding)) return two;
+    verdict = probe.ask(task.snapshot, levels_of(task));
+    if (const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind)) {
+      found = Defect{task, *finding};
+      break;
     }
-  refuse_more_bodies(task, finding);
-}
+  }
+  if (!found) refuse_without_finding(tasks, detector, is_case, verdict);
 
-// Of more than two bodies the others may have had a part in it.
-Defect DefectSearch::with_two_bodies(const Defect& defect) {
-  if (!shows(probe_.ask(defect.task.snapshot, levels_for(defect.finding.level)), defect.finding))
-    refuse_more_bodies(defect.task, defect.finding);
+  Defect& defect = *found;
+  const Snapshot whole = defect.task.snapshot;
+  require_reducible(defect.finding.level);
+  const auto shows_of_two = [&](const Snapshot& two) {
+    return shows(probe.ask(two, levels_for(defect.finding.level)), defect.finding);
+  };
+  const auto more_bodies = [&] {
+    return InputError(where(defect.task) + ", " + detector + ": " + described(defect.finding) +
+                      " needs more than two of its bodies, and a minimal case has two");
+  };
+  if (defect.finding.kind == "error" && !is_case) {
+    const std::size_t count = whole.bodies.size();
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = a + 1; b < count; ++b) {
+        defect.task.snapshot = two_of(whole, a, b);
+        if (shows_of_two(defect.task.snapshot)) return defect;
+      }
+    throw more_bodies();
+  }
+  if (!is_case) {
+    const judge::Disagreement& shown = disagreement_of(verdict, defect.finding);
+    const auto [a, b] = std::minmax(shown.pair.body_a, shown.pair.body_b);
+    defect.task.snapshot = two_of(whole, a, b);
+    defect.task.pair = triangles_of(shown, whole);
+    defect.task.cells = cells_of(shown);
+  }
+  if (names_triangles(defect.finding) && defect.task.pair)
+    defect.finding.general =
+        in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
+  // Of more than two bodies the others may have had a part in it.
+  if (!is_case && !shows_of_two(defect.task.snapshot)) throw more_bodies();
   return defect;
-}
-
-void DefectSearch::refuse_more_bodies(const ReductionTask& task, const Finding& finding) const {
-  throw InputError(where(task) + ", " + detector_ + ": " + described(finding) +
-                   " needs more than two of its bodies, and a minimal case has two");
-}
-
-void DefectSearch::refuse_without_finding(const std::vector<ReductionTask>& tasks) const {
-  const ReductionTask& task = tasks.front();
-  const std::string place = tasks.size() == 1 ? where(task) : task.scene + ", every frame";
-  const std::string wanted = (task.kind.empty() ? "wrong" : task.kind) +
-                             (task.level.empty() ? "" : " at level " + task.level);
-  if (last_.status != results::Status::kOk)
-    throw InputError(place + ": nothing is " + wanted + ": the answer of " + detector_ + " is \"" +
-                     name_of(last_.status) + "\": " + last_.message);
-  throw InputError(place + ": nothing is " + wanted + (is_case_ ? " any more" : "") +
-                   " in the answer of " + detector_ + why_not_judged(task.level));
-}
-
-std::string DefectSearch::why_not_judged(const std::string& level) const {
-  for (const auto& [judged, why] : last_.not_judged)
-    if (level == name_of(judged)) return ": " + why;
-  return "";
 }
 
 }  // namespace contactcheck::reduce

@@ -24,10 +24,6 @@ std::vector<double> values_along(const Coordinates& c, std::size_t axis) {
   return {values.begin(), values.end()};
 }
 
-bool all_finite(const Coordinates& c) {
-  return std::all_of(c.begin(), c.end(), [](double x) { return std::isfinite(x); });
-}
-
 /// Collects moves and puts them into the order in which they are tried.
 class Moves {
  public:
@@ -35,7 +31,7 @@ class Moves {
 
   void add(Coordinates c, bool exact = true) {
     for (double& x : c) x += 0.0;  // no minus before a zero
-    if (!all_finite(c)) return;
+    if (!std::all_of(c.begin(), c.end(), [](double x) { return std::isfinite(x); })) return;
     const long cost = reading_cost(c);
     if (cost < cost_now_) moves_.push_back({!exact, cost, std::move(c)});
   }
@@ -75,30 +71,6 @@ std::vector<std::size_t> range(std::size_t from, std::size_t to, std::size_t ste
 
 std::vector<std::size_t> along(const Coordinates& c, std::size_t axis) {
   return range(axis, c.size(), kAxes);
-}
-
-void move_values_to_origin(const Coordinates& now, std::size_t axis, Moves& moves) {
-  const std::vector<double> values = values_along(now, axis);
-  for (std::size_t v = 0; v < values.size() && v < kMostTried; ++v) {
-    const double by = values[v];
-    Coordinates moved = changed(now, along(now, axis), [by](double x) { return x - by; });
-    const Coordinates back = changed(moved, along(now, axis), [by](double x) { return x + by; });
-    moves.add(std::move(moved), back == now);
-  }
-}
-
-void move_vertices_to_origin(const Coordinates& now, Moves& moves) {
-  const std::size_t vertices = now.size() / kAxes;
-  for (std::size_t v = 0; v < vertices && v < kMostTried; ++v) {
-    Coordinates moved = now;
-    bool exact = true;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-      const double by = now[kAxes * v + i % kAxes];
-      moved[i] = now[i] - by;
-      exact = exact && moved[i] + by == now[i];
-    }
-    moves.add(std::move(moved), exact);
-  }
 }
 
 void scale(const Coordinates& now, const std::vector<std::size_t>& indices, Moves& moves) {
@@ -144,35 +116,6 @@ void round_set(const Coordinates& now, const std::vector<std::size_t>& indices, 
     moves.add(changed(now, indices, [digits](double x) { return rounded_to_digits(x, digits); }));
 }
 
-/// Takes the first move that shows, as long as there is one.
-class Simplifier {
- public:
-  Simplifier(Coordinates start, const std::function<bool(const Coordinates&)>& shows,
-             const std::function<bool()>& may_go_on)
-      : now_(std::move(start)), shows_(shows), may_go_on_(may_go_on) {}
-
-  template <typename MovesOf>
-  void repeat(MovesOf&& moves_of) {
-    while (take(moves_of(now_))) {
-    }
-  }
-  bool take(const std::vector<Coordinates>& moves) {
-    for (const Coordinates& move : moves) {
-      if (!may_go_on_()) return false;
-      if (!shows_(move)) continue;
-      now_ = move;
-      return true;
-    }
-    return false;
-  }
-  const Coordinates& now() const { return now_; }
-
- private:
-  Coordinates now_;
-  const std::function<bool(const Coordinates&)>& shows_;
-  const std::function<bool()>& may_go_on_;
-};
-
 }  // namespace
 
 long reading_cost(const Coordinates& coordinates) {
@@ -185,8 +128,25 @@ long reading_cost(const Coordinates& coordinates) {
 
 std::vector<Coordinates> translations(const Coordinates& now) {
   Moves moves(now);
-  move_vertices_to_origin(now, moves);
-  for (std::size_t axis = 0; axis < kAxes; ++axis) move_values_to_origin(now, axis, moves);
+  for (std::size_t v = 0; v < now.size() / kAxes && v < kMostTried; ++v) {
+    Coordinates moved = now;
+    bool exact = true;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      const double by = now[kAxes * v + i % kAxes];
+      moved[i] = now[i] - by;
+      exact = exact && moved[i] + by == now[i];
+    }
+    moves.add(std::move(moved), exact);
+  }
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const std::vector<double> values = values_along(now, axis);
+    for (std::size_t v = 0; v < values.size() && v < kMostTried; ++v) {
+      const double by = values[v];
+      Coordinates moved = changed(now, along(now, axis), [by](double x) { return x - by; });
+      const Coordinates back = changed(moved, along(now, axis), [by](double x) { return x + by; });
+      moves.add(std::move(moved), back == now);
+    }
+  }
   return moves.in_order();
 }
 
@@ -246,19 +206,30 @@ std::vector<Coordinates> replaced_coordinate(const Coordinates& now, std::size_t
 Coordinates simplify(Coordinates start, std::size_t first,
                      const std::function<bool(const Coordinates&)>& shows,
                      const std::function<bool()>& may_go_on) {
-  Simplifier simplifier(std::move(start), shows, may_go_on);
+  Coordinates now = std::move(start);
+  const auto take_first_that_shows = [&](const std::vector<Coordinates>& moves) {
+    for (const Coordinates& move : moves) {
+      if (!may_go_on()) return false;
+      if (!shows(move)) continue;
+      now = move;
+      return true;
+    }
+    return false;
+  };
   long before = 0;
   do {
-    before = reading_cost(simplifier.now());
-    simplifier.repeat(translations);
-    simplifier.repeat(scalings);
-    simplifier.repeat(rankings);
-    simplifier.repeat([first](const Coordinates& now) { return roundings(now, first); });
-    simplifier.repeat(replaced_values);
-    for (std::size_t i = 0; i < simplifier.now().size() && may_go_on(); ++i)
-      simplifier.take(replaced_coordinate(simplifier.now(), i));
-  } while (reading_cost(simplifier.now()) < before && may_go_on());
-  return simplifier.now();
+    before = reading_cost(now);
+    for (const auto moves_of : {translations, scalings, rankings})
+      while (take_first_that_shows(moves_of(now))) {
+      }
+    while (take_first_that_shows(roundings(now, first))) {
+    }
+    while (take_first_that_shows(replaced_values(now))) {
+    }
+    for (std::size_t i = 0; i < now.size() && may_go_on(); ++i)
+      take_first_that_shows(replaced_coordinate(now, i));
+  } while (reading_cost(now) < before && may_go_on());
+  return now;
 }
 
 }  // namespace contactcheck::reduce

@@ -51,60 +51,34 @@ scene::Scene scene_of(const std::string& request) {
   return scene;
 }
 
-class ProbeWorker {
- public:
-  ProbeWorker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd)
-      : spec_(catalog.parse(detector)),
-        catalog_(catalog),
-        channel_(channel_fd),
-        surroundings_(true) {}
-
-  void run() {
-    while (const std::optional<std::string> request = channel_.receive()) {
-      const scene::Scene scene = scene_of(*request);
-      const judge::JudgedScene judged = judge::judge_scene(scene, progress_);
-      judge::JudgingTools tools(judged);
-      if (!channel_.send("")) return;
-      if (!channel_.send(to_text(judge(tools)))) return;
-    }
+/// What the detector, made anew, answers. Errors are booked as a worker of a run books them
+/// (suite/guarded_call.cpp).
+ProbeVerdict verdict_on(judge::JudgingTools& tools, const DetectorCatalog& catalog,
+                        const DetectorSpec& spec, process::ProgressWriter& progress) {
+  ProbeVerdict out;
+  const process::FloatEnvironmentGuard guard;
+  try {
+    const std::unique_ptr<Detector> detector = catalog.make(spec);
+    results::Run run;
+    judge::AccuracyOutcome accuracy = judge::run_accuracy(tools, 0, *detector, progress, run);
+    out.levels = run.levels;
+    out.not_judged = run.not_judged;
+    out.missed_length = run.geometry.missed_length.value_or(0.0);
+    out.disagreements = std::move(accuracy.disagreements);
+  } catch (const Unavailable& e) {
+    out.status = results::Status::kAbsent;
+    out.message = e.what();
+  } catch (const RefusedInput& e) {
+    out.status = results::Status::kRefused;
+    out.message = e.what();
+  } catch (...) {
+    out.status = results::Status::kError;
+    out.message = text::current_exception_text();
+    out.how = "threw";
   }
-
- private:
-  // As a worker of a run books it (suite/guarded_call.cpp).
-  ProbeVerdict judge(judge::JudgingTools& tools) {
-    ProbeVerdict out;
-    const process::FloatEnvironmentGuard guard;
-    try {
-      const std::unique_ptr<Detector> detector = catalog_.make(spec_);
-      results::Run run;
-      judge::AccuracyOutcome accuracy = judge::run_accuracy(tools, 0, *detector, progress_, run);
-      out.levels = run.levels;
-      out.not_judged = run.not_judged;
-      out.missed_length = run.geometry.missed_length.value_or(0.0);
-      out.disagreements = std::move(accuracy.disagreements);
-    } catch (const Unavailable& e) {
-      out.status = results::Status::kAbsent;
-      out.message = e.what();
-    } catch (const RefusedInput& e) {
-      out.status = results::Status::kRefused;
-      out.message = e.what();
-    } catch (...) {
-      out.status = results::Status::kError;
-      out.message = text::current_exception_text();
-      out.how = "threw";
-    }
-    guard.check_and_restore();
-    surroundings_.restore();
-    return out;
-  }
-
-  DetectorSpec spec_;
-  const DetectorCatalog& catalog_;
-  Channel channel_;
-  process::Surroundings surroundings_;
-  process::SharedProgress page_;
-  process::ProgressWriter progress_{&page_};
-};
+  guard.check_and_restore();
+  return out;
+}
 
 }  // namespace
 
@@ -122,7 +96,20 @@ std::string probe_request(const Snapshot& snapshot, const std::vector<Level>& le
 int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog, int channel_fd) {
   process::end_with_supervisor();
   try {
-    ProbeWorker(detector, catalog, channel_fd).run();
+    const DetectorSpec spec = catalog.parse(detector);
+    const Channel channel(channel_fd);
+    process::Surroundings surroundings(true);
+    process::SharedProgress page;
+    process::ProgressWriter progress{&page};
+    while (const std::optional<std::string> request = channel.receive()) {
+      const scene::Scene scene = scene_of(*request);
+      const judge::JudgedScene judged = judge::judge_scene(scene, progress);
+      judge::JudgingTools tools(judged);
+      if (!channel.send("")) break;
+      const ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress);
+      surroundings.restore();
+      if (!channel.send(to_text(verdict))) break;
+    }
     return 0;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "contactcheck: %s\n", e.what());

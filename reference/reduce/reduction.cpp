@@ -111,113 +111,88 @@ Vec3 centre(const TriangleMesh& mesh, std::uint32_t triangle) {
   return out;
 }
 
-/// The `count` triangles whose centres lie nearest to that of `centre_of`, which comes first among
-/// equals; in the order of the mesh.
-std::vector<std::uint32_t> nearest_triangles(const TriangleMesh& mesh, std::uint32_t centre_of,
-                                             std::size_t count) {
-  const Vec3 place = centre(mesh, centre_of);
-  std::vector<std::pair<double, std::uint32_t>> by_distance;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    by_distance.emplace_back(t == centre_of ? -1.0 : (centre(mesh, t) - place).squaredNorm(), t);
-  std::sort(by_distance.begin(), by_distance.end());
-  std::vector<std::uint32_t> out;
-  for (std::size_t i = 0; i < by_distance.size() && i < count; ++i)
-    out.push_back(by_distance[i].second);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
+/// Of each mesh the `count` triangles whose centres lie nearest to that of its triangle in `pair`,
+/// which comes first among equals; in the order of the mesh.
 CaseCandidate surroundings_of(const CaseCandidate& whole, const TrianglePair& pair,
                               std::size_t count) {
   std::vector<Piece> pieces;
-  for (std::uint32_t m = 0; m < 2; ++m)
-    for (const std::uint32_t t : nearest_triangles(whole.meshes[m], pair[m], count))
-      pieces.push_back({m, t});
+  for (std::uint32_t m = 0; m < 2; ++m) {
+    const TriangleMesh& mesh = whole.meshes[m];
+    const Vec3 place = centre(mesh, pair[m]);
+    std::vector<std::pair<double, std::uint32_t>> by_distance;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      by_distance.emplace_back(t == pair[m] ? -1.0 : (centre(mesh, t) - place).squaredNorm(), t);
+    std::sort(by_distance.begin(), by_distance.end());
+    std::vector<std::uint32_t> nearest;
+    for (std::size_t i = 0; i < by_distance.size() && i < count; ++i)
+      nearest.push_back(by_distance[i].second);
+    std::sort(nearest.begin(), nearest.end());
+    for (const std::uint32_t t : nearest) pieces.push_back({m, t});
+  }
   return with_pieces(whole, pieces);
 }
 
-// A triangle that has become a segment or a point is another kind of hard case.
-bool none_flatter(const std::vector<int>& dimensions, const std::vector<int>& before) {
-  return std::equal(dimensions.begin(), dimensions.end(), before.begin(), std::greater_equal<>());
+CaseCandidate with_fewer_triangles(const CaseCandidate& now, Questions& shows) {
+  const std::vector<Piece> pieces = pieces_of(now);
+  const auto subset = [&](const std::vector<std::size_t>& items) {
+    std::vector<Piece> kept;
+    for (const std::size_t i : items) kept.push_back(pieces[i]);
+    return with_pieces(now, kept);
+  };
+  std::vector<std::size_t> all(pieces.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> kept = minimal_subset(
+      all, [&](const auto& items) { return shows(subset(items)); }, [&] { return shows.left(); });
+  // A cell has more nodes than its triangle has corners.
+  return kept.size() == all.size() ? now : subset(kept);
 }
 
-class Reducer {
- public:
-  Reducer(const ShowsCandidate& shows, std::size_t budget) : shows_(shows, budget) {}
-
-  std::optional<Reduction> run(const CaseCandidate& whole, const std::optional<TrianglePair>& pair,
-                               const std::vector<CaseCandidate>& cells) {
-    std::optional<CaseCandidate> start;
-    for (const CaseCandidate& candidate : cells)
-      if (!start && shows_(candidate)) start = candidate;
-    if (!start) start = find_start(whole, pair);
-    if (!start) return std::nullopt;
-    CaseCandidate now = *start;
-    while (true) {
-      const std::size_t triangles = now.triangles();
-      now = with_fewer_triangles(now);
-      const std::vector<double> before = coordinates_of(now);
-      now = with_simpler_numbers(now);
-      const bool changed = now.triangles() < triangles || coordinates_of(now) != before;
-      if (!changed || !shows_.left()) break;
-    }
-    return Reduction{now, shows_.asked(), shows_.left()};
-  }
-
- private:
-  std::optional<CaseCandidate> find_start(const CaseCandidate& whole,
-                                          const std::optional<TrianglePair>& pair) {
-    const std::size_t largest =
-        std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
-    for (std::size_t n = 1; pair && n < largest; n *= kGrowth)
-      if (auto start = embedded(surroundings_of(whole, *pair, n))) return start;
-    return embedded(whole);
-  }
-
-  // Without a lattice there is less to understand.
-  std::optional<CaseCandidate> embedded(CaseCandidate candidate) {
-    for (const bool on_nodes : {false, true}) {
-      candidate.on_nodes = on_nodes;
-      if (shows_(candidate)) return candidate;
-    }
-    return std::nullopt;
-  }
-
-  CaseCandidate with_fewer_triangles(const CaseCandidate& now) {
-    const std::vector<Piece> pieces = pieces_of(now);
-    const auto subset = [&](const std::vector<std::size_t>& items) {
-      std::vector<Piece> kept;
-      for (const std::size_t i : items) kept.push_back(pieces[i]);
-      return with_pieces(now, kept);
-    };
-    std::vector<std::size_t> all(pieces.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::vector<std::size_t> kept = minimal_subset(
-        all, [&](const auto& items) { return shows_(subset(items)); },
-        [this] { return shows_.left(); });
-    // A cell has more nodes than its triangle has corners.
-    return kept.size() == all.size() ? now : subset(kept);
-  }
-
-  CaseCandidate with_simpler_numbers(const CaseCandidate& now) {
-    const std::vector<int> dimensions = dimensions_of(now);
-    const auto shows = [&](const Coordinates& coordinates) {
-      const CaseCandidate moved = with_coordinates(now, coordinates);
-      return none_flatter(dimensions_of(moved), dimensions) && shows_(moved);
-    };
-    return with_coordinates(now, simplify(coordinates_of(now), 3 * now.meshes[0].vertices.size(),
-                                          shows, [this] { return shows_.left(); }));
-  }
-
-  Questions shows_;
-};
+CaseCandidate with_simpler_numbers(const CaseCandidate& now, Questions& shows) {
+  const std::vector<int> dimensions = dimensions_of(now);
+  const auto shows_moved = [&](const Coordinates& coordinates) {
+    const CaseCandidate moved = with_coordinates(now, coordinates);
+    const std::vector<int> after = dimensions_of(moved);
+    // A triangle that has become a segment or a point is another kind of hard case.
+    return std::equal(after.begin(), after.end(), dimensions.begin(), std::greater_equal<>()) &&
+           shows(moved);
+  };
+  return with_coordinates(now, simplify(coordinates_of(now), 3 * now.meshes[0].vertices.size(),
+                                        shows_moved, [&] { return shows.left(); }));
+}
 
 }  // namespace
 
 std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<TrianglePair>& pair,
                                 const ShowsCandidate& shows, std::size_t budget,
                                 const std::vector<CaseCandidate>& cells) {
-  return Reducer(shows, budget).run(whole, pair, cells);
+  Questions questions(shows, budget);
+  std::optional<CaseCandidate> start;
+  for (const CaseCandidate& candidate : cells)
+    if (!start && questions(candidate)) start = candidate;
+  // Without a lattice there is less to understand.
+  const auto try_start = [&](CaseCandidate candidate) {
+    for (const bool on_nodes : {false, true}) {
+      candidate.on_nodes = on_nodes;
+      if (!start && questions(candidate)) start = candidate;
+    }
+  };
+  const std::size_t largest =
+      std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
+  for (std::size_t n = 1; !start && pair && n < largest; n *= kGrowth)
+    try_start(surroundings_of(whole, *pair, n));
+  try_start(whole);
+  if (!start) return std::nullopt;
+
+  CaseCandidate now = *start;
+  while (true) {
+    const std::size_t triangles = now.triangles();
+    now = with_fewer_triangles(now, questions);
+    const std::vector<double> before = coordinates_of(now);
+    now = with_simpler_numbers(now, questions);
+    const bool changed = now.triangles() < triangles || coordinates_of(now) != before;
+    if (!changed || !questions.left()) break;
+  }
+  return Reduction{now, questions.asked(), questions.left()};
 }
 
 }  // namespace contactcheck::reduce

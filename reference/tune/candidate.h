@@ -7,7 +7,7 @@
 
 namespace contactcheck::tune {
 
-/// One way to set one thing: "detector" is "ffd-aabb", "cell" is "2", "lattice" is "0.5".
+/// A value on one axis: "detector" is "ffd-aabb", "cell" is "2", "lattice" is "0.5".
 struct Choice {
   std::string axis, value;
 

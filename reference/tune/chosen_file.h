@@ -16,7 +16,7 @@ std::filesystem::path chosen_file(const TuningRequest& request);
 /// @pre one is chosen
 std::string chosen_suite(const Tuning& tuning, const TuningRequest& request);
 
-/// The chosen detector comes from outside: the suite names it, but it must be brought along.
+/// The chosen detector is a plug-in: the suite names it, and the command line must load it.
 /// @pre one is chosen
 bool chosen_from_outside(const Tuning& tuning, const TuningRequest& request);
 

@@ -100,13 +100,6 @@ bool CostBook::price(std::size_t candidate, const ModelKey& key, Measurement& m)
 
 namespace {
 
-// The time per frame of a playback within a question; none where it was not timed.
-std::optional<double> time_of(const results::Run& run, Question question) {
-  for (const results::QuestionTimes& times : run.times)
-    if (times.question == question) return times.playback.frame;
-  return std::nullopt;
-}
-
 const timing::QuestionSamples* found_in(
     const std::map<std::pair<std::string, std::string>, timing::QuestionSamples>& times,
     const std::string& scene, const std::string& detector) {
@@ -117,12 +110,6 @@ const timing::QuestionSamples* found_in(
 // What one side costs in units of the other; nothing where one of them was not timed.
 PairedRun paired(const timing::QuestionSamples* own, const timing::QuestionSamples* anchor) {
   return own != nullptr && anchor != nullptr ? pair_up(*own, *anchor) : PairedRun{};
-}
-
-// Without truth there is nothing to choose by.
-void expect_judged(const std::vector<results::Scene>& scenes) {
-  for (const results::Scene& scene : scenes)
-    if (!scene.unjudged.empty()) throw InputError(scene.unjudged);
 }
 
 // Errors; the cost is still missing.
@@ -184,22 +171,6 @@ std::filesystem::path Measuring::scene_of(const TuneCandidate& candidate) const 
   return models_.at(key_of(candidate)).file;
 }
 
-suite::SceneTask Measuring::task_of(const ModelKey& key,
-                                    const std::vector<std::size_t>& batch) const {
-  suite::SceneTask task;
-  task.id = models_.at(key).id;
-  task.source = models_.at(key).file;
-  std::set<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (names.insert(name).second) task.detectors.push_back(name);
-  };
-  if (!anchor_.empty()) add(anchor_);
-  for (const std::size_t i : batch)
-    if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
-  task.frames = scene::load_any_scene(task.source, request_.settings.frames).frames;
-  return task;
-}
-
 std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& batch) {
   std::set<ModelKey> all = {ModelKey{}};
   for (const std::size_t i : batch) all.insert(key_of(candidates_[i]));
@@ -208,9 +179,24 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
   const results::Results results = run(keys, batch, times);
   const results::Index rows(results);
   if (!book_.has_unit()) choose_anchor(rows, batch);
-  take_times(keys, batch, times);
+  for (const ModelKey& key : keys)
+    book_.take_anchor(key, paired(found_in(times, models_.at(key).id, anchor_),
+                                  found_in(times, own_model().id, anchor_)));
+  for (const std::size_t i : batch) {
+    const std::string& scene = models_.at(key_of(candidates_[i])).id;
+    book_.take(i, paired(found_in(times, scene, candidates_[i].detector),
+                         found_in(times, scene, anchor_)));
+  }
   std::vector<Measurement> found;
-  for (const std::size_t i : batch) found.push_back(read(i, rows));
+  for (const std::size_t i : batch) {
+    const ModelKey key = key_of(candidates_[i]);
+    const results::Run* run = rows.run(models_.at(key).id, candidates_[i].detector);
+    CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
+    Measurement& m = found.emplace_back(errors_of(*run, level_of(request_.question)));
+    m.deviation = models_.at(key).deviation;
+    if (m.failure.empty() && !book_.price(i, key, m))
+      m.failure = std::string("not timed in the question ") + name_of(request_.question);
+  }
   return found;
 }
 
@@ -218,7 +204,17 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
                                 const std::vector<std::size_t>& batch, Times& times) const {
   suite::SuiteRequest suite;
   for (const ModelKey& key : keys) {
-    suite::SceneTask task = task_of(key, batch);
+    suite::SceneTask task;
+    task.id = models_.at(key).id;
+    task.source = models_.at(key).file;
+    std::set<std::string> names;
+    const auto add = [&](const std::string& name) {
+      if (names.insert(name).second) task.detectors.push_back(name);
+    };
+    if (!anchor_.empty()) add(anchor_);
+    for (const std::size_t i : batch)
+      if (key_of(candidates_[i]) == key) add(candidates_[i].detector);
+    task.frames = scene::load_any_scene(task.source, request_.settings.frames).frames;
     if (!task.detectors.empty()) suite.tasks.push_back(std::move(task));
   }
   const suite::ScratchFolder scratch(request_.work);
@@ -233,7 +229,8 @@ results::Results Measuring::run(const std::vector<ModelKey>& keys,
   };
   suite::SuiteOutcome outcome;
   results::Results results = suite::run_suite(suite, listener, &outcome);
-  expect_judged(results.scenes);
+  for (const results::Scene& scene : results.scenes)  // without truth nothing can be chosen by
+    if (!scene.unjudged.empty()) throw InputError(scene.unjudged);
   return results;
 }
 
@@ -244,36 +241,15 @@ void Measuring::choose_anchor(const results::Index& rows, const std::vector<std:
     if (key_of(candidates_[i]) == ModelKey{}) names.push_back(candidates_[i].detector);
   for (const std::string& name : names) {
     const results::Run* run = rows.run(own_model().id, name);
-    const auto time = run == nullptr ? std::nullopt : time_of(*run, request_.question);
-    if (!time || !(*time > 0.0)) continue;
+    if (run == nullptr) continue;
+    const auto times = std::find_if(
+        run->times.begin(), run->times.end(),
+        [&](const results::QuestionTimes& t) { return t.question == request_.question; });
+    if (times == run->times.end() || !(times->playback.frame > 0.0)) continue;
     anchor_ = name;
-    book_.set_unit(*time);
+    book_.set_unit(times->playback.frame);
     return;
   }
-}
-
-void Measuring::take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
-                           const Times& times) {
-  for (const ModelKey& key : keys)
-    book_.take_anchor(key, paired(found_in(times, models_.at(key).id, anchor_),
-                                  found_in(times, own_model().id, anchor_)));
-  for (const std::size_t i : batch) {
-    const std::string& scene = models_.at(key_of(candidates_[i])).id;
-    book_.take(i, paired(found_in(times, scene, candidates_[i].detector),
-                         found_in(times, scene, anchor_)));
-  }
-}
-
-Measurement Measuring::read(std::size_t index, const results::Index& rows) const {
-  const TuneCandidate& candidate = candidates_[index];
-  const ModelKey key = key_of(candidate);
-  const results::Run* run = rows.run(models_.at(key).id, candidate.detector);
-  CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
-  Measurement m = errors_of(*run, level_of(request_.question));
-  m.deviation = models_.at(key).deviation;
-  if (m.failure.empty() && !book_.price(index, key, m))
-    m.failure = std::string("not timed in the question ") + name_of(request_.question);
-  return m;
 }
 
 }  // namespace contactcheck::tune

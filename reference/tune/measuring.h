@@ -120,14 +120,10 @@ class Measuring {
 
   ModelKey key_of(const TuneCandidate& candidate) const;
   const Model& own_model() const { return models_.at({}); }
-  suite::SceneTask task_of(const ModelKey& key, const std::vector<std::size_t>& batch) const;
   Model make_model(const ModelKey& key) const;
   results::Results run(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
                        Times& times) const;
   void choose_anchor(const results::Index& rows, const std::vector<std::size_t>& batch);
-  void take_times(const std::vector<ModelKey>& keys, const std::vector<std::size_t>& batch,
-                  const Times& times);
-  Measurement read(std::size_t index, const results::Index& rows) const;
 
   const std::vector<TuneCandidate>& candidates_;
   MeasuringRequest request_;

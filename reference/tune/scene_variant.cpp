@@ -12,12 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Meshes are named from the scene's folder, which is another one now.
-void make_paths_absolute(Json& mesh, const fs::path& folder) {
-  if (mesh.is_object() && mesh.contains("file"))
-    mesh["file"] = fs::absolute(folder / mesh["file"].get<std::string>()).lexically_normal();
-}
-
 }  // namespace
 
 fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
@@ -28,8 +22,12 @@ fs::path write_scene_variant(const fs::path& file, const std::string& suffix,
     throw InputError(document + " is no scene whose bodies could be others");
   const std::string id = scene["id"].get<std::string>() + "-" + suffix;
   scene["id"] = id;
+  // Meshes are named from the scene's folder, which is another one now.
   for (Json& body : scene["bodies"])
-    if (body.contains("mesh")) make_paths_absolute(body["mesh"], file.parent_path());
+    if (body.contains("mesh") && body["mesh"].is_object() && body["mesh"].contains("file")) {
+      Json& mesh = body["mesh"]["file"];
+      mesh = fs::absolute(file.parent_path() / mesh.get<std::string>()).lexically_normal();
+    }
   change(scene, document);
   fs::create_directories(folder);
   fs::path variant = folder / (id + ".json");

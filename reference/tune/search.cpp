@@ -16,8 +16,8 @@
 namespace contactcheck::tune {
 namespace {
 
-// A guess at what has not been measured yet, from what has: every choice adds an effect of its own,
-// and a smaller one together with the detector it is made for.
+// Guesses the value of candidates that were not measured from those that were: every choice adds an
+// effect, and a smaller one in combination with its detector.
 //
 // Bayesian linear regression with a normal prior on every effect (Bishop, Pattern Recognition and
 // Machine Learning, 2006, 3.3): few measurements give wide guesses, and a choice that was never
@@ -105,7 +105,7 @@ AdditiveModel::Guess AdditiveModel::guess(std::size_t candidate) const {
 // Whether the limits are met is a value of 1 or -1; what options do to it is seldom small.
 constexpr EffectPriors kAccuracyPriors{1.0, 0.3, 0.3, 0.1};
 
-// Races keep within a fifth of the candidates; of few candidates within so many measurements.
+// Races stay within a fifth of the candidates, or within kFewMeasurements where there are few.
 constexpr std::size_t kShareOfMeasurements = 5, kFewMeasurements = 24;
 
 class Search {

@@ -32,106 +32,45 @@ bool is_the_machines(const OptionInfo& option) {
   return option.name == "isa" || option.name == "threads";
 }
 
-// The options that a name sets, to their defaults or not. @pre the catalogue has parsed it
-std::set<std::string> given_in(const std::string& name) {
+/// A detector with every combination of the values of its options. An option that the name sets
+/// stays as it is.
+std::vector<DetectorSpec> varied(const DetectorInfo& info, const DetectorSpec& spec,
+                                 const std::string& name) {
   std::set<std::string> given;
   for (std::size_t at = name.find(':'); at != std::string::npos; at = name.find(',', at + 1))
     given.insert(name.substr(at + 1, name.find('=', at) - at - 1));
-  return given;
+  std::vector<DetectorSpec> specs = {spec};
+  for (const OptionInfo& option : info.options) {
+    if (is_the_machines(option) || given.contains(option.name)) continue;
+    const std::vector<std::string> values = values_of(option);
+    std::vector<DetectorSpec> more;
+    for (const DetectorSpec& one : specs)
+      for (const std::string& value : values) {
+        more.push_back(one);
+        more.back().options[option.name] = value;
+      }
+    specs = std::move(more);
+  }
+  return specs;
 }
 
-bool answers(const DetectorCatalog& catalog, const DetectorSpec& spec, Question question) {
-  const std::unique_ptr<Detector> detector = catalog.make(spec);
-  const Semantics& semantics = detector->semantics();
-  return semantics.answers(question) && semantics.claims(level_of(question));
+/// In the scene's own lattice and with its own deformer, which are not among its choices yet.
+TuneCandidate candidate_of(const DetectorCatalog& catalog, const DetectorInfo& info,
+                           const DetectorSpec& spec) {
+  TuneCandidate candidate;
+  candidate.choices.push_back({"detector", spec.id});
+  candidate.usual = true;
+  std::string options;
+  for (const OptionInfo& o : info.options) {
+    const std::string& value = spec.options.at(o.name);
+    if (!is_the_machines(o)) candidate.choices.push_back({o.name, value});
+    if (value == o.default_value) continue;
+    candidate.usual = false;
+    options += (options.empty() ? ":" : ",") + o.name + "=" + value;
+  }
+  candidate.detector = catalog.parse(spec.id + options).name;
+  return candidate;
 }
-
-class Space {
- public:
-  Space(const DetectorCatalog& catalog, const SpaceRequest& request)
-      : catalog_(catalog), request_(request) {}
-
-  std::vector<TuneCandidate> make() {
-    if (request_.detectors.empty()) {
-      for (const DetectorInfo& info : catalog_.all())
-        if (info.absent_because.empty()) add(info.id, false);
-    } else {
-      for (const std::string& name : request_.detectors) add(name, true);
-    }
-    return std::move(candidates_);
-  }
-
- private:
-  void add(const std::string& name, bool named) {
-    const DetectorSpec spec = catalog_.parse(name);
-    const DetectorInfo& info = *catalog_.find(spec.id);
-    if (named && !info.absent_because.empty())
-      throw InputError("detector \"" + name + "\" is absent: " + info.absent_because);
-    if (!answers(catalog_, spec, request_.question)) {
-      if (named)
-        throw InputError("detector \"" + name + "\" does not answer the question \"" +
-                         name_of(request_.question) + "\"");
-      return;
-    }
-    given_ = given_in(name);
-    vary(info, spec, 0);
-  }
-
-  // An option that the name sets stays as it is.
-  void vary(const DetectorInfo& info, const DetectorSpec& spec, std::size_t option) {
-    if (option == info.options.size()) return add_models(info, spec);
-    const OptionInfo& o = info.options[option];
-    if (is_the_machines(o) || given_.contains(o.name)) return vary(info, spec, option + 1);
-    for (const std::string& value : values_of(o)) {
-      DetectorSpec varied = spec;
-      varied.options[o.name] = value;
-      vary(info, varied, option + 1);
-    }
-  }
-
-  void add_models(const DetectorInfo& info, const DetectorSpec& spec) {
-    const TuneCandidate plain = candidate_of(info, spec);
-    for (const double lattice : request_.lattices) {
-      TuneCandidate candidate = plain;
-      candidate.lattice = lattice;
-      candidate.choices.push_back({"lattice", shortest(lattice)});
-      candidate.usual &= lattice == request_.lattices.front();
-      if (request_.deformers.empty()) candidates_.push_back(candidate);
-      for (const DeformerChoice& deformer : request_.deformers)
-        candidates_.push_back(with(deformer, candidate));
-    }
-  }
-
-  // In the scene's own model, of which nothing is said yet.
-  TuneCandidate candidate_of(const DetectorInfo& info, const DetectorSpec& spec) const {
-    TuneCandidate candidate;
-    candidate.choices.push_back({"detector", spec.id});
-    candidate.usual = true;
-    std::string options;
-    for (const OptionInfo& o : info.options) {
-      const std::string& value = spec.options.at(o.name);
-      if (!is_the_machines(o)) candidate.choices.push_back({o.name, value});
-      if (value == o.default_value) continue;
-      candidate.usual = false;
-      options += (options.empty() ? ":" : ",") + o.name + "=" + value;
-    }
-    candidate.detector = catalog_.parse(spec.id + options).name;
-    return candidate;
-  }
-
-  TuneCandidate with(const DeformerChoice& deformer, TuneCandidate candidate) const {
-    candidate.deformer = deformer.name;
-    candidate.step = deformer.step;
-    candidate.choices.push_back({"deformer", deformer.name});
-    candidate.usual &= deformer.name == request_.deformers.front().name;
-    return candidate;
-  }
-
-  const DetectorCatalog& catalog_;
-  const SpaceRequest& request_;
-  std::set<std::string> given_;  ///< of the name that is varied
-  std::vector<TuneCandidate> candidates_;
-};
 
 }  // namespace
 
@@ -147,7 +86,43 @@ Level level_of(Question question) {
 }
 
 std::vector<TuneCandidate> make_space(const DetectorCatalog& catalog, const SpaceRequest& request) {
-  std::vector<TuneCandidate> candidates = Space(catalog, request).make();
+  const bool named = !request.detectors.empty();
+  std::vector<std::string> names = request.detectors;
+  if (!named)
+    for (const DetectorInfo& info : catalog.all())
+      if (info.absent_because.empty()) names.push_back(info.id);
+
+  std::vector<TuneCandidate> candidates;
+  for (const std::string& name : names) {
+    const DetectorSpec spec = catalog.parse(name);
+    const DetectorInfo& info = *catalog.find(spec.id);
+    if (!info.absent_because.empty())
+      throw InputError("detector \"" + name + "\" is absent: " + info.absent_because);
+    const std::unique_ptr<Detector> detector = catalog.make(spec);
+    const Semantics& semantics = detector->semantics();
+    if (!semantics.answers(request.question) || !semantics.claims(level_of(request.question))) {
+      if (!named) continue;
+      throw InputError("detector \"" + name + "\" does not answer the question \"" +
+                       name_of(request.question) + "\"");
+    }
+    for (const DetectorSpec& one : varied(info, spec, name)) {
+      const TuneCandidate plain = candidate_of(catalog, info, one);
+      for (const double lattice : request.lattices) {
+        TuneCandidate candidate = plain;
+        candidate.lattice = lattice;
+        candidate.choices.push_back({"lattice", shortest(lattice)});
+        candidate.usual &= lattice == request.lattices.front();
+        if (request.deformers.empty()) candidates.push_back(candidate);
+        for (const DeformerChoice& deformer : request.deformers) {
+          TuneCandidate& deformed = candidates.emplace_back(candidate);
+          deformed.deformer = deformer.name;
+          deformed.step = deformer.step;
+          deformed.choices.push_back({"deformer", deformer.name});
+          deformed.usual &= deformer.name == request.deformers.front().name;
+        }
+      }
+    }
+  }
   if (candidates.empty())
     throw InputError(std::string("no detector answers the question \"") +
                      name_of(request.question) + "\"");

@@ -39,7 +39,7 @@ Row header_of(const std::vector<TuneCandidate>& candidates) {
   return row;
 }
 
-// Of the anchor itself there is none: it is what costs are measured in.
+// The anchor has no interval: costs are measured in it.
 std::string interval_of(const Cost& cost) {
   if (!std::isfinite(cost.high_ms)) return "not known";
   if (cost.low_ms == cost.high_ms) return "the anchor";
@@ -150,13 +150,6 @@ std::string deformers_of(const Tuning& tuning) {
   return "deforming, ms a step: " + costs + failures + "\n";
 }
 
-// A paragraph of its own.
-std::string in_markdown(std::string lines) {
-  if (lines.empty()) return lines;
-  lines[0] = 'D';
-  return lines + "\n";
-}
-
 // What intervals in milliseconds do not tell.
 std::string costs_in_words(const Tuning& tuning) {
   if (tuning.anchor.empty()) return "";
@@ -207,7 +200,7 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request, std::siz
   return text;
 }
 
-// The words of a command line that bring the chosen detector along and name it.
+// The arguments of a command line that load the chosen detector and name it.
 std::string detector_in_words(const Tuning& tuning, const TuningRequest& request) {
   const std::string& name = tuning.candidates[tuning.confirmed[*tuning.chosen].candidate].detector;
   const std::string id = name.substr(0, name.find(':'));
@@ -256,9 +249,13 @@ std::string tuning_text(const Tuning& tuning, const TuningRequest& request) {
 }
 
 std::string tuning_markdown(const Tuning& tuning, const TuningRequest& request) {
-  std::string text = "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) +
-                     ".\n\n" + in_markdown(deformers_of(tuning)) +
-                     verdict(tuning, request, tuning.as_cheap.size());
+  std::string text =
+      "# " + heading(tuning, request) + "\n\nLimits: " + limits_in_words(request) + ".\n\n";
+  if (std::string deformers = deformers_of(tuning); !deformers.empty()) {
+    deformers[0] = 'D';
+    text += deformers + "\n";
+  }
+  text += verdict(tuning, request, tuning.as_cheap.size());
   if (tuning.chosen) {
     const HowToRun how = how_to_run(tuning, request);
     text += "\n" + how.words + "\n\n";

@@ -136,7 +136,8 @@ std::vector<std::size_t> as_cheap_as_chosen(const Tuning& tuning, const Limits& 
   return found;
 }
 
-// Beside one another, since the cheapest differ by little; the next ones where none of them holds.
+// The cheapest are measured in one run, since they differ by little; if none meets the limits
+// there, the next ones are.
 void confirm(const TuningRequest& request, const FrameSplit& split, Tuning& tuning) {
   MeasuringRequest held_out = measuring_request(request, tuning, split, &FrameSplit::held_out);
   held_out.anchor = tuning.anchor;
@@ -160,34 +161,20 @@ void confirm(const TuningRequest& request, const FrameSplit& split, Tuning& tuni
       tuning.chosen_scene = tuning.models[i].file.string();
 }
 
-void simulate_all(const TuningRequest& request, const DetectorCatalog& catalog, Teller& teller,
-                  Tuning& tuning) {
-  if (request.space.lattices.size() > 1)
-    throw InputError("--lattice: scene \"" + request.target +
-                     "\" is simulated: in other lattices its materials would be others");
-  SimulationRequest simulation;
-  simulation.scene_file = request.scene_file;
-  simulation.deformers = request.deformers;
-  simulation.frames = request.frames;
-  simulation.work = request.out / "tune";
-  simulation.settings = request.settings;
-  tuning.models = simulate_models(simulation, catalog,
-                                  [&](const std::string& deformer) { teller.simulates(deformer); });
-}
-
-// Those whose simulation failed are told, and have no candidates.
-SpaceRequest with_deformers(const TuningRequest& request, const Tuning& tuning) {
-  SpaceRequest space = request.space;
-  if (request.deformers.empty()) return space;
-  for (const SimulatedModel& model : tuning.models)
-    if (model.failure.empty()) space.deformers.push_back({model.deformer, model.step});
-  return space;
-}
-
 FrameSplit split_of(const TuningRequest& request, const scene::Scene& scene,
                     const DetectorCatalog& catalog, Teller& teller, Tuning& tuning) {
   if (scene.simulation) {
-    simulate_all(request, catalog, teller, tuning);
+    if (request.space.lattices.size() > 1)
+      throw InputError("--lattice: scene \"" + request.target +
+                       "\" is simulated: in other lattices its materials would be others");
+    SimulationRequest simulation;
+    simulation.scene_file = request.scene_file;
+    simulation.deformers = request.deformers;
+    simulation.frames = request.frames;
+    simulation.work = request.out / "tune";
+    simulation.settings = request.settings;
+    tuning.models = simulate_models(
+        simulation, catalog, [&](const std::string& deformer) { teller.simulates(deformer); });
     return tuning.models.front().split;
   }
   if (!request.deformers.empty())
@@ -215,7 +202,11 @@ Tuning tune(const TuningRequest& request, const DetectorCatalog& catalog,
   Teller teller(tuning, request.limits, progress);
   const FrameSplit split =
       split_of(request, scene::load_any_scene(request.scene_file), catalog, teller, tuning);
-  tuning.candidates = make_space(catalog, with_deformers(request, tuning));
+  SpaceRequest space = request.space;
+  if (!request.deformers.empty())
+    for (const SimulatedModel& model : tuning.models)
+      if (model.failure.empty()) space.deformers.push_back({model.deformer, model.step});
+  tuning.candidates = make_space(catalog, space);
   tuning.scene = scene::load_any_scene(split.chosen_by.file).id;
   tuning.frames = count_frames(split.chosen_by);
   tuning.held_out_frames = count_frames(split.held_out);

@@ -18,8 +18,8 @@
 
 namespace contactcheck::reduce {
 
-// Asks a detector about one frame of two bodies after the other, in a process of its own: a
-// detector that crashes, hangs or eats memory ends that process, and this is its answer.
+// Asks a detector about frames of two bodies, one after the other, in a separate process. A
+// detector that crashes, hangs or eats memory ends that process, and that is its answer.
 
 struct ProbeSettings {
   std::filesystem::path executable;  ///< this program, for its hidden subcommand `probe`

@@ -47,17 +47,6 @@ std::string body_text(const CaseCandidate& candidate, std::size_t m) {
          (candidate.on_nodes ? ",\n      \"lattice\": \"nodes\"\n    }" : "\n    }");
 }
 
-std::string levels_text(const std::vector<Level>& levels) {
-  std::string out;
-  for (const Level level : levels) out += (out.empty() ? "" : ", ") + quoted(name_of(level));
-  return "[" + out + "]";
-}
-
-std::string origin_of(const MinimalCase& c) {
-  return "contactcheck reduce: scene " + c.scene + ", " + c.place + ", detector " + c.detector +
-         (c.library.empty() ? "" : " (" + c.library + ")");
-}
-
 }  // namespace
 
 std::string number_text(double value) {
@@ -67,10 +56,16 @@ std::string number_text(double value) {
 
 std::string family_text(const MinimalCase& c) {
   const std::string what = described(c.finding) + " by " + c.detector;
+  const std::string origin = "contactcheck reduce: scene " + c.scene + ", " + c.place +
+                             ", detector " + c.detector +
+                             (c.library.empty() ? "" : " (" + c.library + ")");
+  std::string levels;
+  for (const Level level : c.levels)
+    levels += (levels.empty() ? "" : ", ") + quoted(name_of(level));
   return "{\n  \"id\": " + quoted(c.id) + ",\n  \"title\": " + quoted("Minimal case: " + what) +
-         ",\n  \"origin\": " + quoted(origin_of(c)) + ",\n  \"stresses\": " + quoted(what) +
-         ",\n  \"parameter\": {\"name\": \"case\", \"values\": [\"1\"]},\n  \"levels\": " +
-         levels_text(c.levels) + ",\n  \"bodies\": [\n" + body_text(c.candidate, 0) + ",\n" +
+         ",\n  \"origin\": " + quoted(origin) + ",\n  \"stresses\": " + quoted(what) +
+         ",\n  \"parameter\": {\"name\": \"case\", \"values\": [\"1\"]},\n  \"levels\": " + "[" +
+         levels + "],\n  \"bodies\": [\n" + body_text(c.candidate, 0) + ",\n" +
          body_text(c.candidate, 1) + "\n  ]\n}\n";
 }
 
@@ -112,7 +107,7 @@ std::string array_text(const std::string& element, std::size_t count, const std:
   return out + "  }};\n";
 }
 
-// "2.0", not "2": whoever pastes it into other types than arrays of double gets doubles.
+// "2.0", not "2": pasted into other types than arrays of double, it still gives doubles.
 std::string literal(double value) {
   const std::string text = number_text(value);
   return text.find_first_of(".xe") == std::string::npos ? text + ".0" : text;
@@ -163,10 +158,6 @@ std::string expectation(const Finding& finding) {
   return (finding.kind == "missed" ? "EXPECT_TRUE(" : "EXPECT_FALSE(") + call + ");";
 }
 
-std::string counted(std::uint64_t count, const std::string& level) {
-  return std::to_string(count) + (count == 1 ? " pair" : " pairs") + " at level " + level;
-}
-
 }  // namespace
 
 CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
@@ -177,7 +168,8 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
   return {pair_text(c, d) + " " + truth_text(d.level, missed),
-          counted(counts.reported, d.level) + " of " + std::to_string(counts.truth) +
+          std::to_string(counts.reported) + (counts.reported == 1 ? " pair" : " pairs") +
+              " at level " + d.level + " of " + std::to_string(counts.truth) +
               " true: " + std::to_string(counts.missed) + " missed, " +
               std::to_string(counts.spurious) + " spurious"};
 }

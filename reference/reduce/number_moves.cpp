@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kAxes = 3;
 constexpr int kCostOfValue = 3;
-// Of many vertices or values only so many are tried: a move takes an evaluation, and candidates of
+// At most this many vertices or values are tried: a move takes an evaluation, and candidates of
 // this size are mostly made simpler by the moves of whole axes.
 constexpr std::size_t kMostTried = 32;
 constexpr int kFinestGrid = 52, kMostBits = 52, kMostDigits = 16;

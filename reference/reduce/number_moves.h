@@ -1,4 +1,4 @@
-// Simplest numbers: ways to make the coordinates of a candidate simpler, alone and together.
+// Moves that make the coordinates of a candidate simpler, one at a time or many at once.
 #pragma once
 
 #include <cstddef>

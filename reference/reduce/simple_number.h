@@ -16,9 +16,9 @@ int significant_bits(double value);
 /// Digits of the shortest decimal that reads back as the same double: 0 for 0, 17 at most.
 int decimal_digits(double value);
 
-/// `value` rounded to so many significant bits, ties to even. @pre bits from 1 to 53
+/// `value` rounded to `bits` significant bits, ties to even. @pre bits from 1 to 53
 double rounded_to_bits(double value, int bits);
-/// `value` rounded to so many significant decimal digits. @pre digits from 1 to 17
+/// `value` rounded to `digits` significant decimal digits. @pre digits from 1 to 17
 double rounded_to_digits(double value, int digits);
 
 /// Numbers simpler than `value`, the simplest first: 0, 1, -1, 2, -2, the whole numbers beside it,

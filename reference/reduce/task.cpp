@@ -94,25 +94,16 @@ class CaseElement {
   std::vector<Vec3> nodes_, vertices_;
 };
 
-Snapshot snapshot_of_bodies(const std::vector<Body>& bodies,
-                            const std::vector<std::vector<Vec3>>& nodes,
-                            const std::vector<std::size_t>& which) {
-  Snapshot out;
-  for (const std::size_t b : which) {
-    out.bodies.push_back(bodies[b]);
-    out.nodes.push_back(nodes[b]);
-  }
-  return out;
-}
-
-// The body of less number first: so a detector is given them again in the order of the scene.
+// The body with the lower index comes first: a detector is given them in the order of the scene.
 void take_bodies(const text::JsonField& root, const Recording& recording, ReductionTask& task) {
   CaseElement first(root.at("first"), recording, task.frame),
       second(root.at("second"), recording, task.frame);
   if (first.body() == second.body()) root.at("second").at("body").refuse("another body than first");
   if (first.body() > second.body()) std::swap(first, second);
-  task.snapshot = snapshot_of_bodies(recording.bodies, recording.frames[task.frame],
-                                     {first.body(), second.body()});
+  for (const std::size_t b : {first.body(), second.body()}) {
+    task.snapshot.bodies.push_back(recording.bodies[b]);
+    task.snapshot.nodes.push_back(recording.frames[task.frame][b]);
+  }
   const std::optional<std::uint32_t> a = first.triangle(), b = second.triangle();
   if (a && b) task.pair = TrianglePair{*a, *b};
   const std::optional<std::uint32_t> c = first.cell(), d = second.cell();
@@ -148,19 +139,6 @@ ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
                    : frame_text(frame);
   task.snapshot = {scene.bodies, scene.nodes_of_frame(frame)};
   return task;
-}
-
-/// "TARGET@WHICH"; a file whose own name has an @ stays whole.
-struct SplitTarget {
-  std::string target;
-  std::optional<std::string> which;
-};
-
-SplitTarget split(const std::string& text) {
-  const std::size_t at = text.rfind('@');
-  std::error_code ignored;
-  if (at == std::string::npos || fs::exists(text, ignored)) return {text, std::nullopt};
-  return {text.substr(0, at), text.substr(at + 1)};
 }
 
 std::size_t frame_named(const scene::Scene& scene, const std::string& which) {
@@ -241,18 +219,22 @@ ReductionTask read_case(const fs::path& file) {
 }
 
 std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::path& fixtures) {
-  const SplitTarget named = split(text);
-  const scene::Target target = scene::find_target(named.target, fixtures);
+  const std::size_t at = text.rfind('@');
+  std::error_code ignored;
+  // A file whose own name has an @ stays whole.
+  const bool has_which = at != std::string::npos && !fs::exists(text, ignored);
+  const std::string name = has_which ? text.substr(0, at) : text;
+  const scene::Target target = scene::find_target(name, fixtures);
   if (target.kind == scene::TargetKind::kSuite)
-    throw InputError("\"" + named.target +
+    throw InputError("\"" + name +
                      "\" is a suite; reduce takes a case, a scene, a family "
                      "of hard cases or a recording");
   scene::Scene scene = scene::load_any_scene(target.file);
   if (scene.simulation)
     throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
   scene::place_sweep([](std::size_t) {}, scene);
+  if (has_which) return {task_of_frame(scene, frame_named(scene, text.substr(at + 1)))};
   std::vector<ReductionTask> tasks;
-  if (named.which) return {task_of_frame(scene, frame_named(scene, *named.which))};
   for (std::size_t f = 0; f < scene.frames; ++f) tasks.push_back(task_of_frame(scene, f));
   return tasks;
 }

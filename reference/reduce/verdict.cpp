@@ -13,26 +13,6 @@ using Json = nlohmann::json;
 
 constexpr const char* kError = "error";
 
-Json counts_json(const results::LevelCounts& c) {
-  return {c.truth, c.reported, c.hit, c.missed, c.spurious};
-}
-
-results::LevelCounts counts_from(const Json& j) {
-  return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4)};
-}
-
-Json disagreement_json(const judge::Disagreement& d) {
-  return {d.level, d.kind, d.pair.body_a, d.pair.body_b, d.pair.a, d.pair.b};
-}
-
-judge::Disagreement disagreement_from(const Json& j) {
-  judge::Disagreement d;
-  d.level = j.at(0);
-  d.kind = j.at(1);
-  d.pair = {j.at(2), j.at(3), j.at(4), j.at(5)};
-  return d;
-}
-
 Level level_from(const std::string& name) {
   const std::optional<Level> level = level_from_name(name);
   if (!level) throw std::runtime_error("a verdict names the level \"" + name + "\"");
@@ -58,10 +38,12 @@ bool crosses(const ProbeVerdict& verdict, const std::string& level, const std::s
 
 std::string to_text(const ProbeVerdict& v) {
   Json levels = Json::object(), not_judged = Json::object(), disagreements = Json::array();
-  for (const auto& [level, counts] : v.levels) levels[name_of(level)] = counts_json(counts);
+  for (const auto& [level, c] : v.levels)
+    levels[name_of(level)] = Json::array({c.truth, c.reported, c.hit, c.missed, c.spurious});
   for (const auto& [level, why] : v.not_judged) not_judged[name_of(level)] = why;
   for (const judge::Disagreement& d : v.disagreements)
-    disagreements.push_back(disagreement_json(d));
+    disagreements.push_back(
+        Json::array({d.level, d.kind, d.pair.body_a, d.pair.body_b, d.pair.a, d.pair.b}));
   const Json out = {{"status", static_cast<int>(v.status)},
                     {"message", v.message},
                     {"how", v.how},
@@ -79,10 +61,15 @@ ProbeVerdict verdict_from_text(const std::string& text) try {
   v.message = j.at("message");
   v.how = j.at("how");
   v.missed_length = j.at("missed_length");
-  for (const auto& [name, counts] : j.at("levels").items())
-    v.levels[level_from(name)] = counts_from(counts);
+  for (const auto& [name, c] : j.at("levels").items())
+    v.levels[level_from(name)] = {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4)};
   for (const auto& [name, why] : j.at("not_judged").items()) v.not_judged[level_from(name)] = why;
-  for (const Json& d : j.at("disagreements")) v.disagreements.push_back(disagreement_from(d));
+  for (const Json& from : j.at("disagreements")) {
+    judge::Disagreement& d = v.disagreements.emplace_back();
+    d.level = from.at(0);
+    d.kind = from.at(1);
+    d.pair = {from.at(2), from.at(3), from.at(4), from.at(5)};
+  }
   return v;
 } catch (const Json::exception& e) {
   throw std::runtime_error(std::string("a worker's verdict cannot be read: ") + e.what());

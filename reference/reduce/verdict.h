@@ -15,7 +15,7 @@ namespace contactcheck::reduce {
 struct ProbeVerdict {
   results::Status status = results::Status::kOk;
   std::string message;  ///< of a status other than ok
-  /// Of an error, in words that are the same for the same way: "threw", "signal 11 (...)".
+  /// How an error ended the call, equal for equal errors: "threw", "signal 11 (...)".
   std::string how;
   results::Levels levels;
   std::map<Level, std::string> not_judged;
@@ -37,7 +37,7 @@ struct Finding {
   /// another defect.
   bool crossing = false;
   /// Its triangles are in general position (in_general_position): so must those be that show it
-  /// in a smaller case. Not seen from a verdict alone: whoever has the frame looks after it.
+  /// in a smaller case. A verdict alone does not show it; find_defect sets it from the frame.
   bool general = false;
 };
 

@@ -1,4 +1,4 @@
-// What a detector from outside says about itself, whichever way it comes in.
+// What a plug-in declares about its detector, be it a library or a command.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

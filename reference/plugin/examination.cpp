@@ -64,7 +64,7 @@ std::string answer_of_child(const PluginSource& source, const std::filesystem::p
   }
   const int status = process.reap();
   std::string text = answer.text(kLongestAnswer);
-  // The exit code says nothing: a library may end the process in its own ways afterwards.
+  // The exit code says nothing: a library may end the process by itself afterwards.
   if (fault.empty() && text.empty()) {
     const std::string last_words = text::printable_line(process.error_text());
     fault = "ended in " + process::describe_status(status) +

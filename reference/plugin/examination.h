@@ -1,5 +1,4 @@
-// Asks a detector from outside what it is, in a process of its own: whatever its code does, this
-// program goes on.
+// Asks a plug-in what it is, in a separate process: whatever its code does, this program goes on.
 #pragma once
 
 #include <filesystem>

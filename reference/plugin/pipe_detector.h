@@ -1,4 +1,4 @@
-// A detector in a process of its own, talked to over pipes.
+// A detector in a separate process, which reads frames and writes contacts over pipes.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The messages of the pipe protocol: a line of JSON, and behind it so many bytes as its key `bytes`
-// says. README.md beside this header is their description for those who write the other side.
+// The messages of the pipe protocol: a line of JSON, followed by as many bytes as its key `bytes`
+// says. README.md in this folder describes them for those who write the other side.
 #pragma once
 
 #include <cstddef>

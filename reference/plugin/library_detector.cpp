@@ -15,7 +15,7 @@
 #include "core/types/semantics.h"
 #include "reference/plugin/contactcheck_plugin.h"
 #include "reference/plugin/declaration.h"
-#include "reference/plugin/library_told.h"
+#include "reference/plugin/library_trace.h"
 #include "reference/plugin/plugin_library.h"
 
 namespace contactcheck::plugin {
@@ -234,7 +234,7 @@ class LibraryDetector : public Detector {
 
   std::optional<double> reported_ns() const override {
     if (table().own_ms == nullptr) return std::nullopt;
-    return told_ns(table().own_ms(detector_.get()));
+    return reported_ns_of(table().own_ms(detector_.get()));
   }
 
  private:
@@ -298,8 +298,8 @@ class LibraryDetector : public Detector {
   std::vector<std::unique_ptr<BodyView>> views_;  ///< what bodies_ point into
   std::vector<contactcheck_body> bodies_;
   std::vector<contactcheck_body_state> states_;
-  ToldStages stages_;
-  ToldCounts counts_;
+  TraceCollector stages_;
+  CountsCollector counts_;
   // Last, so that it goes first: destroy() may still read the bodies. A null detector has nothing
   // to destroy.
   std::unique_ptr<void, Destroy> detector_{nullptr, Destroy{nullptr}};

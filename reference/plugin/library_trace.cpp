@@ -1,4 +1,4 @@
-#include "reference/plugin/library_told.h"
+#include "reference/plugin/library_trace.h"
 
 #include <algorithm>
 #include <cstring>
@@ -90,7 +90,7 @@ void check_owners(const StageTrace& trace, std::span<const contactcheck_body> bo
 
 }  // namespace
 
-contactcheck_trace ToldStages::sink() {
+contactcheck_trace TraceCollector::sink() {
   frame_ = {};
   covers_.clear();
   bodies_of_owners_ = 0;
@@ -98,10 +98,10 @@ contactcheck_trace ToldStages::sink() {
   return {this, add_stage, add_owners};
 }
 
-void ToldStages::add_stage(void* host, const contactcheck_stage* stage) noexcept {
-  auto& told = *static_cast<ToldStages*>(host);
-  told.too_many_ = told.too_many_ || told.frame_.stages.size() == kMostItems;
-  if (told.too_many_) return;
+void TraceCollector::add_stage(void* host, const contactcheck_stage* stage) noexcept {
+  auto& collector = *static_cast<TraceCollector*>(host);
+  collector.too_many_ = collector.too_many_ || collector.frame_.stages.size() == kMostItems;
+  if (collector.too_many_) return;
   StageRecord record;
   record.name = bounded(stage->name);
   record.unit = bounded(stage->unit);
@@ -117,22 +117,22 @@ void ToldStages::add_stage(void* host, const contactcheck_stage* stage) noexcept
     const contactcheck_element_pair& p = stage->pairs[i];
     record.elements.push_back({p.body_a, p.body_b, p.a, p.b});
   }
-  told.frame_.stages.push_back(std::move(record));
-  told.covers_.push_back(stage->covers);
+  collector.frame_.stages.push_back(std::move(record));
+  collector.covers_.push_back(stage->covers);
 }
 
-void ToldStages::add_owners(void* host, std::uint32_t body, const std::uint32_t* cells,
-                            std::size_t count) noexcept {
-  auto& told = *static_cast<ToldStages*>(host);
-  told.bodies_of_owners_ = std::max(told.bodies_of_owners_, body + std::uint64_t{1});
-  auto& owner = told.frame_.owner;
+void TraceCollector::add_owners(void* host, std::uint32_t body, const std::uint32_t* cells,
+                                std::size_t count) noexcept {
+  auto& collector = *static_cast<TraceCollector*>(host);
+  collector.bodies_of_owners_ = std::max(collector.bodies_of_owners_, body + std::uint64_t{1});
+  auto& owner = collector.frame_.owner;
   constexpr std::uint32_t kMostBodies = 1u << 20;  // an absurd number must not take the memory
   if (body >= kMostBodies) return;
   if (owner.size() <= body) owner.resize(body + std::size_t{1});
   owner[body].assign(cells, cells + count);
 }
 
-StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
+StageTrace TraceCollector::checked(std::span<const contactcheck_body> bodies) {
   if (too_many_) fail("trace: gives more than " + std::to_string(kMostItems) + " stages");
   if (bodies_of_owners_ > bodies.size())
     fail("trace: owners() names body " + std::to_string(bodies_of_owners_ - 1) + " of " +
@@ -156,7 +156,7 @@ StageTrace ToldStages::checked(std::span<const contactcheck_body> bodies) {
 }
 
 // Sums over frames are made stage by stage.
-void ToldStages::check_shape() {
+void TraceCollector::check_shape() {
   std::vector<std::string> shape;
   for (const StageRecord& stage : frame_.stages) {
     const bool counted = !stage.visited_unit.empty();
@@ -171,17 +171,17 @@ void ToldStages::check_shape() {
   has_shape_ = true;
 }
 
-contactcheck_counts ToldCounts::sink() {
+contactcheck_counts CountsCollector::sink() {
   frame_.clear();
   return {this, add};
 }
 
-void ToldCounts::add(void* host, const char* name, std::uint64_t value) noexcept {
-  auto& frame = static_cast<ToldCounts*>(host)->frame_;
+void CountsCollector::add(void* host, const char* name, std::uint64_t value) noexcept {
+  auto& frame = static_cast<CountsCollector*>(host)->frame_;
   if (frame.size() <= kMostItems) frame.push_back({bounded(name), value});
 }
 
-std::vector<Count> ToldCounts::checked() {
+std::vector<Count> CountsCollector::checked() {
   if (frame_.size() > kMostItems)
     fail("counts: gives more than " + std::to_string(kMostItems) + " counters");
   std::vector<std::string> names;
@@ -200,7 +200,7 @@ std::vector<Count> ToldCounts::checked() {
   return std::exchange(frame_, {});
 }
 
-std::optional<double> told_ns(double milliseconds) {
+std::optional<double> reported_ns_of(double milliseconds) {
   if (!(milliseconds <= kMostMilliseconds))
     fail("own_ms gave " + std::to_string(milliseconds) + " ms; allowed: up to " +
          std::to_string(static_cast<long>(kMostMilliseconds)) + ", or below 0 for none");

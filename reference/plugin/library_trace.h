@@ -1,5 +1,6 @@
-// What a plug-in tells of its work by the C interface: the stages and counters of a frame. It may
-// be anything; what goes on from here names only what is there, and has one shape in every frame.
+// What a plug-in reports of its work by the C interface: the stages and counters of a frame. It may
+// report anything; what is passed on names only bodies and elements that exist, and has the same
+// shape in every frame.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 namespace contactcheck::plugin {
 
 /// The stages of one detector, frame after frame.
-class ToldStages {
+class TraceCollector {
  public:
   /// For one call of the plug-in's trace(): forgets the frame before. Lives as long as this.
   contactcheck_trace sink();
@@ -37,9 +38,9 @@ class ToldStages {
 };
 
 /// The counters of one detector, frame after frame.
-class ToldCounts {
+class CountsCollector {
  public:
-  contactcheck_counts sink();  ///< as of ToldStages
+  contactcheck_counts sink();  ///< as of TraceCollector
   /// @throws std::runtime_error: one sentence with the name and what cannot be so
   std::vector<Count> checked();
 
@@ -53,6 +54,6 @@ class ToldCounts {
 
 /// By a plug-in's own clock, nanoseconds; none below 0.
 /// @throws std::runtime_error for what is no time
-std::optional<double> told_ns(double milliseconds);
+std::optional<double> reported_ns_of(double milliseconds);
 
 }  // namespace contactcheck::plugin

@@ -104,45 +104,59 @@ class DetectorNames {
   bool isas_used_ = false;
 };
 
-class TaskMaker {
- public:
-  TaskMaker(const RunArguments& arguments, const DetectorCatalog& catalog)
-      : arguments_(arguments), catalog_(catalog), names_(arguments, catalog) {}
+// Names of detectors become canonical, with --threads and --isa as options of those that have
+// them. @throws InputError for unknown names
+RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  const fs::path fixtures = scene::fixtures_directory();
+  DetectorNames names(arguments, catalog);
+  RunTasks tasks;
+  const auto is_file = [](const suite::SceneTask& task, const fs::path& file) {
+    const auto* own = std::get_if<fs::path>(&task.source);
+    return own != nullptr && *own == file;
+  };
+  // Detectors of the command line; only where it names none is the suite needed.
+  const auto given_or_of = [&](const char* suite) {
+    return arguments.detectors.empty()
+               ? scene::load_suite(scene::find_target(suite, fixtures).file).detectors
+               : arguments.detectors;
+  };
+  const auto add_scene = [&](const fs::path& file, const Names& detectors) {
+    const Names resolved =
+        names.resolved(arguments.detectors.empty() ? detectors : arguments.detectors);
+    for (const suite::SceneTask& task : tasks.scenes)
+      if (is_file(task, file)) return;
+    tasks.scenes.push_back({"", file, resolved, {}});
+  };
 
-  RunTasks make() {
-    Names targets = arguments_.targets;
-    const bool meshes = !arguments_.meshes.meshes.empty();
-    if (targets.empty() && !arguments_.pairs && !meshes) targets.push_back("default");
-    if (meshes) add_meshes();
-    for (const std::string& name : targets) {
-      const scene::Target target = scene::find_target(name, fixtures_);
-      if (target.kind == scene::TargetKind::kSuite) {
-        add_suite(scene::load_suite(target.file));
-      } else {
-        add_scene(target.file, given_or_of("default"));
-      }
+  Names targets = arguments.targets;
+  if (!arguments.meshes.meshes.empty()) {
+    // Paths in the text are relative to where it will lie, so that it can be kept as it is.
+    const fs::path& kept = arguments.save_scene;
+    const Names resolved = names.resolved(given_or_of("default"));
+    tasks.scenes.push_back(
+        {"",
+         scene::mesh_scene(arguments.meshes,
+                           kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path()),
+         resolved,
+         {}});
+  } else if (targets.empty() && !arguments.pairs) {
+    targets.push_back("default");
+  }
+  for (const std::string& name : targets) {
+    const scene::Target target = scene::find_target(name, fixtures);
+    if (target.kind != scene::TargetKind::kSuite) {
+      add_scene(target.file, given_or_of("default"));
+      continue;
     }
-    if (arguments_.pairs) add_pairs(*arguments_.pairs);
-    names_.require_use_of_isas();
-    return std::move(tasks_);
-  }
-
- private:
-  // Of the command line; only where it names none is the suite needed.
-  Names given_or_of(const char* suite) const {
-    if (!arguments_.detectors.empty()) return arguments_.detectors;
-    return scene::load_suite(scene::find_target(suite, fixtures_).file).detectors;
-  }
-
-  void add_suite(const scene::Suite& suite) {
+    const scene::Suite suite = scene::load_suite(target.file);
     for (const scene::SuiteScene& scene : suite.scenes)
-      add_scene(scene::file_of(scene, fixtures_),
+      add_scene(scene::file_of(scene, fixtures),
                 scene.detectors.empty() ? suite.detectors : scene.detectors);
     for (const scene::SuiteGoal& wanted : suite.goals) {
-      results::Goal& goal = tasks_.goals.emplace_back();
+      results::Goal& goal = tasks.goals.emplace_back();
       goal = {wanted.name,
               wanted.scene,
-              catalog_.parse(wanted.detector).name,
+              catalog.parse(wanted.detector).name,
               wanted.part,
               {},
               {},
@@ -152,54 +166,16 @@ class TaskMaker {
       if (wanted.kind == scene::SuiteGoal::Kind::kPerPair) goal.per = "pair";
       if (wanted.kind == scene::SuiteGoal::Kind::kOverScene) goal.over_scene = wanted.other;
       if (wanted.kind != scene::SuiteGoal::Kind::kOver) continue;
-      goal.over = catalog_.parse(wanted.other).name;
-      for (suite::SceneTask& task : tasks_.scenes)
-        if (is_file(task, scene::find_scene(goal.scene, fixtures_)))
+      goal.over = catalog.parse(wanted.other).name;
+      for (suite::SceneTask& task : tasks.scenes)
+        if (is_file(task, scene::find_scene(goal.scene, fixtures)))
           add_new(goal.over, task.references);
     }
   }
-
-  void add_scene(const fs::path& file, const Names& detectors) {
-    const Names& chosen = arguments_.detectors.empty() ? detectors : arguments_.detectors;
-    const Names resolved = names_.resolved(chosen);
-    for (const suite::SceneTask& task : tasks_.scenes)
-      if (is_file(task, file)) return;
-    tasks_.scenes.push_back({"", file, resolved, {}});
-  }
-
-  // Paths in the text are relative to where it will lie, so that it can be kept as it is.
-  void add_meshes() {
-    const fs::path& kept = arguments_.save_scene;
-    suite::SceneTask task;
-    task.detectors = names_.resolved(given_or_of("default"));
-    task.source = scene::mesh_scene(
-        arguments_.meshes, kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path());
-    tasks_.scenes.push_back(std::move(task));
-  }
-
-  void add_pairs(const scene::PairSpec& pairs) {
-    suite::SceneTask task;
-    task.detectors = names_.resolved(given_or_of("hard"));
-    task.source = pairs;
-    tasks_.scenes.push_back(std::move(task));
-  }
-
-  static bool is_file(const suite::SceneTask& task, const fs::path& file) {
-    const auto* own = std::get_if<fs::path>(&task.source);
-    return own != nullptr && *own == file;
-  }
-
-  const RunArguments& arguments_;
-  const DetectorCatalog& catalog_;
-  const fs::path fixtures_ = scene::fixtures_directory();
-  DetectorNames names_;
-  RunTasks tasks_;
-};
-
-// Names of detectors become canonical, with --threads and --isa as options of those that have
-// them. @throws InputError for unknown names
-RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  return TaskMaker(arguments, catalog).make();
+  if (arguments.pairs)
+    tasks.scenes.push_back({"", *arguments.pairs, names.resolved(given_or_of("hard")), {}});
+  names.require_use_of_isas();
+  return tasks;
 }
 
 // Every scene is read before anything runs: a bad one ends the run before it has written a byte.

@@ -64,10 +64,11 @@ void NodePlaneStageOf<T>::run_contacts(const FfdModels<T>& models, const FfdStat
     const Vec3Of<T> p = probe_position(states[hit.body_a], kVolume, hit.probe);
     const BoxPlanesOf<T>& box = planes(states, hit.body_b, hit.cell_b);
     if (!node_inside(box, p)) continue;
-    const NodeDepth way_out = node_depth(box, p);
-    if (way_out.outward.isZero(0.0)) continue;
+    const NodeDepth penetration = node_depth(box, p);
+    if (penetration.outward.isZero(0.0)) continue;
     for_cells_of_probe(models[hit.body_a], kVolume, hit.probe, [&](std::uint32_t cell) {
-      out.push_back({{hit.body_a, hit.body_b, cell, hit.cell_b}, way_out.depth, -way_out.outward});
+      out.push_back(
+          {{hit.body_a, hit.body_b, cell, hit.cell_b}, penetration.depth, -penetration.outward});
     });
   }
 }

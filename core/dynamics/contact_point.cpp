@@ -80,14 +80,14 @@ void probe_corners(const CellBox& probe, const CellBox& box, bool probe_is_a,
   for (int c = 0; c < 8; ++c) {
     const Vec3& corner = probe.corners[c];
     if (!node_inside(box.planes, corner)) continue;
-    const NodeDepth way_out = node_depth(box.planes, corner);
+    const NodeDepth penetration = node_depth(box.planes, corner);
     // A box that is flattened to a segment or a point excludes nothing and says nothing.
-    if (way_out.outward.isZero(0.0)) continue;
+    if (penetration.outward.isZero(0.0)) continue;
     ContactPoint point;
     point.body_a = pair.body_a;
     point.body_b = pair.body_b;
-    point.depth = way_out.depth;
-    point.normal = probe_is_a ? Vec3(-way_out.outward) : way_out.outward;
+    point.depth = penetration.depth;
+    point.normal = probe_is_a ? Vec3(-penetration.outward) : penetration.outward;
     point.a = blend_of_local(*probe.lattice, probe.cell, corner_of(probe.local, c));
     point.b = blend_of_local(*box.lattice, box.cell, local_in_cell(box, corner));
     if (!probe_is_a) std::swap(point.a, point.b);

@@ -259,11 +259,11 @@ class ContactCollector final : public btCollisionWorld::ContactResultCallback {
   /// Without the margins: a pair that only these bring together has no depth.
   void append_depth(const ElementPair& triangles, const btManifoldPoint& point, bool swapped) {
     const btVector3& n = point.m_normalWorldOnB;  // towards the first object
-    const Vec3 way_out = (swapped ? 1.0 : -1.0) * Vec3(n.x(), n.y(), n.z());
+    const Vec3 outward = (swapped ? 1.0 : -1.0) * Vec3(n.x(), n.y(), n.z());
     const double depth = -static_cast<double>(point.getDistance()) / scale_ - 2.0 * margin_;
-    const bool unit = std::abs(way_out.norm() - 1.0) < 1e-3;  // false for NaN
+    const bool unit = std::abs(outward.norm() - 1.0) < 1e-3;  // false for NaN
     if (!unit || !(depth >= 0.0)) return;
-    out_.piece_contacts.push_back({triangles, depth, way_out.normalized()});
+    out_.piece_contacts.push_back({triangles, depth, outward.normalized()});
   }
 
   BodyPair pair_;

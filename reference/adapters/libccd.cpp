@@ -223,8 +223,8 @@ class CcdBoxDetector final : public Detector {
       const CcdPenetration found = caller_.penetrate(piece(p.body_a, p.a), piece(p.body_b, p.b));
       if (!found.contact) continue;
       out.cells.push_back(p);
-      if (found.way_out)
-        out.piece_contacts.push_back({p, found.way_out->depth, found.way_out->normal});
+      if (found.translation)
+        out.piece_contacts.push_back({p, found.translation->depth, found.translation->normal});
     }
   }
 

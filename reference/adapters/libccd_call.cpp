@@ -114,7 +114,7 @@ using PenetrationCall = int (*)(const void*, const void*, const ccd_t*, ccd_real
 
 struct RawPenetration {
   int code = -1;  ///< 0: contact
-  CcdWayOut way_out;
+  CcdTranslation translation;
 };
 
 RawPenetration call(PenetrationCall function, const CcdSettings& settings, CcdPiece a, CcdPiece b,
@@ -129,14 +129,14 @@ RawPenetration call(PenetrationCall function, const CcdSettings& settings, CcdPi
   RawPenetration out;
   out.code = function(&first, &second, &ccd, &depth, &dir, &position);
   if (out.code == -2) throw std::runtime_error("libccd ran out of memory");
-  out.way_out = {depth / settings.scale, Vec3(dir.v[0], dir.v[1], dir.v[2])};
+  out.translation = {depth / settings.scale, Vec3(dir.v[0], dir.v[1], dir.v[2])};
   return out;
 }
 
-bool usable(const CcdWayOut& way_out) {
+bool usable(const CcdTranslation& translation) {
   // Written so that NaN fails.
-  return way_out.depth >= 0.0 && std::isfinite(way_out.depth) &&
-         std::abs(way_out.normal.norm() - 1.0) < 1e-9;
+  return translation.depth >= 0.0 && std::isfinite(translation.depth) &&
+         std::abs(translation.normal.norm() - 1.0) < 1e-9;
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ CcdPenetration CcdCaller::penetrate_gjk(CcdPiece a, CcdPiece b) {
     verdict_limits_ += budget.asked >= gjk_limit(settings_) ? 1 : 0;
     return {};
   }
-  if (!budget.exceeded()) return contact_with(raw.way_out);
+  if (!budget.exceeded()) return contact_with(raw.translation);
   ++depth_limits_;  // GJK had ended: only EPA gets that far
   return {true, std::nullopt};
 }
@@ -175,15 +175,15 @@ CcdPenetration CcdCaller::penetrate_mpr(CcdPiece a, CcdPiece b) {
   Budget budget{0, mpr_limit(settings_)};
   const RawPenetration raw = call(&ccdMPRPenetration, settings_, a, b, budget);
   support_calls_ += budget.asked;
-  if (!budget.exceeded()) return raw.code == 0 ? contact_with(raw.way_out) : CcdPenetration{};
+  if (!budget.exceeded()) return raw.code == 0 ? contact_with(raw.translation) : CcdPenetration{};
   // Whether it was the verdict or the depth that took so long, only the verdict alone tells.
   if (!intersect(a, b)) return {};
   ++depth_limits_;
   return {true, std::nullopt};
 }
 
-CcdPenetration CcdCaller::contact_with(const CcdWayOut& way_out) {
-  if (usable(way_out)) return {true, way_out};
+CcdPenetration CcdCaller::contact_with(const CcdTranslation& translation) {
+  if (usable(translation)) return {true, translation};
   ++without_direction_;
   return {true, std::nullopt};
 }

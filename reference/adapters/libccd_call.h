@@ -34,14 +34,16 @@ struct CcdSettings {
 /// The hull of these points; not empty.
 using CcdPiece = std::span<const Vec3>;
 
-struct CcdWayOut {
+/// The minimum translation.
+struct CcdTranslation {
   double depth = 0.0;          ///< metres
-  Vec3 normal = Vec3::Zero();  ///< unit; moving the second piece by depth * normal parts them
+  Vec3 normal = Vec3::Zero();  ///< unit; moving the second piece by depth * normal separates them
 };
 
 struct CcdPenetration {
   bool contact = false;
-  std::optional<CcdWayOut> way_out;  ///< none where libccd gave none that is finite and unit
+  std::optional<CcdTranslation>
+      translation;  ///< none where libccd gave none that is finite and unit
 };
 
 class CcdCaller {
@@ -68,7 +70,7 @@ class CcdCaller {
  private:
   CcdPenetration penetrate_gjk(CcdPiece a, CcdPiece b);
   CcdPenetration penetrate_mpr(CcdPiece a, CcdPiece b);
-  CcdPenetration contact_with(const CcdWayOut& way_out);
+  CcdPenetration contact_with(const CcdTranslation& translation);
 
   CcdSettings settings_;
   std::uint64_t support_calls_ = 0;

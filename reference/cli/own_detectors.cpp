@@ -22,53 +22,6 @@ std::size_t end_of_file_name(const std::string& text) {
   return std::min(text.find(':'), text.size());
 }
 
-class BringIn {
- public:
-  BringIn(const suite::RunSettings& settings, const DetectorCatalog& catalog)
-      : settings_(settings) {
-    own_.catalog = catalog;
-  }
-
-  // Commands come first: their detectors may be named, with options, among the others.
-  OwnDetectors of(const std::vector<std::string>& detectors,
-                  const std::vector<std::string>& commands) {
-    std::vector<std::string> ids;
-    for (const std::string& command : commands)
-      ids.push_back(id_of({plugin::PluginKind::kCommand, command}));
-    for (const std::string& detector : detectors)
-      own_.names.push_back(names_library(detector) ? name_in_library(detector) : detector);
-    for (const std::string& id : ids)
-      if (!named(id)) own_.names.push_back(id);
-    return std::move(own_);
-  }
-
- private:
-  std::string name_in_library(const std::string& text) {
-    const std::size_t end = end_of_file_name(text);
-    const fs::path file = fs::absolute(text.substr(0, end)).lexically_normal();
-    return id_of({plugin::PluginKind::kLibrary, file.string()}) + text.substr(end);
-  }
-
-  std::string id_of(const plugin::PluginSource& source) {
-    for (const plugin::Plugin& known : own_.plugins)
-      if (known.source.kind == source.kind && known.source.text == source.text)
-        return known.declaration.id;
-    static const fs::path executable = fs::read_symlink("/proc/self/exe");
-    own_.plugins.push_back(plugin::examine_plugin(source, executable, settings_));
-    plugin::add_plugin(own_.plugins.back(), own_.catalog);
-    return own_.plugins.back().declaration.id;
-  }
-
-  bool named(const std::string& id) const {
-    return std::any_of(own_.names.begin(), own_.names.end(), [&](const std::string& name) {
-      return name.substr(0, name.find(':')) == id;
-    });
-  }
-
-  const suite::RunSettings& settings_;
-  OwnDetectors own_;
-};
-
 }  // namespace
 
 std::vector<std::string> OwnDetectors::records() const {
@@ -92,7 +45,37 @@ OwnDetectors load_own_detectors(const std::vector<std::string>& detectors,
                                 const std::vector<std::string>& commands,
                                 const suite::RunSettings& settings,
                                 const DetectorCatalog& catalog) {
-  return BringIn(settings, catalog).of(detectors, commands);
+  OwnDetectors own;
+  own.catalog = catalog;
+  const auto id_of = [&](const plugin::PluginSource& source) {
+    for (const plugin::Plugin& known : own.plugins)
+      if (known.source.kind == source.kind && known.source.text == source.text)
+        return known.declaration.id;
+    static const fs::path executable = fs::read_symlink("/proc/self/exe");
+    own.plugins.push_back(plugin::examine_plugin(source, executable, settings));
+    plugin::add_plugin(own.plugins.back(), own.catalog);
+    return own.plugins.back().declaration.id;
+  };
+  // Commands come first: their detectors may be named, with options, among the others.
+  std::vector<std::string> ids;
+  for (const std::string& command : commands)
+    ids.push_back(id_of({plugin::PluginKind::kCommand, command}));
+  for (const std::string& detector : detectors) {
+    if (!names_library(detector)) {
+      own.names.push_back(detector);
+      continue;
+    }
+    const std::size_t end = end_of_file_name(detector);
+    const fs::path file = fs::absolute(detector.substr(0, end)).lexically_normal();
+    own.names.push_back(id_of({plugin::PluginKind::kLibrary, file.string()}) +
+                        detector.substr(end));
+  }
+  for (const std::string& id : ids)
+    if (std::ranges::none_of(own.names, [&](const std::string& name) {
+          return name.substr(0, name.find(':')) == id;
+        }))
+      own.names.push_back(id);
+  return own;
 }
 
 }  // namespace contactcheck::cli

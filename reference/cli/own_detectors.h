@@ -1,4 +1,4 @@
-// Detectors that the command line brings along: shared libraries and commands (reference/plugin).
+// Plug-ins that the command line names: shared libraries and commands (reference/plugin).
 #pragma once
 
 #include <string>

@@ -49,8 +49,8 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
   return motion;
 }
 
-std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& driver,
-                                               std::size_t wanted, const OnStep& on_step) {
+std::vector<SimulationState> states_along_motion(const Scene& scene, Detector& driver,
+                                                 std::size_t wanted, const OnStep& on_step) {
   const std::size_t steps = scene.frames * scene.simulation->every;
   const std::size_t count = std::min(wanted, steps);
   DrivenSimulation driven(scene, driver);

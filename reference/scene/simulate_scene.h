@@ -34,8 +34,8 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
 
 /// The states before `wanted` steps, spread evenly over the motion (all of them where there are
 /// fewer): what steps may be timed from. @throws as simulate()
-std::vector<SimulationState> states_on_the_way(const Scene& scene, Detector& driver,
-                                               std::size_t wanted, const OnStep& on_step);
+std::vector<SimulationState> states_along_motion(const Scene& scene, Detector& driver,
+                                                 std::size_t wanted, const OnStep& on_step);
 
 /// What can be told without a step; nothing to do for scenes that are not simulated. The driver is
 /// not made: a library's code runs in workers alone.

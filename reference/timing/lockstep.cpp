@@ -75,7 +75,7 @@ std::vector<Runner> make_runners(const scene::Scene& scene, std::vector<Lockstep
 void run_lockstep(const scene::Scene& scene, Detector& driver, const LockstepSettings& settings,
                   std::vector<LockstepEntry>& entries, process::ProgressWriter& progress) {
   const std::vector<SimulationState> states =
-      scene::states_on_the_way(scene, driver, settings.steps, [&](std::size_t step) {
+      scene::states_along_motion(scene, driver, settings.steps, [&](std::size_t step) {
         progress.enter(process::SharedProgress::kNoDetector, step, process::Phase::kTruth);
       });
   for (LockstepEntry& entry : entries) {

@@ -28,7 +28,7 @@ class StepTimer {
   StepTimer(const scene::Scene& scene, const DetectorCatalog& catalog,
             const StepCostSettings& settings, const scene::OnStep& on_step)
       : driver_(catalog.make(catalog.parse(scene.simulation->driver))),
-        states_(scene::states_on_the_way(scene, *driver_, settings.steps, on_step)),
+        states_(scene::states_along_motion(scene, *driver_, settings.steps, on_step)),
         driven_(scene, *driver_),
         now_ms_(settings.now_ms),
         samples_(states_.size()) {}

@@ -64,13 +64,13 @@ TEST(LibccdCall, DepthIsHowFarAndTheNormalWhereTheSecondPieceHasToGo) {
           adapters::CcdCaller caller(settings(algorithm, 100, scale));
           const Vec3 out = sign * Vec3::Unit(axis);
           const adapters::CcdPenetration moved = caller.penetrate(still, cube(lo));
-          ASSERT_TRUE(moved.way_out) << axis << " " << sign << " " << scale;
-          EXPECT_NEAR(moved.way_out->depth, 0.1, 1e-9);
-          EXPECT_NEAR((moved.way_out->normal - out).norm(), 0.0, 1e-9);
+          ASSERT_TRUE(moved.translation) << axis << " " << sign << " " << scale;
+          EXPECT_NEAR(moved.translation->depth, 0.1, 1e-9);
+          EXPECT_NEAR((moved.translation->normal - out).norm(), 0.0, 1e-9);
           const adapters::CcdPenetration swapped = caller.penetrate(cube(lo), still);
-          ASSERT_TRUE(swapped.way_out) << axis << " " << sign << " " << scale;
-          EXPECT_NEAR(swapped.way_out->depth, 0.1, 1e-9);
-          EXPECT_NEAR((swapped.way_out->normal + out).norm(), 0.0, 1e-9);
+          ASSERT_TRUE(swapped.translation) << axis << " " << sign << " " << scale;
+          EXPECT_NEAR(swapped.translation->depth, 0.1, 1e-9);
+          EXPECT_NEAR((swapped.translation->normal + out).norm(), 0.0, 1e-9);
         }
       }
     }
@@ -82,8 +82,8 @@ TEST(LibccdCall, OfConcentricCubesMprGivesMoreThanTheShortestWay) {
   const Corners big = cube(Vec3(-1, -1, -1), 2), small = cube(Vec3(-0.5, -0.5, -0.5));
   adapters::CcdCaller gjk(settings(adapters::CcdAlgorithm::kGjk)),
       mpr(settings(adapters::CcdAlgorithm::kMpr));
-  EXPECT_NEAR(gjk.penetrate(big, small).way_out.value().depth, 1.5, 1e-9);
-  EXPECT_NEAR(mpr.penetrate(big, small).way_out.value().depth, 1.6583, 1e-3);
+  EXPECT_NEAR(gjk.penetrate(big, small).translation.value().depth, 1.5, 1e-9);
+  EXPECT_NEAR(mpr.penetrate(big, small).translation.value().depth, 1.6583, 1e-3);
 }
 
 // libccd 2.1, prior work C1: GJK ends on a face of the difference, and EPA takes that for touching.
@@ -95,10 +95,10 @@ TEST(LibccdCall, CubesInLineAreInContactWithoutADirectionForGjk) {
       mpr(settings(adapters::CcdAlgorithm::kMpr));
   const adapters::CcdPenetration found = gjk.penetrate(a, b);
   EXPECT_TRUE(found.contact);
-  EXPECT_FALSE(found.way_out);
+  EXPECT_FALSE(found.translation);
   EXPECT_EQ(gjk.without_direction(), 1u);
   EXPECT_THAT(gjk.notes(), ElementsAre(HasSubstr("no finite depth or no direction")));
-  EXPECT_NEAR(mpr.penetrate(a, b).way_out.value().depth, 0.1, 1e-9);
+  EXPECT_NEAR(mpr.penetrate(a, b).translation.value().depth, 0.1, 1e-9);
   EXPECT_THAT(mpr.notes(), IsEmpty());
 }
 
@@ -112,7 +112,7 @@ TEST(LibccdCall, TouchingCubesAreAHitForGjkAndNoneForMpr) {
     EXPECT_TRUE(gjk.intersect(first, second));
     const adapters::CcdPenetration found = gjk.penetrate(first, second);
     EXPECT_TRUE(found.contact);
-    EXPECT_FALSE(found.way_out);
+    EXPECT_FALSE(found.translation);
     EXPECT_FALSE(mpr.intersect(first, second));
     EXPECT_FALSE(mpr.penetrate(first, second).contact);
   }
@@ -172,7 +172,7 @@ TEST(LibccdCall, DepthOfRoundPiecesIsFarTooSmallByEpaAndABitTooLargeByMpr) {
     adapters::CcdSettings fine = settings(algorithm);
     fine.epa_tolerance = fine.mpr_tolerance = 1e-12;
     adapters::CcdCaller caller(fine);
-    return caller.penetrate(a, b).way_out.value().depth;
+    return caller.penetrate(a, b).translation.value().depth;
   };
   EXPECT_THAT(depth(adapters::CcdAlgorithm::kGjk), AllOf(Gt(1.2), Lt(1.5)));
   EXPECT_THAT(depth(adapters::CcdAlgorithm::kMpr), AllOf(Gt(1.86), Lt(1.95)));
@@ -192,11 +192,11 @@ TEST(LibccdCall, DepthThatTakesTooLongIsLeftOutOfAContact) {
     EXPECT_TRUE(limited.intersect(a, b));
     const adapters::CcdPenetration found = limited.penetrate(a, b);
     EXPECT_TRUE(found.contact);
-    EXPECT_FALSE(found.way_out);
+    EXPECT_FALSE(found.translation);
     EXPECT_EQ(limited.depth_limits(), 1u);
     EXPECT_EQ(limited.verdict_limits(), 0u);
     EXPECT_THAT(limited.notes(), ElementsAre(HasSubstr("contacts without a depth")));
-    EXPECT_TRUE(free.penetrate(a, b).way_out);
+    EXPECT_TRUE(free.penetrate(a, b).translation);
     EXPECT_THAT(free.notes(), IsEmpty());
   }
 }
@@ -274,8 +274,8 @@ TEST(LibccdCall, EpaStopsEarlierByACoarserTolerance) {
   adapters::CcdSettings coarse = settings(adapters::CcdAlgorithm::kGjk);
   coarse.epa_tolerance = 1.0;
   adapters::CcdCaller rough(coarse), fine(settings(adapters::CcdAlgorithm::kGjk));
-  EXPECT_LT(rough.penetrate(a, b).way_out.value().depth,
-            fine.penetrate(a, b).way_out.value().depth);
+  EXPECT_LT(rough.penetrate(a, b).translation.value().depth,
+            fine.penetrate(a, b).translation.value().depth);
   EXPECT_LT(rough.support_calls(), fine.support_calls());
 }
 

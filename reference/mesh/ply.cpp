@@ -89,7 +89,10 @@ std::string next_line(std::istream& in) {
 std::optional<Header> read_header(std::istream& in) {
   if (text::words_of(next_line(in)) != std::vector<std::string>{"ply"}) return std::nullopt;
   const std::vector<std::string> format = text::words_of(next_line(in));
-  if (format.size() != 3 || format[0] != "format") return std::nullopt;
+  if (format.size() != 3 || format[0] != "format" ||
+      (format[1] != "ascii" && format[1] != "binary_little_endian" &&
+       format[1] != "binary_big_endian"))
+    return std::nullopt;
   Header header{format[1], {}};
   while (in) {
     const std::vector<std::string> words = text::words_of(next_line(in));

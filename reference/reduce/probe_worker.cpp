@@ -52,7 +52,7 @@ scene::Scene scene_of(const std::string& request) {
 }
 
 /// What the detector, made anew, answers. Errors are booked as a worker of a run books them
-/// (suite/guarded_call.cpp).
+/// (suite/worker_state.h).
 ProbeVerdict verdict_on(judge::JudgingTools& tools, const DetectorCatalog& catalog,
                         const DetectorSpec& spec, process::ProgressWriter& progress) {
   ProbeVerdict out;

@@ -38,8 +38,8 @@ const std::string kP = kFineText + " 0 0", kX = "1 0 0", kY = "0 1 0", kZ = "0 0
 const std::string kStl = "solid t\n" + facet(kP, kY, kX) + facet(kP, kX, kZ) + facet(kX, kY, kZ) +
                          facet(kP, kZ, kY) + "endsolid t\n";
 
-void append(std::string& bytes, std::uint32_t value) {
-  for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+void append(std::string& bytes, std::uint32_t value, bool big = false) {
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * (big ? 3 - i : i)) & 0xff);
 }
 
 std::string binary_stl(float first) {
@@ -58,15 +58,15 @@ std::string binary_stl(float first) {
 }
 
 // One triangle of floats.
-std::string binary_ply() {
-  std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
-      "property float y\nproperty float z\nelement face 1\n"
-      "property list uchar int vertex_indices\nend_header\n";
+std::string binary_ply(bool big = false) {
+  std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                      "_endian 1.0\nelement vertex 3\nproperty float x\n"
+                      "property float y\nproperty float z\nelement face 1\n"
+                      "property list uchar int vertex_indices\nend_header\n";
   for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
-    append(bytes, std::bit_cast<std::uint32_t>(x));
+    append(bytes, std::bit_cast<std::uint32_t>(x), big);
   bytes += '\3';
-  for (const std::uint32_t corner : {0u, 1u, 2u}) append(bytes, corner);
+  for (const std::uint32_t corner : {0u, 1u, 2u}) append(bytes, corner, big);
   return bytes;
 }
 
@@ -161,6 +161,21 @@ TEST(MeshFile, PlyIsReadWithoutItsOtherPropertiesWhateverTheirTypes) {
   const TriangleMesh mesh = read_mesh_file(scratch.write("coloured.ply", text)).mesh;
   EXPECT_EQ(mesh.vertices, plain.vertices);
   EXPECT_EQ(mesh.triangles, plain.triangles);
+}
+
+TEST(MeshFile, PlyMayHaveEitherOrderOfBytes) {
+  const Scratch scratch;
+  const TriangleMesh little = read_mesh_file(scratch.write("little.ply", binary_ply())).mesh;
+  const TriangleMesh big = read_mesh_file(scratch.write("big.ply", binary_ply(true))).mesh;
+  EXPECT_EQ(big.vertices, little.vertices);
+  EXPECT_EQ(big.triangles, little.triangles);
+}
+
+TEST(MeshFile, FloatsOfAPlyInTextAreThoseFloats) {
+  const Scratch scratch;
+  const std::string text = with(kPly, "double x", "float x");
+  EXPECT_EQ(read_mesh_file(scratch.write("t.ply", text)).mesh.vertices[0].x(),
+            static_cast<double>(static_cast<float>(kFine)));
 }
 
 const std::string kGltf = R"({
@@ -292,6 +307,8 @@ INSTANTIATE_TEST_SUITE_P(
                 " cannot be read as OFF."},
         BadMesh{"PlyListLongerThanTheFile", "a.ply",
                 with(with(kPly, "list uchar", "list uint"), "3 0 3 2", "4000000000 0 3 2"),
+                " cannot be read as PLY."},
+        BadMesh{"PlyUnknownFormat", "a.ply", with(kPly, "ascii", "binary"),
                 " cannot be read as PLY."},
         BadMesh{"PlyFormatTwice", "a.ply",
                 with(kPly, "element face", "format binary_little_endian 1.0\nelement face"),

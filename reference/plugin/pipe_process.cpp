@@ -169,7 +169,7 @@ void PipeProcess::start(const std::string& command, int input, int output) {
   const pid_t pid = fork();
   if (pid == 0) become(text.c_str(), input, output, errors_.fd(), parent);
   if (pid < 0) throw InputError("cannot start \"" + command + "\": " + std::strerror(errno));
-  child_.is(pid);
+  child_.started(pid);
 }
 
 PipeProcess::~PipeProcess() {

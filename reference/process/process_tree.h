@@ -36,8 +36,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Once it has been started.
-  void is(pid_t pid) { pid_ = pid; }
+  void started(pid_t pid) { pid_ = pid; }
   pid_t pid() const { return pid_; }
   /// Ends and reaps every child of this process but those that it had when this was made and those
   /// of other Child objects. @pre the child itself has been reaped

@@ -108,7 +108,7 @@ void WorkerProcess::start(const std::filesystem::path& executable,
   const int error = plan.spawn(words.data(), environ, &pid);
   if (error != 0)
     throw InputError("cannot start the worker " + program + ": " + std::strerror(error));
-  child_.is(pid);
+  child_.started(pid);
 }
 
 WorkerProcess::~WorkerProcess() {

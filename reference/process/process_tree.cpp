@@ -33,6 +33,14 @@ void add_children(pid_t process, std::vector<pid_t>& out) {
   }
 }
 
+// 0 when it is gone.
+std::uint64_t resident_bytes(pid_t process) {
+  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
+  std::uint64_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 std::vector<pid_t> children_of_this_process() {
   std::vector<pid_t> out;
   add_children(getpid(), out);
@@ -46,13 +54,6 @@ std::vector<pid_t> process_tree(pid_t root) {
   std::vector<pid_t> tree = {root};
   for (std::size_t i = 0; i < tree.size(); ++i) add_children(tree[i], tree);
   return tree;
-}
-
-std::uint64_t resident_bytes(pid_t process) {
-  std::ifstream statm("/proc/" + std::to_string(process) + "/statm");
-  std::uint64_t total = 0, resident = 0;
-  statm >> total >> resident;
-  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::uint64_t resident_bytes_of_tree(pid_t root) {

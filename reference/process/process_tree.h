@@ -12,9 +12,6 @@ namespace contactcheck::process {
 /// no longer).
 std::vector<pid_t> process_tree(pid_t root);
 
-/// Its resident memory; 0 when it is gone.
-std::uint64_t resident_bytes(pid_t process);
-
 /// The resident memory of a process and its descendants, bytes; shared pages count once for each.
 std::uint64_t resident_bytes_of_tree(pid_t root);
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "core/broad/body_pairs.h"
 #include "core/deform/mapping.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"

@@ -31,6 +31,10 @@ void add_ffd_lazy(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "ffd-lazy";
   info.summary = "tree bounded lazily from lattice nodes, SIMD; exact triangle test";
+  info.given =
+      "lattice nodes; sweep and prune over the bodies' boxes of nodes; bodies that meet no other "
+      "are "
+      "not bounded; exact tests eight at a time; body ends at the first contact of two bodies";
   info.options = {choice_option("bounds", "auto", {"auto", "nodes"},
                                 "auto: bodies small for their lattice are mapped and refitted"),
                   isa_option(), threads_option(), precision_option()};
@@ -49,6 +53,9 @@ void add_full_refit(DetectorCatalog& catalog) {
   DetectorInfo info;
   info.id = "full-refit";
   info.summary = "the same tree and tests, refitted to all mapped vertices in every frame";
+  info.given =
+      "sweep and prune over the bodies' boxes; all bodies are refitted, with or without a partner; "
+      "exact tests eight at a time; body ends at the first contact of two bodies";
   info.options = {isa_option(), threads_option(), precision_option()};
   info.make = [](const Options& options) -> std::unique_ptr<Detector> {
     return std::make_unique<LazyDetector>(LazyConfig{BoundSource::kVertices, options.at("isa"),

@@ -30,6 +30,7 @@ struct DetectorInfo {
   std::string summary;  ///< one line
   std::vector<OptionInfo> options;
   std::function<std::unique_ptr<Detector>(const Options&)> make;
+  std::string given;           ///< what makes it as fast as it can be: sweep, batches, early end
   std::string absent_because;  ///< not empty: known, but not built into this program
 };
 

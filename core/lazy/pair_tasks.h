@@ -1,6 +1,4 @@
-// The pairs of bodies of a frame: which can meet, and their tests, shared out to threads.
-// Source of the sweep: Cohen, Lin, Manocha, Ponamgi: I-COLLIDE, 1995 (here sorted anew, without
-// coherence).
+// The tests of the pairs of bodies of a frame, shared out to threads.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +12,6 @@
 #include "core/types/vec3.h"
 
 namespace contactcheck {
-
-/// Pairs of closed boxes that share a point, ascending: sweep and prune along one axis.
-void find_candidate_bodies(std::span<const Aabb> boxes, std::vector<BodyPair>& out);
 
 /// Threads that share the work of a frame.
 class ThreadTeam {

@@ -13,6 +13,10 @@
 
 namespace contactcheck::adapters {
 
+/// A box of coordinates as floats is wider than that of the doubles by at most this part of the
+/// largest coordinate; a few roundings of its own included.
+inline constexpr double kRoundingOfFedBoxes = 0x1p-21;
+
 /// As Bullet's headers say, with the precision it is built in, e.g. "3.24 float".
 std::string bullet_version();
 

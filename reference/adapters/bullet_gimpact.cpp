@@ -31,11 +31,13 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "core/detect/option_info.h"
 #include "core/types/check.h"
 #include "reference/adapters/adapters.h"
+#include "reference/adapters/body_pair_detector.h"
 #include "reference/adapters/bullet.h"
 
 namespace contactcheck::adapters {
@@ -47,6 +49,7 @@ Semantics gimpact_semantics() {
   semantics.questions = {Question::kTriangles, Question::kContacts, Question::kBody};
   semantics.precision = Precision::kSingle;
   semantics.depth = DepthKind::kConvexPair;
+  semantics.no_early_end = true;
   semantics.means =
       "each triangle has a part within the prism over the other's edges that reaches the other's "
       "plane or lies behind it, however far; a margin shifts the planes";
@@ -103,7 +106,7 @@ class GimpactBody {
   }
 
  private:
-  using Position = std::array<float, 3>;
+  using Position = std::array<btScalar, 3>;  // floats, but for a Bullet built in doubles
 
   btVector3 corner(std::size_t i) const {
     const Position& p = positions_[static_cast<std::size_t>(indices_[i])];
@@ -274,15 +277,19 @@ class ContactCollector final : public btCollisionWorld::ContactResultCallback {
   bool any_ = false;
 };
 
-class GimpactDetector final : public Detector {
+class GimpactDetector final : public BodyPairDetector {
  public:
-  GimpactDetector(double margin, double scale)
-      : margin_(margin), scale_option_(scale), semantics_(gimpact_semantics()) {}
+  GimpactDetector(double margin, double scale, Prefilter prefilter)
+      : BodyPairDetector(prefilter),
+        margin_(margin),
+        scale_option_(scale),
+        semantics_(gimpact_semantics()) {}
 
   const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return true; }
 
   void prepare(const std::vector<Body>& bodies) override {
+    // Bullet's own broad phase compares boxes of the floats, grown by the margins.
+    set_bodies(bodies, margin_, kRoundingOfFedBoxes);
     const double scale = scale_option_ > 0.0 ? scale_option_ : automatic_bullet_scale(bodies);
     semantics_.scale = scale;
     bodies_.clear();
@@ -291,26 +298,9 @@ class GimpactDetector final : public Detector {
           std::make_unique<GimpactBody>(body.shape->mesh, scale, fed_value(margin_, scale)));
   }
 
-  void update(const Frame& frame) override {
-    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
-    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->update(frame.bodies[b].vertices);
-  }
-
-  void query(Question question, ContactSet& out) override {
-    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
-        ContactCollector contacts({a, b}, &bodies_[a]->object(), question, semantics_.scale,
-                                  margin_, out);
-        world_.test(*bodies_[a], *bodies_[b], contacts);
-        if (question == Question::kBody && contacts.any()) out.bodies.push_back({a, b});
-      }
-    }
-  }
-
   std::vector<std::string> notes() override {
-    for (const auto& body : bodies_) {
-      if (!body->has_triangle_without_plane()) continue;
+    for (const CandidateBody& body : candidates()) {
+      if (!bodies_[body.body]->has_triangle_without_plane()) continue;
       return {
           "bullet-gimpact finds no contact of triangles without area in single precision, and no "
           "depth where the square of the area overflows"};
@@ -319,6 +309,24 @@ class GimpactDetector final : public Detector {
   }
 
  private:
+  void check(const Aabb& box) const override {
+    for (const Vec3* corner : {&box.lo, &box.hi})
+      for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(fed_value((*corner)[axis], semantics_.scale)))
+          throw RefusedInput("bullet-gimpact refuses a vertex that is not finite as a float");
+  }
+
+  void move(std::span<const CandidateBody> bodies) override {
+    for (const CandidateBody& body : bodies) bodies_[body.body]->update(body.vertices);
+  }
+
+  void collide(BodyPair pair, Question question, ContactSet& out) override {
+    ContactCollector contacts(pair, &bodies_[pair.a]->object(), question, semantics_.scale, margin_,
+                              out);
+    world_.test(*bodies_[pair.a], *bodies_[pair.b], contacts);
+    if (question == Question::kBody && contacts.any()) out.bodies.push_back(pair);
+  }
+
   double margin_;        // metres
   double scale_option_;  // 0: from the scene
   Semantics semantics_;
@@ -332,14 +340,16 @@ Adapter bullet_gimpact_adapter() {
   DetectorInfo info;
   info.id = "bullet-gimpact";
   info.summary = "Bullet's GImpact: refitted box trees, triangles clipped in single precision";
+  info.given = std::string(kSweepAndPrune) + "boxes are grown by the margins; no early end";
   info.options = {
       numeric_option("margin", "0", 0.0, 1e3, false, "metres around each mesh"),
       numeric_option("scale", "0", 0.0, 1048576.0, false,
                      "world units per metre; 0: as the smallest triangles need"),
+      prefilter_option(),
   };
   info.make = [](const Options& options) {
-    return std::make_unique<GimpactDetector>(number_option(options, "margin"),
-                                             number_option(options, "scale"));
+    return std::make_unique<GimpactDetector>(
+        number_option(options, "margin"), number_option(options, "scale"), prefilter_of(options));
   };
   return {"bullet", bullet_version(), {std::move(info)}};
 }

@@ -65,6 +65,7 @@
 #include "core/types/check.h"
 #include "core/types/semantics.h"
 #include "reference/adapters/adapters.h"
+#include "reference/adapters/body_pair_detector.h"
 #include "reference/adapters/bullet.h"
 
 namespace contactcheck::adapters {
@@ -203,12 +204,12 @@ class SoftBody {
 
 /// The world, its scale and margins, one soft body per body, and the pairs of bodies whose boxes
 /// meet.
-class BulletSoftDetector : public Detector {
+class BulletSoftDetector : public BodyPairDetector {
  public:
   const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return true; }
 
   void prepare(const std::vector<Body>& bodies) override {
+    set_bodies(bodies, margin_, kRoundingOfFedBoxes);
     set_scale(scale_option_ > 0.0 ? scale_option_ : automatic_bullet_scale(bodies));
     bodies_.clear();
     for (const Body& body : bodies) {
@@ -218,26 +219,13 @@ class BulletSoftDetector : public Detector {
     }
   }
 
-  void update(const Frame& frame) override {
-    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      bodies_[b]->feed(frame.bodies[b].vertices);
-      refit(*bodies_[b]);
-    }
-  }
-
-  void query(Question question, ContactSet& out) override {
-    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a)
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b)
-        if (bodies_[a]->boxes_meet(*bodies_[b])) collide(a, b, question, out);
-  }
-
  protected:
   /// `semantics` without scale and margin. `collisions`: VF_SS or CL_SS. `margin`: of one body,
   /// metres. `scale`: world units per metre; 0: from the scene.
-  BulletSoftDetector(Semantics semantics, int collisions, double margin, double scale)
-      : collisions_(collisions),
+  BulletSoftDetector(Semantics semantics, int collisions, double margin, double scale,
+                     Prefilter prefilter)
+      : BodyPairDetector(prefilter),
+        collisions_(collisions),
         margin_(margin),
         scale_option_(scale),
         semantics_(std::move(semantics)) {
@@ -250,12 +238,29 @@ class BulletSoftDetector : public Detector {
   /// The body has been fed new vertices.
   virtual void refit(SoftBody& body) = 0;
   /// Two bodies, a < b, whose boxes meet.
-  virtual void collide(std::uint32_t a, std::uint32_t b, Question question, ContactSet& out) = 0;
+  virtual void collide_bodies(std::uint32_t a, std::uint32_t b, Question question,
+                              ContactSet& out) = 0;
 
   double scale() const { return semantics_.scale; }
   const std::vector<std::unique_ptr<SoftBody>>& bodies() const { return bodies_; }
 
  private:
+  void check(const Aabb& box) const override {
+    for (const Vec3* corner : {&box.lo, &box.hi}) fed_point(*corner, scale());
+  }
+
+  void move(std::span<const CandidateBody> bodies) override {
+    for (const CandidateBody& body : bodies) {
+      bodies_[body.body]->feed(body.vertices);
+      refit(*bodies_[body.body]);
+    }
+  }
+
+  void collide(BodyPair pair, Question question, ContactSet& out) override {
+    if (bodies_[pair.a]->boxes_meet(*bodies_[pair.b]))
+      collide_bodies(pair.a, pair.b, question, out);
+  }
+
   void set_scale(double scale) {
     semantics_.scale = scale;
     // As Bullet adds the margins of two bodies; the sum of two equal floats is exact.
@@ -283,6 +288,7 @@ Semantics vf_semantics() {
   semantics.closed = false;
   semantics.precision = Precision::kSingle;
   semantics.depth = DepthKind::kVertexSurface;
+  semantics.no_early_end = true;
   semantics.means =
       "a vertex of one body is nearer to a triangle of the other than the sum of their margins, on "
       "either side";
@@ -291,14 +297,15 @@ Semantics vf_semantics() {
 
 class VertexFaceDetector final : public BulletSoftDetector {
  public:
-  VertexFaceDetector(double margin, double scale)
-      : BulletSoftDetector(vf_semantics(), btSoftBody::fCollision::VF_SS, margin, scale) {}
+  VertexFaceDetector(double margin, double scale, Prefilter prefilter)
+      : BulletSoftDetector(vf_semantics(), btSoftBody::fCollision::VF_SS, margin, scale,
+                           prefilter) {}
 
   // No trace(): a stage "visible" would have to list every pair of visible triangles.
 
   std::vector<std::string> notes() override {
-    for (const auto& body : bodies())
-      if (body->has_invisible_triangle()) {
+    for (const CandidateBody& body : candidates())
+      if (bodies()[body.body]->has_invisible_triangle()) {
         std::ostringstream out;
         out << "triangles below Bullet's area cut (|cross|^2 <= FLT_EPSILON in its units) are "
                "invisible to it at scale "
@@ -311,7 +318,8 @@ class VertexFaceDetector final : public BulletSoftDetector {
  private:
   void prepare_body(SoftBody& body) override { body.build_trees(); }
   void refit(SoftBody& body) override { body.refit_trees(); }
-  void collide(std::uint32_t a, std::uint32_t b, Question question, ContactSet& out) override {
+  void collide_bodies(std::uint32_t a, std::uint32_t b, Question question,
+                      ContactSet& out) override {
     btSoftBody &first = bodies()[a]->bullet(), &second = bodies()[b]->bullet();
     first.m_scontacts.resize(0);
     second.m_scontacts.resize(0);
@@ -451,6 +459,7 @@ Semantics cl_semantics() {
   semantics.questions = {Question::kBody};
   semantics.closed = false;
   semantics.precision = Precision::kSingle;
+  semantics.no_early_end = true;
   semantics.means =
       "the convex hulls of two clusters of vertices (k-means at rest) overlap or are nearer than "
       "the sum of the margins";
@@ -459,8 +468,8 @@ Semantics cl_semantics() {
 
 class ClusterDetector final : public BulletSoftDetector {
  public:
-  ClusterDetector(int clusters, double margin, double scale)
-      : BulletSoftDetector(cl_semantics(), btSoftBody::fCollision::CL_SS, margin, scale),
+  ClusterDetector(int clusters, double margin, double scale, Prefilter prefilter)
+      : BulletSoftDetector(cl_semantics(), btSoftBody::fCollision::CL_SS, margin, scale, prefilter),
         clusters_(clusters) {}
 
   std::vector<std::string> notes() override {
@@ -475,7 +484,7 @@ class ClusterDetector final : public BulletSoftDetector {
  private:
   void prepare_body(SoftBody& body) override { make_clusters(body.bullet(), clusters_); }
   void refit(SoftBody& body) override { refit_clusters(body.bullet()); }
-  void collide(std::uint32_t a, std::uint32_t b, Question, ContactSet& out) override {
+  void collide_bodies(std::uint32_t a, std::uint32_t b, Question, ContactSet& out) override {
     btSoftBody& first = bodies()[a]->bullet();
     first.defaultCollisionHandler(&bodies()[b]->bullet());
     if (first.m_joints.size() > 0) out.bodies.push_back({a, b});
@@ -494,21 +503,24 @@ Adapter bullet_soft_adapter() {
   vf.summary = "Bullet's soft bodies: vertices nearer to faces than the margins";
   vf.options = {numeric_option("margin", "0.001", 0.0, 1.0, false, "metres around each body"),
                 numeric_option("scale", "0", 0.0, 1e6, false,
-                               "world units per metre; 0: as the smallest triangles need")};
+                               "world units per metre; 0: as the smallest triangles need"),
+                prefilter_option()};
+  vf.given = std::string(kSweepAndPrune) + "boxes are grown by the margins; no early end";
   vf.make = [](const Options& options) {
-    return std::make_unique<VertexFaceDetector>(number_option(options, "margin"),
-                                                number_option(options, "scale"));
+    return std::make_unique<VertexFaceDetector>(
+        number_option(options, "margin"), number_option(options, "scale"), prefilter_of(options));
   };
   DetectorInfo cl;
   cl.id = "bullet-cl";
   cl.summary = "Bullet's soft bodies: convex hulls of clusters of vertices";
+  cl.given = vf.given;
   cl.options = vf.options;
   cl.options.push_back(
       numeric_option("k", "64", 1.0, 4096.0, true, "at most so many clusters per body"));
   cl.make = [](const Options& options) {
-    return std::make_unique<ClusterDetector>(static_cast<int>(number_option(options, "k")),
-                                             number_option(options, "margin"),
-                                             number_option(options, "scale"));
+    return std::make_unique<ClusterDetector>(
+        static_cast<int>(number_option(options, "k")), number_option(options, "margin"),
+        number_option(options, "scale"), prefilter_of(options));
   };
   return {"bullet", bullet_version(), {std::move(vf), std::move(cl)}};
 }

@@ -1,12 +1,15 @@
 // Embree's scene-against-scene collision as a detector: the fast peer.
 //
 //   embree  one hierarchy of boxes per body, refitted; rtcCollide names the pairs of triangles
-//           whose boxes overlap; core's exact test decides
+//           whose boxes overlap; core's exact test decides, eight pairs at a time
 //
 // Embree only culls, in single precision, with boxes rounded outward: the answer is exact for all
-// finite doubles, closed (touching is contact) and about surfaces. rtcCollide cannot stop early, so
-// the question `body` costs the whole traversal too and saves tests of triangles only. Single
-// threaded, and it leaves the process's limit on oneTBB's threads alone.
+// finite doubles, closed (touching is contact) and about surfaces. Single threaded, and it leaves
+// the process's limit on oneTBB's threads alone.
+//
+// rtcCollide's callback returns nothing, so the only way to end a traversal is an exception, which
+// rtcCollide catches and turns into its error "unknown". The question `body` tests within the
+// callback and ends so at the first contact.
 //
 // Seen in Embree 3.13.5 (Debian 12), November 2026:
 // - A box with a coordinate beyond 1.844e18 counts as invalid and its primitive is left out of the
@@ -15,28 +18,32 @@
 //   assertion in heuristic_openmerge_array.h; Debian's library is built with them). With
 //   flush-to-zero an extent that is denormal is none. Hence the padding below.
 // - Flush-to-zero and denormals-are-zero are on in the bounds callback and in the collide callback.
-//   They are off again when the call returns. So nothing is computed in a callback but sums,
-//   minima and maxima of normal floats, and nothing is judged there.
+//   They are off again when the call returns. So nothing is computed in the bounds callback but
+//   sums, minima and maxima of normal floats, and triangles are tested in the caller's environment.
 // - "threads=1" as device configuration lowers oneTBB's limit for the whole process to one thread
 //   until the last device is gone, and with it every other detector that uses oneTBB. Calls from
 //   within an arena of one slot stay on the calling thread and leave the limit alone.
 // - Quality REFIT refits a scene only if it is dynamic; otherwise it is built anew.
 // - rtcCollide aborts on RTC_GEOMETRY_TYPE_TRIANGLE; user geometries work.
-// - rtcCollide has no early-out: the callback returns nothing.
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "core/detect/triangle_pair_detector.h"
+#include "core/detect/triangle_record.h"
+#include "core/lazy/kernels.h"
 #include "core/types/check.h"
 #include "reference/adapters/adapters.h"
+#include "reference/adapters/body_pair_detector.h"
 
 namespace contactcheck::adapters {
 namespace {
@@ -80,15 +87,6 @@ double normalising_scale(double largest) {
   return std::ldexp(1.0, std::min(-exponent, 1023));
 }
 
-double largest_coordinate(std::span<const Vec3> vertices) {
-  if (vertices.empty()) return 0.0;
-  const Eigen::Map<const Eigen::ArrayXd> all(vertices[0].data(),
-                                             static_cast<Eigen::Index>(3 * vertices.size()));
-  const double largest = all.abs().maxCoeff<Eigen::PropagateNaN>();
-  if (!std::isfinite(largest)) throw RefusedInput("embree refuses a vertex that is not finite");
-  return largest;
-}
-
 /// One body: a scene of one user geometry, whose primitives are the triangles.
 class EmbreeBody {
  public:
@@ -109,14 +107,11 @@ class EmbreeBody {
   EmbreeBody(const EmbreeBody&) = delete;
   EmbreeBody& operator=(const EmbreeBody&) = delete;
 
-  /// Exact box in doubles, and the floats for commit().
+  /// The floats for commit().
   void set_vertices(std::span<const Vec3> vertices, double scale) {
     CONTACTCHECK_INVARIANT(vertices.size() == vertices_.size(), "one position per vertex");
-    box_ = Aabb();
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      box_.extend(vertices[v]);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
       vertices_[v] = float_vertex(vertices[v], scale);
-    }
   }
 
   void commit() {
@@ -126,7 +121,6 @@ class EmbreeBody {
   }
 
   RTCScene scene() const { return scene_.get(); }
-  const Aabb& box() const { return box_; }
 
  private:
   // Flush-to-zero is on in here: sums, minima and maxima of normal floats, nothing else.
@@ -146,87 +140,192 @@ class EmbreeBody {
   Owned<RTCGeometry> geometry_;
   std::span<const Triangle> triangles_;  // of the body's shape, which outlives the detector
   std::vector<FloatVertex> vertices_;
-  Aabb box_;
 };
 
 // Not the user's settings (.embree3 files beside the program and at home).
 constexpr const char* kDeviceConfiguration = "ignore_config_files=1,set_affinity=0";
 
-/// The bodies' scenes on a device of their own; the broad phase of a TrianglePairDetector.
-class EmbreeScenes {
+/// Candidate pairs of triangles of two bodies, tested exactly and eight at a time by the kernels
+/// that ffd-lazy uses.
+class ExactPairs {
  public:
-  static constexpr const char* kName = "boxes";
-  using Real = double;
-  static constexpr const char* kVisitedUnit = "";  // Embree does not count
-  static constexpr bool kBoxesOverlap = false;     // boxes of floats, wider than those of doubles
+  /// The bodies of the candidates that follow; their vertices outlive them.
+  void begin(const BodyShape& a, std::span<const Vec3> vertices_a, const BodyShape& b,
+             std::span<const Vec3> vertices_b) {
+    triangles_a_ = a.mesh.triangles.data();
+    triangles_b_ = b.mesh.triangles.data();
+    vertices_a_ = vertices_a;
+    vertices_b_ = vertices_b;
+    batch_.count = 0;
+  }
 
-  EmbreeScenes()
-      : arena_(std::make_unique<tbb::task_arena>(1)), device_(rtcNewDevice(kDeviceConfiguration)) {
+  /// Calls `meets(i, j)` for each pair known to share a point, now or at a later call.
+  template <typename Meets>
+  void add(std::uint32_t i, std::uint32_t j, Meets&& meets) {
+    const Triangle &s = triangles_a_[i], &t = triangles_b_[j];
+    const Vec3 &p0 = vertices_a_[s[0]], &p1 = vertices_a_[s[1]], &p2 = vertices_a_[s[2]];
+    const Vec3 &q0 = vertices_b_[t[0]], &q1 = vertices_b_[t[1]], &q2 = vertices_b_[t[2]];
+    const Aabb box_p = {p0.cwiseMin(p1).cwiseMin(p2), p0.cwiseMax(p1).cwiseMax(p2)};
+    const Aabb box_q = {q0.cwiseMin(q1).cwiseMin(q2), q0.cwiseMax(q1).cwiseMax(q2)};
+    if (!box_p.overlaps(box_q)) return;  // Embree's boxes of floats are wider
+    const std::size_t lane = batch_.count++;
+    batch_.a[lane] = i;
+    batch_.b[lane] = j;
+    const Vec3* corners[2][3] = {{&p0, &p1, &p2}, {&q0, &q1, &q2}};
+    for (int triangle = 0; triangle < 2; ++triangle)
+      for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < 3; ++k)
+          batch_.corner[triangle][c][k][lane] = (*corners[triangle][c])[k];
+    if (batch_.count == kBatchWidth) flush(meets);
+  }
+
+  template <typename Meets>
+  void flush(Meets&& meets) {
+    if (batch_.count == 0) return;
+    const BatchVerdict verdict = kernels_.test_batch(batch_);
+    for (std::size_t lane = 0; lane < batch_.count; ++lane) {
+      const bool unknown = (verdict.unknown >> lane & 1u) != 0;
+      if ((verdict.meet >> lane & 1u) != 0 ||
+          (unknown && triangles_intersect(batch_.points(0, lane), batch_.points(1, lane))))
+        meets(batch_.a[lane], batch_.b[lane]);
+    }
+    batch_.count = 0;
+  }
+
+ private:
+  const LazyKernels& kernels_ = lazy_kernels();
+  const Triangle *triangles_a_ = nullptr, *triangles_b_ = nullptr;
+  std::span<const Vec3> vertices_a_, vertices_b_;
+  TriangleBatch batch_{};
+};
+
+class EmbreeDetector final : public BodyPairDetector {
+ public:
+  explicit EmbreeDetector(Prefilter prefilter)
+      : BodyPairDetector(prefilter),
+        arena_(std::make_unique<tbb::task_arena>(1)),
+        device_(rtcNewDevice(kDeviceConfiguration)) {
     if (!device_) require_ok(nullptr, "rtcNewDevice");
   }
 
-  void prepare(const std::vector<Body>& bodies) {
+  const Semantics& semantics() const override { return semantics_; }
+
+  void prepare(const std::vector<Body>& bodies) override {
+    set_bodies(bodies);
     bodies_.clear();
-    std::vector<std::span<const Vec3>> rest;
-    for (const Body& body : bodies) {
-      bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), body.shape->mesh));
-      rest.emplace_back(body.shape->mesh.vertices);
+    std::vector<CandidateBody> rest;
+    for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+      const TriangleMesh& mesh = bodies[b].shape->mesh;
+      bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), mesh));
+      rest.push_back({b, mesh.vertices, bounding_box(mesh.vertices)});
     }
     // The first commit builds; the hierarchies are those of the rest shapes ever after.
-    commit(rest);
+    move(rest);
   }
 
-  void update(const std::vector<std::span<const Vec3>>& vertices) { commit(vertices); }
-
-  /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
-  template <typename Visit>
-  void visit_candidates(Visit&& visit) {
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
-        if (!bodies_[a]->box().overlaps(bodies_[b]->box())) continue;
-        collide(a, b);
-        for (const auto& [i, j] : candidates_)
-          if (visit(ElementPair{a, b, i, j})) break;
-      }
+  StageTrace trace() override {
+    std::vector<std::uint64_t> triangles;
+    std::vector<ElementPair> candidates;
+    ContactSet exact;
+    for (std::uint32_t b = 0; b < body_count(); ++b)
+      triangles.push_back(shape(b).mesh.triangles.size());
+    for (const BodyPair& pair : candidate_pairs()) {
+      find_candidates(pair);
+      for (const auto& [i, j] : candidates_) candidates.push_back({pair.a, pair.b, i, j});
+      collide(pair, Question::kTriangles, exact);
     }
+    StageTrace out;
+    out.stages.push_back(
+        triangle_record("boxes", brute_force_pairs(triangles), std::move(candidates)));
+    out.stages.push_back(
+        triangle_record("triangles", out.stages[0].out, std::move(exact.triangles)));
+    return out;
   }
-  std::uint64_t visited() const { return 0; }
 
  private:
-  /// One scale for all bodies: their boxes are compared.
-  void commit(const std::vector<std::span<const Vec3>>& vertices) {
-    CONTACTCHECK_INVARIANT(vertices.size() == bodies_.size(), "one state per body");
+  struct Contact {};  // thrown through rtcCollide
+
+  /// One scale for all that are moved: their boxes are compared.
+  void move(std::span<const CandidateBody> bodies) override {
     double largest = 0.0;
-    for (const std::span<const Vec3>& body : vertices)
-      largest = std::max(largest, largest_coordinate(body));
+    for (const CandidateBody& body : bodies)
+      largest =
+          std::max({largest, body.box.lo.cwiseAbs().maxCoeff(), body.box.hi.cwiseAbs().maxCoeff()});
     const double scale = normalising_scale(largest);
-    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->set_vertices(vertices[b], scale);
+    for (const CandidateBody& body : bodies) bodies_[body.body]->set_vertices(body.vertices, scale);
     arena_->execute([&] {
-      for (const auto& body : bodies_) body->commit();
+      for (const CandidateBody& body : bodies) bodies_[body.body]->commit();
     });
   }
 
-  void collide(std::uint32_t a, std::uint32_t b) {
+  void collide(BodyPair pair, Question question, ContactSet& out) override {
+    exact_.begin(shape(pair.a), vertices(pair.a), shape(pair.b), vertices(pair.b));
+    if (question == Question::kBody) {
+      if (find_first(pair)) out.bodies.push_back(pair);
+      return;
+    }
+    find_candidates(pair);
+    const auto meets = [&](std::uint32_t i, std::uint32_t j) {
+      out.triangles.push_back({pair.a, pair.b, i, j});
+    };
+    for (const auto& [i, j] : candidates_) exact_.add(i, j, meets);
+    exact_.flush(meets);
+  }
+
+  void find_candidates(BodyPair pair) {
     candidates_.clear();
-    arena_->execute([&] {
-      rtcCollide(bodies_[a]->scene(), bodies_[b]->scene(), &EmbreeScenes::collect, &candidates_);
-    });
+    call_collide(pair, &EmbreeDetector::collect);
     require_ok(device_.get(), "rtcCollide");  // also what the callback threw
   }
 
-  using Candidates = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  bool find_first(BodyPair pair) {
+    contact_ = false;
+    std::fenv_t caller;
+    std::fegetenv(&caller);
+    environment_ = &caller;
+    call_collide(pair, &EmbreeDetector::test);
+    std::fesetenv(&caller);  // Embree does not put it back on its way out of an exception
+    if (contact_) {
+      rtcGetDeviceError(device_.get());  // of the exception
+      return true;
+    }
+    require_ok(device_.get(), "rtcCollide");
+    exact_.flush([this](std::uint32_t, std::uint32_t) { contact_ = true; });
+    return contact_;
+  }
+
+  void call_collide(BodyPair pair, RTCCollideFunc callback) {
+    arena_->execute(
+        [&] { rtcCollide(bodies_[pair.a]->scene(), bodies_[pair.b]->scene(), callback, this); });
+  }
 
   // Flush-to-zero is on in here: ids are taken down, nothing is judged.
-  static void collect(void* candidates, RTCCollision* collisions, unsigned count) {
-    auto& out = *static_cast<Candidates*>(candidates);
+  static void collect(void* detector, RTCCollision* collisions, unsigned count) {
+    auto& out = static_cast<EmbreeDetector*>(detector)->candidates_;
     for (unsigned i = 0; i < count; ++i)
       out.emplace_back(collisions[i].primID0, collisions[i].primID1);
   }
 
+  static void test(void* detector, RTCCollision* collisions, unsigned count) {
+    auto& self = *static_cast<EmbreeDetector*>(detector);
+    std::fenv_t embrees;
+    std::fegetenv(&embrees);
+    std::fesetenv(self.environment_);
+    for (unsigned i = 0; i < count && !self.contact_; ++i)
+      self.exact_.add(collisions[i].primID0, collisions[i].primID1,
+                      [&](std::uint32_t, std::uint32_t) { self.contact_ = true; });
+    std::fesetenv(&embrees);
+    if (self.contact_) throw Contact();
+  }
+
+  const Semantics semantics_ = exact_triangle_semantics();
   std::unique_ptr<tbb::task_arena> arena_;           // one slot: the calling thread's
   Owned<RTCDevice> device_;                          // outlives the scenes
   std::vector<std::unique_ptr<EmbreeBody>> bodies_;  // Embree holds their addresses
-  Candidates candidates_;                            // kept for its capacity
+  ExactPairs exact_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates_;  // kept for its capacity
+  bool contact_ = false;                                             // of find_first()
+  const std::fenv_t* environment_ = nullptr;  // the caller's, of find_first()
 };
 
 }  // namespace
@@ -234,10 +333,15 @@ class EmbreeScenes {
 Adapter embree_adapter() {
   DetectorInfo info;
   info.id = "embree";
-  info.summary = "Embree's refitted box hierarchies and rtcCollide; exact triangle test";
-  info.make = [](const Options&) {
-    return std::make_unique<TrianglePairDetector<EmbreeScenes>>(EmbreeScenes(), ExactTriangles{},
-                                                                exact_triangle_semantics());
+  info.summary =
+      "Embree's refitted box hierarchies and rtcCollide; exact triangle test, eight pairs at a "
+      "time";
+  info.given = std::string(kSweepAndPrune) +
+               "exact tests eight at a time, by the kernels of ffd-lazy; body ends at the first "
+               "contact of two bodies";
+  info.options = {prefilter_option()};
+  info.make = [](const Options& options) {
+    return std::make_unique<EmbreeDetector>(prefilter_of(options));
   };
   return {"embree", RTC_VERSION_STRING, {std::move(info)}};
 }

@@ -4,8 +4,8 @@
 //   fcl-obbrss   oriented boxes and swept spheres, through fcl::collide
 //   fcl-collide  axis-aligned boxes through fcl::collide, the documented call
 //
-// All three hold one hierarchy per body, replace its vertices and refit it bottom-up on every
-// update, and skip body pairs whose boxes do not meet. They answer about surfaces, closed
+// All three hold one hierarchy per body, and of every body whose box meets that of another replace
+// the vertices and refit it bottom-up on every update. They answer about surfaces, closed
 // (touching is contact), in double; a body within another is no contact. They claim no exactness:
 // FCL's triangle test rounds, and its oriented boxes miss pairs by rounding.
 //
@@ -37,6 +37,7 @@
 
 #include "core/types/check.h"
 #include "reference/adapters/adapters.h"
+#include "reference/adapters/body_pair_detector.h"
 
 namespace contactcheck::adapters {
 namespace {
@@ -91,31 +92,27 @@ void collide_directly(fcl::BVHModel<BV>& a, fcl::BVHModel<BV>& b,
   fcl::detail::collide(&node);
 }
 
-/// One body: its hierarchy, refitted to the vertices of the last update, and their box.
+/// One body: its hierarchy, refitted to the vertices of the last update.
 template <typename BV>
 class FclBody {
  public:
-  explicit FclBody(const TriangleMesh& mesh) : vertices_(mesh.vertices) {
+  explicit FclBody(const TriangleMesh& mesh) {
     std::vector<fcl::Triangle> triangles;
     triangles.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
     const int triangle_count = static_cast<int>(mesh.triangles.size());
     const int vertex_count = static_cast<int>(mesh.vertices.size());
     require_ok(model_.beginModel(triangle_count, vertex_count), "beginModel");
-    require_ok(model_.addSubModel(vertices_, triangles), "addSubModel");
+    require_ok(model_.addSubModel(mesh.vertices, triangles), "addSubModel");
     require_ok(model_.endModel(), "endModel");
-    box_ = bounding_box(vertices_);
   }
 
+  /// One by one: replaceSubModel wants a vector of its own, which would be a copy more.
   void update(std::span<const Vec3> vertices) {
-    CONTACTCHECK_INVARIANT(vertices.size() == vertices_.size(), "one position per vertex");
-    box_ = Aabb();
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      vertices_[v] = vertices[v];
-      box_.extend(vertices[v]);
-    }
+    CONTACTCHECK_INVARIANT(static_cast<int>(vertices.size()) == model_.num_vertices,
+                           "one position per vertex");
     require_ok(model_.beginReplaceModel(), "beginReplaceModel");
-    require_ok(model_.replaceSubModel(vertices_), "replaceSubModel");
+    for (const Vec3& vertex : vertices) require_ok(model_.replaceVertex(vertex), "replaceVertex");
     require_ok(model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true), "endReplaceModel");
   }
 
@@ -123,53 +120,39 @@ class FclBody {
   /// be one of an earlier triangle.
   bool has_normal(std::uint32_t triangle) const {
     const fcl::Triangle& t = model_.tri_indices[triangle];
-    const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+    const Vec3 &a = model_.vertices[t[0]], &b = model_.vertices[t[1]], &c = model_.vertices[t[2]];
     return (b - a).cross(c - a).squaredNorm() > 0.0;
   }
 
   fcl::BVHModel<BV>& model() { return model_; }
-  const Aabb& box() const { return box_; }
 
  private:
   fcl::BVHModel<BV> model_;
-  std::vector<Vec3> vertices_;
-  Aabb box_;
 };
 
 template <typename BV>
-class FclDetector final : public Detector {
+class FclDetector final : public BodyPairDetector {
  public:
-  explicit FclDetector(CollideFunction<BV> collide) : collide_(collide) {}
+  FclDetector(CollideFunction<BV> call, Prefilter prefilter)
+      : BodyPairDetector(prefilter), call_(call) {}
 
   const Semantics& semantics() const override { return semantics_; }
-  bool needs_vertices() const override { return true; }
 
   void prepare(const std::vector<Body>& bodies) override {
+    set_bodies(bodies);
     bodies_.clear();
     for (const Body& body : bodies)
       bodies_.push_back(std::make_unique<FclBody<BV>>(body.shape->mesh));
   }
 
-  void update(const Frame& frame) override {
-    CONTACTCHECK_INVARIANT(frame.bodies.size() == bodies_.size(), "one state per body");
-    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b]->update(frame.bodies[b].vertices);
-  }
-
-  void query(Question question, ContactSet& out) override {
-    CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-    const fcl::CollisionRequestd request = request_for(question);
-    for (std::uint32_t a = 0; a < bodies_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bodies_.size(); ++b) {
-        if (!bodies_[a]->box().overlaps(bodies_[b]->box())) continue;
-        result_.clear();
-        collide_(bodies_[a]->model(), bodies_[b]->model(), request, result_);
-        append(question, {a, b}, out);
-      }
-    }
-  }
-
  private:
-  void append(Question question, const BodyPair& pair, ContactSet& out) const {
+  void move(std::span<const CandidateBody> bodies) override {
+    for (const CandidateBody& body : bodies) bodies_[body.body]->update(body.vertices);
+  }
+
+  void collide(BodyPair pair, Question question, ContactSet& out) override {
+    result_.clear();
+    call_(bodies_[pair.a]->model(), bodies_[pair.b]->model(), request_for(question), result_);
     if (question == Question::kBody) {
       if (result_.isCollision()) out.bodies.push_back(pair);
       return;
@@ -194,18 +177,23 @@ class FclDetector final : public Detector {
   }
 
   const Semantics semantics_ = fcl_semantics();
-  CollideFunction<BV> collide_;
+  CollideFunction<BV> call_;
   // Models cannot be moved; FCL holds raw arrays.
   std::vector<std::unique_ptr<FclBody<BV>>> bodies_;
   fcl::CollisionResultd result_;  ///< kept for its capacity
 };
 
 template <typename BV>
-DetectorInfo info(std::string id, std::string summary, CollideFunction<BV> collide) {
+DetectorInfo info(std::string id, std::string summary, const std::string& given,
+                  CollideFunction<BV> collide) {
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
-  out.make = [collide](const Options&) { return std::make_unique<FclDetector<BV>>(collide); };
+  out.given = kSweepAndPrune + given + "; body ends at the first contact of two bodies";
+  out.options = {prefilter_option()};
+  out.make = [collide](const Options& options) {
+    return std::make_unique<FclDetector<BV>>(collide, prefilter_of(options));
+  };
   return out;
 }
 
@@ -219,12 +207,12 @@ Adapter fcl_adapter() {
       FCL_VERSION,
       {info<Box>("fcl-aabb",
                  "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
-                 &collide_directly<Box>),
+                 "models are not copied", &collide_directly<Box>),
        info<OrientedBox>("fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
-                         &collide_documented<OrientedBox>),
+                         "models are not copied", &collide_documented<OrientedBox>),
        info<Box>("fcl-collide",
                  "FCL's axis-aligned box tree through fcl::collide, which copies both models",
-                 &collide_documented<Box>)}};
+                 "as documented, and so with copies of both models", &collide_documented<Box>)}};
 }
 
 }  // namespace contactcheck::adapters

@@ -73,7 +73,9 @@ void add_semantics(const Semantics& s, Sheet& sheet) {
   const auto question = [](Question q) { return name_of(q); };
   sheet.line("claims", levels_text(s));
   sheet.line("informative", join(s.informative, level));
-  sheet.line("questions", join(s.questions, question));
+  sheet.line("questions",
+             join(s.questions, question) +
+                 (s.no_early_end ? "; body without an early end: no speed-up over it" : ""));
   sheet.line("contact", contact_text(s));
   sheet.line("means", s.means);
   sheet.line("numbers", numbers_text(s));
@@ -124,6 +126,7 @@ std::string detector_sheet(const DetectorInfo& info, const DetectorSpec& spec, s
   } else {
     sheet.line("absent", info.absent_because);
   }
+  sheet.line("given", info.given);
   add_options(info.options, spec.options, sheet);
   return sheet.text();
 }

@@ -1,12 +1,22 @@
 // The libraries that everything is measured against.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace contactcheck::results {
 
 /// Their detectors, in the order of tables. Each has a column; a run gives speed-ups against these
 /// wherever they run.
 inline constexpr std::array kReferences = {"fcl-aabb", "fcl-obbrss", "embree"};
+
+/// True for these and for the same with prefilter=nodes, which have no column but are measured
+/// against in tables by scene.
+inline bool is_reference(std::string_view detector) {
+  constexpr std::string_view kPrefilter = ":prefilter=nodes";
+  if (detector.ends_with(kPrefilter)) detector.remove_suffix(kPrefilter.size());
+  return std::ranges::find(kReferences, detector) != kReferences.end();
+}
 
 }  // namespace contactcheck::results

@@ -249,6 +249,7 @@ void fields(Io& io, Semantics& s) {
   io("depth_kind", s.depth);
   io("means", s.means);
   io.unless_empty("local_origin", s.local_origin);
+  io.unless_empty("no_early_end", s.no_early_end);
 }
 
 // `prepare` is repeated in the times of every question, and is there without timing, too.

@@ -151,8 +151,7 @@ FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
       for (const auto& [other, theirs] : samples) {
         const std::string& name = names[other];
         const bool is_reference =
-            std::ranges::find(results::kReferences, name) != std::end(results::kReferences) ||
-            contains(scene.task.references, name);
+            results::is_reference(name) || contains(scene.task.references, name);
         const auto same =
             std::ranges::find(theirs, question.question, &timing::QuestionSamples::question);
         if (!is_reference || same == theirs.end()) continue;
@@ -160,6 +159,7 @@ FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
         if (question.question == Question::kContacts &&
             !same_contacts(run.semantics, reference.semantics))
           continue;
+        if (question.question == Question::kBody && reference.semantics.no_early_end) continue;
         results::Speedup speedup = timing::compute_speedup(*same, question, frames);
         speedup.reference_options = reference.options;
         run.speedup[question.question][name] = std::move(speedup);

@@ -204,13 +204,18 @@ TEST(BulletVf, FineMeshIsInvisibleAtScaleOneAndSeenByDefault) {
 
 // |cross|^2 is 2^-24 and 2^-22; the cut is at 2^-23.
 TEST(BulletVf, NotesFollowTheFrameAndTheCut) {
-  World world({triangle_mesh(Vec3(0, 0, 0), Vec3(0x1p-6, 0, 0), Vec3(0, 0x1p-6, 0))});
+  World world(
+      {triangle_mesh(Vec3(0, 0, 0), Vec3(0x1p-6, 0, 0), Vec3(0, 0x1p-6, 0)), unit_box_mesh(1)});
   const auto detector = prepared("bullet-vf:scale=1", world);
   EXPECT_THAT(detector->notes(), SizeIs(1));
   world.vertices[0][1] *= 2.0;
   detector->update(world.frame());
   EXPECT_THAT(detector->notes(), IsEmpty());
   world.vertices[0][1] = Vec3::Zero();  // no area at all: nothing is hidden
+  detector->update(world.frame());
+  EXPECT_THAT(detector->notes(), IsEmpty());
+  world.vertices[0][1] = Vec3(0x1p-6, 0, 0);
+  for (Vec3& v : world.vertices[1]) v += Vec3(5, 0, 0);  // nothing to hide from
   detector->update(world.frame());
   EXPECT_THAT(detector->notes(), IsEmpty());
 }

@@ -87,6 +87,19 @@ TEST(DetectorSheet, SaysThatSinglePrecisionHasALocalOrigin) {
       std::string::npos);
 }
 
+TEST(DetectorSheet, SaysWhatTheDetectorIsGivenAndThatNothingEndsEarly) {
+  Semantics s = plain();
+  s.questions = {Question::kContacts, Question::kBody};
+  s.no_early_end = true;
+  DetectorInfo info = info_with(s);
+  info.given = "a sweep";
+  EXPECT_THAT(
+      detector_sheet(info, 100),
+      AllOf(HasSubstr("  questions   contacts, body; body without an early end: no speed-up "
+                      "over it\n"),
+            HasSubstr("  given       a sweep\n")));
+}
+
 TEST(DetectorSheet, OptionsShowDefaultAndWhatIsAllowed) {
   DetectorInfo info = info_with(plain());
   info.options = {choice_option("bounds", "safe", {"paper", "safe"}, "how culling is bounded"),

@@ -1,6 +1,6 @@
 // Pairs of overlapping boxes against brute force.
 
-#include "core/lazy/pair_tasks.h"
+#include "core/broad/body_pairs.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,76 @@
+// What the adapters of libraries share that test two bodies at a time: which pairs of bodies are
+// worth a test. Sweep and prune over the bodies' boxes names them; a body in none of these pairs is
+// not given to the library in that frame.
+//
+// With prefilter=nodes the boxes are first those of the lattice nodes, and only bodies in a pair of
+// these are mapped, by the detector itself: a reference then has what ffd-lazy has. A box of nodes
+// holds the body, since a mapped vertex is a mean of its cell's nodes but for rounding.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/detect/option_info.h"
+
+namespace contactcheck::adapters {
+
+enum class Prefilter { kNone, kNodes };
+
+/// prefilter=none|nodes
+OptionInfo prefilter_option();
+/// @pre the detector has prefilter_option()
+Prefilter prefilter_of(const Options& options);
+
+/// What all of these are given, for DetectorInfo::given.
+inline constexpr const char* kSweepAndPrune =
+    "sweep and prune over the bodies' boxes; bodies that meet no other are not refitted; ";
+
+/// A body in at least one candidate pair of the frame.
+struct CandidateBody {
+  std::uint32_t body = 0;
+  std::span<const Vec3> vertices;  ///< until the next update
+  Aabb box;                        ///< of the vertices, exact
+};
+
+class BodyPairDetector : public Detector {
+ public:
+  bool needs_vertices() const final { return prefilter_ == Prefilter::kNone; }
+  /// @throws RefusedInput for a coordinate that is not finite
+  void update(const Frame& frame) final;
+  void query(Question question, ContactSet& out) final;
+
+ protected:
+  explicit BodyPairDetector(Prefilter prefilter) : prefilter_(prefilter) {}
+
+  /// For prepare(). `margin`: metres by which the library's own boxes are wider than the vertices;
+  /// `rounding`: by how much of a coordinate they may be, too.
+  void set_bodies(const std::vector<Body>& bodies, double margin = 0.0, double rounding = 0.0);
+  /// Of every body in every frame: what the library cannot take.
+  /// @throws RefusedInput
+  virtual void check(const Aabb&) const {}
+  /// The bodies that may meet another in this frame; the others keep what they had.
+  virtual void move(std::span<const CandidateBody> bodies) = 0;
+  /// The candidate pairs of the frame, ascending, one after the other.
+  virtual void collide(BodyPair pair, Question question, ContactSet& out) = 0;
+
+  const std::vector<BodyPair>& candidate_pairs() const { return pairs_; }
+  /// What the last update has given to move().
+  const std::vector<CandidateBody>& candidates() const { return candidates_; }
+  std::span<const Vec3> vertices(std::uint32_t body) const { return vertices_[body]; }
+  const BodyShape& shape(std::uint32_t body) const { return *shapes_[body]; }
+  std::size_t body_count() const { return shapes_.size(); }
+
+ private:
+  const Prefilter prefilter_;
+  double margin_ = 0.0, rounding_ = 0.0;
+  std::vector<const BodyShape*> shapes_;
+  std::vector<Aabb> boxes_, grown_;
+  std::vector<BodyPair> pairs_;
+  std::vector<CandidateBody> candidates_;
+  std::vector<std::span<const Vec3>> vertices_;  // of bodies in a pair
+  std::vector<std::vector<Vec3>> mapped_;        // with prefilter=nodes
+};
+
+}  // namespace contactcheck::adapters

@@ -33,12 +33,15 @@ void add_truth(CommandLine& line) {
 void add_defects(CommandLine& line) {
   const auto words = std::make_shared<DefectsWords>();
   CLI::App* defects = line.app.add_subcommand(
-      "defects", "known defects of libraries beside those that a run shows");
+      "defects", "compare the wrong answers of a run with those that are known");
   defects->add_option("results", words->results, "a results.json, of the suite hard")->required();
-  defects->add_flag("--write", words->write,
-                    "make fixtures/hard/known-defects.json say what the run shows");
+  defects->add_flag(
+      "--write", words->write,
+      "make fixtures/hard/known-defects.json and readings.json say what the run shows");
   defects->footer(
-      "Exit code 1 when a listed defect did not show or an unlisted one did.\n"
+      "Exit code 1 when a listed wrong answer did not show or has another count, or an unlisted "
+      "one "
+      "did.\n"
       "Example:\n  contactcheck run hard --no-timing\n  contactcheck defects out/results.json");
   choose(*defects, line, [words] { return defects_command(words->results, words->write); });
 }

@@ -15,9 +15,7 @@ constexpr int kSurprised = 1;
 
 }  // namespace
 
-std::filesystem::path known_defects_file() {
-  return scene::fixtures_directory() / "hard" / "known-defects.json";
-}
+std::filesystem::path hard_cases_folder() { return scene::fixtures_directory() / "hard"; }
 
 int defects_command(const std::filesystem::path& file, bool write) {
   const results::Results results = results::results_in(file);
@@ -28,15 +26,17 @@ int defects_command(const std::filesystem::path& file, bool write) {
     throw InputError(file.string() + ": " + e.what());
   }
   const results::LibraryVersions versions = results::versions_in(results);
-  results::KnownDefects known = results::read_known_defects(known_defects_file());
+  results::KnownDefects known = results::read_known_defects(hard_cases_folder());
   if (write) {
     known = results::updated(known, run, versions, adapters::library_of);
-    results::write_known_defects(known_defects_file(), known);
+    results::write_known_defects(hard_cases_folder(), known);
   }
   const results::DefectComparison comparison = results::compare_defects(known, run, versions);
   std::fputs(report::defects_text(results::in_results(known, comparison)).c_str(), stdout);
-  if (write) std::printf("%s\n", known_defects_file().c_str());
-  return comparison.not_shown.empty() && comparison.unlisted.empty() ? 0 : kSurprised;
+  if (write)
+    for (const char* name : {"known-defects.json", "readings.json"})
+      std::printf("%s\n", (hard_cases_folder() / name).c_str());
+  return comparison.as_listed() ? 0 : kSurprised;
 }
 
 }  // namespace contactcheck::cli

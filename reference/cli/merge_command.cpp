@@ -44,7 +44,7 @@ int merge_command(const std::vector<std::string>& files, const fs::path& out) {
   const suite::OutLock lock(out);
   suite::SuiteOutcome outcome;
   const results::Results results =
-      suite::merge_shards(shards, out, results::read_known_defects(known_defects_file()), &outcome);
+      suite::merge_shards(shards, out, results::read_known_defects(hard_cases_folder()), &outcome);
   const auto reports = report_texts(results, out, all_report_formats());
   write_report(out, reports);
   std::printf("merged %zu shards, %zu scenes\n%s  %s\n", shards.size(), results.scenes.size(),

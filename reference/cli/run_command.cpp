@@ -315,7 +315,7 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
-  request.known_defects = results::read_known_defects(known_defects_file());
+  request.known_defects = results::read_known_defects(hard_cases_folder());
   return request;
 }
 

@@ -88,7 +88,7 @@ tune::TuningRequest make_request(const TuneArguments& arguments, const OwnDetect
   request.settings.plugin_ids = own.ids();
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
-  request.known_defects = results::read_known_defects(known_defects_file());
+  request.known_defects = results::read_known_defects(hard_cases_folder());
   request.command = arguments.command_line;
   return request;
 }

@@ -79,8 +79,8 @@ Reading read_defects(const results::Results& results, const results::Run& row) {
   if (!results.known_defects)
     return without("the results hold no comparison with known defects: no hard cases ran");
   std::size_t count = 0;
-  for (const auto* sightings :
-       {&results.known_defects->unlisted, &results.known_defects->not_shown})
+  for (const auto* sightings : {&results.known_defects->unlisted, &results.known_defects->not_shown,
+                                &results.known_defects->changed})
     for (const results::Sightings& s : *sightings)
       if (s.scene == row.scene && s.detector == row.detector) count += s.values.size();
   return number(static_cast<double>(count));

@@ -14,7 +14,8 @@
 namespace contactcheck::report {
 
 /// A row per detector: families and cases, how many of them it answered as it claims, missed and
-/// spurious, errors, and what a case costs. None without families.
+/// spurious, errors, refusals, and what a case costs. A family that it refused or failed in has no
+/// case right. None without families.
 TitledTable hard_sums(const results::Results& results);
 
 /// How many cases each detector gets wrong, by family; only those that go wrong somewhere. No rows

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "reference/report/format.h"
 
 namespace contactcheck::report {
@@ -17,64 +19,107 @@ std::size_t cases_in(const Groups& groups) {
 }
 
 std::string shown_text(const results::DefectCount& d) {
-  return d.other_version ? "other version" : fmt::format("{} of {}", d.shown, d.listed);
+  if (d.other_version) return "other version";
+  return fmt::format("{} of {}", d.shown, d.listed) +
+         (d.changed > 0 ? fmt::format(", {} with another count", d.changed) : "");
 }
 
-TitledTable defects_table(const results::DefectCounts& known) {
+// Readings are of no library, version or issue.
+TitledTable defects_table(const std::string& text, const std::vector<results::DefectCount>& defects,
+                          bool readings) {
   TitledTable out{"",
-                  "",
-                  {{"library", true, ""},
-                   {"described in", true, ""},
+                  text,
+                  {{"described in", true, ""},
                    {"seen as", true, ""},
                    {"why", true, ""},
                    {"detectors", true, ""},
                    {"families", false, ""},
                    {"cases that show it", false, ""}},
                   {}};
-  for (const results::DefectCount& d : known.defects)
-    out.rows.push_back({d.library + " " + d.version, d.issue, d.kind, d.sentence,
-                        fmt::format("{}", fmt::join(d.detectors, ", ")),
-                        format_count(d.scenes.size()), shown_text(d)});
+  if (!readings) {
+    out.columns.insert(out.columns.begin(), {"library", true, ""});
+    out.columns.insert(out.columns.begin() + 2, {"upstream issue", true, ""});
+  }
+  for (const results::DefectCount& d : defects) {
+    std::vector<std::string>& row = out.rows.emplace_back();
+    if (readings) {
+      row = {d.where};
+    } else {
+      row = {d.library + " " + d.version, d.where, d.upstream.empty() ? "-" : d.upstream};
+    }
+    for (const std::string& cell :
+         {std::string(d.kind), d.sentence, fmt::format("{}", fmt::join(d.detectors, ", ")),
+          format_count(d.scenes.size()), shown_text(d)})
+      row.push_back(cell);
+  }
   return out;
+}
+
+// "0: 3 -> 4" of a count that changed, "0: 3" of one that is listed or shown alone. The schema does
+// not say how long the lists are. A refusal and an error have nothing to count.
+std::string case_text(const results::Sightings& g, std::size_t i) {
+  if (g.kind == "error" || g.kind == "refused") return g.values[i];
+  std::string out = g.values[i];
+  const bool was = i < g.was.size(), is = i < g.is.size();
+  if (was || is) out += ": ";
+  if (was) out += grouped_digits(g.was[i]);
+  if (was && is) out += " -> ";
+  if (is) out += grouped_digits(g.is[i]);
+  return out;
+}
+
+std::string cases_text(const results::Sightings& g) {
+  std::vector<std::string> cases;
+  for (std::size_t i = 0; i < g.values.size(); ++i) cases.push_back(case_text(g, i));
+  return fmt::format("{}", fmt::join(cases, "; "));
 }
 
 TitledTable groups_table(const std::string& text, const Groups& groups) {
   TitledTable out{
       "",
       text,
-      {{"detector", true, ""}, {"family", true, ""}, {"kind", true, ""}, {"at", true, ""}},
+      {{"detector", true, ""}, {"family", true, ""}, {"kind", true, ""}, {"at: pairs", true, ""}},
       {}};
   for (const results::Sightings& g : groups)
-    out.rows.push_back({g.detector, g.scene, g.kind, fmt::format("{}", fmt::join(g.values, ", "))});
+    out.rows.push_back({g.detector, g.scene, g.kind, cases_text(g)});
   return out;
 }
 
 std::string group_lines(const char* title, const Groups& groups) {
   std::string out;
   for (const results::Sightings& g : groups)
-    out +=
-        fmt::format("  {}  {}  {}  {}\n", g.detector, g.scene, g.kind, fmt::join(g.values, ", "));
+    out += fmt::format("  {}  {}  {}  {}\n", g.detector, g.scene, g.kind, cases_text(g));
   return out.empty() ? "" : std::string(title) + "\n" + out;
+}
+
+std::string list_sentence(const char* what, const std::vector<results::DefectCount>& defects) {
+  std::size_t listed = 0, shown = 0, changed = 0;
+  for (const results::DefectCount& d : defects) {
+    listed += d.listed;
+    shown += d.shown;
+    changed += d.changed;
+  }
+  return fmt::format(
+      "Of {} {} that this run could show, {} show as listed, {} with another count and {} do not. ",
+      grouped_digits(listed), what, grouped_digits(shown - std::min(shown, changed)),
+      grouped_digits(changed), grouped_digits(listed - std::min(listed, shown)));
 }
 
 }  // namespace
 
 std::string known_defects_sentence(const results::DefectCounts& known) {
-  std::size_t listed = 0, shown = 0;
-  for (const results::DefectCount& d : known.defects) {
-    listed += d.listed;
-    shown += d.shown;
-  }
-  return fmt::format(
-      "Of {} listed wrong answers that this run could show, {} show and {} do not; {} show that "
-      "are not listed.",
-      grouped_digits(listed), grouped_digits(shown), grouped_digits(cases_in(known.not_shown)),
-      grouped_digits(cases_in(known.unlisted)));
+  std::string out = list_sentence("listed wrong answers of libraries", known.defects);
+  if (!known.readings.empty())
+    out += list_sentence("wrong answers expected of our readings of the paper", known.readings);
+  return out + grouped_digits(cases_in(known.unlisted)) + " show that are not listed.";
 }
 
 std::vector<TitledTable> known_defects_tables(const results::DefectCounts& known) {
   std::vector<TitledTable> tables = {
-      defects_table(known),
+      defects_table("", known.defects, false),
+      defects_table("Expected of our readings of the paper, which are as it is written.",
+                    known.readings, true),
+      groups_table("Shown with another count than the listed one.", known.changed),
       groups_table("Listed, and not shown: mended in this build of the library, or the case has "
                    "changed.",
                    known.not_shown),
@@ -86,7 +131,7 @@ std::vector<TitledTable> known_defects_tables(const results::DefectCounts& known
 std::string known_defects_markdown(const results::Results& results) {
   if (!results.known_defects) return "";
   std::string out =
-      "## Known defects of libraries\n\n" + known_defects_sentence(*results.known_defects) + "\n\n";
+      "## Known wrong answers\n\n" + known_defects_sentence(*results.known_defects) + "\n\n";
   for (const TitledTable& table : known_defects_tables(*results.known_defects))
     out += markdown_of(table);
   return out;
@@ -94,14 +139,16 @@ std::string known_defects_markdown(const results::Results& results) {
 
 std::string defects_text(const results::DefectCounts& known) {
   std::string out;
-  for (const results::DefectCount& d : known.defects)
-    out += fmt::format("{} {}  {}  {}  {}: {}\n", d.library, d.version,
-                       fmt::join(d.detectors, ", "), d.kind, shown_text(d), d.sentence);
+  for (const auto* list : {&known.defects, &known.readings})
+    for (const results::DefectCount& d : *list)
+      out += fmt::format("{} {}  {}  {}  {}: {}\n", d.library, d.version,
+                         fmt::join(d.detectors, ", "), d.kind, shown_text(d), d.sentence);
   return out + defects_summary(known);
 }
 
 std::string defects_summary(const results::DefectCounts& known) {
-  return group_lines("listed, not shown:", known.not_shown) +
+  return group_lines("count changed (listed -> shown):", known.changed) +
+         group_lines("listed, not shown:", known.not_shown) +
          group_lines("shown, not listed:", known.unlisted) + "  " + known_defects_sentence(known) +
          "\n";
 }

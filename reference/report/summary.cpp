@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 
 #include "reference/report/format.h"
@@ -17,7 +18,8 @@ struct Sums {
   std::string detector;
   std::optional<Level> level;
   std::optional<Question> question;  ///< of the speed-ups; those of another one do not compare
-  std::size_t scenes = 0, not_ok = 0;
+  std::size_t scenes = 0;
+  std::map<results::Status, std::size_t> not_ok;  ///< none is counted as `ok`
   std::optional<LevelCounts> counts, body;  ///< none: nothing judged, which is no perfect score
   std::optional<double> hover;
   std::array<Range, results::kReferences.size()> speedups;
@@ -32,7 +34,7 @@ void add_counts(const LevelCounts* counts, std::optional<LevelCounts>& sum) {
 
 void add_run(const Run& run, Sums& sums) {
   if (!run.ok()) {
-    ++sums.not_ok;
+    ++sums.not_ok[run.status];
     return;
   }
   ++sums.scenes;
@@ -53,8 +55,10 @@ std::vector<std::string> cells_of(Sums s) {
   const auto count = [&](std::uint64_t LevelCounts::*member) {
     return s.counts ? format_count(*s.counts.*member) : "-";
   };
-  const std::string scenes =
-      std::to_string(s.scenes) + (s.not_ok ? " (" + std::to_string(s.not_ok) + " not ok)" : "");
+  std::string not_ok;  // "1 error, 2 refused"
+  for (const auto& [status, scenes] : s.not_ok)
+    not_ok += (not_ok.empty() ? "" : ", ") + std::to_string(scenes) + " " + name_of(status);
+  const std::string scenes = std::to_string(s.scenes) + (not_ok.empty() ? "" : " (" + not_ok + ")");
   std::vector<std::string> cells = {
       s.detector,
       scenes,

@@ -16,20 +16,20 @@ std::string version_in(const LibraryVersions& versions, const std::string& libra
 template <typename Name>
 std::vector<std::string> names_of(const KnownDefect& defect, Name name) {
   std::set<std::string> names;
-  for (const Sighting& s : defect.seen) names.insert(name(s));
+  for (const auto& [s, count] : defect.seen) names.insert(name(s));
   return {names.begin(), names.end()};
 }
 
 // Values of one detector, scene and kind together, in the order of the list.
-std::vector<results::Sightings> grouped(const std::vector<Sighting>& sightings) {
+std::vector<results::Sightings> grouped(const DefectComparison::Changes& changes) {
   std::vector<results::Sightings> out;
-  for (const Sighting& s : sightings) {
-    auto same = std::find_if(out.begin(), out.end(), [&](const results::Sightings& group) {
-      return group.detector == s.detector && group.scene == s.scene &&
-             group.kind == name_of(s.kind);
-    });
-    if (same == out.end()) same = out.insert(out.end(), {s.detector, s.scene, name_of(s.kind), {}});
-    same->values.push_back(s.value);
+  for (const auto& [s, change] : changes) {
+    if (out.empty() || out.back().detector != s.detector || out.back().scene != s.scene ||
+        out.back().kind != name_of(s.kind))
+      out.push_back({s.detector, s.scene, name_of(s.kind), {}, {}, {}});
+    out.back().values.push_back(s.value);
+    if (change.was > 0) out.back().was.push_back(change.was);
+    if (change.is > 0) out.back().is.push_back(change.is);
   }
   return out;
 }
@@ -41,7 +41,7 @@ KnownDefect& defect_for(const Sighting& s, const LibraryVersions& versions,
   KnownDefect unexplained;
   unexplained.library = library_of(s.detector);
   unexplained.version = version_in(versions, unexplained.library);
-  unexplained.issue = kUnexplained;
+  unexplained.where = kUnexplained;
   unexplained.kind = s.kind;
   unexplained.sentence = kUnexplained;
   const auto same_version = [&](const KnownDefect& d) {
@@ -50,14 +50,14 @@ KnownDefect& defect_for(const Sighting& s, const LibraryVersions& versions,
   for (KnownDefect& d : known.defects)
     if (same_version(d) && has_place_for(d, s)) return d;
   for (KnownDefect& d : known.defects)
-    if (same_version(d) && d.issue == kUnexplained) return d;
+    if (same_version(d) && d.where == kUnexplained) return d;
   return known.defects.emplace_back(std::move(unexplained));
 }
 
 }  // namespace
 
 LibraryVersions versions_in(const results::Results& results) {
-  LibraryVersions versions = {{"contactcheck", "any"}};
+  LibraryVersions versions = {{kOwnLibrary, kOwnVersion}};
   for (const auto& [library, version] : results.libraries) versions[library] = version;
   return versions;
 }
@@ -70,23 +70,29 @@ DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun
     DefectComparison::Count& count = out.counts.emplace_back();
     count.other_version = version_in(versions, d.library) != d.version;
     if (count.other_version) continue;
-    listed.insert(d.seen.begin(), d.seen.end());
-    for (const Sighting& s : d.seen) {
+    for (const auto& [s, was] : d.seen) {
+      listed.insert(s);
       if (run.possible.count(s) == 0) continue;
       ++count.listed;
-      const bool shown = run.seen.count(s) > 0;
-      count.shown += shown;
-      if (!shown) out.not_shown.push_back(s);
+      const auto shown = run.seen.find(s);
+      if (shown == run.seen.end()) {
+        out.not_shown[s] = {was, 0};
+        continue;
+      }
+      ++count.shown;
+      if (shown->second == was) continue;
+      ++count.changed;
+      out.changed[s] = {was, shown->second};
     }
   }
-  std::set_difference(run.seen.begin(), run.seen.end(), listed.begin(), listed.end(),
-                      std::back_inserter(out.unlisted));
+  for (const auto& [s, is] : run.seen)
+    if (listed.count(s) == 0) out.unlisted[s] = {0, is};
   return out;
 }
 
 bool any_unlisted_error(const DefectComparison& comparison) {
   return std::any_of(comparison.unlisted.begin(), comparison.unlisted.end(),
-                     [](const Sighting& s) { return s.kind == SightingKind::kError; });
+                     [](const auto& entry) { return entry.first.kind == SightingKind::kError; });
 }
 
 DefectCounts in_results(const KnownDefects& known, const DefectComparison& comparison) {
@@ -94,11 +100,13 @@ DefectCounts in_results(const KnownDefects& known, const DefectComparison& compa
   for (std::size_t i = 0; i < known.defects.size(); ++i) {
     const KnownDefect& d = known.defects[i];
     const DefectComparison::Count& count = comparison.counts[i];
-    out.defects.push_back({d.library, d.version, d.issue, name_of(d.kind), d.sentence,
-                           names_of(d, [](const Sighting& s) { return s.detector; }),
-                           names_of(d, [](const Sighting& s) { return s.scene; }), count.listed,
-                           count.shown, count.other_version});
+    (d.is_reading() ? out.readings : out.defects)
+        .push_back({d.library, d.version, d.where, d.upstream.value_or(""), name_of(d.kind),
+                    d.sentence, names_of(d, [](const Sighting& s) { return s.detector; }),
+                    names_of(d, [](const Sighting& s) { return s.scene; }), count.listed,
+                    count.shown, count.changed, count.other_version});
   }
+  out.changed = grouped(comparison.changed);
   out.not_shown = grouped(comparison.not_shown);
   out.unlisted = grouped(comparison.unlisted);
   return out;
@@ -108,12 +116,15 @@ KnownDefects updated(const KnownDefects& known, const SightingsOfRun& run,
                      const LibraryVersions& versions, const LibraryOf& library_of) {
   const DefectComparison comparison = compare_defects(known, run, versions);
   KnownDefects out = known;
-  for (const Sighting& s : comparison.unlisted)
-    defect_for(s, versions, library_of, out).seen.push_back(s);
-  const std::set<Sighting> gone(comparison.not_shown.begin(), comparison.not_shown.end());
+  for (const auto& [s, change] : comparison.unlisted)
+    defect_for(s, versions, library_of, out).seen[s] = change.is;
   for (KnownDefect& d : out.defects) {
-    std::erase_if(d.seen, [&](const Sighting& s) { return gone.count(s) > 0; });
-    std::sort(d.seen.begin(), d.seen.end());
+    if (version_in(versions, d.library) != d.version) continue;
+    for (auto& [s, count] : d.seen)
+      if (const auto change = comparison.changed.find(s); change != comparison.changed.end())
+        count = change->second.is;
+    std::erase_if(d.seen,
+                  [&](const auto& entry) { return comparison.not_shown.contains(entry.first); });
   }
   std::erase_if(out.defects, [](const KnownDefect& d) { return d.seen.empty(); });
   return out;

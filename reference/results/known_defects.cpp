@@ -25,27 +25,29 @@ void add_answers(const results::Family& family, const Run& run, SightingsOfRun& 
     for (std::size_t frame = 0; frame < counts.size(); ++frame) {
       s.value = family.values[frame];
       out.possible.insert(s);
-      if (counts[frame] != 0) out.seen.insert(s);
+      if (counts[frame] != 0) out.seen[s] = counts[frame];
     }
   };
   add(SightingKind::kMissed, run.per_frame.missed);
   add(SightingKind::kSpurious, run.per_frame.spurious);
 }
 
-// It would have failed at an earlier case, were that one bad too; of the later ones nobody knows.
-void add_errors(const std::vector<std::string>& values, const Run& run, SightingsOfRun& out) {
-  const bool failed = run.status == results::Status::kError;
+// It would have ended at an earlier case, were that one bad too; of the later ones nobody knows.
+// @pre kind is kError or kRefused, and the row is `ok` or ended in this way
+void add_end(SightingKind kind, const std::vector<std::string>& values, const Run& run,
+             SightingsOfRun& out) {
   // Behind the last case where none is known.
-  const std::size_t failed_case = failed ? run.failed_frame.value_or(values.size()) : values.size();
-  Sighting s{run.detector, run.scene, SightingKind::kError, kNoCase};
+  const std::size_t ended_case =
+      run.ok() ? values.size() : run.failed_frame.value_or(values.size());
+  Sighting s{run.detector, run.scene, kind, kNoCase};
   out.possible.insert(s);  // with no case to blame
-  for (std::size_t i = 0; i <= failed_case && i < values.size(); ++i) {
+  for (std::size_t i = 0; i <= ended_case && i < values.size(); ++i) {
     s.value = values[i];
     out.possible.insert(s);
   }
-  if (!failed) return;
-  s.value = failed_case < values.size() ? values[failed_case] : kNoCase;
-  out.seen.insert(s);
+  if (run.ok()) return;
+  s.value = ended_case < values.size() ? values[ended_case] : kNoCase;
+  out.seen[s] = 1;
 }
 
 }  // namespace
@@ -58,6 +60,8 @@ const char* name_of(SightingKind kind) {
       return "spurious";
     case SightingKind::kError:
       return "error";
+    case SightingKind::kRefused:
+      return "refused";
   }
   return "";
 }
@@ -70,7 +74,12 @@ SightingsOfRun sightings_of(const results::Results& results) {
     if (scene == nullptr) throw InputError("results have no scene \"" + run.scene + "\"");
     if (!scene->unjudged.empty()) continue;  // no detector was asked
     if (run.ok() || run.status == results::Status::kError)
-      add_errors(scene->family ? scene->family->values : std::vector<std::string>{}, run, out);
+      add_end(SightingKind::kError,
+              scene->family ? scene->family->values : std::vector<std::string>{}, run, out);
+    // A scene that was refused itself has no truth: no detector was asked.
+    if (scene->family &&
+        (run.ok() || (run.status == results::Status::kRefused && !scene->truth.empty())))
+      add_end(SightingKind::kRefused, scene->family->values, run, out);
     if (run.ok() && scene->family && run.per_frame.level) add_answers(*scene->family, run, out);
   }
   return out;
@@ -80,34 +89,63 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 SightingKind parse_kind(const text::JsonField& field) {
-  const std::string name = field.one_of({"missed", "spurious", "error"});
-  for (const SightingKind kind : {SightingKind::kMissed, SightingKind::kSpurious})
+  const std::string name = field.one_of({"missed", "spurious", "error", "refused"});
+  for (const SightingKind kind :
+       {SightingKind::kMissed, SightingKind::kSpurious, SightingKind::kError})
     if (name == name_of(kind)) return kind;
-  return SightingKind::kError;
+  return SightingKind::kRefused;
 }
 
-// The values of one detector in one scene; ["-"] where the scene has no parameter.
-void parse_values(const text::JsonField& field, Sighting at, std::vector<Sighting>& out) {
-  for (const text::JsonField& item : field.items(1)) {
-    at.value = item.text();
-    if (std::find(out.begin(), out.end(), at) != out.end()) item.refuse("named once only");
-    out.push_back(at);
+// What could say nothing is no entry.
+const std::vector<std::string>& members(const text::JsonField& field) {
+  if (!field.is(text::JsonValue::Kind::kObject) || field.value().keys.empty())
+    field.refuse("an object that is not empty");
+  return field.value().keys;
+}
+
+// How many pairs in each case of one detector in one scene.
+void parse_counts(const text::JsonField& field, Sighting at, CountedSightings& out) {
+  if (field.is(text::JsonValue::Kind::kArray))
+    field.fail("lists cases without their counts; it must be an object of counts by case");
+  constexpr std::size_t kMost = 1'000'000'000'000;
+  const bool has_pairs = at.kind == SightingKind::kMissed || at.kind == SightingKind::kSpurious;
+  for (const std::string& value : members(field)) {
+    at.value = value;
+    out[at] = field.at(value).whole(1, has_pairs ? kMost : 1);
   }
 }
 
-KnownDefect parse_defect(const text::JsonField& field) {
-  field.only_keys({"library", "version", "issue", "kind", "sentence", "seen"});
+std::optional<std::string> parse_upstream(const text::JsonField& field) {
+  if (field.is(text::JsonValue::Kind::kNull)) return {};
+  std::string address = field.text();
+  if (address.rfind("https://", 0) != 0)
+    field.refuse("the address of an issue, beginning with https://, or null");
+  return address;
+}
+
+KnownDefect parse_defect(const text::JsonField& field, bool readings) {
   KnownDefect out;
-  out.library = field.at("library").text();
-  out.version = field.at("version").text();
-  out.issue = field.at("issue").text();
+  if (field.is(text::JsonValue::Kind::kObject) && field.has("issue"))
+    field.at("issue").fail(
+        "is of the list without counts; \"where\" and \"upstream\" must stand in its place");
+  if (readings) {
+    field.only_keys({"where", "kind", "sentence", "seen"});
+    out.library = kOwnLibrary;
+    out.version = kOwnVersion;
+  } else {
+    field.only_keys({"library", "version", "where", "upstream", "kind", "sentence", "seen"});
+    out.library = field.at("library").text();
+    if (out.is_reading()) field.at("library").refuse("another's; ours stand in readings.json");
+    out.version = field.at("version").text();
+    out.upstream = parse_upstream(field.at("upstream"));
+  }
+  out.where = field.at("where").text();
   out.kind = parse_kind(field.at("kind"));
   out.sentence = field.at("sentence").text();
   const text::JsonField seen = field.at("seen");
-  for (const std::string& detector : seen.value().keys)
-    for (const std::string& scene : seen.at(detector).value().keys)
-      parse_values(seen.at(detector).at(scene), {detector, scene, out.kind, kNoCase}, out.seen);
-  std::sort(out.seen.begin(), out.seen.end());
+  for (const std::string& detector : members(seen))
+    for (const std::string& scene : members(seen.at(detector)))
+      parse_counts(seen.at(detector).at(scene), {detector, scene, out.kind, kNoCase}, out.seen);
   return out;
 }
 
@@ -116,29 +154,23 @@ void require_place_of_its_own(const KnownDefect& defect, const KnownDefects& kno
                               const text::JsonField& field) {
   for (const KnownDefect& other : known.defects) {
     if (other.library != defect.library || other.version != defect.version) continue;
-    for (const Sighting& s : defect.seen)
+    for (const auto& [s, count] : defect.seen)
       if (has_place_for(other, s))
         field.at("seen").fail("names " + s.detector + " in " + s.scene + ", " + name_of(s.kind) +
                               ", which an earlier defect names too");
   }
 }
 
-using Values = std::vector<std::string>;
-
-std::map<std::string, std::map<std::string, Values>> by_place(const KnownDefect& defect) {
-  std::map<std::string, std::map<std::string, Values>> out;
-  for (const Sighting& s : defect.seen) out[s.detector][s.scene].push_back(s.value);
-  return out;
-}
-
 // One line per detector and scene: a change is seen as the lines that changed.
 std::string seen_text(const KnownDefect& defect) {
+  std::map<std::string, std::map<std::string, Json>> by_place;
+  for (const auto& [s, count] : defect.seen) by_place[s.detector][s.scene][s.value] = count;
   std::string detectors;
-  for (const auto& [detector, scenes] : by_place(defect)) {
+  for (const auto& [detector, scenes] : by_place) {
     std::string lines;
-    for (const auto& [scene, values] : scenes)
+    for (const auto& [scene, counts] : scenes)
       lines += (lines.empty() ? "" : ",\n") + std::string("      ") + Json(scene).dump() + ": " +
-               Json(values).dump();
+               counts.dump();
     detectors += (detectors.empty() ? "" : ",\n") + std::string("     ") + Json(detector).dump() +
                  ": {\n" + lines + "}";
   }
@@ -146,45 +178,67 @@ std::string seen_text(const KnownDefect& defect) {
 }
 
 std::string defect_text(const KnownDefect& d) {
-  const Json head = {{"library", d.library},
-                     {"version", d.version},
-                     {"issue", d.issue},
-                     {"kind", name_of(d.kind)},
-                     {"sentence", d.sentence}};
+  Json head;
+  if (!d.is_reading()) {
+    head["library"] = d.library;
+    head["version"] = d.version;
+  }
+  head["where"] = d.where;
+  if (!d.is_reading()) head["upstream"] = d.upstream ? Json(*d.upstream) : Json();
+  head["kind"] = name_of(d.kind);
+  head["sentence"] = d.sentence;
   std::string out = "  {\n";
   for (const auto& [key, value] : head.items())
     out += "   " + Json(key).dump() + ": " + value.dump() + ",\n";
   return out + "   \"seen\": {\n" + seen_text(d) + "}\n  }";
 }
 
+// Of one of the two files.
+struct ListFile {
+  const char *name, *key, *what;
+  bool readings;
+};
+constexpr ListFile kFiles[] = {{"known-defects.json", "defects", "known defects", false},
+                               {"readings.json", "readings", "expected results", true}};
+
+void read_list(const std::filesystem::path& folder, const ListFile& list, KnownDefects& known) {
+  const std::filesystem::path file = folder / list.name;
+  if (!std::filesystem::exists(file)) return;
+  const std::string document = list.what + (" " + text::in_quotes(file.string()));
+  const text::JsonValue value = text::parse_json(text::read_file_bytes(file, list.what), document);
+  const text::JsonField root(value, document);
+  root.only_keys({list.key});
+  for (const text::JsonField& item : root.at(list.key).items()) {
+    KnownDefect defect = parse_defect(item, list.readings);
+    require_place_of_its_own(defect, known, item);
+    known.defects.push_back(std::move(defect));
+  }
+}
+
 }  // namespace
 
 bool has_place_for(const KnownDefect& defect, const Sighting& sighting) {
-  return std::any_of(defect.seen.begin(), defect.seen.end(), [&](const Sighting& s) {
+  return std::any_of(defect.seen.begin(), defect.seen.end(), [&](const auto& entry) {
+    const Sighting& s = entry.first;
     return s.detector == sighting.detector && s.scene == sighting.scene && s.kind == sighting.kind;
   });
 }
 
-KnownDefects read_known_defects(const std::filesystem::path& file) {
+KnownDefects read_known_defects(const std::filesystem::path& folder) {
   KnownDefects known;
-  if (!std::filesystem::exists(file)) return known;
-  const std::string document = "known defects " + text::in_quotes(file.string());
-  const text::JsonValue value =
-      text::parse_json(text::read_file_bytes(file, "known defects"), document);
-  const text::JsonField root(value, document);
-  root.only_keys({"defects"});
-  for (const text::JsonField& item : root.at("defects").items()) {
-    KnownDefect defect = parse_defect(item);
-    require_place_of_its_own(defect, known, item);
-    known.defects.push_back(std::move(defect));
-  }
+  for (const ListFile& list : kFiles) read_list(folder, list, known);
   return known;
 }
 
-void write_known_defects(const std::filesystem::path& file, const KnownDefects& known) {
-  std::string text;
-  for (const KnownDefect& d : known.defects) text += (text.empty() ? "" : ",\n") + defect_text(d);
-  write_file_atomically(file, "{\n \"defects\": [\n" + text + "\n ]\n}\n");
+void write_known_defects(const std::filesystem::path& folder, const KnownDefects& known) {
+  for (const ListFile& list : kFiles) {
+    std::string text;
+    for (const KnownDefect& d : known.defects)
+      if (d.is_reading() == list.readings) text += (text.empty() ? "" : ",\n") + defect_text(d);
+    write_file_atomically(folder / list.name, "{\n " + Json(list.key).dump() + ": [" +
+                                                  (text.empty() ? "" : "\n" + text + "\n ") +
+                                                  "]\n}\n");
+  }
 }
 
 }  // namespace contactcheck::results

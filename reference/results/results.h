@@ -292,20 +292,23 @@ struct Plugin {
 };
 
 struct DefectCount {
-  std::string library, version, issue, kind, sentence;
+  std::string library, version, where, upstream, kind, sentence;  ///< upstream: empty, or a link
   std::vector<std::string> detectors, scenes;
-  std::size_t listed = 0, shown = 0;
+  std::size_t listed = 0, shown = 0, changed = 0;
   bool other_version = false;
 };
 
+/// Cases of one detector, scene and kind, and how many pairs in each: as listed, as shown. A list
+/// that has nothing to say is empty.
 struct Sightings {
   std::string detector, scene, kind;
   std::vector<std::string> values;
+  std::vector<std::uint64_t> was, is;
 };
 
 struct DefectCounts {
-  std::vector<DefectCount> defects;
-  std::vector<Sightings> not_shown, unlisted;
+  std::vector<DefectCount> defects, readings;
+  std::vector<Sightings> changed, not_shown, unlisted;
 };
 
 struct ShardScene {

@@ -447,13 +447,15 @@ template <typename Io>
 void fields(Io& io, DefectCount& d) {
   io("library", d.library);
   io("version", d.version);
-  io("issue", d.issue);
+  io("where", d.where);
+  io.unless_empty("upstream", d.upstream);
   io("kind", d.kind);
   io("sentence", d.sentence);
   io("detectors", d.detectors);
   io("scenes", d.scenes);
   io("listed", d.listed);
   io("shown", d.shown);
+  io("changed", d.changed);
   io("other_version", d.other_version);
 }
 
@@ -463,11 +465,15 @@ void fields(Io& io, Sightings& s) {
   io("scene", s.scene);
   io("kind", s.kind);
   io("values", s.values);
+  io.unless_empty("was", s.was);
+  io.unless_empty("is", s.is);
 }
 
 template <typename Io>
 void fields(Io& io, DefectCounts& k) {
   io("defects", k.defects);
+  io("readings", k.readings);
+  io("changed", k.changed);
   io("not_shown", k.not_shown);
   io("unlisted", k.unlisted);
 }

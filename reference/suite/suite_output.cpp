@@ -156,8 +156,9 @@ void add_known_defects(const results::KnownDefects& known, Results& results,
       std::any_of(scenes.begin(), scenes.end(), [](const auto& s) { return !s.unjudged.empty(); });
   const bool any_family =
       std::any_of(scenes.begin(), scenes.end(), [](const auto& s) { return s.family.has_value(); });
-  const bool own_error = std::any_of(
-      comparison.unlisted.begin(), comparison.unlisted.end(), [&](const results::Sighting& s) {
+  const bool own_error =
+      std::any_of(comparison.unlisted.begin(), comparison.unlisted.end(), [&](const auto& entry) {
+        const results::Sighting& s = entry.first;
         return s.kind == results::SightingKind::kError && !from_outside(s.detector, results);
       });
   outcome->unlisted_error = results::any_unlisted_error(comparison) || any_unjudged;

@@ -209,6 +209,7 @@ void guarded(WorkerState& worker, WorkerEntry& entry, const std::function<void()
     entry.run.message = e.what();
   } catch (const RefusedInput& e) {
     entry.run.status = results::Status::kRefused;
+    entry.run.failed_frame = worker.progress.frame();
     entry.run.message = e.what();
   } catch (...) {
     entry.run.status = results::Status::kError;

@@ -80,9 +80,9 @@ TEST(Isolation, AnErrorThatIsAKnownDefectIsNoFailureOfTheRun) {
   const test::Scratch scratch;
   fs::create_directories(scratch.folder() / "hard");
   fs::create_directory_symlink(scene::fixtures_directory() / "suites", scratch.folder() / "suites");
-  scratch.write("hard/known-defects.json", R"({"defects": [
-    {"library": "contactcheck", "version": "any", "issue": "0", "kind": "error", "sentence": "ends",
-     "seen": {"fault-abort": {"tiny": ["-"]}}}]})");
+  scratch.write("hard/readings.json", R"({"readings": [
+    {"where": "0", "kind": "error", "sentence": "ends",
+     "seen": {"fault-abort": {"tiny": {"-": 1}}}}]})");
   const test::Environment own("CONTACTCHECK_FIXTURES", scratch.folder());
   EXPECT_EQ(test::run_whole({"fault-abort"}).outcome.exit_code, 0);
   EXPECT_EQ(test::run_whole({"fault-crash"}).outcome.exit_code, kDetectorFailed);

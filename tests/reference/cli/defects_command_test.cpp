@@ -50,7 +50,7 @@ class DefectsCommand : public testing::Test {
   }
   fs::path out() const { return scratch_.folder() / "out"; }
   fs::path results() const { return out() / "results.json"; }
-  fs::path list() const { return fixtures_ / "hard" / "known-defects.json"; }
+  fs::path hard() const { return fixtures_ / "hard"; }
 
   Scratch scratch_;
   fs::path fixtures_;
@@ -65,35 +65,73 @@ TEST_F(DefectsCommand, SaysWhatIsNotListed) {
   const Outcome outcome = defects();
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("shown, not listed:\n  fcl-aabb  " + std::string(kFamily) +
-                                     "  spurious  0, 0.1,"));
-  EXPECT_FALSE(fs::exists(list())) << "it is written when asked for alone";
+                                     "  spurious  0: 1; 0.1: 1;"));
+  EXPECT_FALSE(fs::exists(hard() / "known-defects.json")) << "it is written when asked for alone";
 }
 
 TEST_F(DefectsCommand, WritesWhatShowsAndIsThenContent) {
   run();
   EXPECT_EQ(defects({"--write"}).exit_code, 0);
-  const results::KnownDefects known = results::read_known_defects(list());
+  const results::KnownDefects known = results::read_known_defects(hard());
   ASSERT_EQ(known.defects.size(), 1u);
   EXPECT_EQ(known.defects[0].library, "fcl");
-  EXPECT_EQ(known.defects[0].issue, results::kUnexplained);
+  EXPECT_EQ(known.defects[0].where, results::kUnexplained);
   const Outcome outcome = defects();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
-  EXPECT_THAT(outcome.out, HasSubstr("and 0 do not; 0 show that are not listed.\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("show as listed, 0 with another count and 0 do not. "
+                                     "0 show that are not listed.\n"));
   EXPECT_EQ(run().at("known_defects").at("unlisted"), json::array());
 }
 
 TEST_F(DefectsCommand, SaysWhatDoesNotShow) {
   run();
   defects({"--write"});
-  results::KnownDefects known = results::read_known_defects(list());
-  results::Sighting mended = known.defects[0].seen[0];
+  results::KnownDefects known = results::read_known_defects(hard());
+  results::Sighting mended = known.defects[0].seen.begin()->first;
   mended.kind = known.defects[0].kind = results::SightingKind::kMissed;
-  known.defects[0].seen = {mended};
-  results::write_known_defects(list(), known);
+  known.defects[0].seen = {{mended, 5}};
+  results::write_known_defects(hard(), known);
   const Outcome outcome = defects();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.out, HasSubstr("listed, not shown:\n  fcl-aabb  " + std::string(kFamily) +
-                                     "  missed  " + mended.value + "\n"));
+                                     "  missed  " + mended.value + ": 5\n"));
+}
+
+TEST_F(DefectsCommand, SaysWhichCountChanged) {
+  run();
+  defects({"--write"});
+  results::KnownDefects known = results::read_known_defects(hard());
+  const results::Sighting more = known.defects[0].seen.begin()->first;
+  known.defects[0].seen[more] = 40;
+  results::write_known_defects(hard(), known);
+  const Outcome outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out,
+              HasSubstr("count changed (listed -> shown):\n  fcl-aabb  " + std::string(kFamily) +
+                        "  spurious  " + more.value + ": 40 -> 1\n"));
+  EXPECT_EQ(run().at("known_defects").at("changed").size(), 1u);
+}
+
+// One that is not listed, and a listed one that does not show any more.
+TEST_F(DefectsCommand, WatchesRefusals) {
+  json results = run();
+  defects({"--write"});
+  json& row = results.at("runs").at(0);
+  row = {{"scene", kFamily},          {"detector", "fcl-aabb"},     {"status", "refused"},
+         {"message", "not this one"}, {"frames", row.at("frames")}, {"contact_frames", 0},
+         {"failed_frame", 2}};
+  scratch_.write("out/results.json", results.dump());
+  Outcome outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 1) << "it refuses what it answered";
+  EXPECT_THAT(outcome.out,
+              HasSubstr("shown, not listed:\n  fcl-aabb  " + std::string(kFamily) + "  refused  "));
+  EXPECT_EQ(defects({"--write"}).exit_code, 0) << outcome.out;
+  EXPECT_EQ(defects().exit_code, 0);
+  run();
+  outcome = defects();
+  EXPECT_EQ(outcome.exit_code, 1) << "it answers what it refused";
+  EXPECT_THAT(outcome.out,
+              HasSubstr("listed, not shown:\n  fcl-aabb  " + std::string(kFamily) + "  refused  "));
 }
 
 TEST_F(DefectsCommand, ABadListEndsARunBeforeItStarts) {

@@ -330,8 +330,8 @@ TEST(RoundedInput, IsJudgedWhereTheRuleSaysSo) {
 constexpr const char* kDefectsRule =
     "'scenes': ['hard-gap'], 'detectors': ['exact'], 'measure': 'known_defects', 'at_most': 0";
 
-TEST(KnownDefects, FailWhenUnlistedOrNotShown) {
-  for (const char* list : {"unlisted", "not_shown"}) {
+TEST(KnownDefects, FailWhenUnlistedNotShownOrOfAnotherCount) {
+  for (const char* list : {"unlisted", "not_shown", "changed"}) {
     Json results = sample_results();
     EXPECT_EQ(checks_of(kDefectsRule, results).at(0).verdict, Verdict::kPass);
     results["known_defects"][list] = {

@@ -32,7 +32,7 @@ constexpr const char* kHead = R"json({
      "contact_frames": 30, "truth": {"triangle": 30}, "truth_hash": "0xc", "bodies": [],
      "pairs": {"count": 64, "seed": 7, "touching": 30, "per_kind": {},
                "rational": {"checked": 64, "oracle_wrong": 0}}}],
-  "known_defects": {"defects": [], "not_shown": [], "unlisted": []},
+  "known_defects": {"defects": [], "readings": [], "changed": [], "not_shown": [], "unlisted": []},
   "runs": [], "disagreements": [
     {"scene": "touch", "frame": 2, "detector": "paper", "level": "body", "kind": "spurious",
      "case": "cases/0001.json"}]

@@ -31,7 +31,7 @@ TEST(HardCases, AreCountedPerDetector) {
   EXPECT_THAT(lines[1], ElementsAre("skin", "triangle", "0 of 2", "3 of 6", "1", "5", "0", "0",
                                     "0.250", "5", "0.250 one"));
   EXPECT_THAT(lines[2],
-              ElementsAre("crash", "-", "0 of 2", "0 of 0", "0", "0", "1", "1", "-", "-", "-"));
+              ElementsAre("crash", "-", "0 of 2", "0 of 6", "0", "0", "1", "1", "-", "-", "-"));
 }
 
 TEST(HardCases, NameTheFirstValueThatGoesWrong) {

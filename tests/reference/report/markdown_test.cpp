@@ -35,9 +35,9 @@ Sums over scenes; speed-ups are the smallest and the largest of any scene, in pl
 |---|--:|---|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|
 | fcl-aabb | 1 | triangle | 200000 | 1 | 0 | 0 | 0/0 | 0 | triangles | 5 | 1.00x | - | - |
 | ffd-aabb-sphere2+tri | 1 | triangle | 200000 | 0.99999 | 1 | 2 | 0/2 | 2.10 | triangles | 5 | 4.00x | - | - |
-| fcl-obbrss | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - | - |
-| embree | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - | - |
-| ffd-grid | 0 (1 not ok) |  | - | - | - | - | - | - |  | - | - | - | - |
+| fcl-obbrss | 0 (1 error) |  | - | - | - | - | - | - |  | - | - | - | - |
+| embree | 0 (1 absent) |  | - | - | - | - | - | - |  | - | - | - | - |
+| ffd-grid | 0 (1 refused) |  | - | - | - | - | - | - |  | - | - | - | - |
 
 ## Speed against error
 

@@ -97,7 +97,8 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results.goals[0].at_most = 5.0;
   results.goals[0].met = false;
   results.scenes[0].pairs.emplace().per_kind = {{"sliver", {4, 1}}};
-  results.known_defects.emplace().unlisted = {{"fcl-aabb", "gap", "missed", {"0", "1e-9"}}};
+  results.known_defects.emplace().unlisted = {
+      {"fcl-aabb", "gap", "missed", {"0", "1e-9"}, {}, {7, 8}}};
   report = page_data(results, std::nullopt);
   EXPECT_EQ(report.at("goals").at("rows").size(), 2u);
   EXPECT_EQ(report.at("goals").at("rows").at(0).back(), "no");
@@ -109,7 +110,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
               testing::HasSubstr("2 show that are not listed"));
   ASSERT_EQ(known.at("tables").size(), 1u);
   EXPECT_EQ(known.at("tables").at(0).at("rows").dump(),
-            R"([["fcl-aabb","gap","missed","0, 1e-9"]])");
+            R"([["fcl-aabb","gap","missed","0: 7; 1e-9: 8"]])");
 }
 
 TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {

@@ -50,8 +50,15 @@ TEST(Summary, AddsCountsOverScenesAndKeepsTheRangeOfSpeeds) {
 
 TEST(Summary, RunsThatAreNotOkAreCountedAndNeverAHitOrAMiss) {
   const auto lines = summary_of(two_scenes_in_order());
-  EXPECT_THAT(lines[2], ElementsAre("fcl-obbrss", "0 (2 not ok)", "", "-", "-", "-", "-", "-", "-",
+  EXPECT_THAT(lines[2], ElementsAre("fcl-obbrss", "0 (2 error)", "", "-", "-", "-", "-", "-", "-",
                                     "", "-", "-", "-", "-"));
+}
+
+TEST(Summary, RefusalsAndErrorsAreCountedApart) {
+  auto results = two_scenes_in_order();
+  for (auto& run : results["runs"])
+    if (run["detector"] == "fcl-obbrss" && run["scene"] == "hello") run["status"] = "refused";
+  EXPECT_EQ(summary_of(results)[2][1], "0 (1 error, 1 refused)");
 }
 
 TEST(Summary, RunThatIsNotOkStandsInTheLineOfItsDetector) {
@@ -63,7 +70,7 @@ TEST(Summary, RunThatIsNotOkStandsInTheLineOfItsDetector) {
                                {"message", "why"}};
     const auto lines = summary_of(results);
     ASSERT_EQ(lines.size(), 5u);
-    EXPECT_EQ(lines[0][1], "1 (1 not ok)");
+    EXPECT_EQ(lines[0][1], "1 (1 error)");
     EXPECT_EQ(lines[0][2], "triangle");
     EXPECT_EQ(lines[0][3], "200000");
   }

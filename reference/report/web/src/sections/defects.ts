@@ -5,7 +5,7 @@ import {textTable} from "../table";
 
 export const defects: Section = {
   id: "defects",
-  title: "Known defects of libraries",
+  title: "Known wrong answers",
   short: "Known defects",
   build({known_defects: known}) {
     if (!known) return [];

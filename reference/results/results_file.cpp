@@ -112,8 +112,7 @@ results::Results results_in(const std::filesystem::path& file) {
   }
   for (std::size_t i = 0; i < out.runs.size(); ++i)
     if (const std::string impossible = time_defect(out.runs[i]); !impossible.empty())
-      throw InputError(file.string() + ": " +
-                       text::member_path(text::item_path("runs", i), impossible));
+      throw InputError(file.string() + ": " + text::item_path("runs", i) + "." + impossible);
   return out;
 }
 

@@ -15,9 +15,22 @@ namespace {
 // Scene files are four levels deep; unbounded nesting would only exhaust the stack.
 constexpr std::size_t kDeepest = 64;
 
+constexpr std::size_t kLongestKey = 100, kLongestPath = 300;  // bytes in a message
+
+// `text` from a file as a message shows it, without quotes.
+std::string plain(const std::string& text, std::size_t longest = std::string::npos) {
+  const std::string quoted = in_quotes(text, longest);
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 // What nlohmann read last; a text brings its own quotes.
 std::string shown_token(const std::string& token) {
-  return !token.empty() && token[0] == '"' ? token.substr(0, 40) : in_quotes(token, 40);
+  return !token.empty() && token[0] == '"' ? plain(token.substr(0, 40)) : in_quotes(token, 40);
+}
+
+// Keys of any length may be nested before anybody asks whether they are allowed.
+std::string end_of(const std::string& path) {
+  return path.size() <= kLongestPath ? path : "..." + path.substr(path.size() - kLongestPath);
 }
 
 std::string place_of(std::size_t at, const std::string& text) {
@@ -66,7 +79,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& value) override {
     JsonValue& object = open_.back();
     if (object.find(value) != nullptr) {
-      throw InputError(document_ + ": " + member_path(path(), value) + " is given twice.");
+      throw InputError(document_ + ": " + end_of(member_path(path(), value)) + " is given twice.");
     }
     object.keys.push_back(value);
     return true;
@@ -102,7 +115,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool open(JsonValue::Kind kind) {
     if (open_.size() == kDeepest) {
-      throw InputError(document_ + ": " + path() + " is nested deeper than " +
+      throw InputError(document_ + ": " + end_of(path()) + " is nested deeper than " +
                        std::to_string(kDeepest) + " levels.");
     }
     open_.emplace_back().kind = kind;
@@ -150,7 +163,7 @@ JsonValue parse_json(const std::string& text, const std::string& document) {
 }
 
 std::string member_path(const std::string& parent, const std::string& key) {
-  return parent.empty() ? key : parent + "." + key;
+  return (parent.empty() ? "" : parent + ".") + plain(key, kLongestKey);
 }
 
 std::string item_path(const std::string& parent, std::size_t index) {

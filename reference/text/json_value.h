@@ -25,7 +25,8 @@ struct JsonValue {
 /// @throws InputError with line and column for broken syntax, with the path for duplicate keys
 JsonValue parse_json(const std::string& text, const std::string& document);
 
-/// The path of a member: "bodies[1]" and "name" give "bodies[1].name"; of the root: "name".
+/// The path of a member as a message shows it: "bodies[1]" and "name" give "bodies[1].name"; of the
+/// root: "name". Keys come from files: without control characters, and shortened.
 std::string member_path(const std::string& parent, const std::string& key);
 std::string item_path(const std::string& parent, std::size_t index);
 

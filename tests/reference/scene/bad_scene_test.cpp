@@ -238,6 +238,27 @@ TEST(SceneDefects, DeepNestingIsRefusedBeforeItExhaustsTheStack) {
               ::testing::EndsWith("is nested deeper than 64 levels."));
 }
 
+// Found by fuzzers: keys and broken texts were quoted as they are, whatever they hold.
+TEST(SceneDefects, KeysAndBrokenTextsAreShownShortAndWithoutControlCharacters) {
+  const Scratch scratch;
+  const auto after = [&](const std::string& bytes) {
+    const std::filesystem::path file = scratch.write("s.json", bytes);
+    const std::string sentence = sentence_of([&] { load_scene(file); });
+    return sentence.substr(std::min(sentence.size(), file.string().size() + 13));
+  };
+  EXPECT_EQ(after("{\"a\x7f\n\": 1}"),
+            " is not valid JSON at line 1, column 5, near \"a?<U+000A>.");
+  EXPECT_THAT(after(R"({"a\n\u001bb": 1})"),
+              ::testing::StartsWith(": a??b is not a known key; allowed here: "));
+  const std::string key(5000, 'k'), shown = std::string(100, 'k') + "...";
+  EXPECT_THAT(after("{\"" + key + "\": 1}"),
+              ::testing::StartsWith(": " + shown + " is not a known key; allowed here: "));
+  EXPECT_EQ(after("{\"" + key + "\": 1, \"" + key + "\": 2}"), ": " + shown + " is given twice.");
+  std::string deep;
+  for (int i = 0; i < 100; ++i) deep += "{\"" + key + "\": ";
+  EXPECT_EQ(after(deep).size(), 338u);
+}
+
 TEST(SceneDefects, MissingPackageNamesFieldAndPackage) {
   const Scratch scratch;
   const test::Environment data("CONTACTCHECK_DATA", scratch.folder().string());

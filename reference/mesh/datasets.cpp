@@ -50,7 +50,7 @@ std::filesystem::path find_package_file(const std::vector<std::filesystem::path>
 
 std::optional<std::string> read_tar_member(const std::filesystem::path& file,
                                            const std::string& member) {
-  constexpr std::int64_t kLargest = std::int64_t{1} << 30;  // bytes; the largest real one has 4 MB
+  constexpr std::size_t kLargest = std::size_t{256} << 20;  // bytes; the largest real one has 4 MB
   constexpr std::size_t kBlock = std::size_t{1} << 17;
   const std::string name = "archive " + text::in_quotes(file.string());
   const std::unique_ptr<archive, int (*)(archive*)> tar(archive_read_new(), archive_read_free);
@@ -68,10 +68,20 @@ std::optional<std::string> read_tar_member(const std::filesystem::path& file,
     if (found != ARCHIVE_OK) throw fault(" is damaged or ends early");
     const char* path = archive_entry_pathname(entry);
     if (path == nullptr || path != member || archive_entry_filetype(entry) != AE_IFREG) continue;
-    const std::int64_t size = archive_entry_size(entry);
-    if (size > kLargest) throw InputError(name + " has a member of more than 1 GiB.");
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (archive_read_data(tar.get(), bytes.data(), bytes.size()) != size)
+    // What there is and not what the header says: it may claim any size.
+    std::string bytes;
+    for (std::size_t end = 0;; bytes.resize(end)) {
+      bytes.resize(end + kBlock);
+      const la_ssize_t read = archive_read_data(tar.get(), bytes.data() + end, kBlock);
+      if (read < 0) throw fault(" is damaged or ends early");
+      if (read == 0) {
+        bytes.resize(end);
+        break;
+      }
+      end += static_cast<std::size_t>(read);
+      if (end > kLargest) throw InputError(name + " has a member of more than 256 MiB.");
+    }
+    if (archive_entry_size(entry) != static_cast<std::int64_t>(bytes.size()))
       throw fault(" is damaged or ends early");
     return bytes;
   }

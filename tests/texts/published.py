@@ -1,0 +1,301 @@
+"""Files of fixtures/published: the few fields of results that texts quote, one row a line."""
+
+import datetime
+import json
+import os
+import pathlib
+import re
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = pathlib.Path("fixtures") / "published"  # below the root
+LARGEST = 200_000  # bytes of a file
+REFERENCES = ("fcl-aabb", "fcl-obbrss", "embree")
+COUNTS = ("missed", "spurious")
+
+
+class TextError(Exception):
+    """What is wrong, with its place, in one sentence."""
+
+
+def read_json(path, shown):
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise TextError(f"{shown} cannot be read: {why}") from error
+    except ValueError as error:
+        raise TextError(f"{shown} is not JSON: {error}") from error
+
+
+# What a scene's row may have.
+SCENE_FIELDS = {
+    "frames": lambda scene: scene["frames"],
+    "steps": lambda scene: scene["frames"] * scene["simulation"]["every"],
+    "triangles": lambda scene: sum(body["triangles"] for body in scene["bodies"]),
+    "true_pairs": lambda scene: scene["truth"]["triangle"],
+}
+
+
+def question_of(run):
+    """The question whose speed-ups the reports show: triangles or body, else the detector's own."""
+    asked = "triangles" if "triangles" in run["semantics"]["questions"] else "body"
+    own = run["time_ms"]
+    others = [times["question"] for times in run.get("time_ms_other_questions", [])]
+    timed = "question" not in own or asked in [own["question"], *others]
+    return asked if timed else own["question"]
+
+
+def level_of(run):
+    """The finest level judged; without one nothing was."""
+    return run["per_frame"].get("level") or "-"
+
+
+def finest(run):
+    return run["levels"].get(level_of(run), {})
+
+
+def speedups(run):
+    """By reference [ratio, low, high, passes]."""
+    out = {}
+    for reference, speedup in run["speedup"].get(question_of(run), {}).items():
+        ratio = speedup["playback"]
+        if reference in REFERENCES and ratio:
+            out[reference] = [ratio["ratio"], ratio["low"], ratio["high"], speedup["passes"]]
+    return out
+
+
+# What a run's row may have. Counts are of the finest level judged.
+RUN_FIELDS = {
+    "level": level_of,
+    "truth": lambda run: finest(run).get("truth"),
+    "missed": lambda run: finest(run).get("missed"),
+    "spurious": lambda run: finest(run).get("spurious"),
+    "missed_bodies": lambda run: run["levels"]["body"]["missed"],
+    "spurious_bodies": lambda run: run["levels"]["body"]["spurious"],
+    "spurious_distance": lambda run: run["geometry"]["spurious_distance_max"],
+    "rounded": lambda run: ([run["levels_rounded"]["triangle"][kind] for kind in COUNTS]
+                            if "levels_rounded" in run else None),
+    "hover": lambda run: run["geometry"]["hover_gap_max"],
+    "lost": lambda run: {stage["name"]: stage["missed"]
+                         for stage in run["stages"] if stage["missed"]},
+    "question": question_of,
+    "passes": lambda run: run["time_ms"]["passes"],
+    "ms": lambda run: run["time_ms"]["playback"]["frame"],
+    "speedup": speedups,
+    "ratios": lambda run: {reference: ends[0] for reference, ends in speedups(run).items()},
+    "memory_bytes": lambda run: run["memory_bytes"],
+}
+
+
+def scene_rows(results, fields):
+    return [{"scene": scene["id"], **{field: SCENE_FIELDS[field](scene) for field in fields}}
+            for scene in results["scenes"]]
+
+
+def run_rows(results, fields):
+    rows = []
+    for run in results["runs"]:
+        row = {"scene": run["scene"], "detector": run["detector"]}
+        if run["status"] != "ok":
+            row["status"] = run["status"]
+        else:
+            row |= {field: RUN_FIELDS[field](run) for field in fields}
+        rows.append(row)
+    return rows
+
+
+def goal_rows(results, fields):
+    """With the passes of the ratio that the goal is about: without them nobody knows its ends."""
+    rows = []
+    for goal in results["goals"]:
+        run = next((run for run in results["runs"] if run["status"] == "ok" and
+                    (run["scene"], run["detector"]) == (goal["scene"], goal["detector"])), None)
+        passes = 0
+        if run:
+            times = run["time_ms"]
+            ratios = run["speedup"].get(times.get("question"), {})
+            passes = ratios.get(goal.get("over"), times).get("passes", 0)
+        rows.append({field: goal[field] for field in fields if field in goal} | {"passes": passes})
+    return rows
+
+
+def family_rows(results, fields):
+    """One row a detector: sums over all families of hard cases; `rounded`: by levels_rounded, too."""
+    cases = {scene["id"]: len(scene["family"]["values"])
+             for scene in results["scenes"] if "family" in scene}
+    rows = {}
+    for run in results["runs"]:
+        if run["scene"] not in cases or run["status"] == "absent":
+            continue
+        row = rows.setdefault(run["detector"], {
+            "detector": run["detector"], "level": "-", "families": 0, "families_right": 0, "cases": 0,
+            "right": 0, "truth": 0, "missed": 0, "spurious": 0, "refused": 0, "errors": 0})
+        row["families"] += 1
+        if run["status"] != "ok":
+            row["refused" if run["status"] == "refused" else "errors"] += 1
+            continue
+        if level_of(run) == "-":
+            continue
+        frames = run["per_frame"]
+        wrong = sum(any(pair) for pair in zip(frames["missed"], frames["spurious"], strict=True))
+        row["level"] = frames["level"]
+        row["families_right"] += wrong == 0
+        row["cases"] += cases[run["scene"]]
+        row["right"] += cases[run["scene"]] - wrong
+        for kind in ("truth", *COUNTS):
+            row[kind] += sum(frames[kind])
+        if "rounded" in fields and "levels_rounded" in run:
+            rounded = run["levels_rounded"]["triangle"]
+            row["rounded_truth"] = row.get("rounded_truth", 0) + rounded["truth"]
+            row["rounded_wrong"] = (row.get("rounded_wrong", 0) + rounded["missed"] +
+                                    rounded["spurious"])
+    return list(rows.values())
+
+
+def family_sums(results, _):
+    families = [scene["family"] for scene in results["scenes"] if "family" in scene]
+    defects = results.get("known_defects", {}).get("defects", [])
+    return [{"families": len(families), "cases": sum(len(family["values"]) for family in families),
+             "known_defects": sum(defect["listed"] for defect in defects)}]
+
+
+def paper_rows(reproduction, _):
+    """A row a scene: two levels of spheres over one, safe bounds, beside the paper."""
+    rows = []
+    for scene in reproduction["scenes"]:
+        for ratio in scene["ratios"]:
+            if ratio["after"] == "ffd-aabb-sphere2" and ratio["paper_reports"]:
+                ours = ratio["safe"]
+                rows.append({
+                    "scene": scene["scene"],
+                    "test": [ours["test"][end] for end in ("ratio", "low", "high")],
+                    "paper_test": ratio["paper_reports"]["test"],
+                    "left_to_hash": ours["into_hash_after"] / ours["into_hash_before"],
+                    "test_share": ours["test_share_before"],
+                    "steps_per_second": scene["frame_rate"]["steps_per_second"],
+                    "hover_at_rest": scene["hover_at_rest"] and {
+                        detector: scene["hover_at_rest"][detector]
+                        for detector in ("ffd-grid", "ffd-aabb-sphere2")}})
+    return rows
+
+
+def paper_sums(reproduction, _):
+    findings = reproduction["paper"]["findings"]
+    means = reproduction["means"]
+    return [{"figures": len(findings), "contradict": sum(f["agrees"] is False for f in findings),
+             "test": means["test_ratio"]["ours"], "steps": means["frame_rate_ratio"]["ours"]}]
+
+
+MAKERS = {"scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
+          "detectors": family_rows, "paper_sums": paper_sums, "paper": paper_rows}
+
+GOAL = ("goal", "detector", "part", "at_least", "at_most", "measured", "low", "high", "unit", "why",
+        "met")
+# Which rows each file has, and which fields of theirs.
+FILES = {
+    "default": {"scenes": ("frames", "triangles", "true_pairs"),
+                "runs": ("level", "truth", *COUNTS, "hover", "lost", "question", "passes",
+                         "ratios")},
+    "performance": {"scenes": ("frames", "triangles", "true_pairs"),
+                    "runs": ("truth", *COUNTS, "ms", "passes", "speedup"), "goals": GOAL},
+    "hard": {"sums": (), "detectors": ()},
+    "single-lazy": {"scenes": ("true_pairs",),
+                    "runs": (*COUNTS, "missed_bodies", "spurious_bodies", "spurious_distance")},
+    "single-historic": {"scenes": ("true_pairs",),
+                        "runs": (*COUNTS, "rounded")},
+    "single-hard": {"sums": (), "detectors": ("rounded",)},
+    "single-lazy-times": {"runs": ("ms", "passes")},
+    "single-historic-times": {"runs": ("ms", "passes")},
+    "paper-64": {"scenes": ("steps",), "runs": ("memory_bytes",)},
+    "reproduce": {"paper_sums": (), "paper": ()},
+}
+
+
+def command_of(results):
+    """Without what says only where results go and how much is printed."""
+    command = re.sub(r" --(?:quiet|out \S+)(?= |$)", "", results["command"])
+    if re.search(r"(?<![^\s\"'=])/", command):
+        raise TextError(f"the command \"{command}\" names an absolute path, which is of one machine "
+                        "alone")
+    return command
+
+
+def published(name, path, seconds):
+    """The text of the file NAME, made of the results at `path`."""
+    if name not in FILES:
+        raise TextError(f"{name} is no published file; there are {', '.join(FILES)}")
+    results = read_json(path, path)
+    date = datetime.datetime.fromtimestamp(os.stat(path).st_mtime, datetime.timezone.utc)
+    head = {"command": command_of(results), "version": results["version"],
+            "machine": results["machine"], "date": f"{date:%Y-%m-%d}", "seconds": seconds}
+    try:
+        sections = {kind: MAKERS[kind](results, fields) for kind, fields in FILES[name].items()}
+    except KeyError as error:
+        raise TextError(f"{path} has no field {error} that {FOLDER / name}.json needs") from error
+    return written(head, sections)
+
+
+def written(head, sections):
+    lines = [f" {json.dumps(key)}: {json.dumps(value)}" for key, value in head.items()]
+    for kind, rows in sections.items():
+        row_lines = ",\n".join(f"  {json.dumps(row)}" for row in rows)
+        lines.append(f" {json.dumps(kind)}: [\n{row_lines}\n ]")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+class Row(dict):
+    """Says of which file it is when a field is asked for that it lacks."""
+
+    def __init__(self, place, row):
+        super().__init__(row)
+        self.place = place
+
+    def __missing__(self, field):
+        row = ", ".join(str(self[key]) for key in ("scene", "detector", "goal") if key in self)
+        raise TextError(f"{self.place}: the row {row or 'of sums'} has no {field}")
+
+
+class Published:
+    """One file, asked for rows; whatever it lacks is an error that names the file."""
+
+    def __init__(self, root, name):
+        self.place = str(FOLDER / f"{name}.json")
+        path = root / self.place
+        self.head = read_json(path, self.place)
+        missing = [key for key in ("command", "version", "machine", "date", "seconds", *FILES[name])
+                   if key not in self.head]
+        if missing:
+            raise TextError(f"{self.place} has no {', '.join(missing)}")
+        if path.stat().st_size > LARGEST:
+            raise TextError(f"{self.place} has {path.stat().st_size} bytes; {LARGEST} are allowed")
+
+    def rows(self, kind):
+        return [Row(self.place, row) for row in self.head[kind]]
+
+    def row(self, kind, **wanted):
+        found = [row for row in self.rows(kind) if all(row.get(k) == v for k, v in wanted.items())]
+        if len(found) != 1:
+            what = ", ".join(f"{k} {v}" for k, v in wanted.items()) or "it"
+            raise TextError(f"{self.place} has {len(found)} rows of {kind} with {what}; "
+                            "one is needed")
+        return found[0]
+
+    def run(self, scene, detector):
+        row = self.row("runs", scene=scene, detector=detector)
+        if "status" in row:
+            raise TextError(f"{self.place}: {detector} in {scene} has status {row['status']}, "
+                            "not ok")
+        return row
+
+    def scenes(self):
+        return list(dict.fromkeys(row["scene"] for row in self.rows("runs")))
+
+    def detectors(self):
+        return list(dict.fromkeys(row["detector"] for row in self.rows("runs")))
+
+    def same(self, values, what):
+        """The one value of several that a sentence gives as one."""
+        if len(set(values)) != 1:
+            raise TextError(f"{self.place}: {what} are {', '.join(map(str, values))}; "
+                            "the text gives one value for all")
+        return values[0]

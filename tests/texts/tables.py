@@ -1,0 +1,375 @@
+"""The tables that pages show and the figures that sentences quote, out of fixtures/published."""
+
+import math
+
+from published import REFERENCES, ROOT, Published, TextError, read_json
+
+FEWEST_FOR_INTERVAL = 5  # passes, as reference/results/statistics.h has it
+ISA = {"AVX3": "AVX-512"}  # how the pages call what results.json names
+
+
+# Numbers as the reports write them (reference/report/format.cpp).
+def three_digits(value):
+    if value is None:
+        return "-"
+    if value == 0:
+        return "0"
+    size = abs(value)
+    if size >= 1e6 or size < 1e-4:
+        return f"{value:.2e}"
+    return f"{value:.{max(0, 2 - math.floor(math.log10(size)))}f}"
+
+
+def count(value):
+    return f"{value:,}"
+
+
+def span(values, write=three_digits):
+    low, high = write(min(values)), write(max(values))
+    return low if low == high else f"{low} to {high}"
+
+
+def recall(truth, missed):
+    """Cut, not rounded: with one missed contact it is not 1."""
+    if truth == 0:
+        return "-"
+    if missed in (0, truth):
+        return "1" if missed == 0 else "0"
+    return f"{(truth - missed) * 100_000 // truth / 1e5:.5f}"
+
+
+def ratio(value, low, high, passes, unit="x"):
+    ends = ("" if passes == 0 else " (1 pass)" if passes == 1 else
+            f" ({three_digits(low)} to {three_digits(high)})" if passes < FEWEST_FOR_INTERVAL else
+            f" [{three_digits(low)}, {three_digits(high)}]")
+    return three_digits(value) + unit + ends
+
+
+def percent(share):
+    return f"{100 * share:.0f}"
+
+
+def wrong(pair):
+    """Missed and spurious contacts in one cell."""
+    return "0" if pair == [0, 0] else f"{count(pair[0])} + {count(pair[1])}"
+
+
+def machine(file):
+    about = file.head["machine"]
+    return f"{about['cores']}-core {about['cpu']} with {ISA.get(about['isa'], about['isa'])}"
+
+
+def took(file):
+    minutes, seconds = divmod(round(file.head["seconds"]), 60)
+    return f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
+
+
+def minutes_of(file):
+    minutes = max(1, round(file.head["seconds"] / 60))
+    return f"{minutes} minute{'' if minutes == 1 else 's'}"
+
+
+def passes_of(file):
+    return max(run["passes"] for run in file.rows("runs") if "status" not in run)
+
+
+def table(columns, rows):
+    """Columns: titles; those of numbers, which stand at the right, end in a colon."""
+    lines = ["| " + " | ".join(title.rstrip(":") for title in columns) + " |",
+             "| " + " | ".join("--:" if title.endswith(":") else "---" for title in columns) + " |"]
+    lines += ["| " + " | ".join(cells) + " |" for cells in rows]
+    return "\n".join(lines)
+
+
+def default_summary(files):
+    file = files["default"]
+    rows = []
+    for detector in file.detectors():
+        runs = [run for run in file.rows("runs") if run["detector"] == detector]
+        ok = [run for run in runs if "status" not in run]
+        if not ok:
+            continue
+        truth, missed, spurious = (sum(run[kind] or 0 for run in ok)
+                                   for kind in ("truth", "missed", "spurious"))
+        hovers = [run["hover"] for run in ok if run["hover"] is not None]
+        cells = [detector + (f" ({len(runs) - len(ok)} not ok)" if len(ok) < len(runs) else ""),
+                 file.same([run["level"] for run in ok], f"levels of {detector}"),
+                 recall(truth, missed), str(missed), str(spurious),
+                 three_digits(1e3 * max(hovers)) if hovers else "-", ok[0]["question"]]
+        for reference in REFERENCES:
+            ratios = [run["ratios"][reference] for run in ok if reference in run["ratios"]]
+            cells.append(span(ratios) + "x" if ratios else "-")
+        rows.append(cells)
+    return table(["detector", "level", "recall:", "missed:", "spurious:", "hover mm:", "question",
+                  *(f"vs {reference}:" for reference in REFERENCES)], rows)
+
+
+LAZY_SCENES = ("near-miss", "contact", "small-pair", "pile", "coincident", "scaling-near-miss-16",
+               "scaling-contact-16")
+
+
+def over_full_refit(file, scene):
+    return file.run(scene, "full-refit")["ms"] / file.run(scene, "ffd-lazy")["ms"]
+
+
+def performance_peers(files):
+    file = files["performance"]
+    rows = []
+    for scene in LAZY_SCENES:
+        about, run = file.row("scenes", scene=scene), file.run(scene, "ffd-lazy")
+        cells = [scene, count(about["triangles"]), count(round(run["truth"] / about["frames"])),
+                 three_digits(run["ms"])]
+        for peer in ("embree", "full-refit", "fcl-aabb", "fcl-obbrss"):
+            if peer == "full-refit":
+                cells.append(three_digits(over_full_refit(file, scene)) + "x")
+            else:
+                cells.append(ratio(*run["speedup"][peer]) if peer in run["speedup"] else "-")
+        rows.append(cells)
+    return table(["scene", "triangles:", "true pairs a frame:", "ms a frame:", "embree:",
+                  "full-refit:", "fcl-aabb:", "fcl-obbrss:"], rows)
+
+
+GOAL_PARTS = {"playback": "all", "contact_frames": "with contact", "cold": "cold"}
+
+
+def performance_goals(files):
+    rows = []
+    for goal in files["performance"].rows("goals"):
+        unit = {"us": " us"}.get(goal.get("unit"), "x")
+        wanted = (f">= {three_digits(goal['at_least'])}" if "at_least" in goal else
+                  f"<= {three_digits(goal['at_most'])}") + unit
+        if goal["measured"] is None:
+            measured, met = "-", f"not measured: {goal['why']}"
+        else:
+            measured = ratio(goal["measured"], goal.get("low"), goal.get("high"),
+                             goal["passes"] if "low" in goal else 0, unit)
+            met = "yes" if goal["met"] else "no"
+        rows.append([goal["goal"], GOAL_PARTS[goal["part"]], wanted, measured, met])
+    return table(["goal", "frames", "wanted:", "measured:", "met"], rows)
+
+
+def single_lazy(files):
+    file = files["single-lazy"]
+    rows = []
+    for scene in file.scenes():
+        runs = [file.run(scene, detector) for detector in file.detectors()]
+        rows.append([scene, count(file.row("scenes", scene=scene)["true_pairs"]),
+                     *(count(file.same([run[kind] for run in runs], f"{kind} contacts in {scene}"))
+                       for kind in ("missed", "spurious"))])
+    return table(["scene", "true pairs:", "missed:", "spurious:"], rows)
+
+
+def single_lazy_times(files):
+    file = files["single-lazy-times"]
+    rows = []
+    for scene in file.scenes():
+        runs = [file.run(scene, detector + precision) for detector in ("ffd-lazy", "full-refit")
+                for precision in ("", ":precision=single")]
+        rows.append([scene, *(three_digits(run["ms"]) for run in runs)])
+    return table(["scene", "ffd-lazy:", "in single:", "full-refit:", "in single:"], rows)
+
+
+FED_VERTICES = tuple(f"{name}:precision=single"
+                     for name in ("aabb-tree", "spatial-hash", "sphere-tree"))
+
+
+def single_historic(files):
+    file = files["single-historic"]
+    rows = []
+    for scene in file.scenes():
+        fed = [file.run(scene, detector) for detector in FED_VERTICES]
+        other = file.run(scene, "bd-tree:precision=single")
+        rows.append([scene, count(file.row("scenes", scene=scene)["true_pairs"]),
+                     file.same([wrong([run["missed"], run["spurious"]]) for run in fed],
+                               f"wrong contacts in {scene}"),
+                     wrong([other["missed"], other["spurious"]]),
+                     file.same([wrong(run["rounded"]) for run in fed],
+                               f"wrong contacts by levels_rounded in {scene}")])
+    return table(["scene", "true pairs:", "missed + spurious: fed vertices:", "`bd-tree`:",
+                  "fed, by `levels_rounded`:"], rows)
+
+
+def single_historic_times(files):
+    file = files["single-historic-times"]
+    scenes, rows = file.scenes(), []
+    for detector in file.detectors():
+        if ":" in detector:
+            continue
+        runs = [(file.run(scene, detector), file.run(scene, detector + ":precision=single"))
+                for scene in scenes]
+        rows.append([f"`{detector}`", *(", ".join(three_digits(run["ms"]) for run in pair)
+                                        for pair in runs)])
+    return table(["detector", *(scene + ":" for scene in scenes)], rows)
+
+
+def hard_wrong(files):
+    file = files["hard"]
+    families = file.row("sums")["families"]
+    rows = [[row["detector"], row["level"], f"{row['families_right']} of {families}",
+             f"{row['right']} of {row['cases']}", count(row["missed"]), count(row["spurious"]),
+             str(row["refused"]) + (f" ({row['errors']} errors)" if row["errors"] else "")]
+            for row in file.rows("detectors") if row["families_right"] < row["families"]]
+    return table(["detector", "level", "families right:", "cases right:", "missed:", "spurious:",
+                  "families refused:"], rows)
+
+
+def paper_overview(files):
+    rows = []
+    for row in files["reproduce"].rows("paper"):
+        value, low, high = row["test"]
+        hover = row["hover_at_rest"] or {}
+        rows.append([row["scene"], f"{value:.2f}x [{low:.2f}, {high:.2f}]",
+                     percent(value / row["paper_test"]) + " %", f"{row['steps_per_second']:.0f}",
+                     *(three_digits(1e3 * hover[name]) if name in hover else "-"
+                       for name in ("ffd-grid", "ffd-aabb-sphere2"))])
+    return table(["scene", "collision test, one level of spheres over two, safe bounds:",
+                  "share of the paper's ratio:", "whole steps per second, `ffd-aabb-sphere2`:",
+                  "at rest, mm apart: `ffd-grid`:", "`ffd-aabb-sphere2`:"], rows)
+
+
+TABLES = {"default": default_summary, "performance": performance_peers, "goals": performance_goals,
+          "single-lazy": single_lazy, "single-lazy-times": single_lazy_times,
+          "single-historic": single_historic, "single-historic-times": single_historic_times,
+          "hard": hard_wrong, "reproduce": paper_overview}
+
+
+def lost_in(file, detector, stage):
+    return sum(run["lost"].get(stage, 0) for run in file.rows("runs")
+               if run["detector"] == detector)
+
+
+def summed(file, detector, kind):
+    runs = [run for run in file.rows("runs") if run["detector"] == detector]
+    if not runs:
+        raise TextError(f"{file.place} has no run of {detector}")
+    return sum(file.run(run["scene"], detector)[kind] for run in runs)
+
+
+def all_ok(file):
+    return [file.run(run["scene"], run["detector"]) for run in file.rows("runs")]
+
+
+def figures(files):
+    """By name, each a function: what a page does not quote need not exist."""
+    default, performance, hard = files["default"], files["performance"], files["hard"]
+    lazy, hard_single, paper = files["single-lazy"], files["single-hard"], files["reproduce"]
+    historic_times, lazy_times, small = (files["single-historic-times"], files["single-lazy-times"],
+                                         files["paper-64"])
+
+    def faster(scene, peer):
+        return three_digits(performance.run(scene, "ffd-lazy")["speedup"][peer][0])
+
+    def of_fed(field):
+        return hard_single.same([hard_single.row("detectors", detector=detector)[field]
+                                 for detector in FED_VERTICES], f"{field} of those fed vertices")
+
+    def of_nodes(field):
+        detectors = [f"{name}:precision=single" for name in ("bd-tree", "ffd-lazy")]
+        return hard_single.same([hard_single.row("detectors", detector=detector)[field]
+                                 for detector in detectors], f"{field} of those fed nodes")
+
+    def in_pile(field):
+        return lazy.same([lazy.run("pile", detector)[field] for detector in lazy.detectors()],
+                         f"{field} in pile")
+
+    def spurious_distance():
+        if in_pile("spurious") != 1 or any(run["missed_bodies"] or run["spurious_bodies"]
+                                           for run in all_ok(lazy)):
+            raise TextError(f"{lazy.place}: the text says that one pair is spurious in pile and that "
+                            "all pairs of bodies are right")
+        return f"{in_pile('spurious_distance'):.1e}".replace("e-0", "e-")
+
+    def gains():
+        """Of full-refit in single precision, by scene."""
+        return [1 - lazy_times.run(scene, "full-refit:precision=single")["ms"] /
+                lazy_times.run(scene, "full-refit")["ms"] for scene in lazy_times.scenes()]
+
+    def rounded_truth():
+        if of_fed("rounded_wrong") != 0:
+            raise TextError(f"{hard_single.place}: contacts are wrong by levels_rounded; the text "
+                            "says that none is")
+        return of_fed("rounded_truth")
+
+    def missed_in_coincident():
+        for run in performance.rows("runs"):
+            shown = run["detector"] in ("ffd-lazy", "full-refit", *REFERENCES) and "status" not in run
+            allowed = (run["scene"], run["detector"]) == ("coincident", "fcl-obbrss")
+            if shown and (run["spurious"] or (run["missed"] and not allowed)):
+                raise TextError(f"{performance.place}: {run['detector']} is wrong in {run['scene']}; "
+                                "the text says that fcl-obbrss alone is, in coincident")
+        return performance.run("coincident", "fcl-obbrss")["missed"]
+
+    def references(key):
+        name = "fixtures/suites/references.json"
+        return len(read_json(ROOT / name, name)[key])
+
+    def lines(name):
+        return len((ROOT / name).read_text("utf-8").splitlines())
+
+    return {
+        "default.scenes": lambda: str(len(default.rows("scenes"))),
+        "default.frames": lambda: str(default.same([s["frames"] for s in default.rows("scenes")],
+                                                   "frames")),
+        "default.triangles": lambda: span([s["triangles"] for s in default.rows("scenes")],
+                                          lambda value: count(round(value, -2))),
+        "default.true_pairs": lambda: count(sum(s["true_pairs"] for s in default.rows("scenes"))),
+        "default.passes": lambda: str(passes_of(default)),
+        "default.machine": lambda: machine(default),
+        "default.took": lambda: took(default),
+        "default.libccd.missed": lambda: count(summed(default, "libccd-gjk", "missed")),
+        "default.ffd-aabb.missed": lambda: count(summed(default, "ffd-aabb", "missed")),
+        "default.ffd-aabb.lost.hash": lambda: count(lost_in(default, "ffd-aabb", "hash")),
+        "default.ffd-aabb.lost.node-plane": lambda: count(
+            lost_in(default, "ffd-aabb", "node-plane")),
+        "performance.machine": lambda: machine(performance),
+        "performance.minutes": lambda: minutes_of(performance),
+        "performance.passes": lambda: str(passes_of(performance)),
+        "performance.contact.triangles": lambda: count(
+            performance.row("scenes", scene="contact")["triangles"] // 2),
+        "performance.contact.embree": lambda: faster("contact", "embree"),
+        "performance.contact.fcl-aabb": lambda: faster("contact", "fcl-aabb"),
+        "performance.near-miss.embree": lambda: faster("near-miss", "embree"),
+        "performance.near-miss.fcl-aabb": lambda: faster("near-miss", "fcl-aabb"),
+        "performance.coincident.pairs": lambda: count(
+            performance.run("coincident", "fcl-obbrss")["truth"]),
+        "performance.coincident.fcl-obbrss.missed": lambda: count(missed_in_coincident()),
+        "hard.families": lambda: str(hard.row("sums")["families"]),
+        "hard.cases": lambda: count(hard.row("sums")["cases"]),
+        "hard.detectors": lambda: str(len(hard.rows("detectors"))),
+        "hard.known_defects": lambda: count(hard.row("sums")["known_defects"]),
+        "references.scenes": lambda: str(references("scenes")),
+        "references.detectors": lambda: str(references("detectors")),
+        "pile.true_pairs": lambda: count(lazy.row("scenes", scene="pile")["true_pairs"]),
+        "pile.missed": lambda: str(in_pile("missed")),
+        "pile.spurious": lambda: str(in_pile("spurious")),
+        "pile.spurious_distance": spurious_distance,
+        "single-hard.families": lambda: str(hard_single.row("sums")["families"]),
+        "single-hard.refused": lambda: str(hard_single.same(
+            [row["refused"] for row in hard_single.rows("detectors")], "refused families")),
+        "single-hard.cases": lambda: str(of_fed("cases")),
+        "single-hard.fed.right": lambda: str(of_fed("right")),
+        "single-hard.nodes.right": lambda: str(of_nodes("right")),
+        "single-hard.rounded.truth": lambda: count(rounded_truth()),
+        "single-lazy.gain": lambda: span(gains(), percent),
+        "single-lazy.passes": lambda: str(passes_of(lazy_times)),
+        "single-lazy.machine": lambda: machine(lazy_times),
+        "single-historic.passes": lambda: str(passes_of(historic_times)),
+        "single-historic.machine": lambda: machine(historic_times),
+        "reproduce.minutes": lambda: minutes_of(paper),
+        "reproduce.test": lambda: f"{paper.row('paper_sums')['test']:.2f}x",
+        "reproduce.steps": lambda: f"{paper.row('paper_sums')['steps']:.2f}x",
+        "reproduce.figures": lambda: str(paper.row("paper_sums")["figures"]),
+        "reproduce.contradict": lambda: str(paper.row("paper_sums")["contradict"]),
+        "reproduce.left_to_hash": lambda: span([r["left_to_hash"] for r in paper.rows("paper")],
+                                               percent),
+        "reproduce.test_share": lambda: span([r["test_share"] for r in paper.rows("paper")],
+                                             percent),
+        "paper-64.detectors": lambda: str(len(small.detectors())),
+        "paper-64.rows": lambda: str(len(all_ok(small))),
+        "paper-64.steps": lambda: str(small.same([s["steps"] for s in small.rows("scenes")],
+                                                 "steps")),
+        "paper-64.took": lambda: str(round(small.head["seconds"])),
+        "paper-64.memory": lambda: span([run["memory_bytes"] / 1e6 for run in all_ok(small)],
+                                        lambda value: f"{value:.1f}"),
+        "check.py.lines": lambda: str(lines("reference/judge/check.py")),
+    }

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "core/types/check.h"
+#include "reference/text/file_text.h"
 
 namespace contactcheck::suite {
 namespace {
@@ -27,8 +28,9 @@ Shard parse_shard(std::string_view text) {
     const Shard shard{number_of(text.substr(0, slash)), number_of(text.substr(slash + 1))};
     if (shard.index >= 1 && shard.index <= shard.of) return shard;
   }
-  throw InputError("--shard \"" + std::string(text) + "\": is not K/N with 1 <= K <= N <= " +
-                   std::to_string(kMostShards) + ", such as 2/3");
+  throw InputError("--shard " + text::in_quotes(std::string(text), 60) +
+                   ": is not K/N with 1 <= K <= N <= " + std::to_string(kMostShards) +
+                   ", such as 2/3");
 }
 
 std::string without_shard_flag(const std::string& command, const Shard& shard) {

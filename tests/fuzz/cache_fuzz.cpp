@@ -5,7 +5,7 @@
 
 #include "core/types/check.h"
 #include "reference/scene/point_cache.h"
-#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/fuzzed_file.h"
 
 namespace contactcheck::test {
 namespace {
@@ -28,7 +28,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   for (const scene::CacheFormat format : {scene::CacheFormat::kPc2, scene::CacheFormat::kMdd}) try {
       test::check_promises(scene::PointCache(format, bytes, "point cache"), size);
-    } catch (const InputError&) {
+    } catch (const InputError& refusal) {
+      test::require_sentence(refusal.what());
     }
   return 0;
 }

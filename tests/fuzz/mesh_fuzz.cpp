@@ -10,7 +10,7 @@
 #include "core/types/check.h"
 #include "core/types/mesh_topology.h"
 #include "reference/mesh/mesh_file.h"
-#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/fuzzed_file.h"
 
 namespace contactcheck::test {
 namespace {
@@ -72,7 +72,8 @@ void read_as(mesh::SoupFormat format, const std::string& bytes) {
   TriangleMesh mesh;
   try {
     mesh = mesh::read_mesh_bytes(format, bytes, "mesh file \"fuzzed\"").mesh;
-  } catch (const InputError&) {
+  } catch (const InputError& refusal) {
+    require_sentence(refusal.what());
     return;
   }
   check_promises(mesh);

@@ -7,7 +7,7 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
-#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/fuzzed_file.h"
 #include "tests/fuzz/recording_repair.h"
 
 namespace contactcheck::test {
@@ -38,7 +38,8 @@ void check(const std::string& bytes) {
   Recording recording;
   try {
     recording = read_recording_bytes(bytes, "fuzzed.ccr");
-  } catch (const InputError&) {
+  } catch (const InputError& refusal) {
+    require_sentence(refusal.what());
     return;
   }
   map_all(recording);

@@ -8,8 +8,7 @@
 #include "core/types/check.h"
 #include "reference/scene/scene.h"
 #include "reference/text/json_value.h"
-#include "tests/fuzz/fuzz_target.h"
-#include "tests/reference/scene/scratch.h"
+#include "tests/fuzz/fuzzed_file.h"
 
 namespace contactcheck::test {
 namespace {
@@ -105,7 +104,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (!test::harmless_text(text)) return test::kNotForTheCorpus;
   try {
     test::check_promises(scene::load_scene(test::scratch().write("scene.json", text)));
-  } catch (const InputError&) {
+  } catch (const InputError& refusal) {
+    test::require_sentence(refusal.what(), test::scratch().folder());
   }
   return 0;
 }

@@ -1,0 +1,45 @@
+// Fuzz target: lists of known defects. Whatever is accepted is the same once it is written and read
+// again.
+
+#include <filesystem>
+#include <string>
+
+#include "core/types/check.h"
+#include "reference/results/known_defects.h"
+#include "reference/text/file_text.h"
+#include "tests/fuzz/fuzzed_file.h"
+
+namespace contactcheck::test {
+namespace {
+
+std::string written(const results::KnownDefects& known, const std::filesystem::path& file) {
+  results::write_known_defects(file, known);
+  return text::read_file_bytes(file, "written defects");
+}
+
+void check_round_trip(const results::KnownDefects& known) {
+  static const Scratch scratch;
+  const std::filesystem::path file = scratch.folder() / "written.json";
+  const std::string once = written(known, file);
+  require(once == written(results::read_known_defects(file), file),
+          "defects that are written and read are the same");
+}
+
+}  // namespace
+}  // namespace contactcheck::test
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace contactcheck;
+  static const test::FuzzedFile file("known-defects.json");
+  results::KnownDefects known;
+  try {
+    known = results::read_known_defects(file.write(data, size));
+  } catch (const InputError& refusal) {
+    test::require_sentence(refusal.what(), file.folder());
+    file.require_alone();
+    return 0;
+  }
+  file.require_alone();
+  test::check_round_trip(known);
+  return 0;
+}

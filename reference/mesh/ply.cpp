@@ -288,7 +288,8 @@ bool read_elements(const Element& element, Values& values, PolygonSoup& soup, st
     if (vertex) soup.points.push_back(point);
     const std::string rest = values.rest_of_line();
     if (rest.empty()) continue;
-    fault = ": " + element.name + " " + std::to_string(i) +
+    const std::string name = vertex || face ? element.name : text::in_quotes(element.name, 40);
+    fault = ": " + name + " " + std::to_string(i) +
             " has more on its line than its properties: " + text::in_quotes(rest, 40);
     return false;
   }

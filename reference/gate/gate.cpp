@@ -39,9 +39,10 @@ Check judge_row(const Rule& rule, const results::Index& now, const results::Inde
     return is_timing(*rule.measure) ? judge_timing(rule, now, before, row)
                                     : judge_accuracy(rule, now, before, row);
   Check out = cannot_judge(rule, name_of(row.status) + (": " + row.message));
-  if (row.status != results::Status::kError) return out;
-  out.verdict = rule.error_fails ? Verdict::kFail : Verdict::kCannotJudge;
-  out.measured = "status error";
+  if (row.status == results::Status::kAbsent) return out;
+  const bool fails = row.status == results::Status::kError ? rule.error_fails : rule.refused_fails;
+  out.verdict = fails ? Verdict::kFail : Verdict::kCannotJudge;
+  out.measured = std::string("status ") + name_of(row.status);
   out.reason = row.message;
   return out;
 }

@@ -102,7 +102,7 @@ Keys own_keys(const Measure& measure) {
 }
 
 Keys allowed_keys(const Measure& measure) {
-  Keys keys = {"rule", "why", "measure", "scenes", "error", "unjudged"};
+  Keys keys = {"rule", "why", "measure", "scenes", "error", "refused", "unjudged"};
   // The oracle is none of the detectors.
   if (measure.kind != MeasureKind::kOracle) keys.emplace_back("detectors");
   for (const Keys& more : {bounds_of(measure), own_keys(measure)})
@@ -191,6 +191,7 @@ Rule parse_rule(const text::JsonField& field) {
   if (is_timing(*rule.measure)) parse_timing(field, rule);
   rule.unjudged_fails = fails(field, "unjudged", false);
   rule.error_fails = fails(field, "error", true);
+  rule.refused_fails = fails(field, "refused", true);
   return rule;
 }
 

@@ -83,6 +83,7 @@ struct Rule {
   bool noisy_fails = false;     ///< "too noisy to judge" makes the gate red
   bool unjudged_fails = false;  ///< so does "cannot judge"
   bool error_fails = true;      ///< so does a row whose detector ended in an error
+  bool refused_fails = true;    ///< or refused its input: the rule claims that it takes it
 };
 
 struct Policy {

@@ -225,6 +225,39 @@ TEST(RowInError, PassesWhereThePolicySaysSo) {
   EXPECT_FALSE(check.red);
 }
 
+Json with_a_refusal() {
+  Json results = sample_results();
+  Json& row = row_of(results, "touch", "broken");
+  row["status"] = "refused";
+  row["message"] = "a coordinate is too large";
+  return results;
+}
+
+TEST(RowThatIsRefused, FailsEveryRuleThatCoversIt) {
+  for (const char* rule :
+       {"'measure': 'memory_bytes', 'at_most': 9", "'measure': 'contact_hash', 'equals': 'truth'",
+        "'measure': 'speedup', 'question': 'triangles', 'reference': 'ref', "
+        "'at_least': 1"}) {
+    const Check check = check_of("broken", rule, with_a_refusal());
+    EXPECT_EQ(check.verdict, Verdict::kFail) << rule;
+    EXPECT_TRUE(check.red);
+    EXPECT_EQ(check.measured, "status refused");
+    EXPECT_EQ(check.reason, "a coordinate is too large");
+    EXPECT_EQ(check.frame, "frame 4");
+  }
+}
+
+TEST(RowThatIsRefused, PassesWhereThePolicySaysSo) {
+  const Check check = check_of(
+      "broken", "'measure': 'memory_bytes', 'at_most': 9, 'refused': 'pass'", with_a_refusal());
+  EXPECT_EQ(check.verdict, Verdict::kCannotJudge);
+  EXPECT_FALSE(check.red);
+  EXPECT_TRUE(
+      check_of("broken", "'measure': 'status', 'equals': 'ok', 'refused': 'pass'", with_a_refusal())
+          .red)
+      << "a rule about the status itself";
+}
+
 TEST(RowThatIsAbsent, CannotBeJudged) {
   const char* const rule = "'measure': 'missed', 'at_most': 0";
   const Check check = check_of("lost", rule, sample_results());

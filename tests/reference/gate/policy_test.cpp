@@ -13,7 +13,8 @@ TEST(Policy, OfEveryKeyIsRead) {
                         "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
                         "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
                         "'part': 'cold', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
-                        "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass'")
+                        "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass', "
+                        "'refused': 'pass'")
                         .rules.at(0);
   EXPECT_EQ(rule.name, "R");
   EXPECT_EQ(rule.why, "because");
@@ -30,16 +31,18 @@ TEST(Policy, OfEveryKeyIsRead) {
   EXPECT_TRUE(rule.noisy_fails);
   EXPECT_TRUE(rule.unjudged_fails);
   EXPECT_FALSE(rule.error_fails);
+  EXPECT_FALSE(rule.refused_fails);
   EXPECT_TRUE(needs_baseline(rule));
 }
 
-TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsFail) {
+TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsAndRefusalsFail) {
   const Rule rule =
       test::policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', 'at_most': 0")
           .rules.at(0);
   EXPECT_FALSE(rule.noisy_fails);
   EXPECT_FALSE(rule.unjudged_fails);
   EXPECT_TRUE(rule.error_fails);
+  EXPECT_TRUE(rule.refused_fails);
   EXPECT_EQ(rule.level, "");
   EXPECT_EQ(rule.part, "playback");
   EXPECT_FALSE(needs_baseline(rule));

@@ -83,7 +83,7 @@ Keys bounds_of(const Measure& measure) {
     case MeasureKind::kStatus:
       return {"equals"};
     case MeasureKind::kSpeedup:
-      return {"at_least"};
+      return {"at_least", "at_most"};  // or both
     case MeasureKind::kSlowdown:
     case MeasureKind::kOracle:
       return {"at_most"};
@@ -145,6 +145,15 @@ bool says_true(const text::JsonField& rule, const std::string& key) {
 }
 
 void parse_bound(const text::JsonField& field, Rule& rule) {
+  if (rule.measure->kind == MeasureKind::kSpeedup && field.has("at_least") &&
+      field.has("at_most")) {
+    rule.bound = Bound::kBetween;
+    rule.limit = parse_limit(field.at("at_least"), *rule.measure);
+    rule.upper = parse_limit(field.at("at_most"), *rule.measure);
+    if (rule.upper <= rule.limit)
+      field.at("at_most").refuse("above at_least, which is " + text::shown(rule.limit));
+    return;
+  }
   const std::string key = field.exactly_one_of(bounds_of(*rule.measure));
   const text::JsonField bound = field.at(key);
   if (key == "unchanged") {
@@ -213,9 +222,11 @@ std::string allowed_text(const Rule& rule) {
   if (rule.bound == Bound::kEquals)
     return rule.measure->kind == MeasureKind::kHash ? "that of the truth" : "ok";
   const std::string unit = rule.measure->unit;
-  const std::string number =
-      text::shown(rule.limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;
-  return (rule.bound == Bound::kAtMost ? "at most " : "at least ") + number;
+  const auto number = [&](double limit) {
+    return text::shown(limit) + (unit == "x" || unit.empty() ? "" : " ") + unit;
+  };
+  return (rule.bound == Bound::kAtMost ? "at most " : "at least ") + number(rule.limit) +
+         (rule.bound == Bound::kBetween ? " and at most " + number(rule.upper) : "");
 }
 
 Policy read_policy(const std::filesystem::path& file) {

@@ -57,6 +57,7 @@ bool matches(const std::string& pattern, const std::string& name);
 enum class Bound {
   kAtMost,
   kAtLeast,
+  kBetween,    ///< of speed-ups: a window, to be left on neither side
   kUnchanged,  ///< what the baseline has
   kEquals      ///< a word: "ok" of a status, "truth" of a contact hash
 };
@@ -67,7 +68,8 @@ struct Rule {
   Patterns scenes, detectors;
   const Measure* measure = nullptr;  ///< of find_measure
   Bound bound = Bound::kAtMost;
-  double limit = 0.0;     ///< of kAtMost and kAtLeast
+  double limit = 0.0;     ///< of kAtMost and kAtLeast; the lower one of kBetween
+  double upper = 0.0;     ///< of kBetween, above `limit`
   std::string level;      ///< empty: the finest that the detector claims and that was judged
   bool rounded = false;   ///< judged by the input that a detector in single precision was fed
   std::string stage;      ///< of stage_missed; empty: all together
@@ -97,7 +99,7 @@ struct Policy {
 /// Does it need the results of an earlier run?
 bool needs_baseline(const Rule& rule);
 
-/// "at most 0", "at least 0.99", "unchanged", "ok"; with the unit.
+/// "at most 0", "at least 1x and at most 8x", "that of the baseline", "ok"; with the unit.
 std::string allowed_text(const Rule& rule);
 
 /// @throws InputError with file, place and value

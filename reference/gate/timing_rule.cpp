@@ -17,9 +17,9 @@ TimingVerdict beyond(const Slowness& slowness, const TimingTolerance& tolerance)
   out.excess_us = slowness.frame_us * (1.0 - 1.0 / slowness.ratio.value);
   const bool matters = out.excess_us >= tolerance.floor_us;
   out.verdict = matters ? Verdict::kFail : Verdict::kPass;
-  out.reason = matters ? fmt::format("{:.3g} us too long per frame of {:.4g} us", out.excess_us,
+  out.reason = matters ? fmt::format("{:.4g} us too long per frame of {:.4g} us", out.excess_us,
                                      slowness.frame_us)
-                       : fmt::format("beyond the limit by {:.3g} us per frame, less than {:.3g} us",
+                       : fmt::format("beyond the limit by {:.4g} us per frame, less than {:.3g} us",
                                      out.excess_us, tolerance.floor_us);
   return out;
 }
@@ -52,8 +52,8 @@ results::Ratio slowness_of(const results::Ratio& speedup, double limit) {
   return {limit / speedup.value, limit / speedup.high, limit / speedup.low};
 }
 
-results::Ratio over_limit(const results::Ratio& slowdown, double limit) {
-  return {slowdown.value / limit, slowdown.low / limit, slowdown.high / limit};
+results::Ratio over_limit(const results::Ratio& ratio, double limit) {
+  return {ratio.value / limit, ratio.low / limit, ratio.high / limit};
 }
 
 namespace {
@@ -144,12 +144,9 @@ std::string where_text(const Rule& rule) {
 }
 
 // `too_few`: the reason where the passes are too few to decide.
-Check judged(const Rule& rule, const results::Ratio& slowness, std::size_t passes,
-             const std::string& measured, const std::string& too_few, const results::Run& row) {
-  const std::optional<double> us = frame_us(rule, row);
-  if (!us) return cannot_judge(rule, "no times per frame of the question " + rule.question);
-  const TimingVerdict verdict =
-      judge_slowness({slowness, *us, passes}, {rule.floor_us, rule.noise_width});
+Check judged(const Rule& rule, const Slowness& slowness, const std::string& measured,
+             const std::string& too_few) {
+  const TimingVerdict verdict = judge_slowness(slowness, {rule.floor_us, rule.noise_width});
   Check out;
   out.verdict = verdict.verdict;
   out.measured = measured;
@@ -158,17 +155,49 @@ Check judged(const Rule& rule, const results::Ratio& slowness, std::size_t passe
   return out;
 }
 
+Check no_frame_times(const Rule& rule) {
+  return cannot_judge(rule, "no times per frame of the question " + rule.question);
+}
+
+// What fails on one side fails; what one side cannot tell is open, whatever the other says.
+int weight(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kFail:
+      return 3;
+    case Verdict::kTooNoisy:
+      return 2;
+    case Verdict::kCannotJudge:
+      return 1;
+    case Verdict::kPass:
+      return 0;
+  }
+  return 0;
+}
+
+// Below the lower limit the detector is too slow, above the upper one the reference is.
 Check judge_speedup(const Rule& rule, const results::Index& now, const results::Run& row) {
   std::string reason;
   const auto ratio = ratio_in(rule, row, reason);
   if (!ratio) return cannot_judge(rule, reason);
+  const std::optional<double> us = frame_us(rule, row);
+  if (!us) return no_frame_times(rule);
   const std::size_t passes = speedup_in(rule, row, reason)->passes;
-  return judged(
-      rule, slowness_of(*ratio, rule.limit), passes,
-      "speedup " + results::ratio_text(*ratio, passes) + " " + where_text(rule),
-      too_few_passes(passes_text(passes), frames_of(rule, now, row), *ratio,
-                     fmt::format("--processes {} gives an interval", results::kFewestForInterval)),
-      row);
+  const std::string measured =
+                        "speedup " + results::ratio_text(*ratio, passes) + " " + where_text(rule),
+                    too_few = too_few_passes(passes_text(passes), frames_of(rule, now, row), *ratio,
+                                             fmt::format("--processes {} gives an interval",
+                                                         results::kFewestForInterval));
+  std::optional<Check> out;
+  if (rule.bound != Bound::kAtMost)
+    out = judged(rule, {slowness_of(*ratio, rule.limit), *us, passes}, measured, too_few);
+  if (rule.bound != Bound::kAtLeast) {
+    const double limit = rule.bound == Bound::kAtMost ? rule.limit : rule.upper;
+    Check upper =
+        judged(rule, {over_limit(*ratio, limit), *us * ratio->value, passes}, measured, too_few);
+    if (upper.verdict == Verdict::kFail) upper.reason = rule.reference + ": " + upper.reason;
+    if (!out || weight(upper.verdict) > weight(out->verdict)) out = upper;
+  }
+  return *out;
 }
 
 // Not the same frames or not the same reference: another ratio.
@@ -216,15 +245,16 @@ Check judge_slowdown(const Rule& rule, const results::Index& now, const results:
   const char* const too_few = there >= results::kFewestForInterval  ? ""
                               : here >= results::kFewestForInterval ? " in the baseline"
                                                                     : " here and in the baseline";
+  const std::optional<double> us = frame_us(rule, row);
+  if (!us) return no_frame_times(rule);
   return judged(
-      rule, over_limit(slow, rule.limit), passes,
+      rule, {over_limit(slow, rule.limit), *us, passes},
       fmt::format("slowdown {} (speed-up {:.4g}x, in the baseline {:.4g}x, {})",
                   results::ratio_text(slow, passes), ratio->value, known->value, where_text(rule)),
       too_few_passes(
           fmt::format("{}, {} in the baseline", passes_text(here), there),
           frames_of(rule, now, row), slow,
-          fmt::format("--processes {}{} gives an interval", results::kFewestForInterval, too_few)),
-      row);
+          fmt::format("--processes {}{} gives an interval", results::kFewestForInterval, too_few)));
 }
 
 // "cpu is A here and B in the baseline", where it differs.

@@ -13,10 +13,11 @@ namespace contactcheck::gate {
 
 // When a ratio of times is beyond its limit: on plain numbers, so that a simulation can ask it.
 
-/// A detector's time over the longest time that its limit allows: beyond 1 it is too slow.
+/// A detector's time over the longest time that its limit allows: beyond 1 it is too slow. Of the
+/// upper limit of a speed-up, it is the reference that may not be too slow.
 struct Slowness {
   results::Ratio ratio;
-  double frame_us = 0.0;   ///< the detector's time per frame
+  double frame_us = 0.0;   ///< the time per frame of whoever may be too slow
   std::size_t passes = 0;  ///< behind the ratio: they tell what its ends are (interval_name)
 };
 
@@ -43,9 +44,9 @@ TimingVerdict judge_slowness(const Slowness& slowness, const TimingTolerance& to
 /// A speed-up of 0 is slowness without end.
 results::Ratio slowness_of(const results::Ratio& speedup, double limit);
 
-/// Of a slow-down (speed-up before / speed-up now, over the same reference) that may be at most
-/// `limit`.
-results::Ratio over_limit(const results::Ratio& slowdown, double limit);
+/// Of a ratio that may be at most `limit`: a speed-up, or a slow-down (speed-up before / speed-up
+/// now, over the same reference).
+results::Ratio over_limit(const results::Ratio& ratio, double limit);
 
 /// Why times of one run say nothing about those of the other: another CPU, number of cores,
 /// instruction set, compiler, build, or version of a library. Empty when they do.

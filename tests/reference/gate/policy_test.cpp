@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/types/check.h"
 #include "reference/scene/catalogue.h"
 #include "tests/reference/gate/gate_world.h"
 
@@ -46,6 +47,33 @@ TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsAndRefusalsFail) {
   EXPECT_EQ(rule.level, "");
   EXPECT_EQ(rule.part, "playback");
   EXPECT_FALSE(needs_baseline(rule));
+}
+
+TEST(Policy, TakesAWindowOfSpeedUpsAndRefusesOneWithoutRoom) {
+  const auto window = [](const std::string& bounds) {
+    return test::policy_of(
+        "'scenes': ['*'], 'detectors': ['embree'], 'measure': 'speedup', 'question': 'triangles', "
+        "'reference': 'fcl-aabb', " +
+        bounds);
+  };
+  const Rule rule = window("'at_least': 1, 'at_most': 8").rules.at(0);
+  EXPECT_EQ(rule.bound, Bound::kBetween);
+  EXPECT_EQ(rule.limit, 1.0);
+  EXPECT_EQ(rule.upper, 8.0);
+  EXPECT_EQ(window("'at_most': 8").rules.at(0).bound, Bound::kAtMost);
+  for (const char* upper : {"2.5", "3"}) {
+    try {
+      window(std::string("'at_least': 3, 'at_most': ") + upper);
+      ADD_FAILURE() << upper;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr(std::string("rules[0].at_most is ") + upper +
+                                               "; it must be above at_least, which is 3."));
+    }
+  }
+  EXPECT_THROW(test::policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', "
+                               "'at_least': 1, 'at_most': 2"),
+               InputError)
+      << "of speed-ups alone";
 }
 
 TEST(Patterns, StandForNamesWithOptionsToo) {

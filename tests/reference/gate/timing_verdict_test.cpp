@@ -119,6 +119,84 @@ TEST(Speedup, ThatIsNotThereCannotBeJudged) {
             "no frame with contact was timed");
 }
 
+// The row's ratio over the reference is 4.00x [3.80, 4.20] of 7 passes.
+Check window(const std::string& bounds, const Json& results = sample_results()) {
+  return check_of("exact",
+                  "'measure': 'speedup', 'question': 'triangles', 'reference': 'ref', " + bounds,
+                  results);
+}
+
+TEST(SpeedupWindow, BelowItsUpperEndPasses) {
+  const Check check = window("'at_most': 4.2");
+  EXPECT_EQ(check.verdict, Verdict::kPass);
+  EXPECT_EQ(check.allowed, "at most 4.2x");
+}
+
+TEST(SpeedupWindow, AboveItsUpperEndBlamesTheReference) {
+  const Check check = window("'at_most': 2");
+  EXPECT_EQ(check.verdict, Verdict::kFail);
+  EXPECT_TRUE(check.red);
+  EXPECT_EQ(check.measured, "speedup 4.00x [3.80, 4.20] over ref, triangles, playback");
+  EXPECT_EQ(check.reason, "ref: 2000 us too long per frame of 4000 us");
+  EXPECT_EQ(window("'at_most': 2, 'floor_us': 2001").verdict, Verdict::kPass)
+      << "the excess is the reference's";
+}
+
+TEST(SpeedupWindow, OfBothEndsFailsOnEither) {
+  const Check inside = window("'at_least': 2, 'at_most': 8");
+  EXPECT_EQ(inside.verdict, Verdict::kPass);
+  EXPECT_EQ(inside.allowed, "at least 2x and at most 8x");
+  const Check below = window("'at_least': 5, 'at_most': 8");
+  EXPECT_EQ(below.verdict, Verdict::kFail);
+  EXPECT_EQ(below.reason, "200 us too long per frame of 1000 us");
+  const Check above = window("'at_least': 1, 'at_most': 2");
+  EXPECT_EQ(above.verdict, Verdict::kFail);
+  EXPECT_EQ(above.allowed, "at least 1x and at most 2x");
+  EXPECT_EQ(above.reason, "ref: 2000 us too long per frame of 4000 us");
+}
+
+TEST(SpeedupWindow, WithAnEndInAWideIntervalIsTooNoisy) {
+  for (const char* bounds :
+       {"'at_most': 4", "'at_least': 1, 'at_most': 4", "'at_least': 4, 'at_most': 9"}) {
+    const std::string narrow = ", 'noise_width': 0.05";
+    EXPECT_EQ(window(bounds + narrow).verdict, Verdict::kTooNoisy) << bounds;
+    EXPECT_FALSE(window(bounds + narrow).red);
+    EXPECT_TRUE(window(bounds + narrow + ", 'noisy': 'fail'").red);
+    EXPECT_EQ(window(bounds + std::string(", 'noise_width': 0.2")).verdict, Verdict::kPass);
+  }
+}
+
+// A window narrower than the noise: what one end leaves open, the other still finds.
+TEST(SpeedupWindow, FailsWhereOneEndIsOpenAndTheOtherBroken) {
+  Json results = sample_results();
+  ratio_of(results) = {{"ratio", 4.0}, {"low", 2.0}, {"high", 8.0}};
+  EXPECT_EQ(window("'at_least': 3, 'at_most': 5", results).verdict, Verdict::kTooNoisy);
+  EXPECT_EQ(window("'at_least': 1, 'at_most': 1.9", results).verdict, Verdict::kFail);
+  EXPECT_EQ(window("'at_least': 8.1, 'at_most': 9", results).verdict, Verdict::kFail);
+}
+
+TEST(SpeedupWindow, OfFewPassesIsJudgedByTheFactorOnEitherSide) {
+  Json results = sample_results();
+  row_of(results, "touch", "exact")["speedup"]["triangles"]["ref"]["passes"] = 3;
+  EXPECT_EQ(window("'at_least': 2.5, 'at_most': 6.5", results).verdict, Verdict::kPass);
+  for (const char* open : {"'at_least': 2.6, 'at_most': 99", "'at_least': 1, 'at_most': 6.2",
+                           "'at_most': 6.2", "'at_most': 2.6"}) {
+    const Check check = window(open, results);
+    EXPECT_EQ(check.verdict, Verdict::kCannotJudge) << open;
+    EXPECT_THAT(check.reason, HasSubstr("3 passes: the limit lies within a factor 1.5 of the "
+                                        "range 3.8x to 4.2x; --processes 5 gives an interval"));
+  }
+  for (const char* broken :
+       {"'at_most': 2.5", "'at_least': 1, 'at_most': 2.5", "'at_least': 6.4, 'at_most': 9"})
+    EXPECT_EQ(window(broken, results).verdict, Verdict::kFail) << broken;
+}
+
+TEST(SpeedupWindow, OfAReferenceThirtyTimesSlowerIsRed) {
+  Json results = sample_results();
+  ratio_of(results) = {{"ratio", 120.0}, {"low", 60.0}, {"high", 240.0}};
+  EXPECT_TRUE(window("'at_least': 1, 'at_most': 9", results).red);
+}
+
 TEST(Slowdown, OfThirtyPercentFails) {
   const Json baseline = sample_results();
   const Check check = check_of("exact", slowdown("1.1"), slower(1.3), &baseline);

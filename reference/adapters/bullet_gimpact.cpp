@@ -56,6 +56,9 @@ Semantics gimpact_semantics() {
   return semantics;
 }
 
+/// World units, of Bullet's btPersistentManifold.cpp.
+constexpr double kContactBreakingThreshold = 0.02;
+
 /// One body: Bullet's shape over our own floats.
 class GimpactBody {
  public:
@@ -288,10 +291,11 @@ class GimpactDetector final : public BodyPairDetector {
   const Semantics& semantics() const override { return semantics_; }
 
   void prepare(const std::vector<Body>& bodies) override {
-    // Bullet's own broad phase compares boxes of the floats, grown by the margins.
-    set_bodies(bodies, margin_, kRoundingOfFedBoxes);
     const double scale = scale_option_ > 0.0 ? scale_option_ : automatic_bullet_scale(bodies);
     semantics_.scale = scale;
+    // As Bullet's own broad phase: boxes of the floats, grown by the margins and by
+    // gContactBreakingThreshold.
+    set_bodies(bodies, margin_ + kContactBreakingThreshold / scale, kRoundingOfFedBoxes);
     bodies_.clear();
     for (const Body& body : bodies)
       bodies_.push_back(

@@ -129,8 +129,11 @@ def family_rows(results, fields):
             continue
         row = rows.setdefault(run["detector"], {
             "detector": run["detector"], "level": "-", "families": 0, "families_right": 0, "cases": 0,
-            "right": 0, "truth": 0, "missed": 0, "spurious": 0, "refused": 0, "errors": 0})
+            "right": 0, "truth": 0, "missed": 0, "spurious": 0, "refused": 0, "refused_cases": 0,
+            "errors": 0})
         row["families"] += 1
+        if run["status"] == "refused":
+            row["refused_cases"] += cases[run["scene"]]
         if run["status"] != "ok":
             row["refused" if run["status"] == "refused" else "errors"] += 1
             continue
@@ -154,9 +157,14 @@ def family_rows(results, fields):
 
 def family_sums(results, _):
     families = [scene["family"] for scene in results["scenes"] if "family" in scene]
-    defects = results.get("known_defects", {}).get("defects", [])
+    known = results.get("known_defects", {})
+
+    def listed(list_name, refused):
+        return sum(entry["listed"] for entry in known.get(list_name, [])
+                   if (entry["kind"] == "refused") == refused)
     return [{"families": len(families), "cases": sum(len(family["values"]) for family in families),
-             "known_defects": sum(defect["listed"] for defect in defects)}]
+             "known_defects": listed("defects", False), "known_refusals": listed("defects", True),
+             "readings": listed("readings", False)}]
 
 
 def paper_rows(reproduction, _):

@@ -206,7 +206,8 @@ def hard_wrong(files):
     file = files["hard"]
     families = file.row("sums")["families"]
     rows = [[row["detector"], row["level"], f"{row['families_right']} of {families}",
-             f"{row['right']} of {row['cases']}", count(row["missed"]), count(row["spurious"]),
+             f"{row['right']} of {row['cases'] + row['refused_cases']}", count(row["missed"]),
+             count(row["spurious"]),
              str(row["refused"]) + (f" ({row['errors']} errors)" if row["errors"] else "")]
             for row in file.rows("detectors") if row["families_right"] < row["families"]]
     return table(["detector", "level", "families right:", "cases right:", "missed:", "spurious:",
@@ -337,6 +338,8 @@ def figures(files):
         "hard.cases": lambda: count(hard.row("sums")["cases"]),
         "hard.detectors": lambda: str(len(hard.rows("detectors"))),
         "hard.known_defects": lambda: count(hard.row("sums")["known_defects"]),
+        "hard.known_refusals": lambda: count(hard.row("sums")["known_refusals"]),
+        "hard.readings": lambda: count(hard.row("sums")["readings"]),
         "references.scenes": lambda: str(references("scenes")),
         "references.detectors": lambda: str(references("detectors")),
         "pile.true_pairs": lambda: count(lazy.row("scenes", scene="pile")["true_pairs"]),

@@ -231,18 +231,19 @@ class Publish(OfACopy):
         self.assertEqual(made.pop("machine")["cpu"], "example")
         self.assertEqual(made, {
             "command": "contactcheck run hello --processes 5", "version": "0.1.0", "seconds": 61,
-            "sums": [{"families": 1, "cases": 3, "known_defects": 2}],
+            "sums": [{"families": 1, "cases": 3, "known_defects": 3,
+                      "known_refusals": 0, "readings": 2}],
             "detectors": [
                 {"detector": "ffd-aabb-sphere2", "level": "cell", "families": 1,
                  "families_right": 0, "cases": 3, "right": 1, "truth": 10, "missed": 1,
-                 "spurious": 1, "refused": 0, "errors": 0},
+                 "spurious": 1, "refused": 0, "refused_cases": 0, "errors": 0},
                 # Nothing that it claims was judged.
                 {"detector": "bullet-vf:margin=0.001", "level": "-", "families": 1,
                  "families_right": 0, "cases": 0, "right": 0, "truth": 0, "missed": 0,
-                 "spurious": 0, "refused": 0, "errors": 0},
+                 "spurious": 0, "refused": 0, "refused_cases": 0, "errors": 0},
                 {"detector": "fcl-aabb", "level": "-", "families": 1,
                  "families_right": 0, "cases": 0, "right": 0, "truth": 0, "missed": 0,
-                 "spurious": 0, "refused": 0, "errors": 1}]})
+                 "spurious": 0, "refused": 0, "refused_cases": 0, "errors": 1}]})
 
     def test_refuses_a_command_with_an_absolute_path(self):
         results = json.loads(EXAMPLE.read_text("utf-8"))

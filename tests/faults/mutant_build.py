@@ -73,6 +73,10 @@ class Mutant:
         if not first_line.startswith("# "):
             raise Failure(DOES_NOT_APPLY, f"{path}: the first line does not say what is wrong")
         self.about = first_line[len("# "):]
+        second_line = self.text.split("\n", 2)[1]
+        # Of mutants of the whole product: the command of product_verdict.py that is tried first.
+        self.caught_by = (second_line[len("# Caught-by: "):].strip()
+                          if second_line.startswith("# Caught-by: ") else "")
         self.files = sorted(set(re.findall(r"^\+\+\+ b/(\S+)", self.text, re.MULTILINE)))
         if not self.files:
             raise Failure(DOES_NOT_APPLY, f"{path}: no file is changed")
@@ -142,6 +146,19 @@ def patched_copy(mutant, scratch):
         raise Failure(DOES_NOT_APPLY, done.stdout + done.stderr)
 
 
+def patched_unity(unit, mutant, build, scratch):
+    """A copy of a unity file that names the patched sources, or None where the unit is none: CMake
+    writes unity files into the build folder, and they name their contents by path."""
+    if "/Unity/unity_" not in unit.source:
+        return None
+    text = (build.folder / unit.source).read_text(encoding="utf-8")
+    for name in mutant.files:
+        text = text.replace(f'#include "{build.source}/{name}"', f'#include "{scratch / name}"')
+    copy = scratch / (unit.object.replace("/", "-") + ".cxx")
+    copy.write_text(text, encoding="utf-8")
+    return copy
+
+
 def unpatched(make_rule, mutant, build):
     """The changed files that a compiler read as they were, by the make rule that it wrote."""
     read = shlex.split(make_rule.partition(":")[2].replace("\\\n", " "))
@@ -155,15 +172,16 @@ def compile_unit(unit, mutant, build, scratch, flags, workers):
     words = list(unit.command)
     words[words.index("-o") + 1] = str(target)
     words[words.index("-MF") + 1] = str(make_rule)
-    patched = scratch / build.name_of(unit.source)
+    patched = (patched_unity(unit, mutant, build, scratch)
+               or scratch / build.name_of(unit.source))
     if patched.is_file():
         words[words.index("-c") + 1] = str(patched)
     words.insert(words.index(f"-I{build.source}"), f"-I{scratch}")
     done = workers.run(words + flags, cwd=build.folder)
     if done.returncode != 0:
         raise Failure(DOES_NOT_COMPILE, done.stderr)
-    # A fault that only some of its users see is another one. Precompiled headers and unity files
-    # name their contents by path.
+    # A fault that only some of its users see is another one. Precompiled headers name their contents
+    # by path.
     missed = unpatched(make_rule.read_text(encoding="utf-8"), mutant, build)
     if missed:
         raise Failure(DOES_NOT_COMPILE, f"{unit.source} reads {missed[0]} without the patch")

@@ -101,9 +101,18 @@ class MutantBuild(unittest.TestCase):
                               capture_output=True, text=True)
         self.assertIn("no work to do", done.stdout)
 
-    def test_unity_file_that_reads_a_source_without_the_patch_is_refused(self):
-        self.expect_failure(DOES_NOT_COMPILE, "reads core/alone.cpp without the patch", self.unity,
-                            UNIT)
+    def test_unity_files_read_the_patched_source(self):
+        self.assertEqual(self.printed(self.unity, UNIT), "5111")
+
+    def test_source_that_was_read_without_the_patch_is_seen(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "mistake.patch"
+            path.write_text(HEADER, encoding="utf-8")
+            mutant = Mutant(path)
+        rule = f"first.o: core/first.cpp {self.root}/core/value.h"
+        self.assertEqual(mutant_build.unpatched(rule, mutant, self.plain), ["core/value.h"])
+        rule = "first.o: core/first.cpp /tmp/mutant/core/value.h"
+        self.assertEqual(mutant_build.unpatched(rule, mutant, self.plain), [])
 
     def test_change_of_a_file_that_the_program_does_not_use_is_refused(self):
         self.expect_failure(DOES_NOT_COMPILE, "no unit of program depends on core/unused.cpp",

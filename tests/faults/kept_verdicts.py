@@ -1,10 +1,12 @@
-"""The kept verdicts on the mutants: tests/faults/verdicts.json, one line per mutant.
+"""The kept verdicts on the mutants of both kinds, one line per mutant: tests/faults/verdicts.json for
+mutants of core, tests/faults/product_verdicts.json for mutants of the whole product.
 
 A verdict is kept with a key: a hash of the patch, the files that it changes and what judges it.
 When any of these changes, the verdict is stale: it says nothing, and the mutant must be judged
 again.
 """
 
+import collections
 import hashlib
 import json
 import pathlib
@@ -13,20 +15,37 @@ import tempfile
 
 from mutant_build import DOES_NOT_APPLY, ROOT, Failure, Mutant, patched_copy
 from mutant_verdict import WORDS, Verdict
+from product_verdict import COMMANDS, FIXTURES
 
 FOLDER = ROOT / "tests" / "faults"
-FILE = FOLDER / "verdicts.json"
 SCRIPTS = ["tests/faults/mutant_build.py", "tests/faults/mutant_verdict.py"]
+PRODUCT_SCRIPTS = ["tests/faults/check_results.py", "tests/faults/mutant_build.py",
+                   "tests/faults/product_verdict.py"]
+
+# `folder` and `file_name`: where the patches and the verdicts are; `sources`: what a change of lets
+# other mutants be drawn.
+Kind = collections.namedtuple("Kind", "name folder file_name sources")
+CORE = Kind("core", "mutants", "verdicts.json", ["core"])
+PRODUCT = Kind("product", "product", "product_verdicts.json", ["core", "reference"])
+KINDS = [CORE, PRODUCT]
 
 
-def mutants():
+def file_of(kind):
+    return FOLDER / kind.file_name
+
+
+def kind_of(mutant):
+    return PRODUCT if mutant.caught_by else CORE
+
+
+def mutants(kind):
     """All of them, by name."""
-    return [Mutant(path) for path in sorted((FOLDER / "mutants").glob("*.patch"))]
+    return [Mutant(path) for path in sorted((FOLDER / kind.folder).glob("*.patch"))]
 
 
 def judging_files():
-    """The judge's sources under tests/ with the scripts that build and run it. The judge reads no
-    fixtures."""
+    """The sources under tests/ of the judge of core, with the scripts that build and run it. It reads
+    no fixtures."""
     found = set()
     todo = [path.relative_to(ROOT).as_posix() for path in FOLDER.glob("mutant_*.*")
             if path.suffix in (".h", ".cpp")]
@@ -59,19 +78,25 @@ def key_of(mutant, judged_by):
 
 
 def keys_of(some_mutants):
-    judged_by = digest_of(judging_files())
-    return {mutant.name: key_of(mutant, judged_by) for mutant in some_mutants}
+    """The product judges its own mutants: of it, only the scripts and the data that say what is
+    demanded are in their keys, else every change of the program would make all verdicts stale."""
+    core = digest_of(judging_files())
+    product = {command: digest_of(PRODUCT_SCRIPTS + FIXTURES.get(command, []))
+               for command in {mutant.caught_by for mutant in some_mutants}}
+    return {mutant.name: key_of(mutant, product[mutant.caught_by] if mutant.caught_by else core)
+            for mutant in some_mutants}
 
 
-def read():
+def read(kind):
     """(key, Verdict) by mutant."""
+    file = file_of(kind)
     codes = {word: code for code, word in WORDS.items()}
     try:
-        lines = json.loads(FILE.read_text(encoding="utf-8"))
+        lines = json.loads(file.read_text(encoding="utf-8"))
         return {name: (str(line["key"]), Verdict(codes[line["verdict"]], str(line["by"])))
                 for name, line in lines.items()}
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise Failure(DOES_NOT_APPLY, f"{FILE}: cannot be read: {error!r}") from error
+        raise Failure(DOES_NOT_APPLY, f"{file}: cannot be read: {error!r}") from error
 
 
 def text_of(kept):
@@ -81,23 +106,27 @@ def text_of(kept):
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def write(kept):
+def write(kept, kind):
     """Those of mutants that are there."""
-    names = {mutant.name for mutant in mutants()}
-    FILE.write_text(text_of({name: line for name, line in kept.items() if name in names}),
-                    encoding="utf-8")
+    names = {mutant.name for mutant in mutants(kind)}
+    file_of(kind).write_text(text_of({name: line for name, line in kept.items() if name in names}),
+                             encoding="utf-8")
 
 
-def faults():
+def faults(kind):
     """What is wrong with patches and kept verdicts, one line each; nothing is built."""
-    kept = read()
+    kept = read(kind)
     found = []
-    if FILE.read_text(encoding="utf-8") != text_of(kept):
-        found.append(f"{FILE.name}: not sorted, with one mutant a line, as --write writes it")
+    if file_of(kind).read_text(encoding="utf-8") != text_of(kept):
+        found.append(f"{kind.file_name}: not sorted, with one mutant a line, as --write writes it")
     names = set()
-    for mutant in mutants():
+    for mutant in mutants(kind):
         names.add(mutant.name)
-        if mutant.name not in kept:
+        if kind == PRODUCT and mutant.caught_by not in COMMANDS:
+            found.append(f"{mutant.name}: the second line is no \"# Caught-by: COMMAND\" with one of "
+                         f"{', '.join(COMMANDS)}")
+        # Judging all of the product's takes hours; one that was not judged is stale.
+        if mutant.name not in kept and kind != PRODUCT:
             found.append(f"{mutant.name}: no verdict is kept")
         try:
             with tempfile.TemporaryDirectory(prefix="mutant-") as scratch:

@@ -12,6 +12,7 @@ from unittest import mock
 import kept_verdicts
 import mutant_build
 import run_mutant
+from kept_verdicts import CORE, PRODUCT
 from mutant_verdict import CAUGHT, SURVIVED, Verdict
 
 PATCH = """# A mistake.
@@ -42,10 +43,10 @@ class KeptVerdicts(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         faults = self.root / "tests" / "faults"
+        self.file = faults / "verdicts.json"
         for module, name, value in ((kept_verdicts, "ROOT", self.root),
                                     (mutant_build, "ROOT", self.root),
-                                    (kept_verdicts, "FOLDER", faults),
-                                    (kept_verdicts, "FILE", faults / "verdicts.json")):
+                                    (kept_verdicts, "FOLDER", faults)):
             patch = mock.patch.object(module, name, value)
             patch.start()
             self.addCleanup(patch.stop)
@@ -59,27 +60,27 @@ class KeptVerdicts(unittest.TestCase):
         path.write_text(text, encoding="utf-8")
 
     def keep(self, name, verdict):
-        kept_verdicts.write({name: (self.key(), verdict)})
+        kept_verdicts.write({name: (self.key(), verdict)}, CORE)
 
     @staticmethod
     def key():
-        return kept_verdicts.keys_of(kept_verdicts.mutants())["mistake"]
+        return kept_verdicts.keys_of(kept_verdicts.mutants(CORE))["mistake"]
 
     @staticmethod
     def stale():
-        return [mutant.name for mutant in run_mutant.stale_and_held(kept_verdicts.mutants())[0]]
+        return [mutant.name for mutant in run_mutant.stale_and_held(CORE)[0]]
 
     def expect_fault(self, text):
-        faults = kept_verdicts.faults()
+        faults = kept_verdicts.faults(CORE)
         self.assertEqual(len(faults), 1, faults)
         self.assertIn(text, faults[0])
 
     def test_one_line_per_mutant_without_faults(self):
-        text = kept_verdicts.FILE.read_text(encoding="utf-8")
+        text = self.file.read_text(encoding="utf-8")
         self.assertEqual(text.count("\n"), 3)
         self.assertEqual(json.loads(text), {
             "mistake": {"key": self.key(), "verdict": "caught", "by": "a check"}})
-        self.assertEqual(kept_verdicts.faults(), [])
+        self.assertEqual(kept_verdicts.faults(CORE), [])
         self.assertEqual(self.stale(), [])
 
     def test_stale_when_something_changes_that_it_rests_on(self):
@@ -90,7 +91,7 @@ class KeptVerdicts(unittest.TestCase):
             with self.subTest(name=name):
                 self.fill(name, FILES[name] + "more\n")
                 self.assertEqual(self.stale(), ["mistake"])
-                self.assertEqual(kept_verdicts.faults(), [])
+                self.assertEqual(kept_verdicts.faults(CORE), [])
                 self.fill(name, FILES[name])
                 self.assertEqual(self.stale(), [])
 
@@ -110,7 +111,7 @@ class KeptVerdicts(unittest.TestCase):
         self.expect_fault("mistake: survived: no check")
         options = mock.Mock(at_least=0)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            self.assertEqual(run_mutant.run_stale(options), SURVIVED)
+            self.assertEqual(run_mutant.run_stale(options, CORE), SURVIVED)
 
     def test_mutant_without_a_verdict(self):
         self.fill("tests/faults/mutants/second.patch", PATCH)
@@ -119,32 +120,57 @@ class KeptVerdicts(unittest.TestCase):
 
     def test_verdict_without_a_mutant(self):
         lines = {name: (self.key(), Verdict(CAUGHT, "a check")) for name in ("gone", "mistake")}
-        kept_verdicts.FILE.write_text(kept_verdicts.text_of(lines), encoding="utf-8")
+        self.file.write_text(kept_verdicts.text_of(lines), encoding="utf-8")
         self.expect_fault("gone: a verdict is kept, but there is no such mutant")
-        kept_verdicts.write(kept_verdicts.read())
-        self.assertEqual(kept_verdicts.faults(), [])
+        kept_verdicts.write(kept_verdicts.read(CORE), CORE)
+        self.assertEqual(kept_verdicts.faults(CORE), [])
 
     def test_patch_that_does_not_apply(self):
         self.fill("core/a.cpp", "neither\n")
         self.expect_fault("mistake: does not apply")
 
     def test_key_that_is_none(self):
-        text = kept_verdicts.FILE.read_text(encoding="utf-8").replace(self.key(), "0123")
-        kept_verdicts.FILE.write_text(text, encoding="utf-8")
+        text = self.file.read_text(encoding="utf-8").replace(self.key(), "0123")
+        self.file.write_text(text, encoding="utf-8")
         self.expect_fault('mistake: "0123" is no key')
 
     def test_file_in_another_form(self):
-        text = kept_verdicts.FILE.read_text(encoding="utf-8")
-        kept_verdicts.FILE.write_text(text + "\n", encoding="utf-8")
+        text = self.file.read_text(encoding="utf-8")
+        self.file.write_text(text + "\n", encoding="utf-8")
         self.expect_fault("as --write writes it")
 
     def test_file_that_is_no_verdicts_is_refused(self):
         for text in ("", "[]", '{"mistake": 1}', '{"mistake": {"key": "0", "by": ""}}',
                      '{"mistake": {"key": "0", "verdict": "guessed", "by": ""}}'):
             with self.subTest(text=text):
-                kept_verdicts.FILE.write_text(text, encoding="utf-8")
+                self.file.write_text(text, encoding="utf-8")
                 with self.assertRaisesRegex(mutant_build.Failure, "verdicts.json: cannot be read"):
-                    kept_verdicts.read()
+                    kept_verdicts.read(CORE)
+
+    def product_key(self):
+        return kept_verdicts.keys_of(kept_verdicts.mutants(PRODUCT))["whole"]
+
+    def test_product_verdict_rests_on_its_scripts_and_on_what_its_command_demands(self):
+        first_line, rest = PATCH.split("\n", 1)
+        self.fill("tests/faults/product/whole.patch", f"{first_line}\n# Caught-by: hard\n{rest}")
+        for name in ("core/a.cpp", "fixtures/hard/known-defects.json",
+                     "tests/faults/product_verdict.py", "tests/faults/check_results.py",
+                     "tests/faults/mutant_build.py"):
+            with self.subTest(name=name):
+                before = self.product_key()
+                self.fill(name, "changed\n")
+                self.assertNotEqual(self.product_key(), before)
+        before = self.product_key()
+        for name in ("fixtures/policies/default.json", "tests/faults/mutant_judge.cpp"):
+            self.fill(name, "changed\n")
+        self.assertEqual(self.product_key(), before)
+
+    def test_product_mutant_that_names_no_command(self):
+        self.fill("tests/faults/product/whole.patch", PATCH)
+        kept_verdicts.write({}, PRODUCT)
+        found = kept_verdicts.faults(PRODUCT)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn('whole: the second line is no "# Caught-by: COMMAND"', found[0])
 
     def test_draw_depends_on_the_contents_of_core(self):
         names = [f"m{i}" for i in range(50)]

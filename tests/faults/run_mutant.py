@@ -1,9 +1,15 @@
 #!/usr/bin/env python3
-"""Builds core with a seeded mistake and runs the judge, which must catch the mistake.
+"""Builds the program with a seeded mistake; what judges it must catch the mistake.
 
-A mutant is a patch (tests/faults/mutants/*.patch). Its verdict is kept in
-tests/faults/verdicts.json. The verdict is stale when the patch, a file that it changes or the judge
-has changed. The unchanged program is judged first: it must pass.
+A mutant is a patch, of one of two kinds:
+
+    core      tests/faults/mutants/*.patch; the judge is a program made for them (mutant_judge.cpp)
+    product   tests/faults/product/*.patch; the judge is what users run: commands of contactcheck,
+              those of product_verdict.py, the one that the second line of the patch names first
+
+Its verdict is kept (tests/faults/verdicts.json, product_verdicts.json). The verdict is stale when
+the patch, a file that it changes or the judge has changed. The unchanged program is judged first: it
+must pass.
 
     run_mutant.py tests/faults/mutants/hash-truncates.patch    judge one mutant
     run_mutant.py --stale --write      judge mutants with stale verdicts and keep the new ones
@@ -25,17 +31,31 @@ import time
 import kept_verdicts
 from mutant_build import CAUGHT, ROOT, SURVIVED, Failure, Mutant, OutOfTime, Workers
 from mutant_verdict import WORDS, require_clean, unchanged_build, verdict
+from product_verdict import ProductJudge
+
+
+class CoreJudge:
+    """The program made for the mutants of core, in a build folder of its own."""
+
+    def __init__(self, options, workers):
+        self.build = unchanged_build(options.build.resolve(), options.jobs)
+        require_clean(self.build, workers)
+
+    def verdict(self, mutant, workers):
+        return verdict(mutant, self.build, workers)
+
+
+JUDGES = {"core": CoreJudge, "product": ProductJudge}
 
 
 class Session:
-    """Judges mutants, one row of a table each."""
+    """Judges mutants of one kind, one row of a table each."""
 
-    def __init__(self, options):
+    def __init__(self, kind, options):
         self.begin = time.monotonic()
         self.workers = Workers(options.jobs)
-        self.build = unchanged_build(options.build.resolve(), options.jobs)
-        require_clean(self.build, self.workers)
-        print(f"unchanged program: built and clean, {self.seconds_since(self.begin)} s\n")
+        self.judge = JUDGES[kind.name](options, self.workers)
+        print(f"unchanged program for mutants of {kind.name}: {self.seconds_since(self.begin)} s\n")
         print("| mutant | what is wrong | verdict | by | s |\n|---|---|---|---|---|", flush=True)
 
     @staticmethod
@@ -59,22 +79,22 @@ class Session:
     def _judge(self, mutant):
         begin = time.monotonic()
         try:
-            return verdict(mutant, self.build, self.workers), self.seconds_since(begin)
+            return self.judge.verdict(mutant, self.workers), self.seconds_since(begin)
         except OutOfTime:
             return None, 0
 
 
-def run(mutants, options):
+def run(mutants, options, kind=kept_verdicts.CORE):
     """Judges mutants, the first `at_least` of them whatever the time; their verdicts by name."""
     # Before anything is built: a file may change meanwhile.
     keys = kept_verdicts.keys_of(mutants)
-    session = Session(options)
+    session = Session(kind, options)
     found = {}
     for some in (mutants[:options.at_least], mutants[options.at_least:]):
         for mutant, its in session.verdicts(some):
             found[mutant.name] = its
             if options.write:
-                keep(mutant, keys[mutant.name], its)
+                keep(mutant, keys[mutant.name], its, kind)
         if options.minutes is not None:
             session.end_after(options.minutes)
     for name, its in found.items():
@@ -85,42 +105,43 @@ def run(mutants, options):
     return found
 
 
-def keep(mutant, key, found):
+def keep(mutant, key, found, kind):
     if kept_verdicts.keys_of([mutant])[mutant.name] != key:
         print(f"{mutant.name}: not kept, as a file changed meanwhile", file=sys.stderr)
         return
-    kept = kept_verdicts.read() if kept_verdicts.FILE.is_file() else {}
-    kept_verdicts.write({**kept, mutant.name: (key, found)})
+    kept = kept_verdicts.read(kind) if kept_verdicts.file_of(kind).is_file() else {}
+    kept_verdicts.write({**kept, mutant.name: (key, found)}, kind)
 
 
 def worst(verdicts):
     return max((its.code for its in verdicts), default=CAUGHT)
 
 
-def stale_and_held(mutants):
+def stale_and_held(kind):
     """The mutants whose verdicts are stale, in an order that contents shuffle, and the verdicts of
     all others by name."""
+    mutants = kept_verdicts.mutants(kind)
     keys = kept_verdicts.keys_of(mutants)
-    kept = kept_verdicts.read() if kept_verdicts.FILE.is_file() else {}
+    kept = kept_verdicts.read(kind) if kept_verdicts.file_of(kind).is_file() else {}
     held = {name: found for name, (key, found) in kept.items() if keys.get(name) == key}
     stale = sorted((m for m in mutants if m.name not in held), key=lambda m: keys[m.name])
     return stale, held
 
 
-def drawn(mutants, count):
-    """Drawn by the contents of core, so that every change tries others."""
-    names = sorted(p.relative_to(ROOT).as_posix() for p in (ROOT / "core").rglob("*")
-                   if p.is_file())
+def drawn(mutants, count, kind=kept_verdicts.CORE):
+    """Drawn by the contents of what they change, so that every change tries others."""
+    names = sorted(p.relative_to(ROOT).as_posix() for folder in kind.sources
+                   for p in (ROOT / folder).rglob("*") if p.is_file())
     first = int(kept_verdicts.digest_of(names), 16) % len(mutants)
     return (mutants[first:] + mutants[:first])[:count]
 
 
-def run_stale(options):
-    mutants = kept_verdicts.mutants()
-    stale, held = stale_and_held(mutants)
-    print(f"{len(stale)} of {len(mutants)} verdicts are stale", flush=True)
-    chosen = stale or drawn(mutants, options.at_least)
-    found = run(chosen, options) if chosen else {}
+def run_stale(options, kind):
+    mutants = kept_verdicts.mutants(kind)
+    stale, held = stale_and_held(kind)
+    print(f"{len(stale)} of {len(mutants)} verdicts on mutants of {kind.name} are stale", flush=True)
+    chosen = stale or drawn(mutants, options.at_least, kind)
+    found = run(chosen, options, kind) if chosen else {}
     left = [mutant.name for mutant in stale if mutant.name not in found]
     if left:
         print(f"{len(left)} remain stale: {', '.join(sorted(left))}")
@@ -130,20 +151,33 @@ def run_stale(options):
     return worst([*held.values(), *found.values()])
 
 
-def list_stale():
-    mutants = kept_verdicts.mutants()
-    stale, _ = stale_and_held(mutants)
+def list_stale(_, kind):
+    stale, _ = stale_and_held(kind)
     for name in sorted(mutant.name for mutant in stale):
         print(name)
-    print(f"{len(stale)} of {len(mutants)} verdicts are stale", file=sys.stderr)
+    print(f"{len(stale)} of {len(kept_verdicts.mutants(kind))} verdicts on mutants of {kind.name} "
+          "are stale", file=sys.stderr)
     return 0
 
 
-def check():
-    found = kept_verdicts.faults()
+def check(_, kind):
+    found = kept_verdicts.faults(kind)
     for fault in found:
         print(fault, file=sys.stderr)
     return SURVIVED if found else 0
+
+
+def run_all(options, kind):
+    return worst(run(kept_verdicts.mutants(kind), options, kind).values())
+
+
+def run_patches(options, kind):
+    mutants = [Mutant(path.resolve()) for path in options.patch]
+    chosen = [mutant for mutant in mutants if kept_verdicts.kind_of(mutant) == kind]
+    return worst(run(chosen, options, kind).values()) if chosen else 0
+
+
+MODES = {"stale": run_stale, "all": run_all, "list": list_stale, "check": check, None: run_patches}
 
 
 def parsed():
@@ -153,14 +187,19 @@ def parsed():
     modes = parser.add_mutually_exclusive_group()
     for mode in ("stale", "all", "list", "check"):
         modes.add_argument(f"--{mode}", dest="mode", action="store_const", const=mode)
+    parser.add_argument("--kind", choices=[kind.name for kind in kept_verdicts.KINDS],
+                        help="mutants of this kind alone (default: both, one after the other)")
     parser.add_argument("--minutes", type=float,
-                        help="start no command after this time (default: no limit)")
+                        help="start no command after this time, of each kind (default: no limit)")
     parser.add_argument("--at-least", type=int, default=0, metavar="N",
-                        help="judge at least N mutants, even after --minutes; if none is stale, "
-                             "choose them by the contents of core")
+                        help="judge at least N mutants of each kind, even after --minutes; if none "
+                             "is stale, choose them by the contents of the sources")
     parser.add_argument("--write", action="store_true", help="keep the verdicts")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "mutants",
-                        help="where to build them (default: build/mutants)")
+                        help="where to build mutants of core (default: build/mutants)")
+    parser.add_argument("--product-build", type=pathlib.Path, default=ROOT / "build" / "release",
+                        help="whose program mutants of the product are built beside (default: "
+                             "build/release)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(),
                         help="commands at a time (default: one per processor)")
     options = parser.parse_args()
@@ -175,15 +214,9 @@ def parsed():
 
 def main():
     options = parsed()
+    kinds = [kind for kind in kept_verdicts.KINDS if options.kind in (None, kind.name)]
     try:
-        if options.mode == "stale":
-            return run_stale(options)
-        if options.mode == "list":
-            return list_stale()
-        if options.mode == "check":
-            return check()
-        mutants = [Mutant(path.resolve()) for path in options.patch] or kept_verdicts.mutants()
-        return worst(run(mutants, options).values())
+        return max(MODES[options.mode](options, kind) for kind in kinds)
     except Failure as failure:
         print(failure, file=sys.stderr)
         return failure.code

@@ -109,7 +109,7 @@ class KeptVerdicts(unittest.TestCase):
     def test_kept_verdict_that_survived_is_red(self):
         self.keep("mistake", Verdict(SURVIVED, "no check"))
         self.expect_fault("mistake: survived: no check")
-        options = mock.Mock(at_least=0)
+        options = mock.Mock(at_least=0, steady=False)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             self.assertEqual(run_mutant.run_stale(options, CORE), SURVIVED)
 

@@ -136,11 +136,21 @@ def drawn(mutants, count, kind=kept_verdicts.CORE):
     return (mutants[first:] + mutants[:first])[:count]
 
 
+def is_steady(mutant, kept):
+    """Once caught, and by what takes no times: if it is not caught again, a change did that."""
+    return (mutant.name in kept and kept[mutant.name][1].code == CAUGHT and
+            not kept[mutant.name][1].by.startswith(("timing: ", "ab: ")))
+
+
 def run_stale(options, kind):
     mutants = kept_verdicts.mutants(kind)
     stale, held = stale_and_held(kind)
     print(f"{len(stale)} of {len(mutants)} verdicts on mutants of {kind.name} are stale", flush=True)
-    chosen = stale or drawn(mutants, options.at_least, kind)
+    if options.steady:
+        kept = kept_verdicts.read(kind)
+        mutants = [mutant for mutant in mutants if is_steady(mutant, kept)]
+        stale = [mutant for mutant in stale if is_steady(mutant, kept)]
+    chosen = stale or (drawn(mutants, options.at_least, kind) if mutants else [])
     found = run(chosen, options, kind) if chosen else {}
     left = [mutant.name for mutant in stale if mutant.name not in found]
     if left:
@@ -194,6 +204,8 @@ def parsed():
     parser.add_argument("--at-least", type=int, default=0, metavar="N",
                         help="judge at least N mutants of each kind, even after --minutes; if none "
                              "is stale, choose them by the contents of the sources")
+    parser.add_argument("--steady", action="store_true",
+                        help="of --stale, only mutants that were caught before, and without times")
     parser.add_argument("--write", action="store_true", help="keep the verdicts")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "mutants",
                         help="where to build mutants of core (default: build/mutants)")

@@ -58,10 +58,10 @@ struct Semantics {
   bool local_origin = false;
   DepthKind depth = DepthKind::kNone;
   bool whole_cells = false;  ///< of one that answers with cells: it tests these, not FFD-AABBs
-  /// Asked which bodies touch it still finds all contacts: a speed-up over it in that question would
-  /// be no fair one, and is not given.
+  /// Asked which bodies touch it still finds all contacts: a speed-up over it in that question
+  /// would be no fair one, and is not given.
   bool no_early_end = false;
-  std::string means;         ///< what it calls contact, where that is not contact of the surfaces
+  std::string means;  ///< what it calls contact, where that is not contact of the surfaces
 
   bool claims(Level level) const;
   bool answers(Question question) const;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/broad/body_pairs.h"
 #include "core/broad/spatial_hash.h"
 #include "core/deform/ffd_aabb.h"
-#include "core/broad/body_pairs.h"
 #include "core/types/contact_set.h"
 #include "core/types/mesh_topology.h"
 #include "tests/faults/mutant_checks.h"

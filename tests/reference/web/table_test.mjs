@@ -82,7 +82,11 @@ test("the summary has the sums of the other reports", async () => {
     "-",
     "-",
   ]);
-  assert.deepEqual(lines[6].slice(0, 3), ["<img src=x onerror=alert(1)>", "0 (1 error, 1 absent)", ""]);
+  assert.deepEqual(lines[6].slice(0, 3), [
+    "<img src=x onerror=alert(1)>",
+    "0 (1 error, 1 absent)",
+    "",
+  ]);
 });
 
 test("goals are set beside what was measured", async () => {

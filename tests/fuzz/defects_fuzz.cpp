@@ -12,16 +12,17 @@
 namespace contactcheck::test {
 namespace {
 
-std::string written(const results::KnownDefects& known, const std::filesystem::path& file) {
-  results::write_known_defects(file, known);
-  return text::read_file_bytes(file, "written defects");
+constexpr const char* kName = "known-defects.json";
+
+std::string written(const results::KnownDefects& known, const std::filesystem::path& folder) {
+  results::write_known_defects(folder, known);
+  return text::read_file_bytes(folder / kName, "written defects");
 }
 
 void check_round_trip(const results::KnownDefects& known) {
   static const Scratch scratch;
-  const std::filesystem::path file = scratch.folder() / "written.json";
-  const std::string once = written(known, file);
-  require(once == written(results::read_known_defects(file), file),
+  const std::string once = written(known, scratch.folder());
+  require(once == written(results::read_known_defects(scratch.folder()), scratch.folder()),
           "defects that are written and read are the same");
 }
 
@@ -30,10 +31,11 @@ void check_round_trip(const results::KnownDefects& known) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
-  static const test::FuzzedFile file("known-defects.json");
+  static const test::FuzzedFile file(test::kName);
   results::KnownDefects known;
   try {
-    known = results::read_known_defects(file.write(data, size));
+    file.write(data, size);
+    known = results::read_known_defects(file.folder());
   } catch (const InputError& refusal) {
     test::require_sentence(refusal.what(), file.folder());
     file.require_alone();

@@ -33,8 +33,7 @@ void add_ffd_lazy(DetectorCatalog& catalog) {
   info.summary = "tree bounded lazily from lattice nodes, SIMD; exact triangle test";
   info.given =
       "lattice nodes; sweep and prune over the bodies' boxes of nodes; bodies that meet no other "
-      "are "
-      "not bounded; exact tests eight at a time; body ends at the first contact of two bodies";
+      "are not bounded; exact tests eight at a time; body ends at the first contact of two bodies";
   info.options = {choice_option("bounds", "auto", {"auto", "nodes"},
                                 "auto: bodies small for their lattice are mapped and refitted"),
                   isa_option(), threads_option(), precision_option()};

@@ -22,10 +22,6 @@ Aabb box_of(std::span<const Vec3> points) {
   return box;
 }
 
-double largest_coordinate(const Aabb& box) {
-  return std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
-}
-
 Aabb grown(const Aabb& box, double by) {
   if (box.empty()) return box;
   return {(box.lo.array() - by).matrix(), (box.hi.array() + by).matrix()};

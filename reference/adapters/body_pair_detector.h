@@ -7,6 +7,7 @@
 // holds the body, since a mapped vertex is a mean of its cell's nodes but for rounding.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,11 @@ Prefilter prefilter_of(const Options& options);
 /// What all of these are given, for DetectorInfo::given.
 inline constexpr const char* kSweepAndPrune =
     "sweep and prune over the bodies' boxes; bodies that meet no other are not refitted; ";
+
+/// The largest |coordinate| of a box that is not empty.
+inline double largest_coordinate(const Aabb& box) {
+  return std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
+}
 
 /// A body in at least one candidate pair of the frame.
 struct CandidateBody {

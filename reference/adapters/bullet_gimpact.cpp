@@ -146,7 +146,7 @@ class GimpactBody {
   /// that moves on is rarely built anew, and one that comes back is answered as before. Without it
   /// a body 1e6 sizes away had one box in place of all, and a query did not end in minutes.
   Vec3 home_for(const Aabb& box) const {
-    if (box.empty() || !(furthest(box) < 0x1p100))
+    if (box.empty() || !(largest_coordinate(box) < 0x1p100))
       return Vec3::Zero();  // its floats would overflow
     Vec3 home;
     for (int axis = 0; axis < 3; ++axis)
@@ -155,15 +155,11 @@ class GimpactBody {
     return home;
   }
 
-  static double furthest(const Aabb& box) {
-    return std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
-  }
-
   /// What one of Bullet's roundings of a coordinate may be off far from the origin: the distance of
   /// two floats. At the first home as Bullet itself has it, none.
   static double grain_of(const Aabb& box, const Vec3& home) {
     if (home.isZero(0.0)) return 0.0;
-    const auto coordinate = static_cast<float>(furthest(box));
+    const auto coordinate = static_cast<float>(largest_coordinate(box));
     return static_cast<double>(std::nextafter(coordinate, 2.0f * coordinate)) - coordinate;
   }
 

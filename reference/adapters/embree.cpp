@@ -333,9 +333,7 @@ class EmbreeDetector final : public BodyPairDetector {
 Adapter embree_adapter() {
   DetectorInfo info;
   info.id = "embree";
-  info.summary =
-      "Embree's refitted box hierarchies and rtcCollide; exact triangle test, eight pairs at a "
-      "time";
+  info.summary = "Embree's refitted box hierarchies and rtcCollide; exact triangle test";
   info.given = std::string(kSweepAndPrune) +
                "exact tests eight at a time, by the kernels of ffd-lazy; body ends at the first "
                "contact of two bodies";

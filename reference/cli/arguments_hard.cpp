@@ -40,8 +40,7 @@ void add_defects(CommandLine& line) {
       "make fixtures/hard/known-defects.json and readings.json say what the run shows");
   defects->footer(
       "Exit code 1 when a listed wrong answer did not show or has another count, or an unlisted "
-      "one "
-      "did.\n"
+      "one did.\n"
       "Example:\n  contactcheck run hard --no-timing\n  contactcheck defects out/results.json");
   choose(*defects, line, [words] { return defects_command(words->results, words->write); });
 }

@@ -297,7 +297,8 @@ def wrong_scene_errors(scene, tables, runs):
 
 
 def wrong_summary(tables, runs, failed):
-    """`runs`: by detector, one per scene; `failed`: how many rows of it are not ok."""
+    """`runs`: by detector, one per scene; `failed`: the statuses of its rows that are not
+    ok."""
     for cells in tables_with(tables, "scenes", "level", "hover mm"):
         row = dict(cells)
         its = [run for run in runs.get(row["detector"], []) if row["level"] in run["levels"]]
@@ -309,8 +310,10 @@ def wrong_summary(tables, runs, failed):
         bodies = [run["levels"]["body"] for run in its if "body" in run["levels"]]
         hovers = [run["geometry"]["hover_gap_max"] for run in its
                   if run["geometry"]["hover_gap_max"] is not None]
-        not_ok = failed.get(row["detector"], 0)
-        wanted = {"scenes": f"{len(its)}" + (f" ({not_ok} not ok)" if not_ok else ""),
+        statuses = failed.get(row["detector"], [])
+        not_ok = ", ".join(f"{statuses.count(status)} {status}"
+                           for status in ("error", "absent", "refused") if status in statuses)
+        wanted = {"scenes": f"{len(its)}" + (f" ({not_ok})" if not_ok else ""),
                   "truth": str(sums["truth"]),
                   "recall": share(sums["hit"], sums["truth"]), "missed": str(sums["missed"]),
                   "spurious": str(sums["spurious"]),
@@ -348,7 +351,7 @@ def wrong_report(results, report):
     by_scene, by_detector, failed = {}, {}, {}
     for run in results["runs"]:
         if run["status"] != "ok":
-            failed[run["detector"]] = failed.get(run["detector"], 0) + 1
+            failed.setdefault(run["detector"], []).append(run["status"])
         else:
             by_scene.setdefault(run["scene"], {})[run["detector"]] = run
             by_detector.setdefault(run["detector"], []).append(run)

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/types/check.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/reference/scene/scratch.h"
 
@@ -43,5 +44,18 @@ class FuzzedFile {
   Scratch scratch_;
   std::string name_;
 };
+
+/// Gives the input to `read(path)` as that file: whatever happens, no file is left beside it, and a
+/// refusal is a sentence.
+template <typename Read>
+void try_file(const FuzzedFile& file, const std::uint8_t* data, std::size_t size, Read&& read) {
+  const std::filesystem::path path = file.write(data, size);
+  try {
+    read(path);
+  } catch (const InputError& refusal) {
+    require_sentence(refusal.what(), file.folder());
+  }
+  file.require_alone();
+}
 
 }  // namespace contactcheck::test

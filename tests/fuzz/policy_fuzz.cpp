@@ -27,11 +27,8 @@ void check_promises(const gate::Policy& policy) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   static const test::FuzzedFile file("policy.json");
-  try {
-    test::check_promises(gate::read_policy(file.write(data, size)));
-  } catch (const InputError& refusal) {
-    test::require_sentence(refusal.what(), file.folder());
-  }
-  file.require_alone();
+  test::try_file(file, data, size, [](const std::filesystem::path& path) {
+    test::check_promises(gate::read_policy(path));
+  });
   return 0;
 }

@@ -37,11 +37,8 @@ void check_promises(const scene::Suite& suite) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace contactcheck;
   static const test::FuzzedFile file("suite.json");
-  try {
-    test::check_promises(scene::load_suite(file.write(data, size)));
-  } catch (const InputError& refusal) {
-    test::require_sentence(refusal.what(), file.folder());
-  }
-  file.require_alone();
+  test::try_file(file, data, size, [](const std::filesystem::path& path) {
+    test::check_promises(scene::load_suite(path));
+  });
   return 0;
 }

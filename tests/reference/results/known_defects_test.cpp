@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <span>
+#include <string>
+#include <utility>
+
 #include "core/types/check.h"
 #include "reference/scene/catalogue.h"
 #include "tests/reference/scene/scratch.h"
@@ -108,6 +112,19 @@ TEST(KnownDefects, OfNothingAreReadAsTheyAreWritten) {
   EXPECT_THAT(read_known_defects(scratch.folder()).defects, IsEmpty());
 }
 
+/// Texts, and what a refusal of each says.
+void expect_refusals(std::span<const std::pair<std::string, const char*>> wrong) {
+  const Scratch scratch;
+  for (const auto& [text, sentence] : wrong) {
+    try {
+      read(scratch, text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), HasSubstr(sentence));
+    }
+  }
+}
+
 TEST(KnownDefects, ThatCannotBeReadAreRefusedWithThePlace) {
   const std::string good = kTwoDefects;
   const std::pair<std::string, const char*> wrong[] = {
@@ -125,19 +142,10 @@ TEST(KnownDefects, ThatCannotBeReadAreRefusedWithThePlace) {
       {changed(good, "{\"2\":3}", "{}"), "defects[0].seen.fcl-aabb.tip is an object"},
       {changed(good, "\"-\":1", "\"-\":2"),
        "defects[1].seen.fcl-aabb.pile.- is 2; it must be a whole number from 1 to 1."}};
-  const Scratch scratch;
-  for (const auto& [text, place] : wrong) {
-    try {
-      read(scratch, text);
-      ADD_FAILURE() << text;
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), HasSubstr(place));
-    }
-  }
+  expect_refusals(wrong);
 }
 
 TEST(KnownDefects, OfTheFormWithoutCountsAreRefused) {
-  const Scratch scratch;
   const std::pair<std::string, const char*> wrong[] = {
       {changed(kTwoDefects, "\"where\": \"overlap()\"", "\"issue\": \"502\""),
        "defects[0].issue is of the list without counts; \"where\" and \"upstream\" must stand in "
@@ -145,14 +153,7 @@ TEST(KnownDefects, OfTheFormWithoutCountsAreRefused) {
       {changed(kTwoDefects, "{\"2\":3}", "[\"2\"]"),
        "defects[0].seen.fcl-aabb.tip lists cases without their counts; it must be an object of "
        "counts by case."}};
-  for (const auto& [text, sentence] : wrong) {
-    try {
-      read(scratch, text);
-      ADD_FAILURE() << text;
-    } catch (const InputError& e) {
-      EXPECT_THAT(e.what(), HasSubstr(sentence));
-    }
-  }
+  expect_refusals(wrong);
 }
 
 TEST(KnownDefects, HaveOneCauseForEachDetectorSceneAndKind) {

@@ -117,6 +117,7 @@ std::vector<Vec3> LatticeFit::fitted(std::span<const Vec3> vertices, FitError& e
     const Rows off = impl_->weights.transpose() * (frame - impl_->weights * rows);
     rows += Rows(impl_->solver.solve(off));
   }
+  if (!rows.allFinite()) throw InputError("overflows");
   std::vector<Vec3> nodes;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) nodes.emplace_back(rows.row(i).transpose());
 
@@ -125,6 +126,7 @@ std::vector<Vec3> LatticeFit::fitted(std::span<const Vec3> vertices, FitError& e
   double largest = 0.0, sum = 0.0;
   for (std::size_t v = 0; v < mapped.size(); ++v)
     largest = std::max(largest, (mapped[v] - vertices[v]).stableNorm());
+  if (!std::isfinite(largest)) throw InputError("overflows");
   // Relative to the largest, so that tiny distances do not underflow.
   for (std::size_t v = 0; v < mapped.size() && largest > 0.0; ++v)
     sum += ((mapped[v] - vertices[v]) / largest).squaredNorm();

@@ -37,7 +37,8 @@ class LatticeFit {
   LatticeFit& operator=(const LatticeFit&) = delete;
 
   /// The nodes for these vertices; appends to `error` how far their canonical mapping is from them.
-  /// @pre one finite position per vertex
+  /// @pre one finite position per vertex. @throws InputError "overflows" (coordinates from about
+  /// 1e150 on, whose products have no finite value)
   std::vector<Vec3> fitted(std::span<const Vec3> vertices, FitError& error) const;
 
  private:

@@ -293,7 +293,11 @@ void RecordedBodies::fill(Scene& scene) const {
     FitError error{recorded.body, {}, {}};
     for (std::size_t f = 0; f < scene.frames; ++f) {
       std::vector<Vec3> positions = recorded.frames.positions(f, shape.mesh);
-      frames[f][recorded.body] = fit ? fit->fitted(positions, error) : std::move(positions);
+      try {
+        frames[f][recorded.body] = fit ? fit->fitted(positions, error) : std::move(positions);
+      } catch (const InputError& overflow) {
+        recorded.frames.fail_at(f, "cannot be fitted: " + text::without_full_stop(overflow.what()));
+      }
     }
     if (fit) scene.fits.push_back(std::move(error));
   }

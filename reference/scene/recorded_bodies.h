@@ -60,6 +60,9 @@ class RecordedFrames {
   /// vertices or triangles than the mesh, or is none
   std::vector<Vec3> positions(std::size_t frame, const TriangleMesh& mesh) const;
 
+  /// @throws InputError that names the frame and its file
+  [[noreturn]] void fail_at(std::size_t frame, const std::string& what) const;
+
   const RecordingSpec& spec() const { return spec_; }
   /// "frames cloth_0001.obj and on", "samples of cloth.pc2"
   std::string described() const;
@@ -68,7 +71,6 @@ class RecordedFrames {
   std::vector<Vec3> numbered_positions(std::size_t frame, const TriangleMesh& mesh) const;
   std::vector<Vec3> cached_positions(std::size_t frame, const TriangleMesh& mesh) const;
   void refuse_gap(std::size_t missing, std::size_t most) const;
-  [[noreturn]] void fail_at(std::size_t frame, const std::string& what) const;
 
   RecordingSpec spec_;
   text::JsonField field_;

@@ -222,6 +222,9 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
   scratch_.write("nan_0.obj", test::obj_text(test::unit_box_mesh(1)));
   scratch_.write("nan_1.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   scratch_.write("finer.obj", test::obj_text(other));
+  // Finite, and its products are not. The mesh of the first frame is fitted to it as well.
+  scratch_.write("far_0.obj",
+                 "v 0 0 1e308\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 3 1 4\n");
   const std::string five = R"("frames": 5)", two = R"("frames": 2)";
   const std::vector<WrongRecording> wrong = {
       {R"("recording": {"frames": "other_%d.obj"})", two,
@@ -268,6 +271,9 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
        "bodies[0].lattice has no \"fit\"; beside a recording it must be true"},
       {kPc2Body + R"(, "lattice": {"kept": 8, "fit": false})", five,
        "bodies[0].lattice.fit is false; it must be true"},
+      {R"("lattice": {"kept": 4, "fit": true}, "recording": {"frames": "far_%d.obj"})",
+       R"("frames": 1)",
+       "bodies[0].recording frame 0 (\"DIR/far_0.obj\") cannot be fitted: overflows."},
       {R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2", "scale": 0})", five,
        "bodies[0].recording.scale is 0; it must be a number above 0"},
   };

@@ -53,7 +53,8 @@ std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
   return lines;
 }
 
-std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
+// By flat index.
+std::vector<bool> kept_flags(const Grid& grid, const TriangleMesh& mesh) {
   std::vector<bool> kept(grid.cell_count(), false);
   // Every cell that meets a triangle, exactly.
   for (const Triangle& t : mesh.triangles)
@@ -61,6 +62,11 @@ std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
                            [&](const GridIndex& cell) { kept[grid.flat(cell)] = true; });
   // A vertex without a triangle still needs a home.
   for (const Vec3& v : mesh.vertices) kept[grid.flat(grid.cell_of(v))] = true;
+  return kept;
+}
+
+std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
+  const std::vector<bool> kept = kept_flags(grid, mesh);
   std::vector<GridIndex> cells;
   for (std::size_t flat = 0; flat < kept.size(); ++flat) {
     if (kept[flat]) cells.push_back(grid.unflat(flat));
@@ -141,13 +147,16 @@ Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, do
   // Kept cells grow about quadratically with the divisions: stop once far beyond the wish.
   for (int divisions = 1; divisions <= 256; ++divisions) {
     const Resolution r = resolution_at(divisions);
-    const std::size_t kept = make_lattice(mesh, r, padding).cells.size();
+    // Counted by words: a mesh that is small in its box is tried in grids of 256^3 cells.
+    const auto lines = make_lines(mesh, r, padding);
+    const std::vector<bool> flags = kept_flags(Grid(lines), mesh);
+    const auto kept = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), true));
     const std::size_t gap = kept > wanted ? kept - wanted : wanted - kept;
     if (gap < best_gap) {
       best_gap = gap;
       best = r;
     }
-    if (kept > 2 * wanted) break;
+    if (gap == 0 || kept > 2 * wanted) break;
   }
   return best;
 }

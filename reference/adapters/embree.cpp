@@ -249,8 +249,7 @@ class EmbreeDetector final : public BodyPairDetector {
   void move(std::span<const CandidateBody> bodies) override {
     double largest = 0.0;
     for (const CandidateBody& body : bodies)
-      largest =
-          std::max({largest, body.box.lo.cwiseAbs().maxCoeff(), body.box.hi.cwiseAbs().maxCoeff()});
+      largest = std::max(largest, largest_coordinate(body.box));
     const double scale = normalising_scale(largest);
     for (const CandidateBody& body : bodies) bodies_[body.body]->set_vertices(body.vertices, scale);
     arena_->execute([&] {

@@ -222,7 +222,7 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
   scratch_.write("nan_0.obj", test::obj_text(test::unit_box_mesh(1)));
   scratch_.write("nan_1.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   scratch_.write("finer.obj", test::obj_text(other));
-  // Finite, and its products are not. The mesh of the first frame is fitted to it as well.
+  // Its coordinates are finite, and the products of a fit are not.
   scratch_.write("far_0.obj",
                  "v 0 0 1e308\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 3 1 4\n");
   const std::string five = R"("frames": 5)", two = R"("frames": 2)";

@@ -7,6 +7,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/adapters/register.h"
+#include "tests/faults/broken_detectors.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
@@ -23,18 +24,21 @@ struct Judged : results::Run {
   std::vector<Disagreement> disagreements;
 };
 
-Judged accuracy_of(const scene::Scene& scene, const std::string& name) {
-  DetectorCatalog catalog;
-  register_core_detectors(catalog);
-  adapters::register_reference_detectors(catalog);
-  const auto detector = catalog.make(catalog.parse(name));
+Judged accuracy_of(const scene::Scene& scene, Detector& detector) {
   process::SharedProgress page;
   process::ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, progress);
   Judged result;
   JudgingTools tools(judged);
-  result.disagreements = run_accuracy(tools, 0, *detector, progress, result).disagreements;
+  result.disagreements = run_accuracy(tools, 0, detector, progress, result).disagreements;
   return result;
+}
+
+Judged accuracy_of(const scene::Scene& scene, const std::string& name) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  adapters::register_reference_detectors(catalog);
+  return accuracy_of(scene, *catalog.make(catalog.parse(name)));
 }
 
 TEST(Accuracy, ExactDetectorsAreExact) {
@@ -83,6 +87,65 @@ TEST(Accuracy, RunsOfOneDetectorHaveOneHash) {
   scene::Scene aside = spheres();
   aside.motions[1].path.position[1].keys = {{0.0, 0.4}};
   EXPECT_NE(first.contact_hash, accuracy_of(aside, "ffd-grid").contact_hash);
+}
+
+// The question `body` is timed, so its own answer is judged, not the bodies of the triangles.
+TEST(Accuracy, BodiesAreJudgedByTheAnswerToTheirOwnQuestion) {
+  const scene::Scene scene = spheres();
+  test::LiesAboutBodies never(false), always(true);
+  const Judged silent = accuracy_of(scene, never), talkative = accuracy_of(scene, always);
+  EXPECT_TRUE(silent.levels.at(Level::kTriangle).perfect());
+  EXPECT_EQ(silent.levels.at(Level::kBody).missed, silent.contact_frames);
+  EXPECT_EQ(silent.levels.at(Level::kBody).reported, 0u);
+  EXPECT_TRUE(talkative.levels.at(Level::kTriangle).perfect());
+  EXPECT_EQ(talkative.levels.at(Level::kBody).missed, 0u);
+  EXPECT_EQ(talkative.levels.at(Level::kBody).spurious,
+            talkative.frames - talkative.contact_frames);
+}
+
+// Finds nothing, and holds so much memory in each frame.
+class HoldsMemory : public Detector {
+ public:
+  explicit HoldsMemory(std::vector<std::size_t> bytes) : bytes_(std::move(bytes)) {
+    semantics_.levels = {Level::kBody};
+    semantics_.questions = {Question::kBody};
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  bool needs_vertices() const override { return false; }
+  void prepare(const std::vector<Body>&) override {}
+  void update(const Frame&) override { held_ = std::vector<char>(bytes_.at(frame_++)); }
+  void query(Question, ContactSet&) override {}
+
+ private:
+  Semantics semantics_;
+  std::vector<std::size_t> bytes_;
+  std::size_t frame_ = 0;
+  std::vector<char> held_;
+};
+
+bool heap_can_be_measured() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return false;
+#elif defined(__has_feature)
+  return !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) &&
+         !__has_feature(memory_sanitizer);
+#else
+  return true;
+#endif
+}
+
+TEST(Accuracy, MemoryIsThatOfTheFrameThatTakesMost) {
+  if (!heap_can_be_measured()) GTEST_SKIP() << "a sanitizer allocates in glibc's place";
+  constexpr std::size_t kMebibyte = std::size_t{1} << 20;
+  const scene::Scene scene = spheres();
+  for (const std::size_t most : {std::size_t{0}, scene.frames / 2, scene.frames - 1}) {
+    std::vector<std::size_t> bytes(scene.frames, kMebibyte);
+    bytes[most] = 8 * kMebibyte;
+    HoldsMemory detector(bytes);
+    const std::uint64_t memory = accuracy_of(scene, detector).memory_bytes;
+    EXPECT_GE(memory, 8 * kMebibyte) << most;
+    EXPECT_LT(memory, 10 * kMebibyte) << most;
+  }
 }
 
 TEST(JudgeScene, StopsAtANonFiniteNodeAndSaysWhere) {

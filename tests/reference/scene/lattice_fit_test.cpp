@@ -73,8 +73,7 @@ TEST(LatticeFit, FollowsARigidMotionWithAllNodes) {
             1e-11);
 }
 
-// In one layer of cells nothing but the pose says where the nodes above and below a sheet are.
-TEST(LatticeFit, OfAFlatSheetStaysAsThickAsItWas) {
+TriangleMesh flat_sheet() {
   TriangleMesh sheet;
   for (int j = 0; j <= 8; ++j)
     for (int i = 0; i <= 8; ++i) sheet.vertices.emplace_back(i / 8.0, j / 8.0, 0.0);
@@ -84,6 +83,12 @@ TEST(LatticeFit, OfAFlatSheetStaysAsThickAsItWas) {
       sheet.triangles.push_back({a, a + 1, a + 10});
       sheet.triangles.push_back({a, a + 10, a + 9});
     }
+  return sheet;
+}
+
+// In one layer of cells nothing but the pose says where the nodes above and below a sheet are.
+TEST(LatticeFit, OfAFlatSheetStaysAsThickAsItWas) {
+  const TriangleMesh sheet = flat_sheet();
   const auto shape = make_shape(sheet, {3, 3, 1});
   std::vector<Vec3> frame;
   for (const Vec3& v : sheet.vertices) frame.emplace_back(v.z() + 2.0, v.x(), v.y());
@@ -92,6 +97,37 @@ TEST(LatticeFit, OfAFlatSheetStaysAsThickAsItWas) {
   EXPECT_LT(error.max.at(0), 1e-12);
   const double thick = bounding_box(shape->lattice->rest_nodes()).extent().z();
   EXPECT_NEAR(bounding_box(nodes).extent().x(), thick, 1e-9);
+}
+
+// To a sheet, a half turn about an axis in its plane is what a reflection is: only the pose says
+// that the nodes above come to lie below.
+TEST(LatticeFit, OfASheetThatIsTurnedOverTurnsAllNodesOver) {
+  const TriangleMesh sheet = flat_sheet();
+  const auto shape = make_shape(sheet, {3, 3, 1});
+  for (const Vec3& signs : {Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)}) {
+    SCOPED_TRACE(signs.transpose());
+    std::vector<Vec3> frame, nodes;
+    for (const Vec3& v : sheet.vertices) frame.emplace_back(v.cwiseProduct(signs));
+    for (const Vec3& n : shape->lattice->rest_nodes()) nodes.emplace_back(n.cwiseProduct(signs));
+    FitError error;
+    EXPECT_LT(largest_distance(LatticeFit(*shape, 1e-6).fitted(frame, error), nodes), 1e-9);
+  }
+}
+
+// A bar with vertices at its two ends alone is stretched to twice its length, which no pose does:
+// what is between is stretched as well.
+TEST(LatticeFit, NodesWithoutVerticesFollowTheirNeighbours) {
+  TriangleMesh bar;
+  for (int c = 0; c < 8; ++c) bar.vertices.emplace_back(c & 1 ? 5 : -5, c >> 1 & 1, c >> 2 & 1);
+  bar.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  const auto shape = make_shape(bar, {10, 1, 1});
+  const Vec3 stretch(2, 1, 1);
+  std::vector<Vec3> frame, nodes;
+  for (const Vec3& v : bar.vertices) frame.emplace_back(v.cwiseProduct(stretch));
+  for (const Vec3& n : shape->lattice->rest_nodes()) nodes.emplace_back(n.cwiseProduct(stretch));
+  FitError error;
+  EXPECT_LT(largest_distance(LatticeFit(*shape, 1e-6).fitted(frame, error), nodes), 0.2);
 }
 
 // The least squares: no other nodes near the fitted ones come nearer to a frame that no lattice

@@ -1,6 +1,7 @@
 // How much of the proved error bounds of the filters (predicates.cpp) a search for large errors
 // sees. A bound that is half as wide does not hold.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -10,6 +10,7 @@
 #include "tests/reference/cli/refusal.h"
 #include "tests/reference/cli/tiny_scene.h"
 #include "tests/support/files.h"
+#include "tests/support/sanitizers.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -136,21 +137,10 @@ INSTANTIATE_TEST_SUITE_P(
                          {"cannot be read as OBJ"})),
     file_case);
 
-// Sanitizers reserve more addresses than a limit leaves them.
-bool addresses_can_be_limited() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return false;
-#elif defined(__has_feature)
-  return !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) &&
-         !__has_feature(memory_sanitizer);
-#else
-  return true;
-#endif
-}
-
 // As clusters and containers limit it. Files of a gigabyte are allowed, and here nothing on disk.
 TEST(LittleMemory, EndsInASentenceThatNamesAMesh) {
-  if (!addresses_can_be_limited()) GTEST_SKIP() << "a sanitizer is at work";
+  // Sanitizers reserve more addresses than a limit leaves them.
+  if (test::kSanitizerAllocates) GTEST_SKIP() << "a sanitizer is at work";
   const Scratch scratch;
   const std::string mesh = scratch.write("x.obj", "").string(),
                     results = scratch.write("x.json", "").string();

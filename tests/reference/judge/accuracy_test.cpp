@@ -9,6 +9,7 @@
 #include "reference/adapters/register.h"
 #include "tests/faults/broken_detectors.h"
 #include "tests/support/approach_scene.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::judge {
@@ -123,19 +124,8 @@ class HoldsMemory : public Detector {
   std::vector<char> held_;
 };
 
-bool heap_can_be_measured() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return false;
-#elif defined(__has_feature)
-  return !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) &&
-         !__has_feature(memory_sanitizer);
-#else
-  return true;
-#endif
-}
-
 TEST(Accuracy, MemoryIsThatOfTheFrameThatTakesMost) {
-  if (!heap_can_be_measured()) GTEST_SKIP() << "a sanitizer allocates in glibc's place";
+  if (test::kSanitizerAllocates) GTEST_SKIP() << "a sanitizer allocates in glibc's place";
   constexpr std::size_t kMebibyte = std::size_t{1} << 20;
   const scene::Scene scene = spheres();
   for (const std::size_t most : {std::size_t{0}, scene.frames / 2, scene.frames - 1}) {

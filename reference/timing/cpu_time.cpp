@@ -13,7 +13,6 @@
 #include <iterator>
 #include <sstream>
 #include <thread>
-#include <utility>
 
 #include "reference/process/process_tree.h"
 
@@ -26,6 +25,10 @@ double nanoseconds_of(clockid_t clock) {
   timespec time = {};
   if (clock_gettime(clock, &time) != 0) return 0.0;
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+}
+
+double nanoseconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double, std::nano>(time).count();
 }
 
 double nanoseconds(const timeval& time) {
@@ -94,7 +97,7 @@ void CallClock::start() {
 }
 
 double CallClock::stop() {
-  const double wall = std::chrono::duration<double, std::nano>(Clock::now() - from_).count();
+  const double wall = nanoseconds(Clock::now() - from_);
   const double cpu = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_;
   if (cpu >= wall || waits() != waits_ || has_children()) return wall;
   taken_ += wall - cpu;
@@ -104,37 +107,32 @@ double CallClock::stop() {
 // Own clocks are read next to the call: looking for children takes time of its own.
 CpuBook::Reading CpuBook::read(bool calls_next) const {
   Reading out;
+  if (calls_next) out.at = Clock::now();
   if (children_ && calls_next) out.children = of_children();
-  out.thread = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
+  out.thread_first = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
   out.process = nanoseconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  out.thread_last = nanoseconds_of(CLOCK_THREAD_CPUTIME_ID);
   if (children_ && !calls_next) out.children = of_children();
+  if (!calls_next) out.at = Clock::now();
   return out;
 }
 
-// Since the last call or the last look.
-double CpuBook::nanoseconds_since_call() {
-  const Clock::time_point now = Clock::now();
-  return std::chrono::duration<double, std::nano>(now - std::exchange(last_end_, now)).count();
-}
-
-void CpuBook::before_call() {
-  const Reading now = read(true);
+void CpuBook::before_call(const Reading& now) {
   if (calls_ > 0) {
-    between_calls_ += now.others() - last_.others();
-    time_between_ += nanoseconds_since_call();
+    between_calls_ += now.process + now.children - last_.process - last_.children -
+                      (now.thread_last - last_.thread_first);
+    time_between_ += nanoseconds(now.at - last_.at);
   }
   last_ = now;
 }
 
-double CpuBook::after_call(double wall) {
-  const Reading now = read(false);
+double CpuBook::after_call(const Reading& now) {
   // One that has ended between two looks may be counted later, in whole ticks.
   const double used = std::max(now.process + now.children - last_.process - last_.children, 0.0);
   in_calls_ += used;
   of_children_ += now.children - last_.children;
-  wall_ += wall;
+  time_of_calls_ += nanoseconds(now.at - last_.at);
   last_ = now;
-  last_end_ = Clock::now();
   ++calls_;
   return used;
 }
@@ -154,20 +152,20 @@ void CpuBook::settle(const std::function<void()>& still_here) {
 }
 
 std::string CpuBook::complaint() const {
-  // For clocks that tick at different rates and the reading of them; a command tidies up behind its
-  // answer, and the pipe's two ends work beside each other.
+  // For clocks that tick at different rates; a command tidies up behind its answer, and the pipe's
+  // two ends work beside each other.
   const bool command = of_children_ > 0.0;
-  const double slack = 0.25 * wall_ + 0.2 * kNanosecondsPerMillisecond +
+  const double slack = 0.25 * time_of_calls_ + 0.2 * kNanosecondsPerMillisecond +
                        static_cast<double>(calls_) * (command ? 1e6 : 5e3);
   const std::size_t threads = threads_ + (command ? 1 : 0);
-  if (in_calls_ > static_cast<double>(threads) * wall_ + slack)
-    return "it has used " + milliseconds(in_calls_) + " of CPU time in " + milliseconds(wall_) +
-           " of calls; it may use " + std::to_string(threads_) +
+  if (in_calls_ > static_cast<double>(threads) * time_of_calls_ + slack)
+    return "it has used " + milliseconds(in_calls_) + " of CPU time in " +
+           milliseconds(time_of_calls_) + " of calls; it may use " + std::to_string(threads_) +
            (threads_ == 1 ? " thread" : " threads") + " (--threads)";
   // Threads that it may have may wait for the next call without sleeping.
   if (between_calls_ > slack + static_cast<double>(threads_ - 1) * time_between_)
     return "it has used " + milliseconds(between_calls_) +
-           " of CPU time while it was not called, beside " + milliseconds(wall_) +
+           " of CPU time while it was not called, beside " + milliseconds(time_of_calls_) +
            " of calls: their time is not what it costs";
   return "";
 }

@@ -68,7 +68,7 @@ Pass time_pass(const scene::Scene& scene, const PassRequest& request, Detector& 
     cpu.before_call();
     PhaseSample& sample = out.emplace_back(
         time_frame(scene, request.asked.question, detector, mapped, contacts, progress));
-    sample.cpu = cpu.after_call(sample.total());
+    sample.cpu = cpu.after_call();
     guard.check_and_restore();  // flush-to-zero would make the next one faster
     contacts.canonicalize();
     const std::string difference = judge::answer_difference(

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "reference/timing/cpu_time.h"
@@ -188,10 +189,8 @@ TEST(CpuBook, OfCallsThatWorkIsTheirTime) {
   double in_calls = 0.0;
   for (int i = 0; i < 3; ++i) {
     book.before_call();
-    const auto start = std::chrono::steady_clock::now();
     work(5.0);
-    in_calls += book.after_call(
-        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
+    in_calls += book.after_call();
     work(5.0);  // the caller's own
   }
   book.settle([] {});
@@ -199,26 +198,55 @@ TEST(CpuBook, OfCallsThatWorkIsTheirTime) {
   EXPECT_LT(in_calls, 16.0 * kMilliseconds);
 }
 
+// A process of one thread that works all the time, after so many milliseconds of it.
+CpuBook::Reading one_thread_after(double milliseconds) {
+  const double time = milliseconds * kMilliseconds;
+  return {CpuBook::Clock::time_point(std::chrono::nanoseconds(std::llround(time))), time, time,
+          time};
+}
+
 TEST(CpuBook, ComplainsOfMoreThreadsThanItMayUse) {
   for (const std::size_t threads : {1, 4}) {
     CpuBook book(threads, false);
-    book.before_call();
-    std::thread other([] { work(20.0); });
-    other.join();
-    book.after_call(5.0 * kMilliseconds);  // as if it had waited no longer
-    book.settle([] {});
+    book.before_call(one_thread_after(0.0));
+    CpuBook::Reading end = one_thread_after(5.0);
+    end.process += 10.0 * kMilliseconds;
+    book.after_call(end);
     if (threads == 1) {
-      EXPECT_THAT(book.complaint(), testing::HasSubstr("it may use 1 thread (--threads)"));
+      EXPECT_EQ(book.complaint(),
+                "it has used 15 ms of CPU time in 5 ms of calls; it may use 1 thread (--threads)");
     } else {
       EXPECT_EQ(book.complaint(), "");
     }
   }
 }
 
+// What a machine does that stands still: its guest takes that for CPU time.
+TEST(CpuBook, TakesNoHaltBetweenTwoClocksForWork) {
+  for (const bool halts_ahead : {true, false}) {
+    CpuBook book(1, false);
+    double now = 0.0;
+    const auto read = [&](bool ahead) {
+      const double halt = ahead == halts_ahead ? 0.7 : 0.0;
+      CpuBook::Reading out;
+      if (ahead) out.at = one_thread_after(now).at;
+      for (double* clock : {&out.thread_first, &out.process, &out.thread_last})
+        *clock = one_thread_after(now += halt).process;
+      if (!ahead) out.at = one_thread_after(now).at;
+      return out;
+    };
+    for (int i = 0; i < 10; ++i) {
+      book.before_call(read(true));
+      book.after_call(read(false));
+    }
+    EXPECT_EQ(book.complaint(), "");
+  }
+}
+
 TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
   CpuBook book(1, false);
   book.before_call();
-  book.after_call(1.0 * kMilliseconds);
+  book.after_call();
   std::thread other([] { work(20.0); });
   book.settle([] {});
   other.join();
@@ -228,7 +256,7 @@ TEST(CpuBook, ComplainsOfWorkBetweenCallsAndAfterTheLast) {
 TEST(CpuBook, CountsProcessesThatWereStarted) {
   CpuBook book(1, true);
   book.before_call();
-  book.after_call(1.0 * kMilliseconds);
+  book.after_call();
   const pid_t child = fork();
   if (child == 0) {
     work(40.0);

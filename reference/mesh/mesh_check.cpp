@@ -150,8 +150,8 @@ std::optional<SoupCounts> ply_counts(const std::string& bytes) {
     if (line.words[0] == "format" && line.words.size() > 1) ascii = line.words[1] == "ascii";
     if (line.words[0] == "element" && line.words.size() > 2) {
       const std::size_t number = text::whole_number<std::size_t>(line.words[2]).value_or(0);
-      if (line.words[1] == "vertex") counts.vertices = number;
-      if (line.words[1] == "face") counts.faces = number;
+      if (line.words[1] == "vertex" || line.words[1] == "vertices") counts.vertices = number;
+      if (line.words[1] == "face" || line.words[1] == "faces") counts.faces = number;
     }
     return line.words[0] != "end_header";
   });

@@ -154,15 +154,8 @@ void refuse_lying_counts(SoupFormat format, const std::string& bytes, const std:
   }
 }
 
-void refuse_lost_parts(SoupFormat format, const std::string& bytes, const std::string& name,
-                       const PolygonSoup& soup) {
-  const std::optional<SoupCounts> counts = claimed_counts(format, bytes);
-  if (counts && (counts->vertices != soup.points.size() || counts->faces != soup.polygons.size())) {
-    throw InputError(name + " claims " + std::to_string(counts->vertices) + " vertices and " +
-                     std::to_string(counts->faces) + " faces but holds " +
-                     std::to_string(soup.points.size()) + " and " +
-                     std::to_string(soup.polygons.size()) + ".");
-  }
+void refuse_lost_corners(SoupFormat format, const std::string& bytes, const std::string& name,
+                         const PolygonSoup& soup) {
   if (const std::size_t line = face_line_fault(format, bytes, soup)) {
     throw InputError(name + " has a face on line " + std::to_string(line) +
                      " whose vertex indices cannot all be read.");
@@ -262,7 +255,7 @@ PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::st
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
     throw InputError(name + " cannot be read as " + name_of(format) + ".");
   }
-  refuse_lost_parts(format, bytes, name, soup);
+  refuse_lost_corners(format, bytes, name, soup);
   refuse_bad_values(soup, name);
   return soup;
 }

@@ -146,6 +146,15 @@ std::string missing_coordinate(const Header& header) {
   return "";
 }
 
+// Where a second list of vertices begins, indices could go on or begin at 0 again.
+std::string repeated_element(const Header& header) {
+  if (std::ranges::count_if(header.elements, is_vertex) > 1)
+    return " has more than one element of vertices";
+  if (std::ranges::count_if(header.elements, is_face) > 1)
+    return " has more than one element of faces";
+  return "";
+}
+
 // Nothing unless all of the word is a number of the type.
 std::optional<double> integer(const std::string& word, Type type) {
   switch (type) {
@@ -304,6 +313,7 @@ bool read_ply(const std::string& bytes, PolygonSoup& out, std::string& fault) {
   const std::optional<Header> header = read_header(in);
   if (!header || !names_have_their_types(*header)) return false;
   fault = missing_coordinate(*header);
+  if (fault.empty()) fault = repeated_element(*header);
   if (!fault.empty()) return false;
   Values values(in, header->format);
   for (const Element& element : header->elements)

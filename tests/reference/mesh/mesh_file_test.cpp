@@ -57,13 +57,13 @@ std::string binary_stl(float first) {
   return bytes;
 }
 
-// One triangle of floats.
-std::string binary_ply(bool big = false) {
+// One triangle of floats. `second`: x of the second vertex; `last`: z of the third.
+std::string binary_ply(bool big = false, float second = 1.f, float last = 0.f) {
   std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
                       "_endian 1.0\nelement vertex 3\nproperty float x\n"
                       "property float y\nproperty float z\nelement face 1\n"
                       "property list uchar int vertex_indices\nend_header\n";
-  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+  for (const float x : {0.f, 0.f, 0.f, second, 0.f, 0.f, 0.f, 1.f, last})
     append(bytes, std::bit_cast<std::uint32_t>(x), big);
   bytes += '\3';
   for (const std::uint32_t corner : {0u, 1u, 2u}) append(bytes, corner, big);
@@ -171,6 +171,18 @@ TEST(MeshFile, PlyMayHaveEitherOrderOfBytes) {
   EXPECT_EQ(big.triangles, little.triangles);
 }
 
+TEST(MeshFile, PlyMayCallItsElementsVerticesAndFaces) {
+  const Scratch scratch;
+  for (const std::string& bytes : {kPly, binary_ply()}) {
+    const TriangleMesh usual = read_mesh_file(scratch.write("usual.ply", bytes)).mesh;
+    const std::string plural =
+        with(with(bytes, "element vertex", "element vertices"), "element face", "element faces");
+    const TriangleMesh mesh = read_mesh_file(scratch.write("plural.ply", plural)).mesh;
+    EXPECT_EQ(mesh.vertices, usual.vertices);
+    EXPECT_EQ(mesh.triangles, usual.triangles);
+  }
+}
+
 TEST(MeshFile, FloatsOfAPlyInTextAreThoseFloats) {
   const Scratch scratch;
   const std::string text = with(kPly, "double x", "float x");
@@ -250,6 +262,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadMesh{"PlyNan", "a.ply", with(kPly, "\n0 1 0", "\n0 nan 0"),
                 ": vertex 2 (line 12) has the coordinate \"nan\"; coordinates must be finite "
                 "numbers."},
+        BadMesh{"PlyNanOfVertices", "a.ply",
+                with(with(kPly, "element vertex", "element vertices"), "\n0 1 0", "\n0 nan 0"),
+                ": vertex 2 (line 12) has the coordinate \"nan\"; coordinates must be finite "
+                "numbers."},
+        BadMesh{"BinaryPlyNan", "a.ply",
+                binary_ply(false, 1.f, std::numeric_limits<float>::quiet_NaN()),
+                ": vertex 2 has a coordinate that is not a finite number."},
+        BadMesh{"BinaryPlyInfinity", "a.ply",
+                binary_ply(true, -std::numeric_limits<float>::infinity()),
+                ": vertex 1 has a coordinate that is not a finite number."},
         BadMesh{"StlNan", "a.stl", with(kStl, "vertex 0 1 0", "vertex 0 nan 0"),
                 ": vertex 1 (line 5) has the coordinate \"nan\"; coordinates must be finite "
                 "numbers."},
@@ -270,6 +292,16 @@ INSTANTIATE_TEST_SUITE_P(
                 " has vertices without a property z."},
         BadMesh{"PlyWithoutXOfItsName", "a.ply", with(kPly, "double x", "double X"),
                 " has vertices without a property x."},
+        BadMesh{"PlyVerticesTwice", "a.ply",
+                with(kPly, "element face",
+                     "element vertices 0\nproperty double x\nproperty double y\n"
+                     "property double z\nelement face"),
+                " has more than one element of vertices."},
+        BadMesh{"PlyFacesTwice", "a.ply",
+                with(kPly, "end_header",
+                     "element face 1\nproperty list uchar int vertex_indices\nend_header") +
+                    "3 0 1 2\n",
+                " has more than one element of faces."},
         BadMesh{"PlyMoreNumbersOnALine", "a.ply", with(kPly, "\n1 0 0", "\n1 0 0 5 5"),
                 ": vertex 1 has more on its line than its properties: \"5 5\"."},
         BadMesh{"PlyMoreNumbersOfAStrangeElement", "a.ply",

@@ -183,6 +183,8 @@ class ExactPairs {
   void flush(Meets&& meets) {
     if (batch_.count == 0) return;
     const BatchVerdict verdict = kernels_.test_batch(batch_);
+    tests_ += batch_.count;
+    ++batches_;
     for (std::size_t lane = 0; lane < batch_.count; ++lane) {
       const bool unknown = (verdict.unknown >> lane & 1u) != 0;
       if ((verdict.meet >> lane & 1u) != 0 ||
@@ -192,11 +194,17 @@ class ExactPairs {
     batch_.count = 0;
   }
 
+  std::vector<Count> counts() const {
+    return {{"triangle_tests", tests_}, {"batches_of_eight", batches_}};
+  }
+  void clear_counts() { tests_ = batches_ = 0; }
+
  private:
   const LazyKernels& kernels_ = lazy_kernels();
   const Triangle *triangles_a_ = nullptr, *triangles_b_ = nullptr;
   std::span<const Vec3> vertices_a_, vertices_b_;
   TriangleBatch batch_{};
+  std::uint64_t tests_ = 0, batches_ = 0;
 };
 
 class EmbreeDetector final : public BodyPairDetector {
@@ -223,6 +231,8 @@ class EmbreeDetector final : public BodyPairDetector {
     move(rest);
   }
 
+  std::vector<Count> counts() override { return exact_.counts(); }
+
   StageTrace trace() override {
     std::vector<std::uint64_t> triangles;
     std::vector<ElementPair> candidates;
@@ -247,6 +257,7 @@ class EmbreeDetector final : public BodyPairDetector {
 
   /// One scale for all that are moved: their boxes are compared.
   void move(std::span<const CandidateBody> bodies) override {
+    exact_.clear_counts();
     double largest = 0.0;
     for (const CandidateBody& body : bodies)
       largest = std::max(largest, largest_coordinate(body.box));

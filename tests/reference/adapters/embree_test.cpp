@@ -345,6 +345,35 @@ TEST(Embree, StagesKeepAllTruePairs) {
   EXPECT_GT(boxes.out, exact.out);
 }
 
+std::vector<std::uint64_t> counts_of(Detector& detector) {
+  std::vector<std::uint64_t> out;
+  for (const Count& count : detector.counts()) out.push_back(count.value);
+  return out;
+}
+
+// Whatever the batches, the answer is the same: only the counts tell that tests go eight at a time.
+TEST(Embree, TestsEightCandidatesAtATime) {
+  const World world = embree_spheres();
+  const auto detector = prepared(kEmbree, world);
+  EXPECT_THAT(counts_of(*detector), ElementsAre(0, 0));
+  ask(*detector, Question::kTriangles);
+  const std::vector<std::uint64_t> once = counts_of(*detector);
+  EXPECT_GE(once.at(0), true_pairs(world).size());
+  EXPECT_EQ(once.at(1), (once.at(0) + 7) / 8);  // of two bodies: one batch alone is not full
+  ask(*detector, Question::kTriangles);
+  EXPECT_THAT(counts_of(*detector), ElementsAre(2 * once.at(0), 2 * once.at(1)));
+  detector->update(world.frame());
+  EXPECT_THAT(counts_of(*detector), ElementsAre(0, 0));
+}
+
+// The first of them that holds a contact is the last.
+TEST(Embree, TestsOneBatchOfBodiesThatMeetEverywhere) {
+  const World world({unit_box_mesh(2), unit_box_mesh(2)});
+  const auto detector = prepared(kEmbree, world);
+  ask(*detector, Question::kBody);
+  EXPECT_THAT(counts_of(*detector), ElementsAre(8, 1));
+}
+
 // A third body, none of whose candidates may turn up as those of the other two.
 TEST(Embree, CandidatesAreThoseOfTheirOwnBodies) {
   const World pair = embree_spheres();

@@ -103,6 +103,27 @@ TEST_P(FclDetectors, OverlappingSpheresGiveExactlyTheTruePairs) {
   EXPECT_EQ(compare(world, triangles(world)), "");
 }
 
+// FCL stops at the number of contacts that a request allows.
+TEST_P(FclDetectors, ReportAllContactsOfAPairHoweverMany) {
+  constexpr std::uint32_t kTriangles = 70;
+  // Triangles across the x axis, and across the y axis: each of the first crosses each of the
+  // second, well within both.
+  TriangleMesh across_x, across_y;
+  for (std::uint32_t i = 0; i < kTriangles; ++i) {
+    const double at = i;
+    for (const Vec3& p : {Vec3(at, -200, -200), Vec3(at, 300, -200), Vec3(at, 37, 300)})
+      across_x.vertices.push_back(p);
+    for (const Vec3& p : {Vec3(-200, at, 300), Vec3(300, at, 300), Vec3(31, at, -200)})
+      across_y.vertices.push_back(p);
+    across_x.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    across_y.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const World world({across_x, across_y});
+  const auto detector = prepared(world);
+  EXPECT_THAT(ask(*detector, Question::kTriangles).triangles, SizeIs(kTriangles * kTriangles));
+  EXPECT_THAT(ask(*detector, Question::kContacts).triangles, SizeIs(kTriangles * kTriangles));
+}
+
 TEST_P(FclDetectors, IdsAreThoseOfTheInput) {
   // A needle through triangle 2 of three stacked ones, in the second triangle of its mesh.
   TriangleMesh stack;

@@ -6,11 +6,13 @@
 #include <limits>
 
 #include "core/types/check.h"
+#include "reference/adapters/body_pair_detector.h"
 #include "tests/reference/adapters/adapter_world.h"
 
 namespace contactcheck::test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 const std::vector<std::string> kPrefiltered = {"embree",         "fcl-aabb",
@@ -57,6 +59,38 @@ void expect_same(const ContactSet& a, const ContactSet& b, const std::string& wh
   EXPECT_EQ(a.vertices, b.vertices) << what;
   EXPECT_EQ(a.near, b.near) << what;
   EXPECT_EQ(a.piece_contacts.size(), b.piece_contacts.size()) << what;
+}
+
+// A library that finds nothing and keeps which bodies it was given.
+class Given : public adapters::BodyPairDetector {
+ public:
+  explicit Given(adapters::Prefilter prefilter) : BodyPairDetector(prefilter) {}
+  const Semantics& semantics() const override { return semantics_; }
+  void prepare(const std::vector<Body>& all) override { set_bodies(all); }
+
+  std::vector<std::uint32_t> bodies;
+
+ private:
+  void move(std::span<const adapters::CandidateBody> given) override {
+    bodies.clear();
+    for (const adapters::CandidateBody& body : given) bodies.push_back(body.body);
+  }
+  void collide(BodyPair, Question, ContactSet&) override {}
+  Semantics semantics_;
+};
+
+// So that a reference does no work that a simulator would spare it.
+TEST(Prefilter, BodiesWhoseBoxesMeetNoOtherAreNotGivenToTheLibrary) {
+  const Balls balls;
+  const FrameData apart = balls.frame(0.5), touching = balls.frame(-0.1);
+  for (const auto by : {adapters::Prefilter::kNone, adapters::Prefilter::kNodes}) {
+    Given library(by);
+    library.prepare(balls.bodies);
+    library.update(apart.frame());
+    EXPECT_THAT(library.bodies, ElementsAre(2, 3, 5));
+    library.update(touching.frame());
+    EXPECT_THAT(library.bodies, ElementsAre(0, 1, 2, 3, 5));
+  }
 }
 
 TEST(Prefilter, AnswersAreThoseWithoutIt) {

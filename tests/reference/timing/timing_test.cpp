@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "reference/timing/cpu_time.h"
@@ -74,6 +77,43 @@ class Watched : public Diary {
   const process::SharedProgress& page_;
 };
 
+constexpr double kMilliseconds = 1e6;  // nanoseconds
+
+// Uses the CPU for so many milliseconds in each call.
+class Busy : public Diary {
+ public:
+  Busy(bool vertices, double update_ms, double query_ms)
+      : Diary(vertices), update_ms_(update_ms), query_ms_(query_ms) {}
+  void update(const Frame& frame) override {
+    Diary::update(frame);
+    use_cpu(update_ms_);
+  }
+  void query(Question question, ContactSet& out) override {
+    Diary::query(question, out);
+    use_cpu(query_ms_);
+  }
+
+ private:
+  static double cpu_ns() {
+    timespec time = {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
+  }
+  static void use_cpu(double milliseconds) {
+    const double end = cpu_ns() + milliseconds * kMilliseconds;
+    while (cpu_ns() < end) {
+    }
+  }
+  double update_ms_, query_ms_;
+};
+
+// The least of all frames: what holds up one frame need not hold up another.
+double least(const Pass& pass, double PhaseSample::*phase) {
+  double out = std::numeric_limits<double>::infinity();
+  for (const PhaseSample& sample : pass) out = std::min(out, sample.*phase);
+  return out;
+}
+
 class Timing : public testing::Test {
  protected:
   Timing()
@@ -121,6 +161,7 @@ TEST_F(Timing, OfColdFramesThoseAlone) {
   const Pass samples = time_pass(scene_, {0, kBody, {0, 2}, &prints_, &sweep}, detector, progress_);
   EXPECT_THAT(detector.frames, ElementsAre(0, 2));
   EXPECT_EQ(samples.size(), 2u);
+  EXPECT_EQ(sweep.lines_read(), 2u * (1 << 12) / 64) << "all of it before each frame";
 }
 
 TEST_F(Timing, SupervisorSeesThePhaseOfEveryCallAndThatItIsANewOne) {
@@ -163,6 +204,28 @@ TEST_F(Timing, MapsForThoseWhoNeedVerticesAlone) {
   EXPECT_EQ(pass(lazy).at(0).map, 0.0);
 }
 
+TEST_F(Timing, MappingIsWithinItsClock) {
+  const auto fine = test::make_body("", test::unit_box_mesh(40), {1, 1, 1}).shape;
+  scene_ =
+      test::approach_scene(fine, fine, {{0.0, 1.3}, {1.0, 0.7}}, 0.1, 0.2, 3, 0.35, {Level::kBody});
+  constexpr double kFasterThanAnyMachine = 0.2;  // nanoseconds a vertex
+  Diary detector;
+  EXPECT_GT(least(pass(detector), &PhaseSample::map),
+            kFasterThanAnyMachine * 2.0 * static_cast<double>(fine->mesh.vertices.size()));
+}
+
+TEST_F(Timing, UpdateAndQueryHaveEachTheirOwnTime) {
+  constexpr double kWork = 2.0, kAlmostAll = 0.99;  // of 2 ms: the clocks may run apart a little
+  for (const bool vertices : {true, false}) {
+    Busy updates(vertices, kWork, 0.0), answers(vertices, 0.0, kWork);
+    const Pass updated = pass(updates), answered = pass(answers);
+    EXPECT_GE(least(updated, &PhaseSample::update), kAlmostAll * kWork * kMilliseconds);
+    EXPECT_LT(least(updated, &PhaseSample::query), 0.5 * kWork * kMilliseconds);
+    EXPECT_GE(least(answered, &PhaseSample::query), kAlmostAll * kWork * kMilliseconds);
+    EXPECT_LT(least(answered, &PhaseSample::update), 0.5 * kWork * kMilliseconds);
+  }
+}
+
 TEST_F(Timing, AnswerThatWasJudgedMayRepeatItself) { EXPECT_EQ(error_of(""), ""); }
 
 TEST_F(Timing, WhatItThrowsEndsThePass) { EXPECT_EQ(error_of("throws"), "out of order"); }
@@ -174,8 +237,6 @@ TEST_F(Timing, AnswerThatWasNotJudgedEndsThePass) {
 }
 
 // ---- CPU time ----------------------------------------------------------------------------------
-
-constexpr double kMilliseconds = 1e6;
 
 void work(double milliseconds) {
   const auto end =

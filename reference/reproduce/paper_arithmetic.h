@@ -12,7 +12,7 @@ namespace contactcheck::reproduce {
 
 /// One figure. Every member has an initialiser, so that a finding names only what it sets.
 struct PaperFinding {
-  std::string topic = {};               ///< what is computed; fixtures/README.md lists them
+  std::string topic = {};               ///< what is computed: "test-ratio"
   std::string table = {};               ///< "Table 3"
   std::string scene = {}, method = {};  ///< empty where the finding is over all
   std::string sentence = {};            ///< with the numbers, for a report

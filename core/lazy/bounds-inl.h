@@ -8,86 +8,89 @@
 // Notation:
 //   * u = 2^-24. A float operation with a result of at most v rounds by at most u v. Errors are
 //     counted to first order in u.
-//   * M: LazyState::reach, not below any |coordinate| of the body's nodes in its frame. All values
-//     of a trilinear function of the nodes lie within M. So do its terms and derivatives, which are
-//     means of nodes with signs.
+//   * M: LazyState::reach, not below any |coordinate| of the body's nodes in its frame.
+//   * c, e: middle and half-widths of a piece. They are exact, and |c| + e <= 1 along each axis.
+//     (Quantisation lets that reach 1 + 2^-14, which no error below feels by a thousandth.)
+//   * t_i: the eight terms of a coordinate in a cell (CellTerms). w_i: the product of |c_k| + e_k
+//     over the bits k of i, at most 1.
 //
 // Claims:
-//   * A box is wrong by at most 202 u M. Its slack is 256 u M (LazyState::slack).
-//   * A slab is wrong by at most 955 u M and a test of two slabs in one frame (meeting-inl.h) by
-//     296 u M. The slack of a slab is 2048 u M (LazyState::slab_slack).
+//   * A box is wrong by at most 44 u M. Its slack is 64 u M (LazyState::slack).
+//   * A slab is wrong by at most 175 u M and a test of two slabs in one frame (meeting-inl.h) by
+//     100 u M. The slack of a slab is 384 u M (LazyState::slab_slack).
 //   * What is no multiple of u M is added to both slacks.
 //
-// Assumption: middles y and half-widths e of pieces are exact, |y| <= 1 and e <= 1. (Quantisation
-// lets e reach 1 + 2^-14. That changes no error below by more than a thousandth.)
+// Two rules:
+//   * Rounded sums. If a value is computed by products and sums alone, every number that goes into
+//     it meets at most D roundings on its way and S is the value for |numbers|, all added, then it
+//     is wrong by at most D u S: each product of numbers is wrong by D u of itself. A fused
+//     operation rounds less.
+//   * Terms. They are the nodes times a matrix of -1/8 and 1/8 whose rows are orthogonal. So the
+//     sum of t_i^2 is the mean of the squared nodes, at most M^2, and the sum of |t_i| at most
+//     sqrt(8) M.
 //
-// Box:
-//   * A node as a float is wrong by u M. (The rounding of x - origin in double comes last, below.)
-//   * A term of a cell (CellTerms) is a sum of eight eighths of nodes with signs. The nodes add
-//     u M. Its sums of 2, 4 and 8 eighths are at most M/4, M/2 and M. There are 4, 2 and 1 of them,
-//     so each of the three levels adds u M. In all 4 u M.
-//   * A blend a + y b has the errors of a and of b, u M for the product (none where it is fused)
-//     and u M for the sum.
-//   * A mixed derivative is a blend of two terms: 4 + 4 + 2 = 10 u M. f_stu is a term: 4 u M.
-//   * A slope is a blend of two such blends: 10 + 10 + 2 = 22 u M.
-//   * The value is a blend of a slope and of a blend like it: 22 + 22 + 2 = 46 u M.
-//   * The half-range is the sum of the following. Each product with a half-width, and of two
-//     half-widths, adds u M:
-//       3 slopes times e:                3 (22 + 1) = 69 u M
-//       3 mixed derivatives times e e':  3 (10 + 2) = 36 u M
-//       f_stu times e e' e'':               (4 + 3) =  7 u M
-//   * Value and half-range: 46 + 69 + 36 + 7 = 158 u M.
-//   * The sums of the half-range have up to 7 terms of at most M: below 28 u M.
-//   * The difference of value and half-range is at most 8 M and rounds once, the push outward by
-//     the slack once more: 16 u M.
-//   * In all 158 + 28 + 16 = 202 u M.
+// Box. Its ends are f(c) -+ the sum of |g_k| e_k, of |f_st| es et (as su, tu) and |f_stu| es et eu:
+//   * A node as a float is wrong by u M. The float nodes are taken as the nodes, so their bounds
+//     are exact for images that are u M beside: u M. (The rounding of x - origin in double comes
+//     last, below.)
+//   * A term is the result of three levels of sums and differences. Each takes pairs (x, y) to
+//     (x + y, x - y). That doubles a sum of squares, the errors' as the values'. So the errors of
+//     each level, at most u of its values, are in the end at most u M as a root of the sum of
+//     squares, those of all three 3 u M, and the sum of their amounts sqrt(8) * 3 u M: 8.5 u M. An
+//     error of t_i comes w_i times.
+//   * The rest are rounded sums. S is the sum of |t_i| w_i, at most sqrt(8) M. D is 12:
+//       value:             2 roundings (product, sum) in each of f_st, the slope and the value: 6;
+//                          the end of the range, the push by the slack: 8
+//       |g_k| e_k:         slope 4, product 1, up to 3 sums, end and push 2: 10
+//       |f_st| es et:      f_st 2, es et 1, product 1, 3 + 3 sums, end and push 2: 12
+//       |f_stu| es et eu:  products 3, 1 + 3 sums, end and push 2: 9
+//     12 u sqrt(8) M is below 34 u M. A box's |coordinates| are at most S.
+//   * In all 1 + 8.5 + 34 = 43.5 u M.
 //
-// Slab, along a direction n. Bounds are right for every n. It has length 1, or 0, up to rounding:
-//   * n . X is a sum of three products of at most M, by two sums of at most 3 M, taken as five
-//     roundings of 3 M. So the errors of X come three times, and 15 u M:
-//       value             3 * 46 + 15 = 153 u M
-//       slope             3 * 22 + 15 =  81 u M
-//       mixed derivative  3 * 10 + 15 =  45 u M
-//       f_stu             3 *  4 + 15 =  27 u M
-//   * Let g be the three slopes, each at most 3 M, so |g| <= sqrt(27) M. Let k = g.m / m.m
-//     (lattice_tree.h). Every k is right, so the error of k itself costs nothing. k m is the
-//     projection of g onto m: |k| <= |g| / |m|, and k m and g - k m have lengths of at most |g|.
-//     Their three |components| sum to at most sqrt(3) |g| = 9 M.
-//   * The half-range across m:
-//       3 components of g - k m times e: 3 * 81, and for k m, for the difference and for the
-//         product with e each 9 over the three axes: 270 u M
-//       3 mixed derivatives times e e':  3 (45 + 3 + 3) = 153 u M
-//       f_stu times e e' e'':               27 + 3 * 3  =  36 u M
-//   * Its sums are at most 6, 9, 12, 21, 21 and 21 M: 90 u M.
-//   * The part along m is k times the difference of a slab's end and m.c, c the middle:
-//       m.c:         three products and two sums, at most sqrt(3) |m| each: 5.2 u |m|
-//       difference:  at most |m| times the diagonal sqrt(12) of the cell: 3.5 u |m|
-//       times k:     8.7 u |m| * sqrt(27) M / |m| = 46 u M
-//       the product: at most sqrt(27) sqrt(12) M = 18 M: 18 u M
-//     Ends of slabs are stored as floats outside of the vertices (lattice_tree.cpp).
-//   * Value and part along m sum to at most 21 M, with the half-range to 42 M: 63 u M.
-//   * So the two ends are wrong by 153 + 270 + 153 + 36 + 90 + 46 + 18 + 63 = 829 u M.
-//   * Middle, half-width and its sum with the slack (store_slab) round values of at most 42 M:
-//     126 u M.
-//   * In all 829 + 126 = 955 u M.
+// Slab, along a direction n. Bounds are right for every n. This one has length 1, or 0, up to
+// rounding, so its |components| sum to at most sqrt(3):
+//   * Nodes and terms of the coordinates: sqrt(3) (1 + 8.5) u M = 16.5 u M.
+//   * Terms of n . X have |products| that sum to at most sqrt(3) sqrt(8) M = 4.9 M. The slopes g of
+//     n . X: those of a coordinate are at most M each, so |g| <= sqrt(3) sqrt(3) M = 3 M.
+//   * Let k = g.m / m.m (lattice_tree.h). Every k is right, so the error of k itself costs nothing.
+//     |k| |m| <= |g|, up to rounding. |m| is no less than 1.
+//   * Rounded sums of terms. S is 4.9 M. n . X takes 3 roundings (product, two sums), and D is 14:
+//       value:             6 + 3, its sum with the part along m, the end: 11
+//       |g_k - k m_k| e_k: slope 4 + 3, difference 1, product 1, 3 sums, end: 13
+//       |f_st| es et:      2 + 3, es et 1, product 1, 3 + 3 sums, end: 14
+//     14 u 4.9 M is below 69 u M.
+//   * Rounded sums of |k m_k| e_k. S is at most |k| |m| |e| <= sqrt(3) 3 M = 5.2 M. Product with m,
+//     difference, product with e, 3 sums, end: 7 u 5.2 M = 37 u M.
+//   * The part along m is k times the difference of a slab's end and m.c. Here m.c is exact: c is a
+//     multiple of 2^-15 and m integers, and 127 * 3 * (2^15 + 2) < 2^24. The slab's end is m.y of a
+//     vertex of the piece (stored as a float outside of it, lattice_tree.cpp), so the difference is
+//     at most |m| |e|, the part at most 5.2 M. Difference, product, two sums: 4 u 5.2 M = 21 u M.
+//   * So the ends are wrong by 16.5 + 69 + 37 + 21 = 143.5 u M. They are at most
+//     4.9 + 5.2 + 5.2 = 15.3 M.
+//   * Middle (one rounding) and half-width (two, with the slack) are together at most the larger
+//     |end|: 2 * 15.3 u M, below 31 u M.
+//   * In all 143.5 + 31 = 174.5 u M.
 //
-// Test of two slabs in one frame (not_separated(), with its names). Let a = n.m as computed, any
-// number of at most 1 up to rounding. |n - a m| <= 1, so its |components| sum to at most sqrt(3). A
-// slab's |middle| + half is at most 42 M, a box's |coordinates| 8 M:
-//   * n - a m rounds twice per axis, times a coordinate of at most M: 2 sqrt(3) u M, below 4 u M.
-//   * Middle and half-width of the box round once per axis: sqrt(3) * 8 u M, below 14 u M. Their
-//     products with n - a m: another 14 u M.
-//   * a times middle and half of the slab: 42 u M.
-//   * |theirs| + their_half is at most sqrt(42^2 + (8 sqrt(3))^2) M < 45 M. Three sums: 135 u M.
-//   * The comparison has values of at most 42 + 45 = 87 M: 87 u M.
-//   * In all 4 + 14 + 14 + 42 + 135 + 87 = 296 u M; with the slab's own 955 u M below 2048 u M.
+// Test of two slabs in one frame (not_separated(), with its names). Let a = n.m as computed; for a
+// unit n and m, a and |n - a m| are cosine and sine of an angle, up to rounding. W = 15.3 M is the
+// largest |middle| + half of a slab, B = sqrt(8) M the largest |coordinate| of a box, x a point of
+// both bodies:
+//   * n - a m rounds twice, times a coordinate of x, at most M: sqrt(3) (cos + sin) u M, below
+//     2.5 u M.
+//   * The rounded sums `theirs` and `their_half`: the part of the slab, W cos, meets 4 roundings
+//     (product, 3 sums), that of the box, sqrt(3) B sin, another one (lo + hi, hi - lo). So
+//     4 * 15.3 cos + 5 * 4.9 sin, below 66 u M.
+//   * The comparison rounds W and |theirs| + their_half, at most 15.3 cos + 4.9 sin and so 16.1 M:
+//     32 u M.
+//   * In all 100.5 u M; with the slab's own 174.5 u M below 384 u M.
 //
 // Added to both slacks, in units of the world times the scale (place_one() in lazy_state.cpp):
 //   * the error of the canonical mapping (mapping.h);
 //   * the rounding of x - origin, 2^-53 of |x| and of |origin|, four times;
 //   * 1e-37 for float underflow.
 // They are errors per coordinate. Along n, of length 1, they come at most sqrt(3) times: slabs get
-// them twice.
+// them twice. (Far out they are no longer small beside M, and are rounded with the rest, by some u
+// of themselves. They are taken 1.01 times.)
 //
 // Single precision (lazy_state.h). The float nodes are the nodes. All of the above holds, with the
 // first u M to spare:
@@ -95,7 +98,7 @@
 //     local coordinates. The mapped vertices differ from the exact images of those by 10 u M in
 //     blends (mapping_error_bound() of floats) and by 3 u M as three local coordinates are rounded
 //     (place_in_single() in lazy_state.cpp). That makes 13 u M, and below 26 u M along n.
-//   * These are added to 256 u M and 2048 u M, though the first would hold them: 202 + 13.
+//   * These are added to 64 u M and 384 u M.
 //   * M is the scene's half-width, the same for all bodies.
 //   * Boxes of triangles and of refitted bodies are made of the very floats that are tested. They
 //     need no slack.
@@ -185,8 +188,8 @@ HWY_INLINE void join_row(const float (&from)[4], float (&to)[4], bool least) {
 }
 
 // Joins the bounds of eight more pieces to those of their children.
-HWY_NOINLINE void join_pieces(const LazyState& state, const PieceLanes& pieces,
-                              RunningBounds& out) {
+HWY_NOINLINE inline void join_pieces(const LazyState& state, const PieceLanes& pieces,
+                                     RunningBounds& out) {
   const FloatLanes d;
   HWY_ALIGN float lo[kBlockWidth][4], hi[kBlockWidth][4];
   for (std::size_t first = 0; first < kBlockWidth; first += hn::Lanes(d)) {
@@ -253,7 +256,8 @@ HWY_INLINE void finish_block(const LazyState& state, const RunningBounds& from,
   }
 }
 
-HWY_NOINLINE void bound_block(const LazyState& state, std::uint32_t index, BlockBounds& out) {
+HWY_NOINLINE inline void bound_block(const LazyState& state, std::uint32_t index,
+                                     BlockBounds& out) {
   const TreeBlock& block = state.tree->blocks[index];
   const PieceLanes& own = state.tree->pieces[block.begin];
   const bool more = block.end > block.begin + 1;

@@ -68,8 +68,8 @@ void place_one(const Aabb& frame, double scale, LazyState& state) {
   const double world = mapping_error_bound(state.largest) + 4.0 * kDoubleUnit * state.largest +
                        4.0 * kDoubleUnit * state.origin.cwiseAbs().maxCoeff();
   const double common = world * scale * 1.01 + 1e-37;
-  state.slack = round_up(256.0 * kFloatUnit * state.reach + common);
-  state.slab_slack = round_up(2048.0 * kFloatUnit * state.reach + 2.0 * common);
+  state.slack = round_up(64.0 * kFloatUnit * state.reach + common);
+  state.slab_slack = round_up(384.0 * kFloatUnit * state.reach + 2.0 * common);
 }
 
 void add_and_subtract(Float4& low, Float4& high) {
@@ -231,8 +231,8 @@ void place_in_single(std::span<LazyState> states, const Vec3& origin) {
     state.origin = origin;
     state.scale = scale;
     state.reach = reach;
-    state.slack = round_up(256.0 * kFloatUnit * reach + common);
-    state.slab_slack = round_up(2048.0 * kFloatUnit * reach + 2.0 * common);
+    state.slack = round_up(64.0 * kFloatUnit * reach + common);
+    state.slab_slack = round_up(384.0 * kFloatUnit * reach + 2.0 * common);
     AabbOf<float> box;
     for (Vec3f& node : state.single.nodes) {
       // By doubles: the scale of a tiny scene is no float.

@@ -42,7 +42,7 @@ class Bits {
 // From one body's frame to another's, with what its rounding adds to boxes and slabs.
 struct Translation {
   float offset[3], slack, slab_slack;
-  bool none;  // one frame for both
+  bool none;  // one frame for both, and one reach: either's slack covers a test
 };
 
 // One child's bounds, read in place: copies of single floats into a struct that vectors are
@@ -56,6 +56,7 @@ struct ChildBounds {
   float normal(int k) const { return slab->normal[k][lane]; }
   float middle() const { return slab->middle[lane]; }
   float half() const { return slab->half[lane]; }
+  static float slab_slack() { return 0.0f; }
 };
 
 // The same, moved into another body's frame, outward.
@@ -70,7 +71,8 @@ struct MovedBounds {
     for (int k = 0; k < 3; ++k) out += child.normal(k) * translation.offset[k];
     return out;
   }
-  float half() const { return child.half() + translation.slab_slack; }
+  float half() const { return child.half() + slab_slack(); }
+  float slab_slack() const { return translation.slab_slack; }
 };
 
 // From the frame of `from` to that of `to`.
@@ -78,26 +80,29 @@ struct MovedBounds {
 // Claim: the slacks cover all rounding of MovedBounds and of a test with them.
 //
 // Notation, as in bounds-inl.h: u = 2^-24; r is the sum of both reaches. Bounds of a child have
-// |coordinates| of at most 8 r, its slab |middle| + half of at most 42 r.
+// |coordinates| of at most 2.9 r, its slab |middle| + half of at most 15.3 r.
 //
 // Assumption: the bodies' boxes overlap, so the offset is at most r per axis. Where it is larger
-// than 2 r (rounding, or beyond the doubles) nothing is excluded, by a finite slack: empty lanes
-// stay empty.
+// than 2 r (beyond the doubles) nothing is excluded, by a finite slack: empty lanes stay empty.
 //
 // Boxes:
 //   * The difference of the origins rounds once, in double: by 2^-53 of their |coordinates|. 8
 //     times that is taken, and 1e-36 for float underflow (`rounding`).
-//   * As a float the offset is wrong by u r, with the slack subtracted or added by u r more. Its
-//     sum with a bound is at most 9 r and wrong by 9 u r. In all 11 u r; 32 u r is taken.
+//   * As a float the offset is wrong by u r, with the slack subtracted or added by u r more. In all
+//     2 u r; 4 u r is taken.
+//   * Its sum with a bound is compared with a float. Rounding is monotone and leaves a float as it
+//     is, so the exact sum compares as the rounded one, or as equal.
 //
-// Slabs, along a normal of length 1:
+// Slabs, along a normal of length 1. The slack is in both comparisons of not_separated():
 //   * `rounding` comes at most sqrt(3) times; 4 times is taken.
-//   * The float offset is wrong by sqrt(3) u r and its products with the normal by as much: 4 u r.
-//   * Three sums for the middle, and one for half, are at most 44 r: 176 u r.
-//   * A test of slabs (bounds-inl.h) with slabs of at most 44 r and boxes of at most 9 r has sums
-//     of at most sqrt(44^2 + (9 sqrt(3))^2) r, below 47 r. It is wrong by
-//     4 + 2 * sqrt(3) * 9 + 44 + 3 * 47 + (44 + 47) u r, below 312 u r.
-//   * In all 4 + 176 + 312 = 492 u r; 1024 u r is taken.
+//   * The float offset is wrong by sqrt(3) u r and its products with the normal by as much. Three
+//     sums for the middle, and one for half, are at most 15.3 r + sqrt(3) r = 17.1 r: 3 * 17.1 u r,
+//     with the products 55 u r.
+//   * A moved box has |coordinates| of at most 3.9 r, rounded once: sqrt(3) * 3.9 u r, below 7 u r.
+//   * A test (bounds-inl.h) of slabs with W = 17.1 r and boxes with B = 3.9 r, sqrt(3) B below
+//     6.8 r: 2.5 for n - a m; 5 * 17.1 cos + 5 * 6.8 sin, below 93, for the sums (the slack is one
+//     more); for the comparison 17.1 and 17.1 cos + 6.8 sin, below 36. In all 131.5 u r.
+//   * In all 55 + 7 + 131.5 = 193.5 u r; 256 u r is taken.
 HWY_INLINE Translation translation_between(const LazyState& from, const LazyState& to) {
   constexpr double kUnit = 0x1p-24, kEverything = 1e29;
   const double r = from.reach + to.reach;
@@ -112,9 +117,9 @@ HWY_INLINE Translation translation_between(const LazyState& from, const LazyStat
   const double rounding = 8 * 0x1p-53 * origins + 1e-36;
   // False for NaN and infinity, too.
   const bool sound = longest <= 2.0 * r + 1e-30 && rounding < kEverything;
-  out.slack = static_cast<float>(sound ? rounding + 32 * kUnit * r : kEverything);
-  out.slab_slack = static_cast<float>(sound ? 4 * rounding + 1024 * kUnit * r : kEverything);
-  out.none = from.origin == to.origin;
+  out.slack = static_cast<float>(sound ? rounding + 4 * kUnit * r : kEverything);
+  out.slab_slack = static_cast<float>(sound ? 4 * rounding + 256 * kUnit * r : kEverything);
+  out.none = from.origin == to.origin && from.reach == to.reach;
   if (!sound) out.offset[0] = out.offset[1] = out.offset[2] = 0.0f;
   return out;
 }
@@ -133,12 +138,14 @@ HWY_INLINE Translation translation_between(const LazyState& from, const LazyStat
 //   5. With n and m exchanged, |middle - ours| <= half + our_half.
 //   6. Bit i is cleared where 4 or 5 is violated.
 // Every a is right. a = n.m (along) leaves the shortest n - a m and m - a n. Slacks cover the
-// rounding (bounds-inl.h).
+// rounding (bounds-inl.h). That of a translation is part of half1, which comes |a| times in 5: it
+// is added there.
 template <class Bounds>
 HWY_INLINE std::uint32_t not_separated(const Bounds& one, const BlockBounds& lanes) {
   const FloatLanes d;
   const auto point5 = hn::Set(d, 0.5f);
   const auto middle1 = hn::Set(d, one.middle()), half1 = hn::Set(d, one.half());
+  const auto moved = hn::Set(d, one.slab_slack());
   std::uint32_t out = 0;
   for (std::size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
     FloatVec n[3], m[3];
@@ -152,7 +159,7 @@ HWY_INLINE std::uint32_t not_separated(const Bounds& one, const BlockBounds& lan
     const auto middle = hn::Load(d, lanes.slab.middle + i);
     const auto half = hn::Load(d, lanes.slab.half + i);
     auto theirs = hn::Mul(along, middle), their_half = hn::Mul(size, half);
-    auto ours = hn::Mul(along, middle1), our_half = hn::Mul(size, half1);
+    auto ours = hn::Mul(along, middle1), our_half = hn::MulAdd(size, half1, moved);
     for (int k = 0; k < 3; ++k) {
       const auto lo = hn::Load(d, lanes.box.lo[k] + i), hi = hn::Load(d, lanes.box.hi[k] + i);
       const auto rest = hn::NegMulAdd(along, m[k], n[k]);

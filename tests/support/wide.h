@@ -9,4 +9,6 @@ __extension__ typedef __float128 Wide;
 typedef long double Wide;  // 113 bits on arm64
 #endif
 
+inline Wide magnitude(Wide x) { return x < 0 ? -x : x; }
+
 }  // namespace contactcheck::test

@@ -9,14 +9,15 @@
 
 namespace contactcheck::test {
 
-/// Prints and records it. A bound that is too small fails. So does one of which the search sees
-/// no more than `at_least`: then the search, or the bound, has lost its edge.
+/// Prints and records it. A bound that is too small fails. So does one of which the search sees no
+/// more than `at_least`: the search would not notice a bound that many times smaller.
 inline void report_observed_error(const std::string& of, double ratio, double at_least) {
   std::printf("largest observed error / bound, %s: %.3f\n", of.c_str(), ratio);
   ::testing::Test::RecordProperty(of, std::to_string(ratio));
   EXPECT_LE(ratio, 1.0) << of;
   EXPECT_GT(ratio, at_least) << of;
 }
+inline constexpr double kSixteenth = 1.0 / 16;
 
 /// The largest value of `error_of(x)` from `starts` random points, each improved by `steps` random
 /// changes of which those are kept that lose nothing.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/deform/body.h"
+#include "core/deform/portable_sine.h"
 #include "core/types/check.h"
 
 namespace contactcheck {
@@ -17,21 +18,28 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 struct RestFrame {
   Vec3 center;
   Vec3 half;
+  bool portable_sines = false;
   double relative_height(const Vec3& p, int axis) const {
     return half[axis] > 0 ? (p[axis] - center[axis]) / half[axis] : 0.0;
   }
 };
 
-Vec3 rotated(const Vec3& p, const Vec3& axis, double degrees) {
+// The same angle twice: each sine has a unit that it takes without rounding.
+SineCosine sine_cosine(double radians, double degrees, bool portable) {
+  if (portable) return portable_sine_cosine(degrees);
+  return {std::sin(radians), std::cos(radians)};
+}
+
+Vec3 rotated(const Vec3& p, const Vec3& axis, double degrees, bool portable) {
   // Rodrigues' formula.
   const Vec3 k = axis.normalized();
-  const double c = std::cos(degrees * kRadiansPerDegree), s = std::sin(degrees * kRadiansPerDegree);
+  const auto [s, c] = sine_cosine(degrees * kRadiansPerDegree, degrees, portable);
   return p * c + k.cross(p) * s + k * (k.dot(p) * (1.0 - c));
 }
 
 Vec3 moved(const Twist& twist, const Vec3& p, const RestFrame& rest, double time) {
   const double angle = 0.5 * twist.angle.at(time) * rest.relative_height(p, twist.axis);
-  return rest.center + rotated(p - rest.center, Vec3::Unit(twist.axis), angle);
+  return rest.center + rotated(p - rest.center, Vec3::Unit(twist.axis), angle, rest.portable_sines);
 }
 
 // Barr's bend: the centre line becomes an arc of constant curvature; cross-sections stay plane and
@@ -43,9 +51,10 @@ Vec3 moved(const Bend& bend, const Vec3& p, const RestFrame& rest, double time) 
   Vec3 out = d;
   if (std::abs(curvature) * height > 1e-9) {
     const double radius = 1.0 / curvature;
-    const double theta = d[bend.axis] * curvature;
-    out[bend.axis] = (radius - d[bend.toward]) * std::sin(theta);
-    out[bend.toward] = radius - (radius - d[bend.toward]) * std::cos(theta);
+    const double degrees = bend.angle.at(time) * (d[bend.axis] / height);
+    const auto [s, c] = sine_cosine(d[bend.axis] * curvature, degrees, rest.portable_sines);
+    out[bend.axis] = (radius - d[bend.toward]) * s;
+    out[bend.toward] = radius - (radius - d[bend.toward]) * c;
   }
   return rest.center + out;
 }
@@ -100,9 +109,10 @@ void add_displacements(const Global& deformer, const BodyShape&, const RestFrame
   }
 }
 
-Vec3 placed(const RigidPath& path, const Vec3& p, const Vec3& center, double time) {
-  Vec3 d = p - center;
-  for (const RigidPath::Spin& spin : path.spins) d = rotated(d, spin.axis, spin.angle.at(time));
+Vec3 placed(const RigidPath& path, const Vec3& p, const RestFrame& rest, double time) {
+  Vec3 d = p - rest.center;
+  for (const RigidPath::Spin& spin : path.spins)
+    d = rotated(d, spin.axis, spin.angle.at(time), rest.portable_sines);
   const Vec3 position(path.position[0].at(time), path.position[1].at(time),
                       path.position[2].at(time));
   return d + position;
@@ -125,7 +135,7 @@ double Curve::at(double time) const {
 std::vector<Vec3> nodes_at(const BodyShape& shape, const Motion& motion, double time) {
   const std::vector<Vec3> rest = shape.lattice ? shape.lattice->rest_nodes() : shape.mesh.vertices;
   const Aabb box = bounding_box(shape.mesh.vertices);
-  const RestFrame frame{box.center(), 0.5 * box.extent()};
+  const RestFrame frame{box.center(), 0.5 * box.extent(), motion.portable_sines};
   std::vector<Vec3> displacement(rest.size(), Vec3::Zero());
   for (const Deformer& deformer : motion.deformers) {
     std::visit([&](const auto& d) { add_displacements(d, shape, frame, rest, time, displacement); },
@@ -133,7 +143,7 @@ std::vector<Vec3> nodes_at(const BodyShape& shape, const Motion& motion, double 
   }
   std::vector<Vec3> out(rest.size());
   for (std::size_t n = 0; n < rest.size(); ++n) {
-    out[n] = placed(motion.path, rest[n] + displacement[n], frame.center, time);
+    out[n] = placed(motion.path, rest[n] + displacement[n], frame, time);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 #include "reference/scene/amount.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::cli {
@@ -43,7 +44,8 @@ void add_mesh_options(CLI::App& run, RunArguments& arguments) {
              },
              "a mesh file (OBJ, PLY, OFF, STL, others through assimp), twice or more: they "
              "become a scene, each in a lattice of about 150 kept cells, beside the targets or "
-             "alone; 2 s, 60 frames unless --frames says otherwise")
+             "alone; 2 s, 60 frames unless --frames says otherwise. With the suite drawn: once "
+             "or more, in place of its meshes")
           ->allow_extra_args(false)
           ->type_name("FILE");
   run.add_option("--motion", request.motion, motions_help())->type_name("NAME")->needs(mesh);
@@ -53,10 +55,10 @@ void add_mesh_options(CLI::App& run, RunArguments& arguments) {
       ->type_name("METRES")
       ->needs(mesh);
   run.add_option("--save-scene", arguments.save_scene,
-                 "keep the scene of the meshes as a scene file, to be edited and run again; a file "
-                 "that is there is not written over")
-      ->type_name("FILE")
-      ->needs(mesh);
+                 "keep the scenes of the run (drawn, of meshes, or from files) as scene files, to "
+                 "be edited and run again: one in the file of this name, several in the folder; a "
+                 "file that is there is not written over")
+      ->type_name("PATH");
 }
 
 struct RunWords {
@@ -88,10 +90,19 @@ void add_pairs(CLI::App& run, RunWords& words) {
       ->check(whole_in(1, scene::kMostPairs))
       ->type_name("N");
   run.add_option("--seed", words.run.seed,
-                 "of the random pairs, of the order in which detectors are timed and of the frames "
+                 "of the drawn scenes, of the random pairs, of the order in which detectors are "
+                 "timed and of the frames "
                  "that are timed cold (default 1)")
       ->check(whole_in(0, scene::kLargestPairSeed))
       ->type_name("S");
+}
+
+void add_count(CLI::App& run, RunWords& words) {
+  run.add_option_function<std::size_t>(
+         "--count", [&words](const std::size_t& count) { words.run.count = count; },
+         "scenes of the suite drawn, drawn-S-1 to drawn-S-N of the seed S (default 20)")
+      ->check(whole_in(1, scene::kMostDrawnScenes))
+      ->type_name("N");
 }
 
 // `arguments` must outlive the command.
@@ -113,7 +124,8 @@ void add_run(CommandLine& line) {
   CLI::App* run = line.app.add_subcommand("run", "run detectors on scenes and judge every answer");
   run->add_option(
       "targets", arguments.targets,
-      "suites, scenes or files (.json scene or suite, .ccr recording); default: default");
+      "suites, scenes or files (.json scene, suite or rules of drawn scenes, .ccr recording); "
+      "default: default");
   run->add_option("--detector", arguments.detectors,
                   "a detector, repeatable; default: the suite's; with '/' or .so in its name a "
                   "shared library of your own (reference/plugin/README.md)")
@@ -140,6 +152,7 @@ void add_run(CommandLine& line) {
       ->type_name("NAME");
   add_mesh_options(*run, arguments);
   add_pairs(*run, *words);
+  add_count(*run, *words);
   add_limits(*run, arguments.call_limit, arguments.memory_limit_mib);
   run->add_flag("--no-timing", words->no_timing, "judge only");
   run->add_flag("--resume", arguments.resume,
@@ -157,6 +170,8 @@ void add_run(CommandLine& line) {
       "  contactcheck run out/recordings/bunny-touch.ccr --no-timing\n"
       "  contactcheck run --mesh a.obj --mesh b.obj --motion approach --save-scene mine.json\n"
       "  contactcheck run contact --detector ffd-lazy --isa AVX2 --isa SSE4\n"
+      "  contactcheck run drawn --seed 7 --count 200 --save-scene drawn-7\n"
+      "  contactcheck run drawn-7-3 --no-timing\n"
       "  contactcheck run hard --pairs 1000000 --seed 7 --no-timing\n"
       "  contactcheck run bunny-touch --detector ./libmine.so:leaf=8 --detector fcl-aabb\n"
       "  contactcheck run bunny-touch --detector-cmd \"python3 mine.py\" --detector fcl-aabb\n"

@@ -26,10 +26,12 @@ struct RunArguments {
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
   std::uint64_t seed = suite::RunSettings{}.seed;
   std::filesystem::path out = "out";
+  std::optional<std::size_t> count;      ///< of scenes of the suite drawn
   std::optional<scene::PairSpec> pairs;  ///< adds a scene of random pairs to the targets
   std::optional<suite::Shard> shard;     ///< run this part alone
-  scene::MeshSceneRequest meshes;        ///< a scene of these, beside the targets; no mesh: none
-  std::filesystem::path save_scene;      ///< where that scene is kept as a file; empty: nowhere
+  /// A scene of these beside the targets, or what drawn ones among them are made of; no mesh: none.
+  scene::MeshSceneRequest meshes;
+  std::filesystem::path save_scene;  ///< where scenes are kept as files; empty: nowhere
   bool timing = true, quiet = false, resume = false;
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;

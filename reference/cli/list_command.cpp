@@ -105,7 +105,10 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   Sections sections;
   if (all || arguments.suites) {
     sections.next();
-    print_entries("Suites", scene::list_suites(fixtures));
+    auto suites = scene::list_suites(fixtures);
+    suites.push_back(scene::read_entry(fixtures / "drawn.json", "rules"));
+    std::ranges::sort(suites, {}, &scene::CatalogueEntry::id);
+    print_entries("Suites", suites);
   }
   if (all || arguments.scenes) {
     sections.next();

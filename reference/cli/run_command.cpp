@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/deform/atomic_file.h"
 #include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
+#include "reference/cli/drawn_targets.h"
 #include "reference/cli/event_lines.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/cli/progress_display.h"
@@ -22,6 +22,7 @@
 #include "reference/process/interrupts.h"
 #include "reference/report/terminal.h"
 #include "reference/scene/catalogue.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/scene/scene.h"
 #include "reference/scene/simulate_scene.h"
 #include "reference/scene/suite_file.h"
@@ -128,18 +129,35 @@ RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalo
     tasks.scenes.push_back({"", file, resolved, {}});
   };
 
-  Names targets = arguments.targets;
-  if (!arguments.meshes.meshes.empty()) {
+  Names targets;
+  bool any_drawn = false;
+  for (const std::string& name : arguments.targets) {
+    const std::optional<DrawnTarget> drawn = find_drawn(name, arguments);
+    if (!drawn) {
+      targets.push_back(name);
+      continue;
+    }
+    any_drawn = true;
+    const Names resolved =
+        names.resolved(arguments.detectors.empty() ? drawn->detectors : arguments.detectors);
+    for (const scene::DrawnSpec& spec : drawn->scenes)
+      tasks.scenes.push_back({"", spec, resolved, {}});
+  }
+  if (arguments.count && !any_drawn)
+    throw InputError("--count: no target of this run is the suite drawn, whose scenes it counts");
+  if (!arguments.meshes.meshes.empty() && !any_drawn) {
     // Paths in the text are relative to where it will lie, so that it can be kept as it is.
     const fs::path& kept = arguments.save_scene;
+    const bool alone = targets.empty() && !arguments.pairs;
     const Names resolved = names.resolved(given_or_of("default"));
     tasks.scenes.push_back(
         {"",
-         scene::mesh_scene(arguments.meshes,
-                           kept.empty() ? fs::current_path() : fs::absolute(kept).parent_path()),
+         scene::mesh_scene(arguments.meshes, kept.empty() ? fs::current_path()
+                                             : alone      ? fs::absolute(kept).parent_path()
+                                                          : fs::absolute(kept)),
          resolved,
          {}});
-  } else if (targets.empty() && !arguments.pairs) {
+  } else if (targets.empty() && !arguments.pairs && !any_drawn) {
     targets.push_back("default");
   }
   for (const std::string& name : targets) {
@@ -178,12 +196,20 @@ RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalo
   return tasks;
 }
 
-// Every scene is read before anything runs: a bad one ends the run before it has written a byte.
+// Every scene but those that are drawn is read before anything runs: a bad one ends the run before
+// it has written a byte.
 void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
                   std::vector<suite::SceneTask>& tasks) {
   std::set<std::string> ids;
   for (suite::SceneTask& task : tasks) {
-    const scene::Scene scene = scene::load_any_scene(task.source, frames);
+    scene::Scene scene;
+    if (const auto* drawn = std::get_if<scene::DrawnSpec>(&task.source)) {
+      // Made where it is run: to make a thousand of them here takes minutes.
+      scene.id = scene::drawn_id(*drawn);
+      scene.frames = static_cast<std::size_t>(draw_parameters(*drawn).parameters.at("frames"));
+    } else {
+      scene = scene::load_any_scene(task.source, frames);
+    }
     try {
       scene::check_simulation(catalog, scene);
     } catch (const InputError& e) {
@@ -281,19 +307,8 @@ RunArguments with_names(RunArguments arguments, const std::vector<std::string>& 
   return arguments;
 }
 
-// The user may have edited a file that exists.
-void save_scene(const fs::path& file, const std::vector<suite::SceneTask>& tasks) {
-  if (file.empty()) return;
-  for (const suite::SceneTask& task : tasks) {
-    const auto* scene = std::get_if<scene::SceneText>(&task.source);
-    if (scene == nullptr) continue;
-    if (!fs::exists(file)) {
-      write_file_atomically(file, scene->text);
-    } else if (suite::read_text_file(file) != scene->text) {
-      throw InputError("--save-scene: \"" + file.string() +
-                       "\" is there already and is not written over");
-    }
-  }
+const std::vector<suite::SceneTask>& whole_run(const suite::SuiteRequest& request) {
+  return request.shard ? request.shard->run : request.tasks;
 }
 
 suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCatalog& catalog) {
@@ -310,7 +325,7 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   check_scenes(arguments.frames, own.catalog, request.tasks);
   if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
-  save_scene(arguments.save_scene, request.shard ? request.shard->run : request.tasks);
+  save_scenes(arguments.save_scene, whole_run(request), request.tasks);
   request.resume = arguments.resume;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
@@ -340,6 +355,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
   watcher.events.print(start_event(request));
   results::Results results = suite::run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();
+  save_redrawn(arguments.save_scene, whole_run(request), request.tasks, results);
   const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);
   return {std::move(results), report_paths(arguments.out, files), std::move(lock)};

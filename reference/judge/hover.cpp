@@ -103,7 +103,7 @@ void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& d
           phase == process::Phase::kTruth ? process::SharedProgress::kNoDetector : position, f,
           phase);
     };
-    if (!scene.scripted() || f == 0) {
+    if (!scene.bisects_time() || f == 0) {
       enter(process::Phase::kTruth);
       e.hover_gap = tools.oracle.distance(tools.judged.frame(f), e.bodies).upper;
       continue;

@@ -81,6 +81,9 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   for (const scene::FitError& fit : scene.fits)
     out.fits.push_back({scene.bodies[fit.body].name, fit.rms, fit.max});
   if (judged.pairs) out.pairs = pairs_of(scene.pairs->spec(), *judged.pairs);
+  if (scene.drawn)
+    out.drawn = {scene.drawn->seed, scene.drawn->number, scene.drawn->redrawn, scene.drawn->happens,
+                 scene.drawn->parameters};
   if (scene.simulation)
     out.simulation = {scene.simulation->driver, scene.simulation->settings.time_step,
                       scene.simulation->every};

@@ -243,6 +243,14 @@ struct RandomPairs {
   std::uint64_t checked = 0, oracle_wrong = 0;  ///< by rational arithmetic
 };
 
+/// Of a scene drawn from a seed (reference/scene/drawn_scene.h).
+struct Drawn {
+  std::uint64_t seed = 0, number = 0;
+  std::size_t redrawn = 0;  ///< times that a limit ended its judging and it was drawn again
+  std::string happens;
+  std::map<std::string, double> parameters;
+};
+
 struct Simulation {
   std::string driver;
   double step = 0.0;
@@ -263,6 +271,7 @@ struct Scene {
   std::optional<Sweep> sweep;
   std::vector<LatticeFit> fits;
   std::optional<RandomPairs> pairs;
+  std::optional<Drawn> drawn;
   std::optional<Simulation> simulation;
   std::string unjudged, contacts;  ///< empty: absent
 };

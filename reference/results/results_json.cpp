@@ -372,6 +372,15 @@ void fields(Io& io, RandomPairs& p) {
 }
 
 template <typename Io>
+void fields(Io& io, Drawn& d) {
+  io("seed", d.seed);
+  io("number", d.number);
+  io("redrawn", d.redrawn);
+  io("happens", d.happens);
+  io("parameters", d.parameters);
+}
+
+template <typename Io>
 void fields(Io& io, Simulation& s) {
   io("driver", s.driver);
   io("step", s.step);
@@ -395,6 +404,7 @@ void fields(Io& io, Scene& s) {
   io.unless_empty("sweep", s.sweep);
   io.unless_empty("fits", s.fits);
   io.unless_empty("pairs", s.pairs);
+  io.unless_empty("drawn", s.drawn);
   io.unless_empty("simulation", s.simulation);
   io.unless_empty("unjudged", s.unjudged);
   io.unless_empty("contacts", s.contacts);

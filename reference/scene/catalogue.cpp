@@ -51,8 +51,6 @@ fs::path fixtures_directory() {
   return CONTACTCHECK_FIXTURES_BUILT_FROM;
 }
 
-namespace {
-
 CatalogueEntry read_entry(const fs::path& file, const std::string& kind) {
   const std::string document = kind + " file " + text::in_quotes(file.string());
   const text::JsonValue value =
@@ -64,6 +62,8 @@ CatalogueEntry read_entry(const fs::path& file, const std::string& kind) {
   }
   return {id.text(), root.has("title") ? root.at("title").text() : id.text(), file};
 }
+
+namespace {
 
 std::vector<CatalogueEntry> list_folder(const fs::path& folder, const std::string& kind) {
   if (!fs::is_directory(folder)) {

@@ -28,6 +28,9 @@ struct CatalogueEntry {
   std::filesystem::path file;
 };
 
+/// `kind` names the file in messages: "scene". @throws InputError as the next
+CatalogueEntry read_entry(const std::filesystem::path& file, const std::string& kind);
+
 /// Sorted by id. Reads no mesh. @throws InputError when the folder is missing, or a file is no JSON
 /// object or has another id than its name
 std::vector<CatalogueEntry> list_scenes(const std::filesystem::path& fixtures);

@@ -152,10 +152,12 @@ Deformer parse_deformer(const text::JsonField& field, const BodyShape& shape, bo
 }  // namespace
 
 Motion parse_motion(const text::JsonField& field, const BodyShape& shape) {
-  field.only_keys({"ease", "position", "spins", "deformers"});
+  field.only_keys({"ease", "sines", "position", "spins", "deformers"});
   const bool smooth =
       field.has("ease") && field.at("ease").one_of({"linear", "smooth"}) == "smooth";
   Motion motion;
+  motion.portable_sines =
+      field.has("sines") && field.at("sines").one_of({"library", "portable"}) == "portable";
   if (field.has("deformers")) {
     for (const text::JsonField& item : field.at("deformers").items()) {
       motion.deformers.push_back(parse_deformer(item, shape, smooth));

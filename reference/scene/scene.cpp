@@ -4,6 +4,7 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/text/file_text.h"
@@ -87,6 +88,7 @@ Scene load_recording(const std::filesystem::path& file) {
 Scene load_any_scene(const SceneSource& source, std::size_t frames) {
   if (const auto* pairs = std::get_if<PairSpec>(&source)) return make_pairs_scene(*pairs);
   if (const auto* text = std::get_if<SceneText>(&source)) return load_scene_text(*text, frames);
+  if (const auto* drawn = std::get_if<DrawnSpec>(&source)) return draw_scene(*drawn).scene;
   const auto& file = std::get<std::filesystem::path>(source);
   if (file.extension() != ".ccr") return load_scene(file, frames);
   if (frames > 0)
@@ -100,6 +102,8 @@ SceneSource absolute(SceneSource source) {
     *file = std::filesystem::absolute(*file);
   if (auto* text = std::get_if<SceneText>(&source))
     text->folder = std::filesystem::absolute(text->folder);
+  if (auto* drawn = std::get_if<DrawnSpec>(&source))
+    for (std::filesystem::path& mesh : drawn->meshes) mesh = std::filesystem::absolute(mesh);
   return source;
 }
 

@@ -1,9 +1,11 @@
 // A scene: named bodies, how they move, and what is to be judged.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,6 +67,27 @@ struct PairSpec {
 };
 class RandomPairs;
 
+/// Where a scene that was drawn from a seed comes from (drawn_scene.h).
+struct Drawn {
+  std::uint64_t seed = 0, number = 0;
+  std::size_t redrawn = 0;  ///< times that it was drawn again because a limit ended its judging
+  std::string happens;      ///< one of kHappenings (draw_rules.h)
+  std::map<std::string, double> parameters;  ///< by the names of kDrawnParameters
+};
+/// Per body the triangles and cells wanted; the gap or, below 0, depth in the first body's size;
+/// the share of frames that are to have contact; speed in that size, a frame.
+inline constexpr std::array<const char*, 9> kDrawnParameters = {
+    "bodies", "cells",      "contact_share", "deformers", "distance",
+    "frames", "size_ratio", "speed",         "triangles"};
+
+/// What a scene is drawn from.
+struct DrawnSpec {
+  std::string rules, rules_name;  ///< their text, and how messages name it
+  std::uint64_t seed = 1, number = 1;
+  std::size_t redrawn = 0;
+  std::vector<std::filesystem::path> meshes;  ///< in place of those of the rules; empty: those
+};
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -83,9 +106,13 @@ struct Scene {
   std::vector<FitError> fits;                ///< bodies with a lattice fitted to a recording
   std::optional<CaseFamily> family;          ///< families of hard cases only; `recorded` has them
   std::shared_ptr<const RandomPairs> pairs;  ///< random pairs only: makes the frames
+  std::optional<Drawn> drawn;                ///< drawn from a seed
 
   /// Positions follow from the time alone.
   bool scripted() const { return recorded.empty() && !simulation && !sweep && !pairs; }
+  /// First contacts are searched between frames. (Of a drawn scene they are not: many searches cost
+  /// more than all else, and its frames are what is drawn.)
+  bool bisects_time() const { return scripted() && !drawn; }
   /// Random pairs differ in scale from frame to frame: their lengths and distances do not add up.
   bool grades_lengths() const { return !pairs; }
   /// Frames of families, sweeps and random pairs are cases, not moments: there is no first contact.
@@ -121,8 +148,9 @@ Scene make_pairs_scene(const PairSpec& spec);
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
 
-/// The file of a scene, a family or a recording (.ccr), the text of a scene, or random pairs.
-using SceneSource = std::variant<std::filesystem::path, SceneText, PairSpec>;
+/// The file of a scene, a family or a recording (.ccr), the text of a scene, random pairs, or a
+/// scene that is to be drawn.
+using SceneSource = std::variant<std::filesystem::path, SceneText, PairSpec, DrawnSpec>;
 
 /// `frames` above 0 replaces the number of frames, except that of random pairs.
 /// @throws InputError, also where a recording is to have other frames than its own

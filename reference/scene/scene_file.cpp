@@ -8,6 +8,8 @@
 #include "reference/mesh/mesh_spec.h"
 #include "reference/scene/common_fields.h"
 #include "reference/scene/copies_spec.h"
+#include "reference/scene/draw_rules.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/scene/family_file.h"
 #include "reference/scene/lattice_spec.h"
 #include "reference/scene/motion_spec.h"
@@ -157,6 +159,21 @@ void parse_sweep(const text::JsonField& root, std::size_t wanted_frames, Scene& 
   scene.time_step = 1.0;
 }
 
+Drawn parse_drawn(const text::JsonField& field) {
+  field.only_keys({"seed", "number", "redrawn", "happens", "parameters"});
+  Drawn drawn;
+  drawn.seed = field.at("seed").whole(0, kLargestDrawSeed);
+  drawn.number = field.at("number").whole(1, kMostDrawnScenes);
+  drawn.redrawn = field.at("redrawn").whole(0, kMostRedraws);
+  drawn.happens =
+      field.at("happens").one_of(std::vector<std::string>(kHappenings.begin(), kHappenings.end()));
+  const text::JsonField parameters = field.at("parameters");
+  parameters.only_keys(std::vector<std::string>(kDrawnParameters.begin(), kDrawnParameters.end()));
+  for (const char* name : kDrawnParameters)
+    drawn.parameters[name] = parameters.at(name).number({-1e9, false, 1e9, false});
+  return drawn;
+}
+
 // Two bodies that do not move by themselves.
 void require_sweep_bodies(const text::JsonField& root, const Scene& scene) {
   const std::vector<text::JsonField> bodies = root.at("bodies").items();
@@ -206,10 +223,16 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
                        " has its own frames and cannot be given others");
     return parse_family(root, document.folder);
   }
-  root.only_keys({"id", "title", "frames", "duration", "time_step", "simulation", "sweep", "levels",
-                  "bodies"});
+  root.only_keys({"id", "title", "drawn", "frames", "duration", "time_step", "simulation", "sweep",
+                  "levels", "bodies"});
   Scene scene;
   scene.id = text::parse_id(root.at("id"));
+  if (root.has("drawn")) {
+    if (wanted_frames > 0)
+      throw InputError("--frames: scene " + text::in_quotes(scene.id) +
+                       " is drawn with its frames and cannot be given others");
+    scene.drawn = parse_drawn(root.at("drawn"));
+  }
   scene.title = root.has("title") ? root.at("title").text() : scene.id;
   if (root.has("sweep")) {
     parse_sweep(root, wanted_frames, scene);

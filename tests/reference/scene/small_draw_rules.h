@@ -1,0 +1,38 @@
+// Rules of drawn scenes that are small enough for tests.
+#pragma once
+
+#include <string>
+
+namespace contactcheck::test {
+
+inline std::string small_draw_rules(
+    const std::string& shares =
+        R"("apart": 4, "near-miss": 4, "graze": 2, "touch": 3, "deep": 3, "pile": 2, "nested": 2)") {
+  return R"({
+  "id": "small",
+  "detectors": ["full-refit"],
+  "meshes": ["box", "letter", "sphere", "torus"],
+  "shares": {)" +
+         shares + R"(},
+  "most_triangles": 4000,
+  "triangles": [80, 600],
+  "cells": [8, 60],
+  "bodies": [2, 4],
+  "size_ratio": [1, 4],
+  "frames": [6, 10],
+  "speed": [0, 0.05],
+  "contact_share": [0.34, 1],
+  "deformers": [0, 2],
+  "twist": [-60, 60],
+  "bend": [-60, 60],
+  "taper": [-0.3, 0.3],
+  "stretch": [-0.25, 0.4],
+  "apart_gap": [0.1, 1],
+  "near_gap": [1e-5, 0.01],
+  "graze_depth": [1e-6, 0.0001],
+  "touch_depth": [0.001, 0.02],
+  "deep_depth": [0.03, 0.2]
+})";
+}
+
+}  // namespace contactcheck::test

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "reference/report/format.h"
+#include "reference/report/scene_choice.h"
 #include "reference/results/references.h"
 
 namespace contactcheck::report {
@@ -42,13 +43,13 @@ TitledTable hover_claim(const Index& index) {
        {"ffd-aabb, mm", false, ""},
        {"the paper's claim", true, ""}},
       {}};
-  for (const results::Scene& scene : index.results().scenes) {
-    const Run* grid = index.ok_run(scene.id, "ffd-grid");
-    const Run* aabb = index.ok_run(scene.id, "ffd-aabb");
-    if (grid == nullptr || aabb == nullptr || scene.contact_frames == 0) continue;
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    const Run* grid = index.ok_run(scene->id, "ffd-grid");
+    const Run* aabb = index.ok_run(scene->id, "ffd-aabb");
+    if (grid == nullptr || aabb == nullptr || scene->contact_frames == 0) continue;
     const std::optional<double> g = grid->geometry.hover_gap_max, a = aabb->geometry.hover_gap_max;
     out.rows.push_back(
-        {scene.id, format_millimetres(g), format_millimetres(a), hover_verdict(g, a)});
+        {scene->id, format_millimetres(g), format_millimetres(a), hover_verdict(g, a)});
   }
   return out;
 }
@@ -67,15 +68,15 @@ TitledTable speed_claim(const Index& index, const char* detector, Question quest
   }
   out.columns.push_back({"passes", false, ""});
   std::set<std::size_t> all_passes;
-  for (const results::Scene& scene : index.results().scenes) {
-    const Run* run = index.ok_run(scene.id, detector);
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    const Run* run = index.ok_run(scene->id, detector);
     if (run == nullptr) continue;
     std::vector<std::string>& row = out.rows.emplace_back();
-    row = {scene.id, errors_at(run, level)};
+    row = {scene->id, errors_at(run, level)};
     Range passes;
     for (const char* reference : results::kReferences) {
       const results::Speedup* s = speedup_of(*run, question, reference);
-      row.push_back(errors_at(index.ok_run(scene.id, reference), level));
+      row.push_back(errors_at(index.ok_run(scene->id, reference), level));
       row.push_back(s == nullptr ? "-" : format_ratio(s->playback, s->passes));
       if (s == nullptr) continue;
       passes.add(static_cast<double>(s->passes));
@@ -105,14 +106,14 @@ TitledTable fcl_claim(const Index& index) {
        {"spurious", false, ""},
        {"farthest apart, mm", false, ""}},
       {}};
-  for (const results::Scene& scene : index.results().scenes) {
-    if (scene.family) continue;
-    for (const Run* run : index.runs_of(scene.id)) {
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    if (scene->family) continue;
+    for (const Run* run : index.runs_of(scene->id)) {
       const LevelCounts* counts = counts_of(*run, Level::kTriangle);
       const std::optional<double> farthest = run->geometry.spurious_distance_max;
       if (run->detector.starts_with("fcl-") && counts != nullptr && counts->spurious > 0 &&
           farthest && *farthest < kRounding)
-        out.rows.push_back({scene.id, run->detector, format_count(counts->reported),
+        out.rows.push_back({scene->id, run->detector, format_count(counts->reported),
                             format_count(counts->spurious), format_millimetres(farthest)});
     }
   }
@@ -133,11 +134,11 @@ TitledTable bullet_scale_claim(const Index& index) {
        {"body recall at scale 1", false, ""},
        {"near recall at scale 1", false, ""}},
       {}};
-  for (const results::Scene& scene : index.results().scenes) {
-    const Run *scaled = index.ok_run(scene.id, "bullet-vf"),
-              *plain = index.ok_run(scene.id, "bullet-vf:scale=1");
-    if (scaled == nullptr || plain == nullptr || scene.contact_frames == 0) continue;
-    out.rows.push_back({scene.id, format_number(scaled->semantics.scale),
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    const Run *scaled = index.ok_run(scene->id, "bullet-vf"),
+              *plain = index.ok_run(scene->id, "bullet-vf:scale=1");
+    if (scaled == nullptr || plain == nullptr || scene->contact_frames == 0) continue;
+    out.rows.push_back({scene->id, format_number(scaled->semantics.scale),
                         recall_at(*scaled, Level::kBody), recall_at(*scaled, Level::kNear),
                         recall_at(*plain, Level::kBody), recall_at(*plain, Level::kNear)});
   }
@@ -156,11 +157,11 @@ TitledTable bullet_inside_claim(const Index& index) {
        {"of them reported", false, ""},
        {"reported, not inside", false, ""}},
       {}};
-  for (const results::Scene& scene : index.results().scenes) {
-    const Run* run = index.ok_run(scene.id, "bullet-vf");
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    const Run* run = index.ok_run(scene->id, "bullet-vf");
     const LevelCounts* counts = run == nullptr ? nullptr : counts_of(*run, Level::kVertex);
-    if (counts == nullptr || scene.contact_frames == 0) continue;
-    out.rows.push_back({scene.id, format_millimetres(run->semantics.margin),
+    if (counts == nullptr || scene->contact_frames == 0) continue;
+    out.rows.push_back({scene->id, format_millimetres(run->semantics.margin),
                         format_count(counts->truth), format_count(counts->hit),
                         format_count(counts->spurious)});
   }
@@ -192,12 +193,12 @@ TitledTable bullet_normal_claim(const Index& index) {
        {"largest, degrees", false, ""}},
       {},
       "turned-normals"};
-  for (const results::Scene& scene : index.results().scenes) {
-    const Run* run = index.ok_run(scene.id, "bullet-vf");
+  for (const results::Scene* scene : shown_scenes(index.results())) {
+    const Run* run = index.ok_run(scene->id, "bullet-vf");
     if (run == nullptr) continue;
     const results::ErrorSpread& normals = run->geometry.normal_deg;
     if (!normals.max || *normals.max < 90.0) continue;
-    out.rows.push_back({scene.id, normals.judged > 0 ? format_count(normals.judged) : "-",
+    out.rows.push_back({scene->id, normals.judged > 0 ? format_count(normals.judged) : "-",
                         turned_normals(normals), format_number(normals.mean),
                         format_number(normals.max)});
   }
@@ -215,10 +216,10 @@ TitledTable bullet_cluster_claim(const Index& index) {
        {"missed", false, ""},
        {"spurious", false, ""}},
       {}};
-  for (const results::Scene& scene : index.results().scenes)
+  for (const results::Scene* scene : shown_scenes(index.results()))
     for (const char* detector : {"bullet-cl", "bullet-cl:k=256"})
-      if (const Run* run = index.ok_run(scene.id, detector))
-        out.rows.push_back({scene.id, detector, count_at(*run, Level::kBody, &LevelCounts::truth),
+      if (const Run* run = index.ok_run(scene->id, detector))
+        out.rows.push_back({scene->id, detector, count_at(*run, Level::kBody, &LevelCounts::truth),
                             count_at(*run, Level::kBody, &LevelCounts::missed),
                             count_at(*run, Level::kBody, &LevelCounts::spurious)});
   return out;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scene_choice.h"
 
 namespace contactcheck::report {
 namespace {
@@ -74,17 +74,18 @@ std::vector<Level> judged_levels(const results::Results& results) {
 }
 
 LevelTables level_tables(const results::Index& index, std::optional<Level> level) {
-  std::vector<std::string> scenes, columns = {"detector"};
+  std::vector<std::string> scenes, shown, columns = {"detector"};
   for (const results::Scene& scene : index.results().scenes)
     if (!scene.family) scenes.push_back(scene.id);
+  for (const results::Scene* scene : shown_scenes(index.results()))
+    if (!scene->family) shown.push_back(scene->id);
   if (scenes.size() > 1) columns.push_back("all scenes");
-  columns.insert(columns.end(), scenes.begin(), scenes.end());
+  columns.insert(columns.end(), shown.begin(), shown.end());
   LevelTables out{{columns, {}}, {columns, {}}};
   for (const std::string& detector : index.detectors()) {
-    std::vector<const Run*> runs, present;
-    for (const std::string& scene : scenes) runs.push_back(index.run(scene, detector));
-    std::copy_if(runs.begin(), runs.end(), std::back_inserter(present),
-                 [](const Run* run) { return run != nullptr; });
+    std::vector<const Run*> present;
+    for (const std::string& scene : scenes)
+      if (const Run* run = index.run(scene, detector)) present.push_back(run);
     if (std::none_of(present.begin(), present.end(), [&](const Run* run) {
           return !run->ok() || claimed_counts(*run, level ? level : run->per_frame.level);
         }))
@@ -96,7 +97,7 @@ LevelTables level_tables(const results::Index& index, std::optional<Level> level
       spurious.push_back(std::move(cells.spurious));
     };
     if (scenes.size() > 1) add(sum_cells(detector, present, level));
-    for (const Run* run : runs) add(scene_cells(run, level));
+    for (const std::string& scene : shown) add(scene_cells(index.run(scene, detector), level));
     out.recall.rows.push_back(std::move(recall));
     out.spurious.rows.push_back(std::move(spurious));
   }

@@ -14,7 +14,8 @@ namespace contactcheck::report {
 std::vector<Level> judged_levels(const results::Results& results);
 
 /// A row per detector that claims the level somewhere or did not end well somewhere; a column per
-/// scene that is no family and, where there are several, their sum.
+/// scene that is no family and is shown (scene_choice.h) and, where there are several, the sum over
+/// all.
 struct LevelTables {
   HeatTable recall, spurious;
 };

@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "reference/report/claims.h"
+#include "reference/report/drawn_scenes.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/known_defects.h"
 #include "reference/report/loss_charts.h"
 #include "reference/report/origin.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scene_choice.h"
 #include "reference/report/scene_tables.h"
 #include "reference/report/speed_error.h"
 #include "reference/report/speed_error_plot.h"
@@ -77,15 +79,17 @@ std::string legend() {
 
 std::string markdown_report(const results::Results& results) {
   std::string out = "# contactcheck report\n\n" + origin_section(results) +
-                    section_of(summary_table(results)) + speed_error_markdown(results) +
-                    loss_markdown(results) + section_of(goals_table(results)) +
-                    hard_cases_markdown(results) + known_defects_markdown(results);
+                    section_of(summary_table(results)) + drawn_markdown(results) +
+                    speed_error_markdown(results) + loss_markdown(results) +
+                    section_of(goals_table(results)) + hard_cases_markdown(results) +
+                    known_defects_markdown(results);
   const std::string claims = claims_markdown(results);
   if (!claims.empty()) out += "## What the results say\n\n" + claims;
   const results::Index index(results);
-  // Of families only wrong detectors are shown; tables of every detector would bury them.
-  for (const results::Scene& scene : results.scenes)
-    if (!scene.family) out += scene_section(index, scene);
+  // Of families only wrong detectors are shown, and of many drawn scenes sums; tables of every
+  // detector would bury them.
+  for (const results::Scene* scene : shown_scenes(results))
+    if (!scene->family) out += scene_section(index, *scene);
   return out + section_of(semantics_table(results)) + legend();
 }
 

@@ -8,6 +8,7 @@
 
 #include "reference/report/claims.h"
 #include "reference/report/detector_group.h"
+#include "reference/report/drawn_scenes.h"
 #include "reference/report/error_spreads.h"
 #include "reference/report/family_result.h"
 #include "reference/report/format.h"
@@ -110,6 +111,15 @@ Json hard_json(const Results& results, const TitledTable& sums) {
   return {{"sums", to_json(sums)},
           {"matrix", to_json(hard_matrix(results))},
           {"families", std::move(families)}};
+}
+
+Json drawn_json(const DrawnReport& report) {
+  return {{"text", report.text},
+          {"accuracy", to_json(report.accuracy)},
+          {"wrong", to_json(report.wrong)},
+          {"speedups", to_json(report.speedups)},
+          {"decides", report.decides},
+          {"correlations", to_json(report.correlations)}};
 }
 
 Json levels_json(const results::Index& index, const std::vector<Level>& levels) {
@@ -332,6 +342,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"groups", std::move(groups)},
               {"group_names", std::move(group_names)},
               {"timed", timed},
+              {"scene_count", results.scenes.size()},
               {"fastest", headline.fastest},
               {"references", results::kReferences},
               {"summary", to_json(summary_table(results))},
@@ -348,18 +359,20 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"speed_error", speed_error_json(index, levels)}};
   const TitledTable hard = hard_sums(results);
   if (!hard.rows.empty()) out["hard"] = hard_json(results, hard);
+  if (const DrawnReport drawn = drawn_report(results); !drawn.text.empty())
+    out["drawn"] = drawn_json(drawn);
   if (results.known_defects)
     out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
                             {"tables", to_json(known_defects_tables(*results.known_defects))}};
   if (paper) out["paper"] = paper_part_json(*paper);
   // Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
   Json scenes = Json::array(), families = Json::array();
-  for (const results::Scene& scene : results.scenes) {
-    if (scene.family)
+  for (const results::Scene* scene : shown_scenes(results)) {
+    if (scene->family)
       families.push_back(
-          {{"id", scene.id}, {"title", scene.title}, {"values", scene.family->values}});
+          {{"id", scene->id}, {"title", scene->title}, {"values", scene->family->values}});
     else
-      scenes.push_back(scene_json(index, scene));
+      scenes.push_back(scene_json(index, *scene));
   }
   out["scenes"] = std::move(scenes);
   out["families"] = std::move(families);

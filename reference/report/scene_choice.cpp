@@ -2,15 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace contactcheck::report {
+
+std::vector<const results::Scene*> shown_scenes(const results::Results& results) {
+  const auto drawn = std::count_if(results.scenes.begin(), results.scenes.end(),
+                                   [](const results::Scene& s) { return s.drawn.has_value(); });
+  const bool summed = static_cast<std::size_t>(drawn) >= kFewestSummedScenes;
+  std::vector<const results::Scene*> out;
+  for (const results::Scene& scene : results.scenes)
+    if (!(summed && scene.drawn)) out.push_back(&scene);
+  return out;
+}
 
 std::vector<SceneChoice> scene_choices(const results::Results& results) {
   std::vector<SceneChoice> choices;
-  SceneChoice all, hard;
+  SceneChoice all, hard, touching, apart;
   for (const results::Scene& scene : results.scenes) {
     (scene.family ? hard : all).ids.push_back(scene.id);
-    if (!scene.family) choices.push_back({"scene " + scene.id, {scene.id}});
+    if (scene.drawn) (scene.contact_frames > 0 ? touching : apart).ids.push_back(scene.id);
   }
+  if (touching.ids.size() + apart.ids.size() >= kFewestSummedScenes) {
+    touching.words = fmt::format("{} drawn scenes with contact", touching.ids.size());
+    apart.words = fmt::format("{} drawn scenes without contact", apart.ids.size());
+    for (const SceneChoice& drawn : {touching, apart})
+      if (!drawn.ids.empty()) choices.push_back(drawn);
+  }
+  for (const results::Scene* scene : shown_scenes(results))
+    if (!scene->family) choices.push_back({"scene " + scene->id, {scene->id}});
   all.words = fmt::format("all {} scenes", all.ids.size());
   hard.words = hard.ids.size() == 1 ? "the family of hard cases"
                                     : fmt::format("all {} families of hard cases", hard.ids.size());

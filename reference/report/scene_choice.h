@@ -1,4 +1,5 @@
-// What a chart can be drawn for: all scenes, all families of hard cases, each scene.
+// What a chart can be drawn for: all scenes, all families of hard cases, each scene. And which
+// scenes a report shows one by one.
 #pragma once
 
 #include <string>
@@ -14,8 +15,15 @@ struct SceneChoice {
   std::vector<std::string> ids;
 };
 
-/// All scenes, all families of hard cases, each scene; as far as there are such. The same for every
-/// chart of a report.
+/// From so many drawn scenes on, a report shows sums over them and none by itself.
+inline constexpr std::size_t kFewestSummedScenes = 10;
+
+/// Scenes that have rows of their own in a report, in the order of the file: all but drawn scenes
+/// where there are many.
+std::vector<const results::Scene*> shown_scenes(const results::Results& results);
+
+/// All scenes, all families of hard cases, drawn scenes with and without contact where there are
+/// many, each single scene; as far as there are such. The same for every chart of a report.
 std::vector<SceneChoice> scene_choices(const results::Results& results);
 
 /// The rows of a detector in these scenes that are `ok`, scene by scene.

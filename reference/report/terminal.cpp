@@ -11,6 +11,7 @@
 #include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scene_choice.h"
 #include "reference/report/summary.h"
 
 namespace contactcheck::report {
@@ -95,12 +96,13 @@ std::string terminal_legend() {
 std::string terminal_tables(const results::Results& results, bool color) {
   std::string out;
   const results::Index index(results);
-  for (const results::Scene& scene : results.scenes) {
-    if (scene.family) continue;
+  for (const results::Scene* scene : shown_scenes(results)) {
+    if (scene->family) continue;
     TitledTable rows{"", "", result_columns(), {}};
-    for (const results::Run* run : index.runs_of(scene.id)) rows.rows.push_back(result_cells(*run));
-    out += scene_head(scene, color) + table(rows, color);
-    if (scene.sweep) out += "  time and errors against separation: report.md and report.html\n\n";
+    for (const results::Run* run : index.runs_of(scene->id))
+      rows.rows.push_back(result_cells(*run));
+    out += scene_head(*scene, color) + table(rows, color);
+    if (scene->sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.scenes.size() > 1)
     out += paint("all scenes", kBold, color) +

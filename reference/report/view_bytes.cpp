@@ -23,6 +23,7 @@
 #include "core/types/check.h"
 #include "core/types/input_file.h"
 #include "reference/report/contacts_file.h"
+#include "reference/report/scene_choice.h"
 
 namespace contactcheck::report {
 namespace {
@@ -277,12 +278,12 @@ std::vector<Placement> view_placements(const FrameNodes& frames) {
 std::string view_bytes(const results::Results& results, const fs::path& folder, std::size_t limit) {
   const results::Index index(results);
   std::vector<Candidate> scenes;
-  for (const results::Scene& scene : results.scenes) {
-    const std::vector<const results::Run*>& runs = index.runs_of(scene.id);
+  for (const results::Scene* scene : shown_scenes(results)) {
+    const std::vector<const results::Run*>& runs = index.runs_of(scene->id);
     const auto recorded = std::find_if(
         runs.begin(), runs.end(), [](const results::Run* run) { return !run->recording.empty(); });
     if (recorded != runs.end())
-      scenes.push_back(candidate(folder, (*recorded)->recording, scene, limit));
+      scenes.push_back(candidate(folder, (*recorded)->recording, *scene, limit));
   }
   if (scenes.empty()) return "";
   leave_out_beyond(limit, scenes);

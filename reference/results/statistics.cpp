@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "core/types/check.h"
 
@@ -48,6 +49,21 @@ Logarithms logarithms_of(const std::vector<double>& values) {
   return out;
 }
 
+// From 1 on; equal values have the mean of their ranks.
+std::vector<double> ranks_of(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
+    for (std::size_t i = first; i < end; ++i)
+      ranks[order[i]] = 0.5 * static_cast<double>(first + 1 + end);
+  }
+  return ranks;
+}
+
 }  // namespace
 
 double median(std::vector<double> values) {
@@ -67,6 +83,31 @@ double quantile(const std::vector<double>& sorted, double share) {
 double geometric_mean(const std::vector<double>& values) {
   CONTACTCHECK_INVARIANT(!values.empty(), "a mean of something");
   return values.front() * std::exp(logarithms_of(values).mean);
+}
+
+std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  CONTACTCHECK_INVARIANT(x.size() == y.size(), "pairs of values");
+  const std::vector<double> a = ranks_of(x), b = ranks_of(y);
+  const double mean = 0.5 * static_cast<double>(x.size() + 1);
+  double product = 0.0, squares_a = 0.0, squares_b = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    product += (a[i] - mean) * (b[i] - mean);
+    squares_a += (a[i] - mean) * (a[i] - mean);
+    squares_b += (b[i] - mean) * (b[i] - mean);
+  }
+  if (!(squares_a > 0.0) || !(squares_b > 0.0)) return std::nullopt;
+  return product / std::sqrt(squares_a * squares_b);
+}
+
+double chance_correlation(std::size_t values, std::size_t quantities) {
+  // Two-sided: so many standard deviations of 1 / sqrt(n - 1) leave 5 % out, for all together.
+  double low = 0.0, high = 10.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double outside = std::erfc(middle / std::sqrt(2.0)) * static_cast<double>(quantities);
+    (outside > 0.05 ? low : high) = middle;
+  }
+  return std::min(1.0, high / std::sqrt(static_cast<double>(values - 1)));
 }
 
 const char* interval_name(std::size_t measurements) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,6 +21,16 @@ double quantile(const std::vector<double>& sorted, double share);
 
 /// @pre not empty; all above 0
 double geometric_mean(const std::vector<double>& values);
+
+/// Spearman's: Pearson's correlation of the ranks, equal values sharing the mean of theirs. None
+/// where all values of one side are equal, or there are fewer than two.
+/// @pre as many of both; no NaN
+std::optional<double> rank_correlation(const std::vector<double>& x, const std::vector<double>& y);
+
+/// What the largest of `quantities` rank correlations of so many values stays below by chance
+/// alone, in 95 % of all cases at least (normal approximation, Bonferroni).
+/// @pre values > 1, quantities > 0
+double chance_correlation(std::size_t values, std::size_t quantities);
 
 /// A measured ratio and what it lies between: a 95 % interval or a range (interval_name).
 struct Ratio {

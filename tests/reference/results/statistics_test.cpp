@@ -34,6 +34,48 @@ TEST(Quantile, OfAllSizesIsThatOfWholeNumbers) {
   }
 }
 
+TEST(RankCorrelation, IsOneForWhateverGrowsTogether) {
+  const std::vector<double> x = {1.0, 2.0, 10.0, 1000.0}, up = {-5.0, 0.1, 0.2, 0.3},
+                            down = {4.0, 3.0, 2.0, -100.0};
+  EXPECT_DOUBLE_EQ(rank_correlation(x, up).value(), 1.0);
+  EXPECT_DOUBLE_EQ(rank_correlation(x, down).value(), -1.0);
+}
+
+// By hand: ranks 1 2.5 2.5 4 against 2 1 4 3.
+TEST(RankCorrelation, EqualValuesShareTheirRank) {
+  EXPECT_NEAR(rank_correlation({1.0, 7.0, 7.0, 9.0}, {20.0, 10.0, 40.0, 30.0}).value(),
+              1.5 / std::sqrt(4.5 * 5.0), 1e-12);
+}
+
+TEST(RankCorrelation, IsNoneWhereNothingVaries) {
+  EXPECT_FALSE(rank_correlation({1.0, 1.0, 1.0}, {1.0, 2.0, 3.0}));
+  EXPECT_FALSE(rank_correlation({1.0, 2.0, 3.0}, {4.0, 4.0, 4.0}));
+  EXPECT_FALSE(rank_correlation({1.0}, {1.0}));
+  EXPECT_FALSE(rank_correlation({}, {}));
+}
+
+TEST(ChanceCorrelation, IsRarelyPassedByWhatHasNothingToDoWithEachOther) {
+  EXPECT_NEAR(chance_correlation(101, 1), 0.196, 1e-3);
+  EXPECT_EQ(chance_correlation(2, 9), 1.0);
+  constexpr std::size_t kValues = 30, kQuantities = 9, kTries = 1000;
+  std::mt19937_64 random(1);
+  const auto drawn = [&] {
+    std::vector<double> values(kValues);
+    for (double& value : values) value = static_cast<double>(random() % 100000);
+    return values;
+  };
+  std::size_t passed = 0;
+  for (std::size_t i = 0; i < kTries; ++i) {
+    const std::vector<double> ratio = drawn();
+    double strongest = 0.0;
+    for (std::size_t q = 0; q < kQuantities; ++q)
+      strongest = std::max(strongest, std::abs(rank_correlation(ratio, drawn()).value()));
+    passed += strongest > chance_correlation(kValues, kQuantities);
+  }
+  EXPECT_LE(passed, 60u);
+  EXPECT_GE(passed, 10u);
+}
+
 // The draws are 0, 1, ..., 199: five of them lie below the interval and five above it.
 TEST(Bootstrap, LeavesAsManyDrawsOutBelowAsAbove) {
   double next = 200.0;

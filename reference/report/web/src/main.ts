@@ -6,6 +6,7 @@ import {claims} from "./sections/claims";
 import {cost} from "./sections/cost";
 import {defects} from "./sections/defects";
 import {detectors} from "./sections/detectors";
+import {drawn} from "./sections/drawn";
 import {goals} from "./sections/goals";
 import {graded} from "./sections/graded";
 import {hard} from "./sections/hard";
@@ -26,6 +27,7 @@ import {provideView} from "./view_slot";
 
 // The charts that answer first, then the numbers that they come from; the list of words ends the page.
 const kSections: Section[] = [
+  drawn,
   speedError,
   levels,
   view,
@@ -47,8 +49,8 @@ const kSections: Section[] = [
 ];
 
 /** Of a run of hard cases alone, these are the answer. */
-const ordered = ({scenes: all}: Page): Section[] =>
-  all.length > 0
+const ordered = ({scenes: all, drawn: computed}: Page): Section[] =>
+  all.length > 0 || computed
     ? kSections
     : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
 

@@ -17,6 +17,8 @@ export interface Page {
   options: string[];
   groups: number[];
   group_names: string[];
+  /** Of the results; `scenes` has no drawn ones where there are many. */
+  scene_count: number;
   /** Whether any run was timed. */
   timed: boolean;
   /** Right and fastest in some scene, most scenes first. */
@@ -30,6 +32,7 @@ export interface Page {
   known_defects?: {sentence: string; tables: TextTable[]};
   pairs: {scene: string; table: TextTable}[];
   hard?: Hard;
+  drawn?: Drawn;
   /** Where reproduction.json is of the same run. */
   paper?: PaperPart;
   /** The first is "finest": each detector at its own. */
@@ -111,6 +114,18 @@ export interface Disagreement {
   level: string;
   kind: "missed" | "spurious";
   case: string;
+}
+
+/** Scenes drawn from a seed. */
+export interface Drawn {
+  text: string;
+  /** With contact, without; as the speed-ups. A table of nothing has no rows. */
+  accuracy: TextTable[];
+  wrong: TextTable;
+  speedups: TextTable[];
+  /** A sentence a detector. */
+  decides: string[];
+  correlations: TextTable;
 }
 
 /** The families of hard cases. */

@@ -7,10 +7,10 @@ import {table} from "../table";
 export const summary: Section = {
   id: "summary",
   title: "Summary",
-  build({summary: {columns, rows}, scenes, families}) {
+  build({summary: {columns, rows}, scene_count: count}) {
     return [
       p(
-        `Sums over ${scenes.length + families.length} scenes, at the finest `,
+        `Sums over ${count} ${count === 1 ? "scene" : "scenes"}, at the finest `,
         term("level"),
         " that a detector claims. " +
           "“body m/s” counts pairs of bodies missed and spurious. The last columns are speed-ups: the time of the " +

@@ -61,7 +61,7 @@ bool names_files(const text::JsonValue& value) {
 std::string text_of(const suite::SceneTask& task, const fs::path& folder) {
   if (const auto* text = std::get_if<scene::SceneText>(&task.source)) return text->text;
   if (const auto* drawn = std::get_if<scene::DrawnSpec>(&task.source))
-    return scene::draw_scene(*drawn).text.text;
+    return scene::draw_scene(*drawn, folder).text.text;
   const auto* file = std::get_if<fs::path>(&task.source);
   if (file == nullptr || file->extension() == ".ccr")
     throw InputError("--save-scene: scene " + text::in_quotes(task.id) +
@@ -73,6 +73,11 @@ std::string text_of(const suite::SceneTask& task, const fs::path& folder) {
     throw InputError("--save-scene: " + text::in_quotes(file->string()) +
                      " names files by their place from its own folder: save it there");
   return text;
+}
+
+// Where the scene files of this run lie.
+fs::path folder_of(const fs::path& path, const std::vector<suite::SceneTask>& run) {
+  return run.size() == 1 ? fs::absolute(path).parent_path() : fs::absolute(path);
 }
 
 fs::path place_of(const fs::path& path, const std::vector<suite::SceneTask>& run,
@@ -125,7 +130,7 @@ std::optional<DrawnTarget> find_drawn(const std::string& name, const RunArgument
 void save_scenes(const fs::path& path, const std::vector<suite::SceneTask>& run,
                  const std::vector<suite::SceneTask>& own) {
   if (path.empty()) return;
-  const fs::path folder = run.size() == 1 ? fs::absolute(path).parent_path() : path;
+  const fs::path folder = folder_of(path, run);
   std::vector<std::pair<fs::path, std::string>> files;  // all are made before one is written
   for (const suite::SceneTask& task : run) {
     if (std::holds_alternative<scene::DrawnSpec>(task.source) && !is_in(own, task.id)) continue;
@@ -150,12 +155,13 @@ void save_redrawn(const fs::path& path, const std::vector<suite::SceneTask>& run
                   const std::vector<suite::SceneTask>& own, const results::Results& results) {
   if (path.empty()) return;
   for (const results::Scene& scene : results.scenes) {
-    if (!scene.drawn || scene.drawn->redrawn == 0) continue;
+    if (!scene.drawn || scene.drawn->redrawn == 0 || !scene.unjudged.empty()) continue;
     for (suite::SceneTask task : own) {
       auto* const drawn = std::get_if<scene::DrawnSpec>(&task.source);
       if (drawn == nullptr || task.id != scene.id) continue;
       drawn->redrawn = scene.drawn->redrawn;
-      write_file_atomically(place_of(path, run, task), scene::draw_scene(*drawn).text.text);
+      write_file_atomically(place_of(path, run, task),
+                            scene::draw_scene(*drawn, folder_of(path, run)).text.text);
     }
   }
 }

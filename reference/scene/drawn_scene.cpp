@@ -18,6 +18,7 @@
 #include "reference/scene/draw_rules.h"
 #include "reference/scene/first_touch.h"
 #include "reference/scene/lattice_spec.h"
+#include "reference/scene/mesh_scene.h"
 #include "reference/scene/seeded_random.h"
 #include "reference/text/file_text.h"
 
@@ -81,8 +82,10 @@ struct BodyPlan {
 /// Draws one scene: everything but where the bodies are.
 class Drawing {
  public:
-  explicit Drawing(const DrawnSpec& spec)
-      : spec_(spec), rules_(parse_draw_rules(spec.rules, spec.rules_name)) {
+  explicit Drawing(const DrawnSpec& spec, fs::path folder = {})
+      : spec_(spec),
+        folder_(std::move(folder)),
+        rules_(parse_draw_rules(spec.rules, spec.rules_name)) {
     what_ = draw_happening(rules_, named("happens"));
     SeededRandom bodies = named("bodies"), triangles = named("triangles"), cells = named("cells"),
                  frames = named("frames");
@@ -136,8 +139,9 @@ class Drawing {
         kinds[k].mesh = shape_text(random.below(2) == 0 ? "box" : "sphere", random);
       } else if (!spec_.meshes.empty()) {
         const fs::path& file = spec_.meshes[random.below(spec_.meshes.size())];
-        kinds[k].mesh = "\"file\": " + quoted(file.string()) +
-                        count_text(mesh::read_mesh_file(file).mesh.triangles.size());
+        kinds[k].mesh =
+            "\"file\": " + quoted(folder_.empty() ? file.string() : mesh_path_from(folder_, file)) +
+            count_text(mesh::read_mesh_file(file).mesh.triangles.size());
       } else {
         const std::string& name = rules_.meshes[random.below(rules_.meshes.size())];
         kinds[k].mesh = is_shape(name)
@@ -288,6 +292,7 @@ class Drawing {
   }
 
   const DrawnSpec& spec_;
+  const fs::path folder_;
   const DrawRules rules_;
   Happening what_ = Happening::kApart;
   std::size_t bodies_ = 0, triangles_ = 0, cells_ = 0, frames_ = 0, begin_ = 0, length_ = 0;
@@ -525,12 +530,15 @@ std::string drawn_text(const Drawn& drawn) {
          "\",\n            \"parameters\": {" + parameters + "}}";
 }
 
+std::string title_of(const Drawn& drawn) {
+  return "Drawn from seed " + std::to_string(drawn.seed) + ": " + drawn.happens;
+}
+
 // `motions`: with what moves the bodies.
 std::string scene_text(const DrawnSpec& spec, Drawing& drawing, const std::vector<Kind>& kinds,
                        bool motions) {
   const Drawn drawn = drawing.drawn();
-  std::string out = "{\n  \"id\": \"" + drawn_id(spec) + "\",\n  \"title\": \"Drawn from seed " +
-                    std::to_string(spec.seed) + ": " + drawn.happens +
+  std::string out = "{\n  \"id\": \"" + drawn_id(spec) + "\",\n  \"title\": \"" + title_of(drawn) +
                     "\",\n  \"drawn\": " + drawn_text(drawn) +
                     ",\n  \"frames\": " + std::to_string(drawing.frames()) +
                     ",\n  \"time_step\": " + shown(kTimeStep) + ",\n  \"levels\": " + kLevels +
@@ -556,12 +564,22 @@ std::string drawn_id(const DrawnSpec& spec) {
 
 Drawn draw_parameters(const DrawnSpec& spec) { return Drawing(spec).drawn(); }
 
-DrawnScene draw_scene(const DrawnSpec& spec) {
+Scene unmade_scene(const DrawnSpec& spec) {
+  Scene scene;
+  scene.id = drawn_id(spec);
+  scene.drawn = draw_parameters(spec);
+  scene.title = title_of(*scene.drawn);
+  scene.frames = static_cast<std::size_t>(scene.drawn->parameters.at("frames"));
+  scene.time_step = kTimeStep;
+  return scene;
+}
+
+DrawnScene draw_scene(const DrawnSpec& spec, const fs::path& folder) {
   const std::string name = "the drawn scene " + drawn_id(spec);
-  Drawing drawing(spec);
+  Drawing drawing(spec, folder);
   const std::vector<Kind> kinds = drawing.draw_kinds();
   DrawnScene out;
-  out.scene = load_scene_text({scene_text(spec, drawing, kinds, false), name, {}});
+  out.scene = load_scene_text({scene_text(spec, drawing, kinds, false), name, folder});
   const auto offsets = Placing(drawing, out.scene, kinds).place();
 
   // Everything is turned, so that no axis is that of the coordinates.
@@ -580,7 +598,7 @@ DrawnScene draw_scene(const DrawnSpec& spec) {
     }
     out.scene.motions[b] = drawing.plans()[b].motion;
   }
-  out.text = {scene_text(spec, drawing, kinds, true), name, {}};
+  out.text = {scene_text(spec, drawing, kinds, true), name, folder};
   return out;
 }
 

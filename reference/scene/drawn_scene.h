@@ -34,8 +34,14 @@ struct DrawnScene {
 /// anew, since all deform and turn. Outside the frames of the contact it moves away with the drawn
 /// speed. Where something meets, it does in every frame of the contact: by an exact test, or the
 /// depth is halved. What is nested lies inside a ball or box, which hold it whatever it is.
+/// `folder`: where the text is to lie; it names the meshes of `spec` from there. None: as `spec`
+/// has them.
 /// @throws InputError for bad rules, and for a mesh that cannot be loaded or put into a lattice
-DrawnScene draw_scene(const DrawnSpec& spec);
+DrawnScene draw_scene(const DrawnSpec& spec, const std::filesystem::path& folder = {});
+
+/// Without its bodies: what the results say of a scene that passes a limit when it is made.
+/// @throws InputError for bad rules
+Scene unmade_scene(const DrawnSpec& spec);
 
 /// The mesh as a drawn scene would take it. @throws InputError, also when no lattice holds it
 void check_drawn_mesh(const std::filesystem::path& mesh);

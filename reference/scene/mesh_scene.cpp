@@ -141,17 +141,6 @@ std::string free_name(const std::string& wanted, const std::vector<BodyPlan>& bo
   return name;
 }
 
-// From the folder, through no link: a link's ".." is not the folder that names it.
-std::string path_from(const fs::path& folder, const fs::path& mesh) {
-  std::error_code ignored, error;
-  const fs::path to = fs::weakly_canonical(fs::absolute(mesh), error);
-  if (error)
-    throw InputError("--mesh " + text::in_quotes(mesh.string()) +
-                     " cannot be followed to a file: " + error.message());
-  const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
-  return to.lexically_proximate(from).string();
-}
-
 // What an id allows of it, and 64 characters in all.
 std::string id_of(const MeshSceneRequest& request) {
   constexpr std::size_t kLongestPart = 20;
@@ -237,6 +226,16 @@ const std::vector<NamedMotion>& named_motions() {
   return motions;
 }
 
+std::string mesh_path_from(const fs::path& folder, const fs::path& mesh) {
+  std::error_code ignored, error;
+  const fs::path to = fs::weakly_canonical(fs::absolute(mesh), error);
+  if (error)
+    throw InputError("--mesh " + text::in_quotes(mesh.string()) +
+                     " cannot be followed to a file: " + error.message());
+  const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
+  return to.lexically_proximate(from).string();
+}
+
 SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
   check(request);
   const std::string& motion = request.motion;
@@ -245,7 +244,7 @@ SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
   for (const fs::path& mesh : request.meshes) {
     BodyPlan body;
     body.name = free_name(stem_of(mesh), plan.bodies);
-    body.path = path_from(folder, mesh);
+    body.path = mesh_path_from(folder, mesh);
     body.size = request.size;
     plan.title += (plan.title.empty() ? "" : ", ") + body.name;
     plan.bodies.push_back(std::move(body));

@@ -35,4 +35,9 @@ const std::vector<NamedMotion>& named_motions();
 /// point or too large, meshes that no axis leads into contact, a number of meshes that is not meant
 SceneText mesh_scene(const MeshSceneRequest& request, const std::filesystem::path& folder);
 
+/// How a scene file in `folder` names the mesh. Through no link: a link's ".." is not the folder
+/// that names it.
+/// @throws InputError for links that lead in a circle
+std::string mesh_path_from(const std::filesystem::path& folder, const std::filesystem::path& mesh);
+
 }  // namespace contactcheck::scene

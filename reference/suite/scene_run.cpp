@@ -315,18 +315,21 @@ class SceneRun {
   void book(const WorkerOutcome& outcome) {
     // It costs its scene, not the run: a frame may hold more work than the limits allow. Random
     // pairs are made to be judged, and a process that only times does not judge.
+    const bool before_detectors = outcome.over_limit && !outcome.detector &&
+                                  !outcome.last_detector && job_.turns.empty() && !job_.unjudged;
     auto* const drawn = std::get_if<scene::DrawnSpec>(&job_.scene);
-    if (drawn != nullptr && outcome.over_limit && !outcome.detector && !outcome.last_detector &&
-        job_.turns.empty() && drawn->redrawn < scene::kMostRedraws) {
+    if (before_detectors && drawn != nullptr && drawn->redrawn < scene::kMostRedraws) {
       ++drawn->redrawn;
       return;
     }
-    if (outcome.over_limit && outcome.phase == process::Phase::kTruth && !outcome.last_detector &&
-        job_.turns.empty() && !job_.unjudged &&
+    const bool unmade = drawn != nullptr && outcome.phase == process::Phase::kScene;
+    if (before_detectors && (outcome.phase == process::Phase::kTruth || unmade) &&
         !std::holds_alternative<scene::PairSpec>(job_.scene)) {
-      job_.unjudged = Unjudged{
-          place_of(task_.id, outcome) + ", before any detector: the oracle cannot judge this scene",
-          outcome.frame};
+      std::string why = place_of(task_.id, outcome) + ", before any detector: ";
+      why += unmade ? "this scene cannot be made" : "the oracle cannot judge this scene";
+      if (drawn != nullptr)
+        why += ", like the " + std::to_string(drawn->redrawn) + " drawn in its place before";
+      job_.unjudged = Unjudged{why, outcome.frame};
       return;
     }
     // The detector that ran; or, where the suite's own code died in a way that is not its own, the

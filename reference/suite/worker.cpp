@@ -14,6 +14,7 @@
 #include "reference/judge/scene_summary.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/float_environment.h"
+#include "reference/scene/drawn_scene.h"
 #include "reference/scene/simulate_scene.h"
 #include "reference/scene/sweep_poses.h"
 #include "reference/suite/case_file.h"
@@ -59,9 +60,14 @@ void replay_recording(const std::filesystem::path& file, scene::Scene& scene) {
 // scene's driver before it is timed.
 void arrange_scene(WorkerState& worker) {
   scene::Scene& scene = worker.scene;
+  const auto* const drawn = std::get_if<scene::DrawnSpec>(&worker.job.scene);
+  // Not even made: what passed a limit once would pass it again.
+  if (drawn != nullptr && worker.job.unjudged) {
+    scene = scene::unmade_scene(*drawn);
+    return;
+  }
   // What is timed of a drawn scene is all in its recording; to draw it again takes longer.
-  if (!worker.judges() && !worker.job.recording_file.empty() &&
-      std::holds_alternative<scene::DrawnSpec>(worker.job.scene)) {
+  if (drawn != nullptr && !worker.judges() && !worker.job.recording_file.empty()) {
     scene = scene::load_recording(worker.job.recording_file);
     return;
   }

@@ -8,6 +8,8 @@
 #include "tests/reference/scene/scratch.h"
 #include "tests/reference/scene/small_draw_rules.h"
 #include "tests/support/files.h"
+#include "tests/support/mesh_text.h"
+#include "tests/support/shapes.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -16,6 +18,7 @@ using nlohmann::json;
 using test::contactcheck_program;
 using test::Outcome;
 using testing::HasSubstr;
+using testing::Not;
 using Words = std::vector<std::string>;
 
 class DrawnRun : public testing::Test {
@@ -30,6 +33,26 @@ class DrawnRun : public testing::Test {
   }
   json scenes(const std::string& out) const {
     return json::parse(test::text_of(in(out) + "/results.json")).at("scenes");
+  }
+
+  // The section of drawn scenes.
+  std::string reported(const std::string& out) const {
+    const std::string text = test::text_of(in(out) + "/report.md");
+    const std::size_t begin = text.find("## Drawn scenes\n");
+    if (begin == std::string::npos) return "";
+    return text.substr(begin, text.find("\n## ", begin) - begin);
+  }
+  // Rules whose scenes have so many triangles, written into a file.
+  std::string rules_of(const std::string& triangles) const {
+    std::string text = test::small_draw_rules(R"("touch": 1)");
+    const auto put = [&text](const std::string& key, const std::string& value) {
+      const std::size_t begin = text.find("\"" + key + "\": ") + key.size() + 4;
+      text.replace(begin, text.find(",\n", begin) - begin, value);
+    };
+    put("triangles", triangles);
+    put("most_triangles", "400000");
+    put("bodies", "[2, 2]");
+    return scratch_.write("triangles.json", text).string();
   }
 
   test::Scratch scratch_;
@@ -50,6 +73,8 @@ TEST_F(DrawnRun, InShardsIsTheWholeOne) {
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   const json whole = scenes("whole");
   EXPECT_EQ(scenes("merged"), whole);
+  EXPECT_THAT(reported("whole"), HasSubstr("3 scenes drawn from seed 7"));
+  EXPECT_EQ(reported("merged"), reported("whole"));
   ASSERT_EQ(whole.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(whole[i].at("id"), "drawn-7-" + std::to_string(i + 1));
@@ -67,6 +92,59 @@ TEST_F(DrawnRun, ASavedSceneRunsAgainWithTheSameTruth) {
                             "--detector", "full-refit", "--out", in("again")});
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(scenes("again").at(0), scenes("drawn").at(1));
+}
+
+TEST_F(DrawnRun, ASavedSceneNamesItsMeshesFromItsOwnFolder) {
+  scratch_.write("meshes/box.obj", test::obj_text(test::unit_box_mesh(3)));
+  scratch_.write("meshes/ball.obj", test::obj_text(test::sphere_mesh(Vec3::Zero(), 2.0, 2)));
+  const Words meshes = {"--mesh", in("meshes/box.obj"), "--mesh", in("meshes/ball.obj")};
+  Words words = {"--seed", "3", "--count", "2", "--save-scene", in("first/kept")};
+  words.insert(words.end(), meshes.begin(), meshes.end());
+  const Outcome outcome = run("drawn", words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(test::text_of(in("first/kept/drawn-3-1.json")), Not(HasSubstr(in(""))));
+  // Moved together, they are found all the same.
+  namespace fs = std::filesystem;
+  fs::create_directory(in("moved"));
+  fs::rename(in("first"), in("moved/first"));
+  fs::rename(in("meshes"), in("moved/meshes"));
+  const Outcome again =
+      contactcheck_program({"run", in("moved/first/kept/drawn-3-1.json"), "--no-timing", "--quiet",
+                            "--detector", "full-refit", "--out", in("again")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(scenes("again").at(0).at("truth_hash"), scenes("drawn").at(0).at("truth_hash"));
+}
+
+// Of the scenes that the rules draw under this seed, the first has too many triangles for the limit
+// and one drawn in its place has few.
+TEST_F(DrawnRun, ASceneThatPassesALimitIsDrawnAgainAndCounted) {
+  rules_ = rules_of("[100, 200000]");
+  const Outcome outcome = run("limited", {"--seed", "1", "--count", "1", "--memory-limit", "96",
+                                          "--save-scene", in("kept.json")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json scene = scenes("limited").at(0);
+  EXPECT_GE(scene.at("drawn").at("redrawn"), 1);
+  EXPECT_FALSE(scene.contains("unjudged"));
+  EXPECT_THAT(reported("limited"), HasSubstr("1 of them was drawn again because a limit"));
+  const Outcome again = contactcheck_program({"run", in("kept.json"), "--no-timing", "--quiet",
+                                              "--detector", "full-refit", "--out", in("again")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(scenes("again").at(0), scene);
+}
+
+TEST_F(DrawnRun, AScenePassingALimitEachTimeIsNotJudgedAndTheRunGoesOn) {
+  rules_ = rules_of("[199000, 200000]");
+  const Outcome outcome = run("limited", {"contact", "--detector", "full-refit", "--frames", "4",
+                                          "--seed", "1", "--count", "1", "--memory-limit", "64"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  const json all = scenes("limited");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].at("drawn").at("redrawn"), 5);
+  EXPECT_THAT(all[0].at("unjudged").get<std::string>(),
+              HasSubstr("phase scene: more than 64 MiB resident (memory limit), before any "
+                        "detector: this scene cannot be made, like the 5 drawn in its place"));
+  EXPECT_GT(all[1].at("truth").at("body"), 0);
+  EXPECT_THAT(reported("limited"), HasSubstr("1 could not be judged within the limits"));
 }
 
 TEST_F(DrawnRun, RefusesWhatItCannotDrawAndWritesNothing) {

@@ -9,6 +9,7 @@
 #include "tests/reference/scene/small_draw_rules.h"
 #include "tests/support/files.h"
 #include "tests/support/mesh_text.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/shapes.h"
 
 namespace contactcheck::cli {
@@ -118,6 +119,7 @@ TEST_F(DrawnRun, ASavedSceneNamesItsMeshesFromItsOwnFolder) {
 // Of this seed the first scene has 135,784 triangles a body, far too many for the limit, and the
 // one drawn in its place 137.
 TEST_F(DrawnRun, ASceneThatPassesALimitIsDrawnAgainAndCounted) {
+  if (test::kSanitizerAllocates) GTEST_SKIP() << "a sanitizer needs memory of its own";
   rules_ = rules_of("[100, 200000]");
   const Outcome outcome = run("limited", {"--seed", "1", "--count", "1", "--memory-limit", "64",
                                           "--save-scene", in("kept.json")});
@@ -133,6 +135,7 @@ TEST_F(DrawnRun, ASceneThatPassesALimitIsDrawnAgainAndCounted) {
 }
 
 TEST_F(DrawnRun, AScenePassingALimitEachTimeIsNotJudgedAndTheRunGoesOn) {
+  if (test::kSanitizerAllocates) GTEST_SKIP() << "a sanitizer needs memory of its own";
   rules_ = rules_of("[199000, 200000]");
   const Outcome outcome = run("limited", {"contact", "--detector", "full-refit", "--seed", "1",
                                           "--count", "1", "--memory-limit", "64"});

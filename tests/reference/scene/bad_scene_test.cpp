@@ -90,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
     Head, BadScene,
     ::testing::Values(
         Defect{"UnknownKey", R"("frames": 2)", R"("frames": 2, "frame": 3)",
-               ": frame is not a known key; allowed here: id, title, frames, duration, time_step, "
-               "simulation, sweep, levels, bodies."},
+               ": frame is not a known key; allowed here: id, title, drawn, frames, duration, "
+               "time_step, simulation, sweep, levels, bodies."},
         Defect{"MissingKey", R"("frames": 2, )", "", ": frames is missing."},
         Defect{"BadId", R"("id": "s")", R"("id": "../s")",
                ": id is \"../s\"; it must be letters, digits, '-', '_' and '.', beginning with a "

@@ -11,7 +11,7 @@ namespace contactcheck::scene {
 namespace {
 
 TrianglePoints corners_of(const OffsetSurface& surface, std::size_t slot) {
-  const Triangle& t = surface.boxes.tree().corners[slot];
+  const Triangle& t = surface.tree().corners[slot];
   return {surface.vertices[t[0]] + surface.offset, surface.vertices[t[1]] + surface.offset,
           surface.vertices[t[2]] + surface.offset};
 }
@@ -90,7 +90,7 @@ class View {
 std::optional<double> first_touch(const OffsetSurface& resting, const OffsetSurface& moving,
                                   const AxisDirection& from, double beyond) {
   const View view(from);
-  const TriangleTree &tree_a = resting.boxes.tree(), &tree_b = moving.boxes.tree();
+  const TriangleTree &tree_a = resting.tree(), &tree_b = moving.tree();
   struct Open {
     double bound;
     NodePair nodes;
@@ -99,8 +99,7 @@ std::optional<double> first_touch(const OffsetSurface& resting, const OffsetSurf
   std::priority_queue<Open> open;  // the most promising pair first
   double best = beyond;
   const auto push = [&](std::uint32_t a, std::uint32_t b) {
-    const Aabb box_a = moved(resting.boxes.box(a), resting.offset),
-               box_b = moved(moving.boxes.box(b), moving.offset);
+    const Aabb box_a = resting.box(a), box_b = moving.box(b);
     const double bound = view.bound(box_a, box_b);
     if (bound > best && view.overlap(box_a, box_b)) open.push({bound, {a, b}});
   };
@@ -110,7 +109,7 @@ std::optional<double> first_touch(const OffsetSurface& resting, const OffsetSurf
     const NodePair pair = open.top().nodes;
     open.pop();
     const TriangleTree::Node &a = tree_a.nodes[pair.a], &b = tree_b.nodes[pair.b];
-    if (!a.leaf() && (b.leaf() || resting.boxes.size(pair.a) >= moving.boxes.size(pair.b))) {
+    if (!a.leaf() && (b.leaf() || resting.size(pair.a) >= moving.size(pair.b))) {
       push(a.first, pair.b);
       push(a.first + 1, pair.b);
       continue;
@@ -138,27 +137,17 @@ std::optional<double> first_touch(const OffsetSurface& resting, const OffsetSurf
 }
 
 bool surfaces_touch(const OffsetSurface& a, const OffsetSurface& b) {
-  const TriangleTree &tree_a = a.boxes.tree(), &tree_b = b.boxes.tree();
-  std::vector<NodePair> open = {{0, 0}};
-  while (!open.empty()) {
-    const NodePair pair = open.back();
-    open.pop_back();
-    if (!moved(a.boxes.box(pair.a), a.offset).overlaps(moved(b.boxes.box(pair.b), b.offset)))
-      continue;
-    const TriangleTree::Node &in_a = tree_a.nodes[pair.a], &in_b = tree_b.nodes[pair.b];
-    if (!in_a.leaf() && (in_b.leaf() || a.boxes.size(pair.a) >= b.boxes.size(pair.b))) {
-      open.push_back({in_a.first, pair.b});
-      open.push_back({in_a.first + 1, pair.b});
-    } else if (!in_b.leaf()) {
-      open.push_back({pair.a, in_b.first});
-      open.push_back({pair.a, in_b.first + 1});
-    } else {
-      for (std::uint32_t i = in_a.first; i < in_a.first + in_a.count; ++i)
-        for (std::uint32_t j = in_b.first; j < in_b.first + in_b.count; ++j)
-          if (triangles_intersect(corners_of(a, i), corners_of(b, j))) return true;
-    }
-  }
-  return false;
+  std::vector<NodePair> stack;
+  std::uint64_t visited = 0;
+  bool touch = false;
+  traverse_pairs(a, b, stack, visited, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    const TriangleTree::Node &in_a = a.tree().nodes[leaf_a], &in_b = b.tree().nodes[leaf_b];
+    for (std::uint32_t i = in_a.first; i < in_a.first + in_a.count && !touch; ++i)
+      for (std::uint32_t j = in_b.first; j < in_b.first + in_b.count && !touch; ++j)
+        touch = triangles_intersect(corners_of(a, i), corners_of(b, j));
+    return touch;
+  });
+  return touch;
 }
 
 }  // namespace contactcheck::scene

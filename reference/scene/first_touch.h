@@ -2,6 +2,7 @@
 // not to judge them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -16,6 +17,16 @@ struct OffsetSurface {
   std::span<const Vec3> vertices;
   const AabbTree& boxes;  ///< fitted to the vertices
   Vec3 offset;
+
+  // Volumes of traverse_pairs().
+  const TriangleTree& tree() const { return boxes.tree(); }
+  double size(std::uint32_t node) const { return boxes.size(node); }
+  Aabb box(std::uint32_t node) const {
+    return {boxes.box(node).lo + offset, boxes.box(node).hi + offset};
+  }
+  bool overlap(std::uint32_t node, const OffsetSurface& other, std::uint32_t other_node) const {
+    return box(node).overlaps(other.box(other_node));
+  }
 };
 
 /// The largest s such that `moving`, further moved by s along the direction `from`, touches

@@ -14,6 +14,24 @@
 
 namespace contactcheck::scene {
 
+/// Uniform on the unit sphere of N dimensions: drawn in the ball, not too near its centre, and
+/// normalised. `draw`: uniform in [-1, 1).
+template <std::size_t N, typename Draw>
+std::array<double, N> drawn_on_sphere(Draw&& draw) {
+  while (true) {
+    std::array<double, N> v;
+    double squared = 0.0;
+    for (double& x : v) {
+      x = draw();
+      squared += x * x;
+    }
+    if (squared > 1.0 || squared < 1e-3) continue;
+    const double length = std::sqrt(squared);
+    for (double& x : v) x /= length;
+    return v;
+  }
+}
+
 /// SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, 2014).
 class SeededRandom {
  public:
@@ -52,30 +70,14 @@ class SeededRandom {
   }
   std::size_t whole(std::size_t low, std::size_t high) { return low + below(high - low + 1); }
 
-  /// Uniform on the unit sphere of N dimensions: drawn in the ball, normalised.
-  template <std::size_t N>
-  std::array<double, N> on_sphere() {
-    while (true) {
-      std::array<double, N> v;
-      double squared = 0.0;
-      for (double& x : v) {
-        x = between(-1.0, 1.0);
-        squared += x * x;
-      }
-      if (squared > 1.0 || squared < 1e-3) continue;
-      const double length = std::sqrt(squared);
-      for (double& x : v) x /= length;
-      return v;
-    }
-  }
   Vec3 direction() {
-    const auto v = on_sphere<3>();
+    const auto v = drawn_on_sphere<3>([this] { return between(-1.0, 1.0); });
     return {v[0], v[1], v[2]};
   }
   /// A uniform rotation as two half turns, about these axes one after the other: half turns need
   /// no sine. From a uniform unit quaternion (w, v): a is across v, and b = (w, v) a.
   std::array<Vec3, 2> rotation() {
-    const auto q = on_sphere<4>();
+    const auto q = drawn_on_sphere<4>([this] { return between(-1.0, 1.0); });
     const Vec3 v(q[1], q[2], q[3]);
     int least = 0;
     for (int k = 1; k < 3; ++k)

@@ -9,6 +9,7 @@
 
 #include "core/types/check.h"
 #include "reference/oracle/oracle.h"
+#include "reference/scene/seeded_random.h"
 
 namespace contactcheck::scene {
 namespace {
@@ -23,21 +24,10 @@ class Draws {
  public:
   explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in the unit ball of N dimensions, and not too near its centre; normalised.
   template <std::size_t N>
   std::array<double, N> unit() {
-    while (true) {
-      std::array<double, N> v;
-      double squared = 0.0;
-      for (double& x : v) {
-        x = static_cast<double>(engine_() >> 11) * 0x1p-52 - 1.0;
-        squared += x * x;
-      }
-      if (squared > 1.0 || squared < 1e-3) continue;
-      const double length = std::sqrt(squared);
-      for (double& x : v) x /= length;
-      return v;
-    }
+    return drawn_on_sphere<N>(
+        [this] { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1.0; });
   }
 
  private:

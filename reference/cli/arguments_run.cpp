@@ -155,6 +155,9 @@ void add_run(CommandLine& line) {
   add_count(*run, *words);
   add_limits(*run, arguments.call_limit, arguments.memory_limit_mib);
   run->add_flag("--no-timing", words->no_timing, "judge only");
+  run->add_flag("--reduce", arguments.reduce,
+                "reduce the first wrong answer of each detector, level and kind to a minimal case, "
+                "as the command reduce does");
   run->add_flag("--resume", arguments.resume,
                 "take over the scenes that an interrupted run with the same settings has finished "
                 "in --out");

@@ -33,6 +33,7 @@ struct RunArguments {
   scene::MeshSceneRequest meshes;
   std::filesystem::path save_scene;  ///< where scenes are kept as files; empty: nowhere
   bool timing = true, quiet = false, resume = false;
+  bool reduce = false;      ///< the first wrong answers, when all has run
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
   std::vector<std::string> isas;  ///< instruction sets; empty: the best
@@ -61,6 +62,7 @@ struct ReduceArguments {
   std::string command;   ///< of the detector, one that is talked to over pipes; empty: none
   std::string level, kind;    ///< empty: the case's, or what is found first
   std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
+  std::string drawn;          ///< parameters of the scene if it is a drawn one, for the record
   std::size_t budget = 20000;
   double call_limit = 10.0;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;

@@ -4,12 +4,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
 #include "reference/cli/commands.h"
 #include "reference/cli/own_detectors.h"
+#include "reference/cli/run_and_report.h"
 #include "reference/reduce/defect_search.h"
 #include "reference/reduce/minimal_case.h"
 #include "reference/reduce/reduction.h"
@@ -17,6 +22,7 @@
 #include "reference/scene/catalogue.h"
 #include "reference/scene/scene.h"
 #include "reference/text/id_check.h"
+#include "reference/text/json_value.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -40,21 +46,36 @@ OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalo
   return own;
 }
 
+struct ReducedCase {
+  fs::path file;
+  reduce::CaseCandidate whole;  ///< what it was reduced from
+  reduce::Reduction reduction;
+  reduce::MinimalCase minimal;
+  reduce::CaseAnswers answers;
+};
+
 class ReduceCommand {
  public:
-  ReduceCommand(const ReduceArguments& arguments, const DetectorCatalog& catalog)
-      : arguments_(arguments), own_(own_detector(arguments, catalog)) {}
+  ReduceCommand(const ReduceArguments& arguments, OwnDetectors own)
+      : arguments_(arguments), own_(std::move(own)) {}
 
-  int run() {
+  ReducedCase run() {
     check_words();
     const std::vector<reduce::ReductionTask> tasks = read_tasks();
     make_probe(tasks.front());
     const reduce::Defect defect = reduce::find_defect(*probe_, detector_, is_case_, tasks);
-    const reduce::CaseCandidate whole = reduce::candidate_of(defect.task.snapshot);
-    const std::optional<reduce::Reduction> reduction = reduce_defect(defect, whole);
+    ReducedCase out;
+    out.whole = reduce::candidate_of(defect.task.snapshot);
+    std::optional<reduce::Reduction> reduction = reduce_defect(defect, out.whole);
     if (!reduction) refuse_own_lattice(defect);
-    write(defect, whole, *reduction);
-    return 0;
+    out.reduction = std::move(*reduction);
+    out.file = out_file(defect.task);
+    out.minimal = minimal_of(defect, out.reduction, out.file);
+    out.answers = reduce::answers_of(out.minimal, verified(out.minimal));
+    std::error_code ignored;
+    if (out.file.has_parent_path()) fs::create_directories(out.file.parent_path(), ignored);
+    write_file_atomically(out.file, reduce::family_text(out.minimal));
+    return out;
   }
 
  private:
@@ -171,6 +192,7 @@ class ReduceCommand {
                      : reduce::id_from("min-" + detector_ + "-" + defect.task.scene);
     minimal.scene = defect.task.scene;
     minimal.place = defect.task.place;
+    minimal.drawn = arguments_.drawn;
     minimal.detector = detector_;
     minimal.library = library();
     minimal.finding = defect.finding;
@@ -190,45 +212,6 @@ class ReduceCommand {
     return verdict;
   }
 
-  void write(const reduce::Defect& defect, const reduce::CaseCandidate& whole,
-             const reduce::Reduction& reduction) {
-    const fs::path file = out_file(defect.task);
-    const reduce::MinimalCase minimal = minimal_of(defect, reduction, file);
-    const reduce::CaseAnswers answers = reduce::answers_of(minimal, verified(minimal));
-    std::error_code ignored;
-    if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
-    write_file_atomically(file, reduce::family_text(minimal));
-    print_summary(minimal, whole, reduction);
-    std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", answers.exact.c_str(),
-                answers.detector.c_str(), reduce::printed_test(minimal, answers).c_str(),
-                file.c_str());
-  }
-
-  void print_summary(const reduce::MinimalCase& minimal, const reduce::CaseCandidate& before,
-                     const reduce::Reduction& reduction) const {
-    const reduce::CaseCandidate& after = minimal.candidate;
-    std::printf("%s, %s: %s %s\n\n", minimal.scene.c_str(), minimal.place.c_str(),
-                minimal.detector.c_str(), reduce::described(minimal.finding).c_str());
-    std::printf("  %-28s %10s %10s\n", "", "before", "after");
-    const auto line = [](const char* what, std::size_t was, std::size_t is) {
-      std::printf("  %-28s %10zu %10zu\n", what, was, is);
-    };
-    line("triangles", before.triangles(), after.triangles());
-    line("vertices", before.vertices(), after.vertices());
-    line("bits or digits, most", most_figures(before), most_figures(after));
-    std::printf("  %zu candidates tried%s; %s\n\n", reduction.evaluations,
-                reduction.complete ? "" : ", the whole budget: --budget N allows more",
-                after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
-  }
-
-  // A number is as simple as its binary or its decimal text, whichever is shorter.
-  static std::size_t most_figures(const reduce::CaseCandidate& candidate) {
-    int out = 0;
-    for (const double x : reduce::coordinates_of(candidate))
-      out = std::max(out, std::min(reduce::significant_bits(x), reduce::decimal_digits(x)));
-    return static_cast<std::size_t>(out);
-  }
-
   const ReduceArguments& arguments_;
   OwnDetectors own_;
   bool is_case_ = false;
@@ -236,10 +219,108 @@ class ReduceCommand {
   std::optional<reduce::Probe> probe_;
 };
 
+// A number is as simple as its binary or its decimal text, whichever is shorter.
+std::size_t most_figures(const reduce::CaseCandidate& candidate) {
+  int out = 0;
+  for (const double x : reduce::coordinates_of(candidate))
+    out = std::max(out, std::min(reduce::significant_bits(x), reduce::decimal_digits(x)));
+  return static_cast<std::size_t>(out);
+}
+
+std::string title_of(const reduce::MinimalCase& minimal) {
+  return minimal.scene + ", " + minimal.place + ": " + minimal.detector + " " +
+         reduce::described(minimal.finding);
+}
+
+void print(const ReducedCase& reduced) {
+  const reduce::CaseCandidate &before = reduced.whole, &after = reduced.minimal.candidate;
+  std::printf("%s\n\n", title_of(reduced.minimal).c_str());
+  std::printf("  %-28s %10s %10s\n", "", "before", "after");
+  const auto line = [](const char* what, std::size_t was, std::size_t is) {
+    std::printf("  %-28s %10zu %10zu\n", what, was, is);
+  };
+  line("triangles", before.triangles(), after.triangles());
+  line("vertices", before.vertices(), after.vertices());
+  line("bits or digits, most", most_figures(before), most_figures(after));
+  std::printf("  %zu candidates tried%s; %s\n\n", reduced.reduction.evaluations,
+              reduced.reduction.complete ? "" : ", the whole budget: --budget N allows more",
+              after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
+  std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", reduced.answers.exact.c_str(),
+              reduced.answers.detector.c_str(),
+              reduce::printed_test(reduced.minimal, reduced.answers).c_str(), reduced.file.c_str());
+}
+
+/// What to reduce of a run, and into which file: the first case of every detector, level and kind,
+/// and the first error of every detector, which is looked for in the recording of its scene.
+std::vector<ReduceArguments> first_errors(const results::Results& results, const fs::path& out) {
+  std::vector<ReduceArguments> wanted;
+  // Its stem becomes the family's id.
+  const auto file = [&](const std::string& words) {
+    return out / "cases" / (reduce::id_from("min-" + words) + ".json");
+  };
+  std::set<std::tuple<std::string, std::string, std::string>> seen;
+  const auto drawn_text = [&](const std::string& id) {
+    std::string text;
+    for (const results::Scene& scene : results.scenes)
+      if (scene.id == id && scene.drawn)
+        for (const auto& [name, value] : scene.drawn->parameters)
+          text += (text.empty() ? "" : ", ") + name + " " + text::shown(value);
+    return text;
+  };
+  for (const results::Disagreement& d : results.disagreements) {
+    if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
+    if (!seen.insert({d.detector, d.level, d.kind}).second) continue;
+    ReduceArguments& one = wanted.emplace_back();
+    one.target = out / d.case_file;
+    one.out = file(d.detector + "-" + d.kind + "-" + d.level + "-" + d.scene);
+    one.drawn = drawn_text(d.scene);
+  }
+  for (const results::Run& run : results.runs) {
+    const fs::path recording = out / "recordings" / (run.scene + ".ccr");
+    if (run.status != results::Status::kError || !fs::exists(recording) ||
+        !seen.insert({run.detector, "", "error"}).second)
+      continue;
+    ReduceArguments& one = wanted.emplace_back();
+    one.target = recording;
+    if (run.failed_frame) one.target += "@" + std::to_string(*run.failed_frame);
+    one.detector = run.detector;
+    one.kind = "error";
+    one.out = file(run.detector + "-error-" + run.scene);
+    one.drawn = drawn_text(run.scene);
+  }
+  return wanted;
+}
+
 }  // namespace
 
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
-  return ReduceCommand(arguments, catalog).run();
+  print(ReduceCommand(arguments, own_detector(arguments, catalog)).run());
+  return 0;
+}
+
+void reduce_first_errors(const results::Results& results, const RunArguments& run,
+                         const DetectorCatalog& catalog) {
+  suite::RunSettings settings;
+  settings.call_limit = ReduceArguments{}.call_limit;
+  settings.memory_limit = run.memory_limit_mib << 20;
+  OwnDetectors own = load_own_detectors(run.detectors, run.commands, settings, catalog);
+  std::FILE* const stream = run.json_lines ? stderr : stdout;
+  for (ReduceArguments& arguments : first_errors(results, run.out)) {
+    arguments.memory_limit_mib = run.memory_limit_mib;
+    own.names.clear();  // a case names its own
+    if (!arguments.detector.empty()) own.names = {arguments.detector};
+    std::string line;
+    try {
+      const ReducedCase reduced = ReduceCommand(arguments, own).run();
+      line = "reduced: " + title_of(reduced.minimal) + ": " +
+             std::to_string(reduced.minimal.candidate.triangles()) +
+             " triangles: " + reduced.file.string();
+    } catch (const InputError& e) {
+      line = "not reduced: " + std::string(e.what());
+    }
+    std::fprintf(stream, "%s\n", line.c_str());
+    std::fflush(stream);
+  }
 }
 
 }  // namespace contactcheck::cli

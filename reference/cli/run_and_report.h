@@ -20,6 +20,12 @@ struct ReportedRun {
 ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog& catalog,
                            suite::SuiteOutcome* outcome);
 
+/// Reduces the first case of every detector, level and kind of a run, and the first error of every
+/// detector. Writes OUT/cases/min-DETECTOR-KIND-LEVEL-SCENE.json; prints a line each, to standard
+/// error where standard output has events.
+void reduce_first_errors(const results::Results& results, const RunArguments& run,
+                         const DetectorCatalog& catalog);
+
 /// Says on standard error when it is the oracle that is wrong.
 int exit_code_of(const suite::SuiteOutcome& outcome);
 

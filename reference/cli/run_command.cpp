@@ -368,11 +368,9 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
   suite::SuiteOutcome outcome;
   const ReportedRun reported = run_and_report(arguments, catalog, &outcome);
   const int code = exit_code_of(outcome);
-  if (arguments.json_lines) {
-    EventLines(true).print(end_event(arguments.out, code));
-  } else {
-    print_outcome(arguments, reported);
-  }
+  if (!arguments.json_lines) print_outcome(arguments, reported);
+  if (arguments.reduce) reduce_first_errors(reported.results, arguments, catalog);
+  if (arguments.json_lines) EventLines(true).print(end_event(arguments.out, code));
   return code;
 }
 

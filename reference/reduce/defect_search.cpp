@@ -147,13 +147,15 @@ std::vector<Level> levels_for(const std::string& level_name) {
   return levels;
 }
 
-// Parts of a solid are no solids, and only these have an inside.
+bool can_be_reduced(const std::string& level) {
+  return level != name_of(Level::kVertex) && level != name_of(Level::kContainment);
+}
+
 void require_reducible(const std::string& level) {
-  for (const Level solid : {Level::kVertex, Level::kContainment})
-    if (level == name_of(solid))
-      throw InputError("a disagreement at level " + level +
-                       " cannot be reduced: inside is defined for closed surfaces, and a part of "
-                       "one is open");
+  if (!can_be_reduced(level))
+    throw InputError("a disagreement at level " + level +
+                     " cannot be reduced: inside is defined for closed surfaces, and a part of "
+                     "one is open");
 }
 
 Defect find_defect(Probe& probe, const std::string& detector, bool is_case,

@@ -73,6 +73,8 @@ std::string where(const ReductionTask& task);
 /// error without one). Bodies are always judged, as in any scene.
 std::vector<Level> levels_for(const std::string& level_name);
 
+/// Not where inside counts, which a part of a solid does not have.
+bool can_be_reduced(const std::string& level);
 /// @throws InputError when errors at that level cannot be reduced
 void require_reducible(const std::string& level);
 

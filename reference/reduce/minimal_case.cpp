@@ -56,7 +56,8 @@ std::string number_text(double value) {
 
 std::string family_text(const MinimalCase& c) {
   const std::string what = described(c.finding) + " by " + c.detector;
-  const std::string origin = "contactcheck reduce: scene " + c.scene + ", " + c.place +
+  const std::string origin = "contactcheck reduce: scene " + c.scene +
+                             (c.drawn.empty() ? "" : " (" + c.drawn + ")") + ", " + c.place +
                              ", detector " + c.detector +
                              (c.library.empty() ? "" : " (" + c.library + ")");
   std::string levels;

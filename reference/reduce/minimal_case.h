@@ -14,6 +14,7 @@ struct MinimalCase {
   std::string id;        ///< of the family
   std::string scene;     ///< where it is from
   std::string place;     ///< the frame or value there
+  std::string drawn;     ///< the scene's parameters if it was drawn; or empty
   std::string detector;  ///< canonical name
   std::string library;   ///< with its version, where the detector is one's; or empty
   Finding finding;

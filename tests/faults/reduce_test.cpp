@@ -7,6 +7,7 @@
 
 #include "reference/scene/scene.h"
 #include "tests/faults/whole_run.h"
+#include "tests/reference/scene/small_draw_rules.h"
 #include "tests/support/files.h"
 
 namespace contactcheck {
@@ -17,6 +18,7 @@ using test::Outcome;
 using test::Scratch;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// Two divided boxes that press into one another; where they do, they reach above z = 1.5.
 constexpr const char* kBoxes = R"({
@@ -135,6 +137,61 @@ TEST_F(Reduce, WhatThrowsAndWhatEatsMemory) {
   EXPECT_THAT(reduce("fault-throw:frame=0", {"--budget", "50"}).out, HasSubstr("error: threw"));
   EXPECT_THAT(reduce("fault-memory:frame=0", {"--budget", "1", "--memory-limit", "500"}).out,
               HasSubstr("error: memory limit"));
+}
+
+class RunAndReduce : public testing::Test {
+ protected:
+  Outcome run(const std::string& target, const std::vector<std::string>& detectors) {
+    std::vector<std::string> words = {"run",     target,  "--reduce",   "--no-timing",
+                                      "--quiet", "--out", out_.string()};
+    for (const std::string& detector : detectors)
+      words.insert(words.end(), {"--detector", detector});
+    return test::run_program(CONTACTCHECK_WITH_FAULTS, words);
+  }
+  scene::Scene least(const std::string& id) const {
+    return scene::load_scene(out_ / "cases" / (id + ".json"));
+  }
+
+  Scratch scratch_;
+  std::filesystem::path out_ = scratch_.folder() / "out";
+};
+
+TEST_F(RunAndReduce, TheFirstErrorOfEachDetectorLevelAndKind) {
+  const std::string scene = scratch_.write("scene.json", kBoxes).string();
+  const Outcome outcome =
+      run(scene, {"full-refit", "fault-misses-high", "fault-crashes-in-crowds"});
+  EXPECT_EQ(outcome.exit_code, 3);  // the crash
+  EXPECT_THAT(outcome.out, Not(HasSubstr("not reduced")));
+  const std::filesystem::path file =
+      out_ / "cases/min-fault-misses-high-missed-triangle-boxes.json";
+  EXPECT_THAT(outcome.out, HasSubstr("\nreduced: boxes, frame 0: fault-misses-high missed at level "
+                                     "triangle: 2 triangles: " +
+                                     file.string() + "\n"));
+  EXPECT_EQ(least("min-fault-misses-high-missed-triangle-boxes").bodies.size(), 2u);
+  EXPECT_EQ(least("min-fault-crashes-in-crowds-error-boxes").bodies.size(), 2u);
+}
+
+TEST_F(RunAndReduce, SaysWhatCannotBeReduced) {
+  const std::string scene = scratch_.write("scene.json", kBentBoxes).string();
+  const Outcome outcome = run(scene, {"fault-misses-in-lattices"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("\nnot reduced: bent, frame 0, fault-misses-in-lattices: "));
+}
+
+TEST_F(RunAndReduce, OfADrawnSceneNamesItsParameters) {
+  const std::string rules =
+      scratch_.write("rules.json", test::small_draw_rules(R"("deep": 1)")).string();
+  std::vector<std::string> words = {"run",         rules,        "--seed",
+                                    "7",           "--count",    "2",
+                                    "--reduce",    "--detector", "fault-misses-crowds",
+                                    "--no-timing", "--quiet",    "--out",
+                                    out_.string()};
+  const Outcome outcome = test::run_program(CONTACTCHECK_WITH_FAULTS, words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string text =
+      test::text_of(out_ / "cases/min-fault-misses-crowds-missed-triangle-drawn-7-1.json");
+  EXPECT_THAT(text, testing::ContainsRegex("scene drawn-7-1 .bodies [2-4], .*, frame [0-9]+, "
+                                           "detector fault-misses-crowds"));
 }
 
 TEST_F(Reduce, UndoesWhatADetectorChangesInItsProcess) {

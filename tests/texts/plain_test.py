@@ -28,6 +28,10 @@ class Lengths(unittest.TestCase):
         self.assertEqual(errors(paragraph(80)), [])
         self.assertRegex(errors("# T\n\n" + paragraph(81))[0], r"^page.md:3: a paragraph of 81 words")
 
+    def test_front_page_has_shorter_paragraphs(self):
+        self.assertEqual(plain.findings("README.md", paragraph(60))[0], [])
+        self.assertRegex(plain.findings("README.md", paragraph(61))[0][0], "at most 60 are allowed")
+
     def test_lines_of_a_paragraph_are_one_paragraph_and_a_blank_line_ends_it(self):
         self.assertEqual(len(errors(paragraph(50) + "\n" + paragraph(50))), 1)
         self.assertEqual(errors(paragraph(50) + "\n\n" + paragraph(50)), [])

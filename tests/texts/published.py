@@ -33,6 +33,7 @@ SCENE_FIELDS = {
     "steps": lambda scene: scene["frames"] * scene["simulation"]["every"],
     "triangles": lambda scene: sum(body["triangles"] for body in scene["bodies"]),
     "true_pairs": lambda scene: scene["truth"]["triangle"],
+    "true_bodies": lambda scene: scene["truth"]["body"],
 }
 
 
@@ -201,9 +202,9 @@ GOAL = ("goal", "detector", "part", "at_least", "at_most", "measured", "low", "h
         "met")
 # Which rows each file has, and which fields of theirs.
 FILES = {
-    "default": {"scenes": ("frames", "triangles", "true_pairs"),
-                "runs": ("level", "truth", *COUNTS, "hover", "lost", "question", "passes",
-                         "ratios")},
+    "default": {"scenes": ("frames", "triangles", "true_pairs", "true_bodies"),
+                "runs": ("level", "truth", *COUNTS, "missed_bodies", "spurious_bodies", "hover",
+                         "lost", "question", "ms", "passes", "ratios")},
     "performance": {"scenes": ("frames", "triangles", "true_pairs"),
                     "runs": ("truth", *COUNTS, "ms", "passes", "speedup"), "goals": GOAL},
     "hard": {"sums": (), "detectors": ()},

@@ -1,6 +1,8 @@
 """The tables that pages show and the figures that sentences quote, out of fixtures/published."""
 
 import math
+import re
+import statistics
 
 from published import REFERENCES, ROOT, Published, TextError, read_json
 
@@ -56,7 +58,8 @@ def wrong(pair):
 
 def machine(file):
     about = file.head["machine"]
-    return f"{about['cores']}-core {about['cpu']} with {ISA.get(about['isa'], about['isa'])}"
+    cpu = re.sub(r"\(R\)|\(TM\)| Processor\b| CPU\b", "", about["cpu"])
+    return f"{about['cores']}-core {cpu} with {ISA.get(about['isa'], about['isa'])}"
 
 
 def took(file):
@@ -102,6 +105,40 @@ def default_summary(files):
         rows.append(cells)
     return table(["detector", "level", "recall:", "missed:", "spurious:", "hover mm:", "question",
                   *(f"vs {reference}:" for reference in REFERENCES)], rows)
+
+
+# The rows of the front page: five answer `triangles`, three something coarser.
+HEADLINE = ("fcl-aabb", "libccd-gjk", "embree", "ffd-lazy", "ffd-aabb-sphere2+tri",
+            "ffd-aabb-sphere2", "bullet-vf", "bullet-cl")
+COARSE = {"cell": "cells", "near": "near", "body": "bodies"}
+
+
+def mean_ms(file, detector):
+    times = [run["ms"] for run in file.rows("runs") if run["detector"] == detector]
+    return statistics.mean(times)
+
+
+def headline_name(file, detector):
+    level = file.same([run["level"] for run in file.rows("runs") if run["detector"] == detector],
+                      f"levels of {detector}")
+    return detector, COARSE.get(level)
+
+
+def headline(files):
+    file = files["default"]
+    rows = []
+    for detector in HEADLINE:
+        runs = [file.run(scene, detector) for scene in file.scenes()]
+        name, coarse = headline_name(file, detector)
+        cells = [f"`{name}`" + (f" ({coarse})" if coarse else ""),
+                 *(count(sum(run[kind] for run in runs)) for kind in ("missed", "spurious")),
+                 three_digits(mean_ms(file, detector))]
+        for reference in ("fcl-aabb", "embree"):
+            ratios = [run["ratios"][reference] for run in runs if reference in run["ratios"]]
+            cells.append(three_digits(statistics.median(ratios)) + "x" if ratios else "-")
+        rows.append(cells)
+    return table(["detector", "missed:", "spurious:", "ms a frame:", "against FCL:",
+                  "against Embree:"], rows)
 
 
 LAZY_SCENES = ("near-miss", "contact", "small-pair", "pile", "coincident", "scaling-near-miss-16",
@@ -228,7 +265,7 @@ def paper_overview(files):
                   "at rest, mm apart: `ffd-grid`:", "`ffd-aabb-sphere2`:"], rows)
 
 
-TABLES = {"default": default_summary, "performance": performance_peers, "goals": performance_goals,
+TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers, "goals": performance_goals,
           "single-lazy": single_lazy, "single-lazy-times": single_lazy_times,
           "single-historic": single_historic, "single-historic-times": single_historic_times,
           "hard": hard_wrong, "reproduce": paper_overview}
@@ -308,6 +345,7 @@ def figures(files):
         return len((ROOT / name).read_text("utf-8").splitlines())
 
     return {
+        "default.detectors": lambda: str(len(default.detectors())),
         "default.scenes": lambda: str(len(default.rows("scenes"))),
         "default.frames": lambda: str(default.same([s["frames"] for s in default.rows("scenes")],
                                                    "frames")),

@@ -9,7 +9,7 @@
 A table stands between `<!-- table: NAME -->` and `<!-- end -->` (TABLES in tables.py). A figure in
 a sentence has no mark, for readers of the plain text: tests/texts/figures.json lists, under "made",
 pieces of sentences with {figures} (`figures` in tables.py); the page must have each, filled in,
-exactly once. Any other number of a page, outside code and links, needs an entry under "fixed": the
+exactly once. The README's picture is headline.py's. Any other number of a page, outside code and links, needs an entry under "fixed": the
 words around it, and why they are right. .ci/publish makes the results and does all of this.
 """
 
@@ -18,10 +18,12 @@ import pathlib
 import re
 import sys
 
+from headline import headline_svg
 from published import FILES, FOLDER, ROOT, Published, TextError, published, read_json
 from tables import TABLES, figures
 
 LIST = pathlib.Path("tests") / "texts" / "figures.json"
+PICTURE = pathlib.Path(".github") / "headline.svg"
 MARKED = re.compile(r"(<!-- table: (\S+) -->\n)(.*?)(<!-- end -->|(?=<!-- table:)|\Z)", re.DOTALL)
 FIELD = re.compile(r"\{([^{}]+)\}")
 # What is no text for a reader: fenced and indented code, code in a line, comments, link targets.
@@ -183,6 +185,11 @@ def check(root):
             errors += stray_errors(page, text, pieces, fixed)
         except TextError as error:
             errors.append(str(error))
+    try:
+        if read_page(root, PICTURE) != headline_svg(files):
+            errors.append(f"{PICTURE} is not the picture of {FOLDER / 'default.json'}")
+    except TextError as error:
+        errors.append(str(error))
     # Its markers are gone: then nothing holds it against the results any more.
     errors += [f"no page has the table {name}" for name in TABLES if name not in shown]
     return errors
@@ -193,6 +200,7 @@ def write(root):
     values = figures(files)
     new = {page: written_page(page, read_page(root, page), pieces, files, values)
            for page, (pieces, _) in read_list(root).items()}
+    new[PICTURE] = headline_svg(files)
     for page, text in new.items():
         (root / page).write_text(text, encoding="utf-8")
 

@@ -25,7 +25,7 @@ class OfACopy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         shutil.copytree(ROOT / FOLDER, self.root / FOLDER)
-        for name in (texts.LIST, *texts.read_list(ROOT)):
+        for name in (texts.LIST, texts.PICTURE, *texts.read_list(ROOT)):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         self.assertEqual(texts.check(self.root), [])
@@ -151,6 +151,11 @@ class Check(OfACopy):
         path.write_text(path.read_text("utf-8") + " " * LARGEST, "utf-8")
         self.assertRegex(self.only_error(), r"hard.json has \d+ bytes; 200000 are allowed")
 
+    def test_picture_of_other_results(self):
+        self.change(texts.PICTURE, "<text", "<text ")
+        self.assertEqual(self.only_error(),
+                         ".github/headline.svg is not the picture of fixtures/published/default.json")
+
     def test_table_without_markers(self):
         for mark in ("<!-- table: reproduce -->\n", "<!-- end -->\n"):
             self.change("reference/reproduce/README.md", mark, "")
@@ -211,8 +216,11 @@ class Write(OfACopy):
             for start, end in spans:
                 text = text[:start] + digits.sub("8", text[start:end]) + text[end:]
             (self.root / page).write_text(text, "utf-8")
+        (self.root / texts.PICTURE).write_text("", "utf-8")
         self.assertNotEqual(texts.check(self.root), [])
         self.assertEqual(texts.main(["write"], self.root), 0)
+        self.assertEqual((self.root / texts.PICTURE).read_bytes(),
+                         (ROOT / texts.PICTURE).read_bytes())
         for page in texts.read_list(ROOT):
             self.assertEqual((self.root / page).read_text("utf-8"),
                              (ROOT / page).read_text("utf-8"), page)
@@ -263,6 +271,13 @@ class Publish(OfACopy):
         path.write_text(json.dumps(results), "utf-8")
         with self.assertRaisesRegex(TextError, "results.json has no field"):
             published("performance", path, None)
+
+
+class Citation(unittest.TestCase):
+    def test_names_the_version_of_the_project(self):
+        version = re.search(r"project\(contactcheck VERSION (\S+)",
+                            (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
+        self.assertIn(f"\nversion: {version}\n", (ROOT / "CITATION.cff").read_text("utf-8"))
 
 
 class Numbers(unittest.TestCase):

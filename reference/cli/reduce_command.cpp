@@ -254,9 +254,10 @@ void print(const ReducedCase& reduced) {
 /// and the first error of every detector, which is looked for in the recording of its scene.
 std::vector<ReduceArguments> first_errors(const results::Results& results, const fs::path& out) {
   std::vector<ReduceArguments> wanted;
-  // Its stem becomes the family's id.
-  const auto file = [&](const std::string& words) {
-    return out / "cases" / (reduce::id_from("min-" + words) + ".json");
+  const auto file = [&](const std::string& detector, const std::string& what,
+                        const std::string& scene) {
+    return out / "cases" /
+           ("min-" + reduce::id_from(detector) + "-" + what + "-" + scene + ".json");
   };
   std::set<std::tuple<std::string, std::string, std::string>> seen;
   const auto drawn_text = [&](const std::string& id) {
@@ -272,7 +273,7 @@ std::vector<ReduceArguments> first_errors(const results::Results& results, const
     if (!seen.insert({d.detector, d.level, d.kind}).second) continue;
     ReduceArguments& one = wanted.emplace_back();
     one.target = out / d.case_file;
-    one.out = file(d.detector + "-" + d.kind + "-" + d.level + "-" + d.scene);
+    one.out = file(d.detector, d.kind + "-" + d.level, d.scene);
     one.drawn = drawn_text(d.scene);
   }
   for (const results::Run& run : results.runs) {
@@ -285,7 +286,7 @@ std::vector<ReduceArguments> first_errors(const results::Results& results, const
     if (run.failed_frame) one.target += "@" + std::to_string(*run.failed_frame);
     one.detector = run.detector;
     one.kind = "error";
-    one.out = file(run.detector + "-error-" + run.scene);
+    one.out = file(run.detector, "error", run.scene);
     one.drawn = drawn_text(run.scene);
   }
   return wanted;

@@ -22,13 +22,17 @@ struct Count {
 };
 
 /// What one pipeline stage still covers for the frame of the last update. Exactly one of the
-/// coverage lists is meaningful, by `kind`; pairs are canonical sets.
+/// coverage lists is meaningful, by `kind` (of active cells: `bodies` and `active`); pairs are
+/// canonical sets.
 struct StageRecord {
   enum class Kind {
     kBodies,      ///< every triangle pair of these body pairs
     kLabelCells,  ///< triangle pairs whose labels (Embedding) include these cell pairs
     kOwnerCells,  ///< triangle pairs whose owner cells are these cell pairs; see `owner`
-    kTriangles    ///< these triangle pairs
+    kTriangles,   ///< these triangle pairs
+    // Of body pairs; any active cell of one body with any of the other.
+    kActiveLabelCells,  ///< triangle pairs that both have an active label
+    kActiveOwnerCells   ///< triangle pairs whose owner cells are both active
   };
   std::string name;
   std::string unit;  ///< what `in` and `out` count: "body pairs", "sphere pairs", ...
@@ -40,9 +44,10 @@ struct StageRecord {
   Kind kind = Kind::kBodies;
   std::vector<BodyPair> bodies;
   std::vector<ElementPair> elements;
+  std::vector<std::vector<char>> active;  ///< [body][cell]
 };
 
-/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is kOwnerCells.
+/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is of owner cells.
 struct StageTrace {
   std::vector<StageRecord> stages;
   std::vector<std::vector<std::uint32_t>> owner;

@@ -227,17 +227,11 @@ void FfdDetectorOf<T>::trace_spheres(StageTrace& out) {
     record.unit = level == 1 ? "body pairs" : "sphere pairs";
     record.in = s.tested;
     record.out = s.sphere_pairs.size();
-    if (level == 1) {
-      record.kind = StageRecord::Kind::kBodies;
-      record.bodies = s.body_pairs;
-    } else {
-      record.kind = safe() ? StageRecord::Kind::kOwnerCells : StageRecord::Kind::kLabelCells;
-      const auto cells = covered_cells(level, s);
-      for (const BodyPair& pair : s.body_pairs)
-        for (std::uint32_t a = 0; a < cells[pair.a].size(); ++a)
-          for (std::uint32_t b = 0; cells[pair.a][a] && b < cells[pair.b].size(); ++b)
-            if (cells[pair.b][b]) record.elements.push_back({pair.a, pair.b, a, b});
-      canonicalize(record.elements);
+    record.bodies = s.body_pairs;
+    if (level > 1) {
+      record.kind =
+          safe() ? StageRecord::Kind::kActiveOwnerCells : StageRecord::Kind::kActiveLabelCells;
+      record.active = covered_cells(level, s);
     }
     out.stages.push_back(std::move(record));
   }

@@ -53,10 +53,24 @@ LevelComparison compare_sets(const std::vector<ElementPair>& truth,
 // Do the true triangles of a pair get past this stage?
 bool covers(const std::vector<Body>& bodies, const StageTrace& trace, const StageRecord& stage,
             const ElementPair& pair) {
+  const auto has_bodies = [&] {
+    return std::binary_search(stage.bodies.begin(), stage.bodies.end(),
+                              BodyPair{pair.body_a, pair.body_b});
+  };
+  const auto has_active_label = [&](std::uint32_t body, std::uint32_t triangle) {
+    const auto cells = bodies[body].shape->embedding.cells_of_triangle(triangle);
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](std::uint32_t cell) { return stage.active[body][cell] != 0; });
+  };
   switch (stage.kind) {
     case StageRecord::Kind::kBodies:
-      return std::find(stage.bodies.begin(), stage.bodies.end(),
-                       BodyPair{pair.body_a, pair.body_b}) != stage.bodies.end();
+      return has_bodies();
+    case StageRecord::Kind::kActiveLabelCells:
+      return has_bodies() && has_active_label(pair.body_a, pair.a) &&
+             has_active_label(pair.body_b, pair.b);
+    case StageRecord::Kind::kActiveOwnerCells:
+      return has_bodies() && stage.active[pair.body_a][trace.owner[pair.body_a][pair.a]] &&
+             stage.active[pair.body_b][trace.owner[pair.body_b][pair.b]];
     case StageRecord::Kind::kLabelCells:
       return covered_by_cells(bodies, stage.elements, pair);
     case StageRecord::Kind::kOwnerCells: {

@@ -23,8 +23,7 @@ class Coverage {
   bool covers(const ElementPair& p) const {
     switch (record_.kind) {
       case StageRecord::Kind::kBodies:
-        return std::binary_search(record_.bodies.begin(), record_.bodies.end(),
-                                  BodyPair{p.body_a, p.body_b});
+        return has_bodies(p);
       case StageRecord::Kind::kTriangles:
         return lists(p);
       case StageRecord::Kind::kOwnerCells:
@@ -32,11 +31,25 @@ class Coverage {
             {p.body_a, p.body_b, trace_.owner[p.body_a][p.a], trace_.owner[p.body_b][p.b]});
       case StageRecord::Kind::kLabelCells:
         return covers_by_label(p);
+      case StageRecord::Kind::kActiveLabelCells:
+        return has_bodies(p) && has_active_label(p.body_a, p.a) && has_active_label(p.body_b, p.b);
+      case StageRecord::Kind::kActiveOwnerCells:
+        return has_bodies(p) && record_.active[p.body_a][trace_.owner[p.body_a][p.a]] != 0 &&
+               record_.active[p.body_b][trace_.owner[p.body_b][p.b]] != 0;
     }
     return false;
   }
 
  private:
+  bool has_bodies(const ElementPair& p) const {
+    return std::binary_search(record_.bodies.begin(), record_.bodies.end(),
+                              BodyPair{p.body_a, p.body_b});
+  }
+  bool has_active_label(std::uint32_t body, std::uint32_t triangle) const {
+    for (std::uint32_t cell : scene_.bodies[body].shape->embedding.cells_of_triangle(triangle))
+      if (record_.active[body][cell]) return true;
+    return false;
+  }
   bool lists(const ElementPair& p) const {
     return std::binary_search(record_.elements.begin(), record_.elements.end(), p);
   }

@@ -56,6 +56,22 @@ TEST(StageLosses, OwnerStageKeepsPairsThroughTheirOwnersAlone) {
   EXPECT_THAT(missed_of(trace, {{0, 1, 0, 2}, {0, 1, 1, 2}}), ElementsAre(1));
 }
 
+TEST(StageLosses, ActiveLabelsKeepPairsOfTheBodiesListed) {
+  StageRecord sphere = stage("sphere2", Kind::kActiveLabelCells, {}, {{0, 1}});
+  sphere.active = {{0, 1}, {0, 1}, {1, 1}};
+  // (1, 2) has the labels {0, 1} x {1}; (0, 0) has the labels {0} x {0}; (0, 2) is not listed.
+  EXPECT_THAT(missed_of({{sphere}, {}}, {{0, 1, 0, 0}, {0, 1, 1, 2}, {0, 2, 2, 0}}),
+              ElementsAre(2));
+}
+
+TEST(StageLosses, ActiveOwnersKeepPairsThroughTheirOwnersAlone) {
+  StageRecord sphere = stage("sphere2", Kind::kActiveOwnerCells, {}, {{0, 1}});
+  sphere.active = {{1, 0}, {0, 1}, {1, 1}};
+  StageTrace trace{{sphere}, {{0, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}}};
+  // Triangle 1 of the first body has the label 0 too, but its owner is cell 1.
+  EXPECT_THAT(missed_of(trace, {{0, 1, 0, 2}, {0, 1, 1, 2}, {0, 1, 0, 1}}), ElementsAre(2));
+}
+
 TEST(StageLosses, TriangleStageKeepsExactlyItsPairs) {
   const StageTrace trace{{stage("triangles", Kind::kTriangles, {{0, 1, 0, 0}, {0, 1, 2, 2}})}, {}};
   EXPECT_THAT(missed_of(trace, kTruth), ElementsAre(3));

@@ -7,6 +7,7 @@
 
 #include "core/types/check.h"
 #include "core/types/shortest.h"
+#include "core/types/suggestion.h"
 
 namespace contactcheck {
 namespace {
@@ -90,8 +91,11 @@ DetectorSpec DetectorCatalog::parse(std::string_view text) const {
   const std::size_t colon = text.find(':');
   const DetectorInfo* info = find(text.substr(0, colon));
   if (info == nullptr) {
-    throw InputError("unknown detector \"" + std::string(text.substr(0, colon)) +
-                     "\"; `contactcheck list` names all");
+    const std::string id(text.substr(0, colon));
+    std::vector<std::string> ids;
+    for (const DetectorInfo& known : infos_) ids.push_back(known.id);
+    throw InputError("unknown detector \"" + id + "\"; " + suggestion(id, ids) +
+                     "`contactcheck list` names all");
   }
   DetectorSpec spec;
   spec.id = info->id;

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/types/check.h"
+#include "core/types/suggestion.h"
 #include "reference/text/file_text.h"
 #include "reference/text/id_check.h"
 #include "reference/text/json_field.h"
@@ -94,14 +95,14 @@ std::optional<fs::path> scene_or_family(const fs::path& fixtures, const std::str
   return scene ? scene : file_of_id(families_in(fixtures), id);
 }
 
-std::string ids_in(const fs::path& folder) {
+std::vector<std::string> ids_in(const fs::path& folder) {
   std::vector<std::string> ids;
   std::error_code ignored;
   for (const fs::directory_entry& file : fs::directory_iterator(folder, ignored)) {
     if (file.path().extension() == ".json") ids.push_back(file.path().stem().string());
   }
   std::sort(ids.begin(), ids.end());
-  return ids.empty() ? "none" : text::joined(ids);
+  return ids;
 }
 
 bool is_suite_file(const fs::path& file) {
@@ -139,16 +140,20 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
   if (file.extension() == ".json" && fs::exists(file, ignored)) {
     return {is_suite_file(file) ? TargetKind::kSuite : TargetKind::kScene, file};
   }
-  throw InputError(text::in_quotes(name) + " is neither a suite (" + ids_in(fixtures / "suites") +
-                   ") nor a scene (" + ids_in(fixtures / "scenes") +
-                   ") nor a family of hard cases (contactcheck list --families) nor an existing "
-                   ".json or .ccr file.");
+  if (file.extension() == ".ccr" || file.extension() == ".json")
+    throw InputError(text::in_quotes(name) + " does not exist.");
+  std::vector<std::string> ids = ids_in(fixtures / "suites");
+  for (const fs::path& folder : {fixtures / "scenes", families_in(fixtures)})
+    for (std::string& id : ids_in(folder)) ids.push_back(std::move(id));
+  throw InputError(text::in_quotes(name) +
+                   " is no suite, scene, family of hard cases, .json or .ccr file; " +
+                   suggestion(name, ids) + "`contactcheck list` names all.");
 }
 
 fs::path find_scene(const std::string& id, const fs::path& fixtures) {
   if (const auto file = scene_or_family(fixtures, id)) return *file;
-  throw InputError("there is no scene " + text::in_quotes(id) + "; the scenes are " +
-                   ids_in(fixtures / "scenes") + ".");
+  throw InputError("there is no scene " + text::in_quotes(id) + "; " +
+                   suggestion(id, ids_in(fixtures / "scenes")) + "`contactcheck list` names all.");
 }
 
 }  // namespace contactcheck::scene

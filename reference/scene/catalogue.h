@@ -47,11 +47,11 @@ struct Target {
 
 /// What `name` stands for: the id of a suite, the id of a scene or of a family, or the path of a
 /// file: .ccr is a recording, .json a suite when it has the key "scenes" and a scene otherwise.
-/// @throws InputError with the ids there are
+/// @throws InputError with ids that are near
 Target find_target(const std::string& name, const std::filesystem::path& fixtures);
 
-/// The file of a scene's or family's id, as suites name them. @throws InputError with the ids there
-/// are
+/// The file of a scene's or family's id, as suites name them. @throws InputError with ids that are
+/// near
 std::filesystem::path find_scene(const std::string& id, const std::filesystem::path& fixtures);
 
 }  // namespace contactcheck::scene

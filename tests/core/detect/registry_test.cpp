@@ -109,10 +109,11 @@ TEST(DetectorCatalog, DefaultsSpelledOtherwiseAreStillLeftOut) {
 
 TEST(DetectorCatalog, UnknownDetectorIsNamed) {
   EXPECT_EQ(error_of("ffd-abab:cell=2"),
-            "unknown detector \"ffd-abab\"; `contactcheck list` names all");
+            "unknown detector \"ffd-abab\"; did you mean ffd-aabb? `contactcheck list` names all");
   EXPECT_EQ(error_of(""), "unknown detector \"\"; `contactcheck list` names all");
   EXPECT_EQ(error_of("ffd-aabb+TRI"),
-            "unknown detector \"ffd-aabb+TRI\"; `contactcheck list` names all");
+            "unknown detector \"ffd-aabb+TRI\"; did you mean ffd-aabb+tri? `contactcheck list` "
+            "names all");
 }
 
 TEST(DetectorCatalog, UnknownOptionIsNamedWithThoseThatExist) {

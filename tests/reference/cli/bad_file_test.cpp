@@ -82,13 +82,12 @@ BadFile scene(const std::string& name, Prepare prepare, Words named) {
 INSTANTIATE_TEST_SUITE_P(
     Scene, BadFiles,
     testing::Values(
-        scene("Missing", [](const Scratch&) {}, {"nor an existing .json or .ccr file"}),
+        scene("Missing", [](const Scratch&) {}, {"x.json\" does not exist"}),
         scene("Folder", folder("x.json"), {"is a folder"}),
-        scene("DanglingLink", link_to("nowhere", "x.json"), {"nor an existing"}),
-        scene("LinkToItself", link_to("x.json", "x.json"), {"nor an existing"}),
-        BadFile{
-            {"LongName", {"run", "DIR/" + std::string(300, 'n') + ".json"}, {"nor an existing"}},
-            [](const Scratch&) {}},
+        scene("DanglingLink", link_to("nowhere", "x.json"), {"does not exist"}),
+        scene("LinkToItself", link_to("x.json", "x.json"), {"does not exist"}),
+        BadFile{{"LongName", {"run", "DIR/" + std::string(300, 'n') + ".json"}, {"does not exist"}},
+                [](const Scratch&) {}},
         scene("Huge", huge("x.json"), {"has more than 256 MiB"}),
         scene("Endless", link_to("/dev/zero", "x.json"), {"is a device, not a regular file"}),
         scene("Empty", bytes("x.json", ""), {"is empty"}),
@@ -168,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
     Suite, BadFiles,
     testing::Values(
         suite("UnknownScene", R"({"id": "u", "scenes": ["atlantis"], "detectors": ["embree"]})",
-              {"no scene \"atlantis\"", "bunny-touch"}),
+              {"no scene \"atlantis\"", "`contactcheck list` names all"}),
         suite("UnknownDetector",
               R"({"id": "u", "scenes": ["bunny-touch"], "detectors": ["embers"]})",
               {"unknown detector \"embers\""}),
@@ -193,7 +192,7 @@ BadFile recording(const std::string& name, Prepare prepare, Words named) {
 
 INSTANTIATE_TEST_SUITE_P(
     Recording, BadFiles,
-    testing::Values(recording("Missing", [](const Scratch&) {}, {"nor an existing"}),
+    testing::Values(recording("Missing", [](const Scratch&) {}, {"does not exist"}),
                     recording("Folder", folder("x.ccr"), {"not a regular file"}),
                     recording("Endless", link_to("/dev/zero", "x.ccr"), {"not a regular file"}),
                     recording("Empty", bytes("x.ccr", ""), {"not a recording"}),

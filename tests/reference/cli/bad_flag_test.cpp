@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         run_with("QuietWithAValue", {"--quiet=perhaps"}, {"--quiet", "perhaps"}),
         run_with("ResumeWithAValue", {"--resume", "DIR/other"}, {"\"DIR/other\""}),
         run_with("SceneTwice", {"DIR/./tiny.json"}, {"\"tiny\""}),
-        BadCommand{"EmptyTarget", {"run", "", "--out", "DIR/out"}, {"\"\" is neither a suite"}},
+        BadCommand{"EmptyTarget", {"run", "", "--out", "DIR/out"}, {"\"\" is no suite"}},
         BadCommand{"EmptyOut", {"run", "DIR/tiny.json", "--out", ""}, {"--out"}},
         BadCommand{"OutWithoutAFolder", {"run", "DIR/tiny.json", "--out"}, {"--out"}}),
     named_command);
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(BadCommand{"NoTarget", {"export", "--out", "DIR/out"}, {"targets"}},
                     BadCommand{"UnknownScene",
                                {"export", "bunny", "--out", "DIR/out"},
-                               {"\"bunny\" is neither a suite", "bunny-touch"}},
+                               {"\"bunny\" is no suite", "did you mean", "bunny-touch"}},
                     BadCommand{"NoStep",
                                {"export", "DIR/tiny.json", "--every", "0", "--out", "DIR/out"},
                                {"--every", "0"}},

@@ -172,17 +172,21 @@ TEST(Catalogue, FindsSuitesScenesAndFiles) {
             TargetKind::kRecording);
 }
 
-TEST(Catalogue, UnknownNamesListWhatThereIs) {
+TEST(Catalogue, UnknownNamesLeadToThoseThatAreNear) {
   const Scratch scratch;
   scratch.write("scenes/one.json", "{}");
   scratch.write("scenes/two.json", "{}");
   scratch.write("suites/all.json", "{}");
-  EXPECT_EQ(sentence_of([&] { find_target("three", scratch.folder()); }),
-            "\"three\" is neither a suite (all) nor a scene (one, two) nor a family of hard cases "
-            "(contactcheck list --families) nor an existing .json or "
-            ".ccr file.");
-  EXPECT_EQ(sentence_of([&] { find_scene("three", scratch.folder()); }),
-            "there is no scene \"three\"; the scenes are one, two.");
+  EXPECT_EQ(sentence_of([&] { find_target("tow", scratch.folder()); }),
+            "\"tow\" is no suite, scene, family of hard cases, .json or .ccr file; did you mean "
+            "two? `contactcheck list` names all.");
+  EXPECT_EQ(sentence_of([&] { find_target("al", scratch.folder()); }),
+            "\"al\" is no suite, scene, family of hard cases, .json or .ccr file; `contactcheck "
+            "list` names all.");
+  EXPECT_EQ(sentence_of([&] { find_target("three.json", scratch.folder()); }),
+            "\"three.json\" does not exist.");
+  EXPECT_EQ(sentence_of([&] { find_scene("once", scratch.folder()); }),
+            "there is no scene \"once\"; did you mean one? `contactcheck list` names all.");
 }
 
 TEST(Catalogue, IdMustBeTheFilesName) {

@@ -91,10 +91,15 @@ Scene load_any_scene(const SceneSource& source, std::size_t frames) {
   if (const auto* drawn = std::get_if<DrawnSpec>(&source)) return draw_scene(*drawn).scene;
   const auto& file = std::get<std::filesystem::path>(source);
   if (file.extension() != ".ccr") return load_scene(file, frames);
-  if (frames > 0)
-    throw InputError("--frames: recording \"" + file.string() +
-                     "\" has its own frames and cannot be given others");
-  return load_recording(file);
+  Scene scene = load_recording(file);
+  if (frames > scene.frames)
+    throw InputError("--frames: recording \"" + file.string() + "\" has " +
+                     std::to_string(scene.frames) + " frames");
+  if (frames > 0) {
+    scene.recorded.resize(frames);
+    scene.frames = frames;
+  }
+  return scene;
 }
 
 SceneSource absolute(SceneSource source) {

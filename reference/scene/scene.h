@@ -129,8 +129,8 @@ struct Scene {
 };
 
 /// Reads a scene file (JSON). `wanted_frames` above 0 replaces the file's frame count, keeping the
-/// duration; of a simulated scene the steps keep their length, so that the duration follows. A
-/// family of hard cases has its own frames.
+/// duration; of a simulated scene the steps keep their length, so that the duration follows; of
+/// recorded frames it takes the first. A family of hard cases has its own frames.
 /// @throws InputError, one sentence: file, path of the field, value, what is allowed
 Scene load_scene(const std::filesystem::path& file, std::size_t wanted_frames = 0);
 
@@ -152,8 +152,9 @@ Scene load_recording(const std::filesystem::path& file);
 /// scene that is to be drawn.
 using SceneSource = std::variant<std::filesystem::path, SceneText, PairSpec, DrawnSpec>;
 
-/// `frames` above 0 replaces the number of frames, except that of random pairs.
-/// @throws InputError, also where a recording is to have other frames than its own
+/// `frames` above 0 replaces the number of frames, except that of random pairs; of a recording it
+/// takes the first.
+/// @throws InputError, also where a recording has fewer
 Scene load_any_scene(const SceneSource& source, std::size_t frames = 0);
 
 /// The same source, whatever the working directory is.

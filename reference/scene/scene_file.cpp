@@ -197,11 +197,8 @@ bool any_recording(const text::JsonField& root) {
 }
 
 // As many as are asked for, or as every recording has.
-std::size_t recorded_frames(const text::JsonField& root, std::size_t wanted_frames,
-                            const RecordedBodies& recorded, const Scene& scene) {
-  if (wanted_frames > 0)
-    throw InputError("--frames: scene " + text::in_quotes(scene.id) +
-                     " has recorded frames and cannot be given others");
+std::size_t recorded_frames(const text::JsonField& root, const RecordedBodies& recorded,
+                            const Scene& scene) {
   if (!root.has("frames")) return recorded.available(kMostFrames).frames;
   const std::size_t frames = root.at("frames").whole(1, kMostFrames);
   const auto [available, body] = recorded.available(frames);
@@ -249,7 +246,12 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   }
   if (scene.sweep) require_sweep_bodies(root, scene);
   if (recorded.empty()) return scene;
-  parse_times(root, recorded_frames(root, wanted_frames, recorded, scene), 0, scene);
+  const std::size_t frames = recorded_frames(root, recorded, scene);
+  parse_times(root, frames, 0, scene);
+  if (wanted_frames > frames)
+    throw InputError("--frames: scene " + text::in_quotes(scene.id) + " has " +
+                     std::to_string(frames) + " recorded frames");
+  if (wanted_frames > 0) scene.frames = wanted_frames;  // the first ones, each at its own time
   recorded.fill(scene);
   return scene;
 }

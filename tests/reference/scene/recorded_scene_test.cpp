@@ -285,14 +285,21 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
   }
 }
 
-TEST_F(RecordedScene, RefusesASimulationAndOtherFrames) {
+TEST_F(RecordedScene, GivesTheFirstFramesAtTheirOwnTimes) {
+  const Scene whole = load(kFiles, R"("frames": 5)"), first = load(kFiles, R"("frames": 5)", 3);
+  ASSERT_EQ(first.frames, 3u);
+  EXPECT_EQ(first.time_step, whole.time_step);
+  for (std::size_t f = 0; f < 3; ++f) EXPECT_EQ(first.nodes_of_frame(f), whole.nodes_of_frame(f));
+}
+
+TEST_F(RecordedScene, RefusesASimulationAndMoreFramesThanThereAre) {
   const auto file =
       scratch_.write("s.json", R"({"id": "s", "frames": 2, "simulation": {}, "levels": ["body"],
       "bodies": [{"name": "box", "recording": {"frames": "box_%02d.obj", "first": 5}}]})");
   EXPECT_THAT(sentence_of([&] { load_scene(file); }),
               HasSubstr("bodies[0].recording is not allowed in a simulated scene."));
-  EXPECT_THAT(sentence_of([&] { load(kFiles, R"("frames": 5)", 3); }),
-              HasSubstr("--frames: scene \"s\" has recorded frames and cannot be given others"));
+  EXPECT_THAT(sentence_of([&] { load(kFiles, R"("frames": 5)", 6); }),
+              HasSubstr("--frames: scene \"s\" has 5 recorded frames"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
+#include "reference/report/headline.h"
 #include "reference/report/known_defects.h"
 #include "reference/report/lattice_fits.h"
 #include "reference/report/origin.h"
@@ -22,6 +23,12 @@ constexpr const char* kRed = "\x1b[31m";
 constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kReset = "\x1b[0m";
 constexpr std::size_t kStatus = 1, kMessage = 2;
+constexpr std::size_t kWidest = 100;  // characters of a line
+constexpr std::ptrdiff_t kFewestJoined = 3;
+
+// What a reader misses least comes first.
+constexpr const char* kLeftOutFirst[] = {"slowest family", "passes", "question", "late", "body m/s",
+                                         "vs fcl-obbrss",  "recall", "hover mm", "truth"};
 
 // A run that is not `ok` has a message where others have a row of figures.
 bool is_message(const Line& line) { return line.back().empty(); }
@@ -64,7 +71,66 @@ std::string line_text(const std::vector<Column>& columns, const Line& line,
   return out + "\n";
 }
 
-std::string table(const TitledTable& of, bool color) {
+void erase_column(std::size_t i, TitledTable& of) {
+  of.columns.erase(of.columns.begin() + static_cast<std::ptrdiff_t>(i));
+  for (Line& line : of.rows)
+    if (!is_message(line)) line.erase(line.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+bool has_value(const TitledTable& of, std::size_t column) {
+  return std::any_of(of.rows.begin(), of.rows.end(),
+                     [&](const Line& line) { return !is_message(line) && line[column] != "-"; });
+}
+
+std::size_t width_of(const TitledTable& of) {
+  std::size_t width = 0;
+  for (const std::size_t column : widths_of(of.columns, of.rows)) width += 2 + column;
+  return width;
+}
+
+void fit(TitledTable& of) {
+  const bool any_row =
+      std::any_of(of.rows.begin(), of.rows.end(), [](const Line& l) { return !is_message(l); });
+  const auto position = [&](const std::string& title) {
+    return static_cast<std::size_t>(
+        std::find_if(of.columns.begin(), of.columns.end(),
+                     [&](const Column& column) { return column.title == title; }) -
+        of.columns.begin());
+  };
+  for (std::size_t i = of.columns.size(); any_row && i-- > 0;)
+    if (!has_value(of, i)) erase_column(i, of);
+  const bool timed = std::any_of(of.columns.begin(), of.columns.end(), [](const Column& column) {
+    return column.title == "ms/frame" || column.title.starts_with("vs ");
+  });
+  if (const std::size_t i = position("question"); !timed && i < of.columns.size())
+    erase_column(i, of);
+  for (const char* title : kLeftOutFirst)
+    if (const std::size_t i = position(title); i < of.columns.size() && width_of(of) > kWidest)
+      erase_column(i, of);
+}
+
+// A sentence that many rows share, once.
+void join_messages(std::vector<Line>& rows) {
+  const auto same = [](const Line& a, const Line& b) {
+    return is_message(a) && is_message(b) && a[kStatus] == b[kStatus] && a[kMessage] == b[kMessage];
+  };
+  std::vector<Line> out;
+  for (const Line& line : rows) {
+    const auto equal = [&](const Line& other) { return same(line, other); };
+    const auto count = std::count_if(rows.begin(), rows.end(), equal);
+    if (count < kFewestJoined) {
+      out.push_back(line);
+    } else if (std::find_if(rows.begin(), rows.end(), equal)->front() == line.front()) {
+      out.push_back(line);
+      out.back().front() = fmt::format("{} detectors", count);
+    }
+  }
+  rows = std::move(out);
+}
+
+std::string table(TitledTable of, bool color) {
+  join_messages(of.rows);
+  fit(of);
   const std::vector<std::size_t> widths = widths_of(of.columns, of.rows);
   Line titles;
   for (const Column& c : of.columns) titles.emplace_back(c.title);
@@ -93,8 +159,8 @@ std::string terminal_legend() {
 
 }  // namespace
 
-std::string terminal_tables(const results::Results& results, bool color) {
-  std::string out;
+std::string terminal_tables(const results::Results& results, bool color, bool explain) {
+  std::string out = paint(headline_of(results).title, kBold, color) + "\n\n";
   const results::Index index(results);
   for (const results::Scene* scene : shown_scenes(results)) {
     if (scene->family) continue;
@@ -116,6 +182,7 @@ std::string terminal_tables(const results::Results& results, bool color) {
            "\n";
   if (const TitledTable goals = goals_table(results); !goals.rows.empty())
     out += paint("goals", kBold, color) + "\n" + table(goals, color);
+  if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";
   return out + terminal_legend();

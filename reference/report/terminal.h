@@ -6,8 +6,10 @@
 
 namespace contactcheck::report {
 
-/// The result tables of all scenes as aligned plain text, with a legend. `color` adds ANSI colours
-/// to misses, spurious contacts and errors.
-std::string terminal_tables(const results::Results& results, bool color);
+/// The verdict in one line, and the result tables of all scenes as aligned plain text. Columns
+/// without a value are left out, and as many others as it takes for lines of 100 characters.
+/// `color` adds ANSI colours to misses, spurious contacts and errors; `explain` the meaning of all
+/// columns and how times were taken.
+std::string terminal_tables(const results::Results& results, bool color, bool explain = false);
 
 }  // namespace contactcheck::report

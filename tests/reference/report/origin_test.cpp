@@ -80,7 +80,7 @@ TEST(Steadiness, StandsInReportsAndInTheTerminal) {
   EXPECT_THAT(line, HasSubstr("inside 0 of 1 intervals"));
   EXPECT_EQ(machine_lines(results).back(), line);
   EXPECT_THAT(machine_lines(results), Contains(timing_line(results)));
-  EXPECT_THAT(terminal_tables(results, false), HasSubstr("\n\n  " + line + "\n\n"));
+  EXPECT_THAT(terminal_tables(results, false, true), HasSubstr("\n\n  " + line + "\n\n"));
   EXPECT_THAT(markdown_report(results), HasSubstr("- " + line + "\n"));
 }
 

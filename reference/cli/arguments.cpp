@@ -6,20 +6,21 @@
 #include <charconv>
 #include <utility>
 
+#include "reference/cli/command_words.h"
+
 namespace contactcheck::cli {
 namespace {
 
 // In the order of --help.
 constexpr void (*kSubcommands[])(CommandLine&) = {
-    add_run, add_merge, add_reproduce, add_tune, add_reduce, add_export,  add_gate,   add_accept,
-    add_ab,  add_list,  add_report,    add_diff, add_truth,  add_defects, add_workers};
+    add_run,    add_init, add_merge, add_reproduce, add_tune, add_reduce, add_export,  add_gate,
+    add_accept, add_ab,   add_list,  add_report,    add_diff, add_truth,  add_defects, add_workers};
 
 template <typename Commands>
 void add_command_option(CLI::App& command, Commands& commands) {
   command
       .add_option("--detector-cmd", commands,
-                  "a detector of your own that is a command: it reads frames and writes contacts "
-                  "over pipes (reference/plugin/README.md)")
+                  "detector that is a command with pipes (reference/plugin/README.md)")
       ->allow_extra_args(false)
       ->type_name("CMD");
 }
@@ -36,12 +37,14 @@ void add_commands(CLI::App& command, std::vector<std::string>& detectors) {
 
 void describe_program(CommandLine& line) {
   line.app.name("contactcheck");
-  line.app.description("Judges collision detectors of deformable bodies against an exact oracle.");
+  line.app.description(
+      "Tests collision detectors for deformable meshes against exact ground truth.");
+  line.app.formatter(help_formatter());
   line.app.require_subcommand(1);
   line.app.set_version_flag("--version", CONTACTCHECK_VERSION);
   line.app.footer(
-      "Exit codes: 0 done, 1 a check says no, 2 bad usage, bad input or output that cannot be "
-      "written, 3 a detector ended in an error that is no known defect.\n"
+      "Exit codes: 0 done, 1 a check fails, 2 bad usage, bad input or output that cannot be\n"
+      "written, 3 status error of a detector that is no known defect.\n"
       "Example:\n  contactcheck run bunny-touch");
   for (const auto& add : kSubcommands) add(line);
 }
@@ -77,19 +80,13 @@ std::function<std::string(const std::string&)> number_in(double least, double mo
 
 void add_limits(CLI::App& command, double& seconds, std::uint64_t& mib) {
   command
-      .add_option(
-          "--call-limit", seconds,
-          fmt::format("time limit for one detector call, in seconds (default {:g}); a slower call "
-                      "gets status error",
-                      seconds))
+      .add_option("--call-limit", seconds,
+                  fmt::format("time limit for one detector call (default {:g})", seconds))
       ->check(number_in(0.1, 1e6, "0.1 to 1000000"))
       ->type_name("SECONDS");
   command
-      .add_option(
-          "--memory-limit", mib,
-          fmt::format("resident memory of a worker process and what it starts (default {}); "
-                      "a detector that exceeds it gets status error",
-                      mib))
+      .add_option("--memory-limit", mib,
+                  fmt::format("memory limit of a worker process (default {})", mib))
       ->check(whole_in(64, 1 << 30))
       ->type_name("MIB");
 }

@@ -9,25 +9,26 @@ namespace contactcheck::cli {
 void add_reduce(CommandLine& line) {
   const auto arguments = std::make_shared<ReduceArguments>();
   CLI::App* reduce = line.app.add_subcommand(
-      "reduce", "shrink a disagreement to the fewest triangles and the simplest numbers");
+      "reduce", "Shrinks a wrong answer to the fewest triangles and simplest numbers");
   reduce
       ->add_option("case", arguments->target,
-                   "a case file of run; or a scene, family or recording (with @FRAME or @VALUE "
-                   "behind it, else its first frame with a disagreement) and --detector")
+                   "case file of run, or a scene[@FRAME] with --detector")
       ->required();
-  reduce->add_option("--detector", arguments->detector,
-                     "the detector, or a shared library; default: the case's");
+  reduce->add_option("--detector", arguments->detector, "detector or FILE.so (default: the case's)")
+      ->type_name("NAME");
   add_commands(*reduce, arguments->command);
-  reduce->add_option("--level", arguments->level,
-                     "a disagreement at this level; default: the case's, or the finest");
-  reduce->add_option("--kind", arguments->kind, "missed, spurious or error; default: the case's")
-      ->check(CLI::IsMember({"missed", "spurious", "error"}));
+  reduce
+      ->add_option("--level", arguments->level,
+                   "level of the wrong answer (default: the case's, or the finest)")
+      ->type_name("LEVEL");
+  reduce->add_option("--kind", arguments->kind, "missed, spurious or error (default: the case's)")
+      ->check(CLI::IsMember({"missed", "spurious", "error"}))
+      ->type_name("KIND");
   reduce
       ->add_option("--out", arguments->out,
-                   "file of the minimal case, a family of one value that run takes (default: "
-                   "NNNN.min.json beside the case; of a scene in out/cases)")
+                   "minimal case, a family that run takes (default: beside the case)")
       ->type_name("FILE");
-  reduce->add_option("--budget", arguments->budget, "candidates that may be tried (default 20000)")
+  reduce->add_option("--budget", arguments->budget, "candidates to try at most (default 20000)")
       ->check(whole_in(1, 100000000))
       ->type_name("N");
   add_limits(*reduce, arguments->call_limit, arguments->memory_limit_mib);
@@ -45,18 +46,18 @@ void add_reduce(CommandLine& line) {
 void add_export(CommandLine& line) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* exported = line.app.add_subcommand(
-      "export", "the exact truth of scenes, with certificates that a short script checks");
+      "export", "Writes frames and ground truth with certificates and their checker");
   exported
-      ->add_option("targets", arguments->targets,
-                   "suites, scenes, families or files (.json scene or suite, .ccr recording)")
+      ->add_option("targets", arguments->targets, "suites, scenes, families, .json or .ccr files")
       ->required();
   exported->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
   exported->add_option("--every", arguments->every, "write every Nth frame (default 1)")
       ->check(whole_in(1, 100000));
-  exported->add_option("--out", arguments->out,
-                       "folder for a folder per scene: surfaces (PLY), certificates, check.py "
-                       "(default out/export)");
+  exported
+      ->add_option("--out", arguments->out,
+                   "folder for surfaces, certificates, check.py (default out/export)")
+      ->type_name("DIR");
   exported->footer(
       "Examples:\n"
       "  contactcheck export bunny-touch && python3 out/export/bunny-touch/check.py\n"

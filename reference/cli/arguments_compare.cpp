@@ -8,23 +8,23 @@
 namespace contactcheck::cli {
 namespace {
 
-struct DiffFiles {
+struct DiffWords {
   std::string before, after;
+  bool fail = false;
 };
 
 void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
   ab.add_option("--slower-than", arguments.slower_than,
-                "time(head) / time(base) that is allowed (default 1.1)")
+                "allowed time(head) / time(base) (default 1.1)")
       ->check(number_in(1.0, 1e9, "1 to 1000000000"))
       ->type_name("RATIO");
   ab.add_option("--floor-us", arguments.floor_us,
-                "microseconds a frame that do not matter, whatever the ratio (default 20)")
+                "microseconds per frame that never matter (default 20)")
       ->check(number_in(0.0, 1e9, "0 to 1000000000"))
       ->type_name("US");
   ab.add_flag("--accuracy-may-change", arguments.accuracy_may_change,
-              "name other answers, but do not fail for them");
-  ab.add_flag("--github", arguments.github,
-              "GitHub annotations, and a job summary in the file $GITHUB_STEP_SUMMARY");
+              "report changed answers, but do not fail");
+  ab.add_flag("--github", arguments.github, "write GitHub annotations and a job summary");
 }
 
 }  // namespace
@@ -32,24 +32,24 @@ void add_ab_limits(CLI::App& ab, AbArguments& arguments) {
 void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
-      "ab",
-      "compare two builds, of this program or of your library: is HEAD slower, does it answer "
-      "differently");
-  ab->add_option("base", arguments->base,
-                 "the program as it was, or the shared library of a detector")
+      "ab", "Compares two builds: is HEAD slower, does it answer differently");
+  ab->add_option("base", arguments->base, "old program, or shared library of a detector")
       ->required();
-  ab->add_option("head", arguments->head, "the program as it is, or the library")->required();
+  ab->add_option("head", arguments->head, "new program, or shared library of a detector")
+      ->required();
   ab->add_option("targets", arguments->targets,
-                 "suites, scenes or files, as of run; default: default");
-  ab->add_option("--detector", arguments->detectors, "a detector, repeatable; default: the suite's")
+                 "suites, scenes or files, as of run (default: default)");
+  ab->add_option("--detector", arguments->detectors, "detector, repeatable (default: the suite's)")
+      ->type_name("NAME")
       ->allow_extra_args(false);
-  ab->add_option("--rounds", arguments->rounds, "how often each of them runs (default 7)")
+  ab->add_option("--rounds", arguments->rounds, "rounds, each runs both (default 7)")
       ->check(whole_in(results::kFewestForInterval, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
   add_ab_limits(*ab, *arguments);
-  ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)");
-  ab->add_flag("--quiet", arguments->quiet, "no progress");
+  ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)")
+      ->type_name("DIR");
+  ab->add_flag("--quiet", arguments->quiet, "print no progress");
   ab->footer(
       "Rounds are base head, head base, ..., each in fresh processes. A ratio is the geometric\n"
       "mean over rounds, with its 95 % interval. A detector fails only when all of that is beyond\n"
@@ -64,15 +64,16 @@ void add_ab(CommandLine& line) {
 }
 
 void add_diff(CommandLine& line) {
-  const auto files = std::make_shared<DiffFiles>();
+  const auto words = std::make_shared<DiffWords>();
   CLI::App* diff =
-      line.app.add_subcommand("diff", "two results side by side: worse, better, new, gone");
-  diff->add_option("before", files->before, "a results.json")->required();
-  diff->add_option("after", files->after, "another")->required();
+      line.app.add_subcommand("diff", "Compares two results: worse, better, new, gone");
+  diff->add_option("before", words->before, "results.json")->required();
+  diff->add_option("after", words->after, "results.json")->required();
   diff->footer(
       "Answers are compared exactly, times as speed-ups over a common reference.\n"
       "Example:\n  contactcheck diff old/results.json out/results.json");
-  choose(*diff, line, [files] { return diff_command(files->before, files->after); });
+  diff->add_flag("--fail", words->fail, "exit code 1 when an answer is worse or a row is gone");
+  choose(*diff, line, [words] { return diff_command(words->before, words->after, words->fail); });
 }
 
 }  // namespace contactcheck::cli

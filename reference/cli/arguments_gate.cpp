@@ -15,21 +15,19 @@ struct AcceptFiles {
 
 void add_gate(CommandLine& line) {
   const auto arguments = std::make_shared<GateArguments>();
-  CLI::App* gate = line.app.add_subcommand(
-      "gate", "hold results against the rules of a policy; what a CI job calls");
-  gate->add_option("results", arguments->results, "a results.json")->required();
+  CLI::App* gate =
+      line.app.add_subcommand("gate", "Checks results against the rules of a policy, in CI");
+  gate->add_option("results", arguments->results, "results.json")->required();
   gate->add_option("--policy", arguments->policy,
-                   "policy file (default with --baseline: fixtures/policies/unchanged.json)")
+                   "policy, a file or a name (default with --baseline: unchanged)")
       ->type_name("FILE");
   gate->add_option("--baseline", arguments->baseline,
-                   "results of an earlier run, as accept writes them; what they have must be there")
+                   "baseline, as accept writes it; its rows must be there")
       ->type_name("RESULTS");
   gate->add_option("--junit", arguments->junit,
-                   "JUnit XML: a test case per rule, scene and detector")
+                   "write JUnit XML: a test case per rule, scene and detector")
       ->type_name("FILE");
-  gate->add_flag("--github", arguments->github,
-                 "annotations for GitHub Actions, and a job summary in the file that "
-                 "GITHUB_STEP_SUMMARY names");
+  gate->add_flag("--github", arguments->github, "write GitHub annotations and a job summary");
   gate->footer(
       "Exit code 1 when the policy is broken.\n"
       "Examples:\n"
@@ -43,9 +41,9 @@ void add_gate(CommandLine& line) {
 void add_accept(CommandLine& line) {
   const auto files = std::make_shared<AcceptFiles>();
   CLI::App* accept =
-      line.app.add_subcommand("accept", "make results the baseline that later gates compare with");
-  accept->add_option("results", files->results, "a results.json")->required();
-  accept->add_option("--as", files->baseline, "the baseline's file; what it changes is printed")
+      line.app.add_subcommand("accept", "Writes results as the baseline of later gates");
+  accept->add_option("results", files->results, "results.json")->required();
+  accept->add_option("--as", files->baseline, "file of the baseline; changes are printed")
       ->required()
       ->type_name("FILE");
   accept->footer(

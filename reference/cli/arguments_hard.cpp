@@ -21,23 +21,20 @@ struct DefectsWords {
 
 void add_truth(CommandLine& line) {
   const auto words = std::make_shared<TruthWords>();
-  CLI::App* truth = line.app.add_subcommand("truth", "print the ground truth of each hard case");
-  truth->add_option("families", words->families, "their ids; default: all");
-  truth->add_flag(
-      "--write", words->write,
-      "keep the answers in fixtures/hard/expected.json, which tests hold the oracle to");
+  CLI::App* truth = line.app.add_subcommand("truth", "Prints the ground truth of each hard case");
+  truth->add_option("families", words->families, "ids of families (default: all)");
+  truth->add_flag("--write", words->write, "update fixtures/hard/expected.json");
   truth->footer("Example:\n  contactcheck truth hard-vertex-face");
   choose(*truth, line, [words] { return truth_command(words->families, words->write); });
 }
 
 void add_defects(CommandLine& line) {
   const auto words = std::make_shared<DefectsWords>();
-  CLI::App* defects = line.app.add_subcommand(
-      "defects", "compare the wrong answers of a run with those that are known");
-  defects->add_option("results", words->results, "a results.json, of the suite hard")->required();
-  defects->add_flag(
-      "--write", words->write,
-      "make fixtures/hard/known-defects.json and readings.json say what the run shows");
+  CLI::App* defects =
+      line.app.add_subcommand("defects", "Compares the wrong answers of a run with the known ones");
+  defects->add_option("results", words->results, "results.json of the suite hard")->required();
+  defects->add_flag("--write", words->write,
+                    "update known-defects.json and readings.json of fixtures/hard");
   defects->footer(
       "Exit code 1 when a listed wrong answer did not show or has another count, or an unlisted "
       "one did.\n"

@@ -12,14 +12,14 @@ void add_merge(CommandLine& line) {
     std::string out = "out";
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* merge = line.app.add_subcommand(
-      "merge", "put the results of all shards of a run together (run --shard K/N)");
-  merge->add_option("results", arguments->results, "the results.json of every shard")->required();
-  merge->add_option("--out", arguments->out,
-                    "folder for results.json, reports, cases, contacts, recordings (default out)");
+  CLI::App* merge =
+      line.app.add_subcommand("merge", "Assembles the results of all shards of a run");
+  merge->add_option("results", arguments->results, "results.json of every shard")->required();
+  merge->add_option("--out", arguments->out, "folder for all files (default out)")
+      ->type_name("DIR");
   merge->footer(
-      "The results are those of the run in one piece, times aside. Shards of other versions,\n"
-      "builds, settings or scenes are refused, and so are a missing, a doubled and a damaged one.\n"
+      "The results equal those of one run, except timings. Missing, duplicate and damaged shards\n"
+      "are refused, and shards of other versions, builds, settings or scenes.\n"
       "Timed shards must be of one kind of machine.\n"
       "Example:\n"
       "  contactcheck run references --shard 1/2 --out part1\n"

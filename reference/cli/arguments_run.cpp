@@ -25,74 +25,84 @@ std::optional<double> size_of(const std::string& text) {
   return size;
 }
 
-std::string motions_help() {
-  std::string out = "how they meet (default approach):";
-  for (const scene::NamedMotion& motion : scene::named_motions())
-    out += std::string(&motion == &scene::named_motions().front() ? " " : "; ") + motion.name +
-           ": " + motion.says;
-  return out;
-}
-
-// --mesh, --motion, --size, --save-scene. Both must outlive the parsing.
-void add_mesh_options(CLI::App& run, RunArguments& arguments) {
-  scene::MeshSceneRequest& request = arguments.meshes;
-  CLI::Option* mesh =
-      run.add_option_function<std::vector<std::string>>(
-             "--mesh",
-             [&request](const std::vector<std::string>& files) {
-               request.meshes.assign(files.begin(), files.end());
-             },
-             "a mesh file (OBJ, PLY, OFF, STL, others through assimp), twice or more: they "
-             "become a scene, each in a lattice of about 150 kept cells, beside the targets or "
-             "alone; 2 s, 60 frames unless --frames says otherwise. With the suite drawn: once "
-             "or more, in place of its meshes")
-          ->allow_extra_args(false)
-          ->type_name("FILE");
-  run.add_option("--motion", request.motion, motions_help())->type_name("NAME")->needs(mesh);
-  run.add_option_function<std::string>(
-         "--size", [&request](const std::string& text) { request.size = size_of(text); },
-         "largest side of each mesh in metres (default 1), or file: as it is there")
-      ->type_name("METRES")
-      ->needs(mesh);
-  run.add_option("--save-scene", arguments.save_scene,
-                 "keep the scenes of the run (drawn, of meshes, or from files) as scene files, to "
-                 "be edited and run again: one in the file of this name, several in the folder; a "
-                 "file that is there is not written over")
-      ->type_name("PATH");
+// By its ending: ids have none of these.
+bool names_mesh(const std::string& target) {
+  const std::filesystem::path file(target);
+  std::string ending = file.extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (ending.empty() || ending == ".json" || ending == ".ccr") return false;
+  std::error_code ignored;
+  return ending == ".obj" || ending == ".ply" || ending == ".off" || ending == ".stl" ||
+         std::filesystem::is_regular_file(file, ignored);
 }
 
 struct RunWords {
   RunArguments run;
   bool no_timing = false;
   std::uint64_t pairs = 0;
+  std::string needs_mesh;  ///< an option that is for meshes alone and was given
 
   RunArguments arguments() const {
     RunArguments out = run;
     out.timing = !no_timing;
     if (pairs > 0) out.pairs = scene::PairSpec{pairs, run.seed};
+    // A mesh file among the targets is one of --mesh.
+    std::vector<std::string> targets;
+    for (const std::string& target : run.targets)
+      if (names_mesh(target))
+        out.meshes.meshes.emplace_back(target);
+      else
+        targets.push_back(target);
+    out.targets = targets;
+    if (!needs_mesh.empty() && out.meshes.meshes.empty())
+      throw InputError(needs_mesh + " requires --mesh or a mesh file");
     return out;
   }
 };
 
+// --mesh, --motion, --size, --save-scene. `words` must outlive the parsing.
+void add_mesh_options(CLI::App& run, RunWords& words) {
+  scene::MeshSceneRequest& request = words.run.meshes;
+  run.add_option_function<std::vector<std::string>>(
+         "--mesh",
+         [&request](const std::vector<std::string>& files) {
+           request.meshes.assign(files.begin(), files.end());
+         },
+         "mesh file, twice or more; also without --mesh")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  run.add_option_function<std::string>(
+         "--motion",
+         [&words](const std::string& name) {
+           words.run.meshes.motion = name;
+           words.needs_mesh = "--motion";
+         },
+         "approach, press, twist or pass (default approach)")
+      ->type_name("NAME");
+  run.add_option_function<std::string>(
+         "--size",
+         [&words](const std::string& text) {
+           words.run.meshes.size = size_of(text);
+           words.needs_mesh = "--size";
+         },
+         "largest side of each mesh, or file: as in the file (default 1)")
+      ->type_name("METRES");
+  run.add_option("--save-scene", words.run.save_scene,
+                 "keep the scenes as scene files; nothing is overwritten")
+      ->type_name("PATH");
+}
+
 void add_threads(CLI::App& command, std::uint32_t& threads) {
-  command
-      .add_option("--threads", threads,
-                  "threads of detectors that can use them, and that deform the bodies of "
-                  "simulated scenes (default 1); results do not depend on it, times do")
+  command.add_option("--threads", threads, "threads of detectors and of deformation (default 1)")
       ->check(whole_in(1, 256));
 }
 
 void add_pairs(CLI::App& run, RunWords& words) {
-  run.add_option("--pairs", words.pairs,
-                 "add a scene of N random hard triangle pairs, random-pairs, to the targets, or "
-                 "run it alone; the oracle is checked against rational arithmetic on each; "
-                 "detectors: those of the suite hard")
+  run.add_option("--pairs", words.pairs, "add N random hard triangle pairs as scene random-pairs")
       ->check(whole_in(1, scene::kMostPairs))
       ->type_name("N");
-  run.add_option("--seed", words.run.seed,
-                 "of the drawn scenes, of the random pairs, of the order in which detectors are "
-                 "timed and of the frames "
-                 "that are timed cold (default 1)")
+  run.add_option("--seed", words.run.seed, "seed of all that is random (default 1)")
       ->check(whole_in(0, scene::kLargestPairSeed))
       ->type_name("S");
 }
@@ -100,7 +110,7 @@ void add_pairs(CLI::App& run, RunWords& words) {
 void add_count(CLI::App& run, RunWords& words) {
   run.add_option_function<std::size_t>(
          "--count", [&words](const std::size_t& count) { words.run.count = count; },
-         "scenes of the suite drawn, drawn-S-1 to drawn-S-N of the seed S (default 20)")
+         "number of drawn scenes (default 20)")
       ->check(whole_in(1, scene::kMostDrawnScenes))
       ->type_name("N");
 }
@@ -110,8 +120,7 @@ void add_shard(CLI::App& run, RunArguments& arguments) {
   run.add_option_function<std::string>(
          "--shard",
          [&arguments](const std::string& text) { arguments.shard = suite::parse_shard(text); },
-         "run only shard K of N (scenes are assigned round-robin); merge assembles the results of "
-         "all shards")
+         "run only shard K of N; merge assembles the results")
       ->type_name("K/N");
 }
 
@@ -121,52 +130,49 @@ void add_run(CommandLine& line) {
   const auto words = std::make_shared<RunWords>();
   RunArguments& arguments = words->run;
   arguments.command_line = line.words;
-  CLI::App* run = line.app.add_subcommand("run", "run detectors on scenes and judge every answer");
-  run->add_option(
-      "targets", arguments.targets,
-      "suites, scenes or files (.json scene, suite or rules of drawn scenes, .ccr recording); "
-      "default: default");
+  CLI::App* run =
+      line.app.add_subcommand("run", "Runs detectors on scenes and judges every answer");
+  run->add_option("targets", arguments.targets,
+                  "suites, scenes, .json, .ccr or mesh files (default: default)");
   run->add_option("--detector", arguments.detectors,
-                  "a detector, repeatable; default: the suite's; with '/' or .so in its name a "
-                  "shared library of your own (reference/plugin/README.md)")
+                  "detector, repeatable; FILE.so is a plug-in (default: the suite's)")
+      ->type_name("NAME")
       ->allow_extra_args(false);
+  run->add_option("--detectors", arguments.detectors_of, "add the detectors of this suite")
+      ->type_name("SUITE");
   add_commands(*run, arguments.commands);
   run->add_option("--frames", arguments.frames, "frames per scene, same duration")
       ->check(whole_in(1, 100000));
   run->add_option("--processes", arguments.processes,
-                  "timed passes through all frames, each in a fresh process; from 5 on there are "
-                  "95 % intervals (default 3, and 1 of detectors that take over 2 s for it)")
+                  "timed passes, each in a fresh process (default 3)")
       ->check(whole_in(1, 100))
       ->type_name("N");
-  run->add_option("--out", arguments.out,
-                  "folder for results.json, reports, cases, contacts, recordings "
-                  "(default out); of one run at a time");
+  run->add_option("--out", arguments.out, "folder for all files (default out)")->type_name("DIR");
   run->add_flag("--closed-loop", arguments.closed_loop,
-                "simulated scenes: let every detector drive the simulation too, and time whole "
-                "steps");
+                "simulated scenes: every detector drives the simulation, too");
   add_threads(*run, arguments.threads);
-  run->add_option("--isa", arguments.isas,
-                  "instruction set of detectors that have a choice (default best), repeatable: "
-                  "every such detector runs with each")
+  run->add_option("--isa", arguments.isas, "instruction set, repeatable (default: the best)")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  add_mesh_options(*run, arguments);
+  add_mesh_options(*run, *words);
   add_pairs(*run, *words);
   add_count(*run, *words);
   add_limits(*run, arguments.call_limit, arguments.memory_limit_mib);
   run->add_flag("--no-timing", words->no_timing, "judge only");
   run->add_flag("--reduce", arguments.reduce,
-                "reduce the first wrong answer of each detector, level and kind to a minimal case, "
-                "as the command reduce does");
-  run->add_flag("--resume", arguments.resume,
-                "take over the scenes that an interrupted run with the same settings has finished "
-                "in --out");
+                "make minimal cases of each detector's first wrong answers");
+  run->add_flag("--resume", arguments.resume, "continue an interrupted run in --out");
   add_shard(*run, arguments);
-  run->add_flag("--quiet", arguments.quiet, "no progress, no tables");
+  run->add_flag("--quiet", arguments.quiet, "print no progress and no tables");
+  run->add_flag("--explain", arguments.explain, "print what the columns mean");
   run->add_flag("--json-lines", arguments.json_lines,
-                "for machines: what happens, as one JSON object a line, and nothing else, on "
-                "standard output (events start, progress, scene and end; fixtures/README.md)");
+                "print events as JSON lines, nothing else (fixtures/README.md)");
   run->footer(
+      "Two or more mesh files become a scene: each in a lattice of about 150 kept cells, 60 frames "
+      "in\n"
+      "2 s. From 5 passes on, ratios have 95 % intervals; a detector that takes over 2 s for a "
+      "pass\n"
+      "has one. A call or process beyond a limit ends in status error.\n"
       "Examples:\n"
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"
@@ -187,19 +193,19 @@ void add_run(CommandLine& line) {
 void add_reproduce(CommandLine& line) {
   const auto arguments = std::make_shared<RunArguments>();
   arguments->command_line = line.words;
-  CLI::App* reproduce =
-      line.app.add_subcommand("reproduce", "simulate the paper's scenes; its tables beside ours");
-  reproduce->add_option("scenes", arguments->targets,
-                        "some of its scenes; default: the suite paper");
-  reproduce->add_option("--frames", arguments->frames, "frames per scene, same step")
+  CLI::App* reproduce = line.app.add_subcommand(
+      "reproduce", "Simulates the paper's scenes and compares its tables with ours");
+  reproduce->add_option("scenes", arguments->targets, "scenes of the suite paper (default: all)");
+  reproduce->add_option("--frames", arguments->frames, "frames per scene, same time step")
       ->check(whole_in(1, 100000));
   reproduce->add_option("--repeat", arguments->step_repeats, "timed repeats per step (default 5)")
       ->check(whole_in(1, 1000));
   add_threads(*reproduce, arguments->threads);
-  reproduce->add_option("--out", arguments->out,
-                        "folder for reproduction.md, reproduction.json and all that run writes "
-                        "(default out)");
-  reproduce->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  reproduce
+      ->add_option("--out", arguments->out,
+                   "folder: reproduction.md, reproduction.json, files of run (default out)")
+      ->type_name("DIR");
+  reproduce->add_flag("--quiet", arguments->quiet, "print no progress and no table");
   reproduce->footer(
       "Examples:\n"
       "  contactcheck reproduce\n"

@@ -8,6 +8,10 @@
 namespace contactcheck::cli {
 namespace {
 
+struct InitWords {
+  std::string folder, language = "python";
+};
+
 struct ReportWords {
   std::string results, out = "out";
   std::vector<std::string> formats = all_report_formats();
@@ -17,16 +21,14 @@ struct ReportWords {
 
 void add_list(CommandLine& line) {
   const auto arguments = std::make_shared<ListArguments>();
-  CLI::App* list =
-      line.app.add_subcommand("list", "scenes, suites and detectors, with one line each");
+  CLI::App* list = line.app.add_subcommand("list", "Lists scenes, suites and detectors");
   list->add_flag("--suites", arguments->suites, "suites only");
   list->add_flag("--scenes", arguments->scenes, "scenes only");
   list->add_flag("--families", arguments->families, "families of hard cases only");
-  list->add_flag("--detectors", arguments->detectors,
-                 "detectors only, with what each claims and its options");
+  list->add_flag("--detectors", arguments->detectors, "detectors only, with claims and options");
   list->add_option("--detector", arguments->named,
-                   "this detector only, repeatable: a name, or with '/' or .so in it a shared "
-                   "library of your own, which is loaded in a process of its own and asked")
+                   "this detector only, repeatable; FILE.so is a plug-in")
+      ->type_name("NAME")
       ->allow_extra_args(false);
   add_commands(*list, arguments->commands);
   list->footer(
@@ -38,18 +40,29 @@ void add_list(CommandLine& line) {
   choose(*list, line, [arguments, &line] { return list_command(*arguments, line.catalog); });
 }
 
+void add_init(CommandLine& line) {
+  const auto words = std::make_shared<InitWords>();
+  CLI::App* init = line.app.add_subcommand(
+      "init", "Writes a folder with scene, detector, policy and CI job to begin with");
+  init->add_option("folder", words->folder, "new folder")->required();
+  init->add_option("--language", words->language, "python, c or c++ (default python)")
+      ->type_name("NAME");
+  init->footer("Example:\n  contactcheck init mine && cd mine");
+  choose(*init, line, [words] { return init_command(words->folder, words->language); });
+}
+
 void add_report(CommandLine& line) {
   const auto words = std::make_shared<ReportWords>();
   CLI::App* report =
-      line.app.add_subcommand("report", "write the report of an old results.json again");
+      line.app.add_subcommand("report", "Writes the reports of a results.json again");
   report
       ->add_option("results", words->results,
-                   "a results.json; the HTML report's 3D view draws the recordings and contacts "
-                   "beside it")
+                   "results.json; recordings and contacts are read beside it")
       ->required();
-  report->add_option("--format", words->formats, "formats: csv, html, md (default: all)")
+  report->add_option("--format", words->formats, "csv, html, md (default: all)")
+      ->type_name("LIST")
       ->delimiter(',');
-  report->add_option("--out", words->out, "folder (default out)");
+  report->add_option("--out", words->out, "folder (default out)")->type_name("DIR");
   report->footer(
       "Examples:\n"
       "  contactcheck report out/results.json --out /tmp/report\n"

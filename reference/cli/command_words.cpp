@@ -1,9 +1,15 @@
 #include "reference/cli/command_words.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+
+#include "reference/cli/wrapped_text.h"
 
 namespace contactcheck::cli {
 namespace {
+
+constexpr std::size_t kHelpColumn = 27, kHelpWidth = 100;
 
 // CLI11 says "UINT:INT in [1 - 100]" where a reader wants "N" and "(1 to 100)".
 void split_range(OptionWords& words) {
@@ -31,6 +37,18 @@ OptionWords words_of(const CLI::Option& option) {
   return words;
 }
 
+class OneLineAnOption : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool) const override {
+    const OptionWords words = words_of(*option);
+    std::string left;
+    for (const std::string& flag : words.flags) left += (left.empty() ? "" : ",") + flag;
+    if (!words.value.empty()) left += " " + words.value;
+    return fmt::format("  {:<{}}", left, kHelpColumn - 2) +
+           wrapped_text(words.help, kHelpColumn, kHelpWidth);
+  }
+};
+
 CommandWords command_words(const CLI::App& app) {
   CommandWords words{app.get_name(), app.get_description(), app.get_footer(), {}};
   for (const CLI::Option* option : app.get_options())
@@ -39,6 +57,12 @@ CommandWords command_words(const CLI::App& app) {
 }
 
 }  // namespace
+
+std::shared_ptr<CLI::FormatterBase> help_formatter() {
+  auto formatter = std::make_shared<OneLineAnOption>();
+  formatter->column_width(kHelpColumn);
+  return formatter;
+}
 
 ProgramWords words_of(const CLI::App& app) {
   ProgramWords words;

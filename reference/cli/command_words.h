@@ -1,12 +1,14 @@
 // The words of the command line as data, for pages and scripts that must not be written twice.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace CLI {
 class App;
-}
+class FormatterBase;
+}  // namespace CLI
 
 namespace contactcheck::cli {
 
@@ -31,5 +33,8 @@ struct ProgramWords {
 };
 
 ProgramWords words_of(const CLI::App& app);
+
+/// Help with one line an option, in the same words.
+std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace contactcheck::cli

@@ -22,6 +22,7 @@ struct RunArguments {
   std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
   std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
   std::vector<std::string> commands;   ///< detectors that are talked to over pipes
+  std::string detectors_of;            ///< a suite, whose detectors run before these; empty: none
   std::size_t frames = 0, step_repeats = suite::RunSettings{}.step_repeats;
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
   std::uint64_t seed = suite::RunSettings{}.seed;
@@ -33,6 +34,7 @@ struct RunArguments {
   scene::MeshSceneRequest meshes;
   std::filesystem::path save_scene;  ///< where scenes are kept as files; empty: nowhere
   bool timing = true, quiet = false, resume = false;
+  bool explain = false;     ///< what the columns mean
   bool reduce = false;      ///< the first wrong answers, when all has run
   bool json_lines = false;  ///< events on stdout, and nothing else there
   std::uint32_t threads = 1;
@@ -108,6 +110,9 @@ int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.
 int reproduce_command(RunArguments arguments, const DetectorCatalog& catalog);
+/// Writes a folder to begin with: scene, detector, policy and CI job, which run unchanged.
+/// @throws InputError: an unknown language, a folder that has something in it
+int init_command(const std::filesystem::path& folder, const std::string& language);
 /// Searches the cheapest configuration within limits; 1 when it finds none.
 int tune_command(const TuneArguments& arguments, const DetectorCatalog& catalog);
 int list_command(const ListArguments& arguments, const DetectorCatalog& catalog);
@@ -123,8 +128,9 @@ std::filesystem::path hard_cases_folder();
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);
-/// Prints what differs between two results.
-int diff_command(const std::filesystem::path& before, const std::filesystem::path& after);
+/// Prints what differs between two results; with `fail` 1 when an answer is worse or a row is gone.
+int diff_command(const std::filesystem::path& before, const std::filesystem::path& after,
+                 bool fail);
 /// Holds results against a policy; 1 when it says no. `github` adds annotations on standard output
 /// and appends to the file that GITHUB_STEP_SUMMARY names, where it does.
 int gate_command(const GateArguments& arguments);

@@ -13,8 +13,7 @@ ValueKind kind_of(const OptionWords& option) {
   if (option.positional) return ValueKind::kFile;
   if (option.value.empty()) return ValueKind::kNothing;
   const std::string& value = option.value;
-  const bool file = value == "FILE" || value == "RESULTS" || value == "DIR" ||
-                    (value == "TEXT" && name != "--level" && name != "--kind");
+  const bool file = value == "FILE" || value == "RESULTS" || value == "DIR" || value == "TEXT";
   return file ? ValueKind::kFile : ValueKind::kWord;
 }
 

@@ -1,8 +1,10 @@
 #include "reference/results/results_diff.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "reference/cli/commands.h"
+#include "reference/process/exit_codes.h"
 #include "reference/results/results_file.h"
 
 namespace contactcheck::cli {
@@ -16,12 +18,18 @@ void print_heading(const char* label, const std::filesystem::path& file,
 
 }  // namespace
 
-int diff_command(const std::filesystem::path& before, const std::filesystem::path& after) {
+int diff_command(const std::filesystem::path& before, const std::filesystem::path& after,
+                 bool fail) {
   const results::Results was = results::results_in(before), is = results::results_in(after);
   print_heading("before", before, was);
   print_heading("after", after, is);
-  std::printf("\n%s", results::diff_text(results::diff_results(was, is)).c_str());
-  return 0;
+  const results::ResultsDiff diff = results::diff_results(was, is);
+  std::printf("\n%s", results::diff_text(diff).c_str());
+  const bool worse =
+      std::any_of(diff.changes.begin(), diff.changes.end(), [](const results::RowChange& change) {
+        return change.direction == results::Direction::kWorse;
+      });
+  return fail && (worse || !diff.gone.empty()) ? process::kExitNo : 0;
 }
 
 }  // namespace contactcheck::cli

@@ -18,8 +18,10 @@
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
+#include "reference/plugin/plugin.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
+#include "reference/reduce/defect_search.h"
 #include "reference/report/terminal.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/drawn_scene.h"
@@ -30,6 +32,7 @@
 #include "reference/suite/run_identity.h"
 #include "reference/suite/suite_run.h"
 #include "reference/suite/worker.h"
+#include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -44,6 +47,11 @@ struct RunTasks {
 };
 
 using Names = std::vector<std::string>;
+
+// Of meshes without --detector: references, the paper's last word with and without triangles, ours.
+const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
+                          "bullet-vf", "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
+                          "ffd-lazy"};
 
 void add_new(const std::string& name, Names& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -149,7 +157,8 @@ RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalo
     // Paths in the text are relative to where it will lie, so that it can be kept as it is.
     const fs::path& kept = arguments.save_scene;
     const bool alone = targets.empty() && !arguments.pairs;
-    const Names resolved = names.resolved(given_or_of("default"));
+    const Names resolved =
+        names.resolved(arguments.detectors.empty() ? kForMeshes : arguments.detectors);
     tasks.scenes.push_back(
         {"",
          scene::mesh_scene(arguments.meshes, kept.empty() ? fs::current_path()
@@ -224,10 +233,43 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
   }
 }
 
+// What a detector from outside is named by; nothing for others, which a case names itself.
+std::string own_words(const std::string& detector, const RunArguments& arguments,
+                      const results::Results& results) {
+  for (const results::Plugin& plugin : results.plugins) {
+    if (plugin.detector != detector.substr(0, detector.find(':'))) continue;
+    if (plugin.kind == plugin::name_of(plugin::PluginKind::kCommand))
+      return " --detector-cmd " + text::in_shell(plugin.source);
+    for (const std::string& word : arguments.detectors)
+      if (const std::string file = word.substr(0, word.find(':'));
+          fs::path(file).filename() == plugin.source)
+        return " --detector " + text::in_shell(file);
+  }
+  return "";
+}
+
+// The first wrong answer that can be reduced; one of a detector from outside before all others.
+void print_next(const RunArguments& arguments, const results::Results& results) {
+  const results::Disagreement* next = nullptr;
+  std::string words;
+  for (const results::Disagreement& d : results.disagreements) {
+    if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
+    const std::string own = own_words(d.detector, arguments, results);
+    if (next != nullptr && own.empty()) continue;
+    next = &d;
+    words = own;
+    if (!own.empty()) break;
+  }
+  if (next != nullptr)
+    std::printf("next: contactcheck reduce %s%s\n",
+                text::in_shell((arguments.out / next->case_file).string()).c_str(), words.c_str());
+}
+
 void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {
   const results::Results& results = run_and_reports.results;
   if (!arguments.quiet) {
-    const std::string tables = report::terminal_tables(results, isatty(STDOUT_FILENO) != 0);
+    const std::string tables =
+        report::terminal_tables(results, isatty(STDOUT_FILENO) != 0, arguments.explain);
     std::fwrite(tables.data(), 1, tables.size(), stdout);
   }
   for (const results::Run& run : results.runs)
@@ -238,6 +280,7 @@ void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_rep
       std::printf("resumed: %s: finished by an earlier run\n", scene.c_str());
   std::printf("%s%s  %s\n", arguments.quiet ? "" : "\n", (arguments.out / "results.json").c_str(),
               run_and_reports.reports.c_str());
+  if (!arguments.quiet && !arguments.reduce) print_next(arguments, results);
 }
 
 /// Shows a run's progress to people and to machines.
@@ -272,6 +315,18 @@ class Watcher {
   std::optional<double> first_share_;
 };
 
+// A run records its frames: these alone would take the place of all.
+void keep_recordings(const RunArguments& arguments, const std::vector<suite::SceneTask>& tasks) {
+  for (const suite::SceneTask& task : tasks) {
+    const auto* file = std::get_if<fs::path>(&task.source);
+    std::error_code ignored;
+    if (arguments.frames > 0 && file != nullptr && file->extension() == ".ccr" &&
+        fs::equivalent(*file, arguments.out / "recordings" / (task.id + ".ccr"), ignored))
+      throw InputError("--frames: " + text::in_quotes(file->string()) +
+                       " would lose its other frames; name another --out");
+  }
+}
+
 // After all scenes were read: shards of one run know the same scenes.
 void take_shard(const suite::Shard& shard, suite::SuiteRequest& request) {
   request.shard = suite::ShardOfRun{shard, std::move(request.tasks)};
@@ -304,6 +359,16 @@ suite::RunSettings settings_of(const RunArguments& arguments) {
 
 RunArguments with_names(RunArguments arguments, const std::vector<std::string>& names) {
   arguments.detectors = names;
+  if (arguments.detectors_of.empty()) return arguments;
+  const scene::Target target =
+      scene::find_target(arguments.detectors_of, scene::fixtures_directory());
+  if (target.kind != scene::TargetKind::kSuite)
+    throw InputError("--detectors: " + text::in_quotes(arguments.detectors_of) + " is no suite");
+  const scene::Suite suite = scene::load_suite(target.file);
+  arguments.detectors = suite.detectors;
+  for (const scene::SuiteScene& scene : suite.scenes)
+    for (const std::string& detector : scene.detectors) add_new(detector, arguments.detectors);
+  arguments.detectors.insert(arguments.detectors.end(), names.begin(), names.end());
   return arguments;
 }
 
@@ -323,6 +388,7 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   request.tasks = std::move(tasks.scenes);
   request.goals = std::move(tasks.goals);
   check_scenes(arguments.frames, own.catalog, request.tasks);
+  keep_recordings(arguments, request.tasks);
   if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
   save_scenes(arguments.save_scene, whole_run(request), request.tasks);
@@ -351,6 +417,13 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
                            suite::SuiteOutcome* outcome) {
   const suite::SuiteRequest request = make_request(arguments, catalog);
   suite::OutLock lock(request.out);
+  const bool of_meshes = std::any_of(whole_run(request).begin(), whole_run(request).end(),
+                                     [](const suite::SceneTask& task) {
+                                       return std::holds_alternative<scene::SceneText>(task.source);
+                                     });
+  if (of_meshes && !arguments.quiet && !arguments.json_lines)
+    for (const std::string& note : scene::size_notes(arguments.meshes))
+      std::fprintf(stderr, "%s\n", note.c_str());
   Watcher watcher(arguments);
   watcher.events.print(start_event(request));
   results::Results results = suite::run_suite(request, watcher.listener(), outcome);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/types/check.h"
 #include "core/types/semantics.h"
 #include "core/types/vec3.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/scene/approach.h"
 #include "reference/text/file_text.h"
 #include "reference/text/id_check.h"
@@ -158,8 +160,7 @@ std::string id_of(const MeshSceneRequest& request) {
 }
 
 void check(const MeshSceneRequest& request) {
-  std::vector<std::string> names;
-  for (const NamedMotion& motion : named_motions()) names.emplace_back(motion.name);
+  const std::vector<std::string>& names = motion_names();
   if (std::find(names.begin(), names.end(), request.motion) == names.end())
     throw InputError("--motion: " + text::in_quotes(request.motion) + " is not one of " +
                      text::joined(names));
@@ -217,13 +218,9 @@ std::vector<Approach> find_approaches(const ScenePlan& plan,
 
 }  // namespace
 
-const std::vector<NamedMotion>& named_motions() {
-  static const std::vector<NamedMotion> motions = {
-      {"approach", "the others come to the first mesh, touch it and leave again"},
-      {"press", "the same, going deeper, and all are squashed along the way"},
-      {"twist", "the same, and all are twisted about the way while they touch"},
-      {"pass", "the second mesh slides past the first, touching it"}};
-  return motions;
+const std::vector<std::string>& motion_names() {
+  static const std::vector<std::string> names = {"approach", "press", "twist", "pass"};
+  return names;
 }
 
 std::string mesh_path_from(const fs::path& folder, const fs::path& mesh) {
@@ -234,6 +231,32 @@ std::string mesh_path_from(const fs::path& folder, const fs::path& mesh) {
                      " cannot be followed to a file: " + error.message());
   const fs::path from = fs::weakly_canonical(fs::absolute(folder), ignored);
   return to.lexically_proximate(from).string();
+}
+
+std::vector<std::string> size_notes(const MeshSceneRequest& request) {
+  constexpr double kDoubtful = 100.0;  // times as large: millimetres beside metres
+  const auto digits = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, value < 1000.0 ? "%.3g" : "%.0f", value);
+    return std::string(text);
+  };
+  std::vector<std::string> notes;
+  std::pair<double, std::string> smallest, largest;
+  for (const fs::path& file : request.meshes) {
+    const std::string name = stem_of(file);
+    const double side = 2.0 * half_side(mesh::read_mesh_file(file).mesh);
+    if (smallest.second.empty() || side < smallest.first) smallest = {side, name};
+    if (largest.second.empty() || side > largest.first) largest = {side, name};
+    std::string note = name + ": " + digits(side) + " m";
+    if (request.size && *request.size != side)
+      note += ", scaled to " + digits(*request.size) + " m (--size file keeps it)";
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  if (largest.first > kDoubtful * smallest.first)
+    notes.push_back("warning: " + largest.second + " is " + digits(largest.first / smallest.first) +
+                    " times as large as " + smallest.second +
+                    " in its file; do both have one unit of length?");
+  return notes;
 }
 
 SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {

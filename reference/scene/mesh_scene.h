@@ -18,15 +18,14 @@ struct MeshSceneRequest {
   std::optional<double> size = 1.0;  ///< metres, each mesh's largest side; none: as in the file
 };
 
-struct NamedMotion {
-  const char* name;
-  const char* says;  ///< what happens, for a person
-};
-
+/// approach: the others come to the first mesh, touch it and leave again. press: the same, going
+/// deeper, and all are squashed along the way. twist: the same, and all are twisted about the way
+/// while they touch. pass: the second mesh slides past the first, touching it.
+///
 /// Every motion starts with disjoint bodies (a plane separates the first body from each other one,
 /// and the other ones from one another), leads into contact for at least a tenth of the time, and
 /// separates them again.
-const std::vector<NamedMotion>& named_motions();
+const std::vector<std::string>& motion_names();
 
 /// The scene file that the request amounts to, with paths relative to `folder`: bodies named after
 /// the files, in lattices of about 150 kept cells; the first one in the origin, the others come to
@@ -34,6 +33,11 @@ const std::vector<NamedMotion>& named_motions();
 /// @throws InputError, one sentence: an unknown motion, a file that is no mesh, a mesh that is a
 /// point or too large, meshes that no axis leads into contact, a number of meshes that is not meant
 SceneText mesh_scene(const MeshSceneRequest& request, const std::filesystem::path& folder);
+
+/// What becomes of the sizes in the files, a line a mesh: "cow: 10.4 m, scaled to 1 m (--size file
+/// keeps it)"; and a warning where one is over a hundred times as large as another.
+/// @throws InputError as mesh_scene
+std::vector<std::string> size_notes(const MeshSceneRequest& request);
 
 /// How a scene file in `folder` names the mesh. Through no link: a link's ".." is not the folder
 /// that names it.

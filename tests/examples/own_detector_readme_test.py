@@ -65,6 +65,8 @@ def main():
     (folder / "mine.py").write_text(block(text, "python"), encoding="utf-8")
     command = shlex.join([sys.executable, str(folder / "mine.py")])
     expect_boxes(row_of(program, folder, ["--detector-cmd", command]))
+    stub = pathlib.Path(headers).parent / "cli/init/detector.py"
+    assert block(text, "python") == stub.read_text(encoding="utf-8"), "init writes another detector"
     assert block(text, "cpp") in pathlib.Path(cpp_main).read_text(encoding="utf-8")
 
 

@@ -46,6 +46,21 @@ TEST_F(DiffCommand, NamesWhatIsWorseAndInformsWithExitCodeZero) {
   EXPECT_THAT(outcome.out, HasSubstr("Gone (1)\n"));
 }
 
+TEST_F(DiffCommand, FailsWhereAnAnswerIsWorseOrARowIsGone) {
+  const std::string before = write("a.json", results_);
+  const auto code = [&](const Json& after) {
+    return contactcheck_program({"diff", "--fail", before, write("b.json", after)}).exit_code;
+  };
+  EXPECT_EQ(code(results_), 0);
+  Json worse = results_, gone = results_;
+  worse["runs"][0]["levels"]["body"]["spurious"] = 2;
+  EXPECT_EQ(code(worse), 1);
+  gone["runs"].erase(3);
+  EXPECT_EQ(code(gone), 1);
+  const std::string bad = write("worse.json", worse);
+  EXPECT_EQ(contactcheck_program({"diff", "--fail", bad, before}).exit_code, 0) << "better";
+}
+
 TEST_F(DiffCommand, RefusesAFileThatIsNotCompleteByItsName) {
   const std::string whole = write("whole.json", results_);
   results_["runs"][0].erase("geometry");

@@ -50,6 +50,19 @@ TEST_F(GateCommand, OfTheSameResultsIsGreen) {
   EXPECT_EQ(outcome.err, "");
 }
 
+TEST_F(GateCommand, PolicyMayBeTheNameOfOneThatComesAlong) {
+  const Outcome named = contactcheck_program(
+      {"gate", path("results.json"), "--policy", "unchanged", "--baseline", path("baseline.json")});
+  const Outcome without =
+      contactcheck_program({"gate", path("results.json"), "--baseline", path("baseline.json")});
+  EXPECT_EQ(named.exit_code, without.exit_code);
+  EXPECT_EQ(named.out, without.out);
+  const Outcome wrong = contactcheck_program({"gate", path("results.json"), "--policy", "defualt"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, StartsWith("contactcheck: there is no policy \"defualt\"; did you mean "
+                                    "default? there are "));
+}
+
 TEST_F(GateCommand, OneInjectedMissedContactIsRed) {
   Json results = sample_results();
   Json& row = row_of(results, "touch", "exact");

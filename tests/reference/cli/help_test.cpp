@@ -76,7 +76,7 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 TEST(Help, IsThereForEveryCommandWithAnExample) {
   for (const std::string command :
        {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects", "diff",
-        "gate", "accept", "ab", "tune", "merge"}) {
+        "gate", "accept", "ab", "tune", "merge", "init"}) {
     std::vector<std::string> arguments = {"--help"};
     if (!command.empty()) arguments.insert(arguments.begin(), command);
     const Outcome help = contactcheck_program(arguments);
@@ -84,6 +84,21 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
     EXPECT_EQ(help.err, "") << command;
     EXPECT_THAT(help.out, HasSubstr("Example")) << command;
     EXPECT_THAT(help.out, HasSubstr("\n  contactcheck ")) << command;
+  }
+}
+
+TEST(Help, HasOneLineAnOptionWithinAHundredColumns) {
+  for (const std::string command :
+       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects", "diff",
+        "gate", "accept", "ab", "tune", "merge", "init"}) {
+    std::vector<std::string> arguments = {"--help"};
+    if (!command.empty()) arguments.insert(arguments.begin(), command);
+    const std::string help = contactcheck_program(arguments).out;
+    std::istringstream lines(help.substr(0, help.find("\nExample")));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_LE(line.size(), 100u) << line;
+      EXPECT_THAT(line, Not(testing::StartsWith("          "))) << "goes on";
+    }
   }
 }
 

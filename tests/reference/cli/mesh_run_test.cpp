@@ -24,6 +24,7 @@ using test::names_in;
 using test::Outcome;
 using test::text_of;
 using testing::HasSubstr;
+using testing::Not;
 using Words = std::vector<std::string>;
 
 class MeshRun : public testing::Test {
@@ -133,6 +134,41 @@ TEST_F(MeshRun, SizeFileKeepsTheSizes) {
   EXPECT_DOUBLE_EQ(results().at("scenes").at(0).at("size"), 0.125);
 }
 
+TEST_F(MeshRun, MeshFilesNeedNoFlag) {
+  const Words words = {"run",   in("ball.obj"), in("cube.obj"), "--no-timing", "--motion",
+                       "press", "--frames",     "12",           "--out",       in("bare")};
+  const Outcome outcome = contactcheck_program(words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json all = results("bare");
+  EXPECT_EQ(all.at("scenes").at(0).at("id"), "ball-cube-press");
+  Words detectors;
+  for (const json& run : all.at("runs")) detectors.push_back(run.at("detector"));
+  EXPECT_EQ(detectors, (Words{"fcl-aabb", "embree", "bullet-gimpact", "bullet-vf",
+                              "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri", "ffd-lazy"}));
+}
+
+TEST_F(MeshRun, SaysWhatBecomesOfTheSizes) {
+  EXPECT_THAT(run({}).err, HasSubstr("ball: 4 m, scaled to 1 m (--size file keeps it)\n"));
+  const Outcome kept = run({"--size", "file"});
+  EXPECT_THAT(kept.err, HasSubstr("ball: 4 m\n"));
+  EXPECT_THAT(kept.err, Not(HasSubstr("warning")));
+  scratch_.write("cube.obj", test::obj_text(test::sphere_mesh(Vec3::Zero(), 0.01, 1)));
+  EXPECT_THAT(run({}).err, HasSubstr("warning: ball is 200 times as large as cube in its file; do "
+                                     "both have one unit of length?\n"));
+  EXPECT_EQ(run({"--quiet"}).err, "");
+}
+
+TEST_F(MeshRun, TakesTheDetectorsOfASuite) {
+  const Outcome outcome = contactcheck_program(
+      {"run", in("ball.obj"), in("cube.obj"), "--no-timing", "--detectors", "scaling", "--detector",
+       "fcl-collide", "--frames", "4", "--out", in("suite")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  Words detectors;
+  const json all = results("suite");
+  for (const json& run : all.at("runs")) detectors.push_back(run.at("detector"));
+  EXPECT_EQ(detectors, (Words{"ffd-lazy", "full-refit", "embree", "fcl-aabb", "fcl-collide"}));
+}
+
 struct RefusedWords {
   Words words;
   std::string sentence;
@@ -143,6 +179,9 @@ TEST_F(MeshRun, RefusesBadWords) {
       {{"run", "--mesh", in("ball.obj")}, "one mesh meets nothing"},
       {{"run", "--motion", "press"}, "--motion requires --mesh"},
       {{"run", "--size", "2"}, "--size requires --mesh"},
+      {{"run", in("ball.obj")}, "one mesh meets nothing"},
+      {{"run", in("ball.obj"), in("cube.obj"), "--detectors", "contact"},
+       "--detectors: \"contact\" is no suite"},
       {{"run", "--mesh", in("ball.obj"), "--mesh", in("none.obj")}, "none.obj\" does not exist"},
       {{"run", "--mesh", in("ball.obj"), "--mesh", in("ball.obj"), "--motion", "x"},
        "--motion: \"x\" is not one of approach, press, twist, pass"},

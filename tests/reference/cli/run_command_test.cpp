@@ -261,14 +261,24 @@ TEST_F(RunCommand, ReplayIntoItsOwnFolderKeepsTheRecording) {
   EXPECT_EQ(text_of(recording), before);
 }
 
-TEST_F(RunCommand, RecordingHasItsOwnFrames) {
-  run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
-  const Outcome outcome =
-      contactcheck_program({"run", scratch_.folder() / "out" / "recordings" / "tiny.ccr",
-                            "--frames", "3", "--out", scratch_.folder() / "again"});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--frames"));
-  EXPECT_FALSE(fs::exists(scratch_.folder() / "again"));
+TEST_F(RunCommand, RecordingGivesItsFirstFrames) {
+  const json whole = run("out", {scene_, "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  const std::string recording = scratch_.folder() / "out" / "recordings" / "tiny.ccr";
+  const json first = run(
+      "again", {recording, "--frames", "3", "--no-timing", "--quiet", "--detector", "fcl-aabb"});
+  EXPECT_EQ(first.at("scenes").at(0).at("frames"), 3);
+  const json& all = whole.at("runs").at(0).at("per_frame").at("truth");
+  EXPECT_EQ(first.at("runs").at(0).at("per_frame").at("truth"),
+            json(std::vector<json>(all.begin(), all.begin() + 3)));
+  const Outcome more = contactcheck_program(
+      {"run", recording, "--frames", "6", "--out", scratch_.folder() / "more"});
+  EXPECT_EQ(more.exit_code, 2);
+  EXPECT_EQ(more.err, "contactcheck: --frames: recording \"" + recording + "\" has 5 frames\n");
+  EXPECT_FALSE(fs::exists(scratch_.folder() / "more"));
+  const Outcome same =
+      contactcheck_program({"run", recording, "--frames", "3", "--out", scratch_.folder() / "out"});
+  EXPECT_EQ(same.exit_code, 2);
+  EXPECT_THAT(same.err, HasSubstr("would lose its other frames; name another --out"));
 }
 
 TEST_F(RunCommand, TwiceGivesTheSameContacts) {

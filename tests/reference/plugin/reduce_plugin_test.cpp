@@ -1,6 +1,7 @@
 // `contactcheck reduce` of the wrong answers of detectors from outside.
 #include <gmock/gmock.h>
 
+#include "reference/text/shell_word.h"
 #include "tests/reference/plugin/plugin_run.h"
 #include "tests/support/files.h"
 
@@ -43,6 +44,31 @@ TEST(ReducePlugin, OfACommand) {
   const std::string file = spurious_case(run);
   expect_minimal(
       contactcheck_program({"reduce", file, "--detector-cmd", command, "--budget", "60"}), file);
+}
+
+TEST(ReducePlugin, ByTheCommandThatTheRunPrints) {
+  for (const std::vector<std::string>& detector :
+       {std::vector<std::string>{"--detector", test::misbehaving_library("always-lies")},
+        {"--detector-cmd", test::misbehaving_command("always-lies")}}) {
+    const PluginRun run(detector, {"--no-timing", "--detector", "fcl-aabb"});
+    const std::string& out = run.outcome().out;
+    const std::string mark = "\nnext: contactcheck ";
+    const std::size_t at = out.find(mark);
+    ASSERT_NE(at, std::string::npos) << out;
+    std::vector<std::string> words =
+        text::shell_words(out.substr(at + mark.size(), out.find('\n', at + 1) - at - mark.size()));
+    words.insert(words.end(), {"--budget", "60"});
+    const Outcome outcome = contactcheck_program(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+}
+
+TEST(ReducePlugin, WithinTheRun) {
+  const PluginRun run({"--detector", test::misbehaving_library("always-lies")},
+                      {"--no-timing", "--reduce"});
+  EXPECT_THAT(run.outcome().out, HasSubstr("\nreduced: tiny, "));
+  EXPECT_THAT(run.outcome().out, testing::Not(HasSubstr("not reduced")));
+  EXPECT_THAT(run.outcome().out, testing::Not(HasSubstr("\nnext: ")));
 }
 
 TEST(ReducePlugin, OfACaseThatDoesNotSayHowToMakeItIsRefused) {

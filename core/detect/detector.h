@@ -47,7 +47,8 @@ struct StageRecord {
   std::vector<std::vector<char>> active;  ///< [body][cell]
 };
 
-/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is of owner cells.
+/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is of owner
+/// cells.
 struct StageTrace {
   std::vector<StageRecord> stages;
   std::vector<std::vector<std::uint32_t>> owner;

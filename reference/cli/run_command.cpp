@@ -18,11 +18,11 @@
 #include "reference/cli/progress_display.h"
 #include "reference/cli/report_folder.h"
 #include "reference/cli/run_and_report.h"
-#include "reference/plugin/plugin.h"
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
 #include "reference/reduce/defect_search.h"
 #include "reference/report/terminal.h"
+#include "reference/results/rerun.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/drawn_scene.h"
 #include "reference/scene/scene.h"
@@ -233,19 +233,13 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
   }
 }
 
-// What a detector from outside is named by; nothing for others, which a case names itself.
-std::string own_words(const std::string& detector, const RunArguments& arguments,
-                      const results::Results& results) {
-  for (const results::Plugin& plugin : results.plugins) {
-    if (plugin.detector != detector.substr(0, detector.find(':'))) continue;
-    if (plugin.kind == plugin::name_of(plugin::PluginKind::kCommand))
-      return " --detector-cmd " + text::in_shell(plugin.source);
-    for (const std::string& word : arguments.detectors)
-      if (const std::string file = word.substr(0, word.find(':'));
-          fs::path(file).filename() == plugin.source)
-        return " --detector " + text::in_shell(file);
-  }
-  return "";
+// A case names every detector but one from outside.
+std::string own_words(const std::string& detector, const results::Results& results) {
+  const bool own = std::any_of(results.plugins.begin(), results.plugins.end(),
+                               [&](const results::Plugin& plugin) {
+                                 return plugin.detector == detector.substr(0, detector.find(':'));
+                               });
+  return own ? " " + results::detector_words(results, detector) : "";
 }
 
 // The first wrong answer that can be reduced; one of a detector from outside before all others.
@@ -254,7 +248,7 @@ void print_next(const RunArguments& arguments, const results::Results& results) 
   std::string words;
   for (const results::Disagreement& d : results.disagreements) {
     if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
-    const std::string own = own_words(d.detector, arguments, results);
+    const std::string own = own_words(d.detector, results);
     if (next != nullptr && own.empty()) continue;
     next = &d;
     words = own;

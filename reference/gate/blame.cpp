@@ -1,13 +1,12 @@
 #include "reference/gate/blame.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/gate/accuracy_rule.h"
-#include "reference/text/shell_word.h"
+#include "reference/results/rerun.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -58,16 +57,6 @@ std::optional<std::size_t> frame_to_blame(const Rule& rule, const results::Resul
   return std::nullopt;
 }
 
-// The file that the run's command named, or the id.
-std::string target_of(const results::Results& results, const std::string& scene) {
-  for (const std::string& word : text::shell_words(results.command)) {
-    const std::filesystem::path path(word);
-    if (path.stem() == scene && (path.extension() == ".json" || path.extension() == ".ccr"))
-      return word;
-  }
-  return scene;
-}
-
 // " --processes 3"; nothing where the results do not say how they were timed. A seed that was not
 // asked for is every run's.
 std::string timing_flags(const results::Results& results, Verdict verdict) {
@@ -94,17 +83,17 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict) {
   const results::Scene* const scene = index.scene(row.scene);
-  const std::string detector = " --detector " + text::in_shell(row.detector);
+  const std::string detector = " " + results::detector_words(index.results(), row.detector);
   if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
-  const std::string target = target_of(index.results(), row.scene);
-  std::string command = "contactcheck run " + text::in_shell(target);
+  const std::string target = results::scene_words(index.results(), row.scene);
+  std::string command = "contactcheck run " + target;
   // The frames of families and recordings are fixed.
-  const bool fixed = (scene != nullptr && scene->family) ||
-                     std::filesystem::path(target).extension() == ".ccr" || row.frames == 0;
+  const bool fixed = (scene != nullptr && scene->family) || target.ends_with(".ccr") ||
+                     target.ends_with(".ccr'") || row.frames == 0;
   if (!fixed) command += " --frames " + std::to_string(row.frames);
   command += detector;
   if (!is_timing(*rule.measure)) return command + " --no-timing";
-  return command + " --detector " + text::in_shell(rule.reference) +
+  return command + " " + results::detector_words(index.results(), rule.reference) +
          timing_flags(index.results(), verdict);
 }
 

@@ -191,6 +191,8 @@ def check_export(folder):
 
 
 if __name__ == "__main__":
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        sys.exit(print(__doc__))
     for place in sys.argv[1:] or [pathlib.Path(__file__).resolve().parent]:
         try:
             print(check_export(pathlib.Path(place)), flush=True)

@@ -227,6 +227,17 @@ LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {
   return out;
 }
 
+bool has_obj_face(const std::string& bytes) {
+  for (std::size_t line = 0; line < bytes.size(); line = bytes.find('\n', line), ++line) {
+    const std::size_t word = bytes.find_first_not_of(" \t", line);
+    if (word != std::string::npos && bytes[word] == 'f' && word + 1 < bytes.size() &&
+        (bytes[word + 1] == ' ' || bytes[word + 1] == '\t'))
+      return true;
+    if (bytes.find('\n', line) == std::string::npos) break;
+  }
+  return false;
+}
+
 PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::string& name) {
   refuse_lying_counts(format, bytes, name);
   // Checked first: CGAL would weld a NaN of a binary STL to any other vertex.
@@ -253,6 +264,8 @@ PolygonSoup read_soup(SoupFormat format, const std::string& bytes, const std::st
   if (!read) {
     fault = coordinate_fault(format, bytes);
     if (!fault.empty()) throw InputError(name + ": " + fault + ".");
+    if (format == SoupFormat::kObj && !has_obj_face(bytes))
+      throw InputError(name + " holds no face.");
     throw InputError(name + " cannot be read as " + name_of(format) + ".");
   }
   refuse_lost_corners(format, bytes, name, soup);

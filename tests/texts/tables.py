@@ -4,7 +4,7 @@ import math
 import re
 import statistics
 
-from published import REFERENCES, ROOT, Published, TextError, read_json
+from published import REFERENCES, TextError
 
 FEWEST_FOR_INTERVAL = 5  # passes, as reference/results/statistics.h has it
 ISA = {"AVX3": "AVX-512"}  # how the pages call what results.json names
@@ -337,13 +337,6 @@ def figures(files):
                                 "the text says that fcl-obbrss alone is, in coincident")
         return performance.run("coincident", "fcl-obbrss")["missed"]
 
-    def references(key):
-        name = "fixtures/suites/references.json"
-        return len(read_json(ROOT / name, name)[key])
-
-    def lines(name):
-        return len((ROOT / name).read_text("utf-8").splitlines())
-
     return {
         "default.detectors": lambda: str(len(default.detectors())),
         "default.scenes": lambda: str(len(default.rows("scenes"))),
@@ -378,11 +371,6 @@ def figures(files):
         "hard.known_defects": lambda: count(hard.row("sums")["known_defects"]),
         "hard.known_refusals": lambda: count(hard.row("sums")["known_refusals"]),
         "hard.readings": lambda: count(hard.row("sums")["readings"]),
-        "references.scenes": lambda: str(references("scenes")),
-        "references.detectors": lambda: str(references("detectors")),
-        "pile.true_pairs": lambda: count(lazy.row("scenes", scene="pile")["true_pairs"]),
-        "pile.missed": lambda: str(in_pile("missed")),
-        "pile.spurious": lambda: str(in_pile("spurious")),
         "pile.spurious_distance": spurious_distance,
         "single-hard.families": lambda: str(hard_single.row("sums")["families"]),
         "single-hard.refused": lambda: str(hard_single.same(
@@ -412,5 +400,4 @@ def figures(files):
         "paper-64.took": lambda: str(round(small.head["seconds"])),
         "paper-64.memory": lambda: span([run["memory_bytes"] / 1e6 for run in all_ok(small)],
                                         lambda value: f"{value:.1f}"),
-        "check.py.lines": lambda: str(lines("reference/judge/check.py")),
     }

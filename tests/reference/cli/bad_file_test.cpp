@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                     mesh("VertexThatIsNotThere", bytes("x.obj", kFace + "f 1 2 9\n"),
                          {"face 1 (line 5) names the vertex 9; the file has 3"}),
                     mesh("OnlyVertices", bytes("x.obj", "v 0 0 0\nv 1 0 0\n"),
-                         {"cannot be read as OBJ"})),
+                         {"x.obj\" holds no face"})),
     file_case);
 
 // As clusters and containers limit it. Files of a gigabyte are allowed, and here nothing on disk.

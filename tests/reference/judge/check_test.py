@@ -83,6 +83,11 @@ class CheckExport(unittest.TestCase):
         change(truth)
         self.write(name, json.dumps(truth).encode())
 
+    def test_help_is_the_head_of_the_script(self):
+        help_text = subprocess.run([sys.executable, "-B", self.folder / "check.py", "--help"],
+                                   capture_output=True, text=True, check=True).stdout
+        self.assertTrue(help_text.startswith("Checks what `contactcheck export` wrote"), help_text)
+
     def test_accepts_an_export(self):
         done = self.check()
         self.assertEqual((done.returncode, done.stderr), (0, ""))

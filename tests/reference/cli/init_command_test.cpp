@@ -20,7 +20,7 @@ class InitCommand : public testing::Test {
   // What stands after "next:", with the program of this build.
   static std::string script(const std::string& out) {
     const std::size_t at = out.find("\nnext:\n");
-    return "set -e\ncontactcheck() { " CONTACTCHECK_PROGRAM " \"$@\"; }\n" + out.substr(at + 7);
+    return "set -e\ncontactcheck() { '" CONTACTCHECK_PROGRAM "' \"$@\"; }\n" + out.substr(at + 7);
   }
   void expect_green(const std::string& language) const {
     const Outcome init = contactcheck_program({"init", folder(), "--language", language});

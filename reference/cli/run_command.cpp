@@ -32,6 +32,7 @@
 #include "reference/suite/run_identity.h"
 #include "reference/suite/suite_run.h"
 #include "reference/suite/worker.h"
+#include "reference/text/file_text.h"
 #include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {

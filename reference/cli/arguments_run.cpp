@@ -168,11 +168,9 @@ void add_run(CommandLine& line) {
   run->add_flag("--json-lines", arguments.json_lines,
                 "print events as JSON lines, nothing else (fixtures/README.md)");
   run->footer(
-      "Two or more mesh files become a scene: each in a lattice of about 150 kept cells, 60 frames "
-      "in\n"
-      "2 s. From 5 passes on, ratios have 95 % intervals; a detector that takes over 2 s for a "
-      "pass\n"
-      "has one. A call or process beyond a limit ends in status error.\n"
+      "Two or more mesh files become a scene: each in a lattice of about 150 kept cells,\n"
+      "60 frames in 2 s. From 5 passes on, ratios have 95 % intervals; a detector that takes over\n"
+      "2 s for a pass has one. A call or process beyond a limit ends in status error.\n"
       "Examples:\n"
       "  contactcheck run\n"
       "  contactcheck run bunny-touch --detector fcl-aabb --detector ffd-aabb-sphere2+tri\n"

@@ -106,11 +106,16 @@ def text_of(kept):
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
+# Of an absolute path: they are of one machine alone.
+FOLDERS = re.compile(r"(?<![^\s\"'=(])/(?:[^/\s]+/)+")
+
+
 def write(kept, kind):
-    """Those of mutants that are there."""
+    """Those of mutants that are there; of absolute paths the last name alone."""
     names = {mutant.name for mutant in mutants(kind)}
-    file_of(kind).write_text(text_of({name: line for name, line in kept.items() if name in names}),
-                             encoding="utf-8")
+    lines = {name: (key, Verdict(verdict.code, FOLDERS.sub("", verdict.by)))
+             for name, (key, verdict) in kept.items() if name in names}
+    file_of(kind).write_text(text_of(lines), encoding="utf-8")
 
 
 def faults(kind):
@@ -138,6 +143,8 @@ def faults(kind):
             found.append(f"{name}: a verdict is kept, but there is no such mutant")
         if not re.fullmatch("[0-9a-f]{64}", key):
             found.append(f"{name}: \"{key}\" is no key: 64 hexadecimal digits")
+        if FOLDERS.search(verdict.by):
+            found.append(f"{name}: \"{verdict.by}\" names a folder of one machine")
         if verdict.code != 0:
             found.append(f"{name}: {WORDS[verdict.code]}: {verdict.by}")
     return found

@@ -134,6 +134,17 @@ class KeptVerdicts(unittest.TestCase):
         self.file.write_text(text, encoding="utf-8")
         self.expect_fault('mistake: "0123" is no key')
 
+    def test_folders_of_one_machine_are_not_kept(self):
+        said = "ab: ab /a/b/contactcheck '/tmp/c d': All/Tests.A/b, 1/2: bunny-touch/results.json"
+        kept = {"mistake": ("0" * 64, Verdict(CAUGHT, said))}
+        kept_verdicts.write(kept, kept_verdicts.CORE)
+        self.assertEqual(kept_verdicts.read(kept_verdicts.CORE)["mistake"][1].by,
+                         "ab: ab contactcheck 'c d': All/Tests.A/b, 1/2: bunny-touch/results.json")
+        self.assertEqual(kept_verdicts.faults(kept_verdicts.CORE), [])
+        self.file.write_text(kept_verdicts.text_of(kept), encoding="utf-8")
+        self.assertIn("names a folder of one machine",
+                      "\n".join(kept_verdicts.faults(kept_verdicts.CORE)))
+
     def test_file_in_another_form(self):
         text = self.file.read_text(encoding="utf-8")
         self.file.write_text(text + "\n", encoding="utf-8")

@@ -73,13 +73,20 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
   EXPECT_EQ(contactcheck_program({"list", "--suites", "--scenes"}).out, suites + "\n" + scenes);
 }
 
+// "" is the program itself.
+constexpr const char* kCommands[] = {"",       "run",   "reproduce", "reduce", "export", "list",
+                                     "report", "truth", "defects",   "diff",   "gate",   "accept",
+                                     "ab",     "tune",  "merge",     "init"};
+
+Outcome help_of(const std::string& command) {
+  std::vector<std::string> arguments = {"--help"};
+  if (!command.empty()) arguments.insert(arguments.begin(), command);
+  return contactcheck_program(arguments);
+}
+
 TEST(Help, IsThereForEveryCommandWithAnExample) {
-  for (const std::string command :
-       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects", "diff",
-        "gate", "accept", "ab", "tune", "merge", "init"}) {
-    std::vector<std::string> arguments = {"--help"};
-    if (!command.empty()) arguments.insert(arguments.begin(), command);
-    const Outcome help = contactcheck_program(arguments);
+  for (const char* command : kCommands) {
+    const Outcome help = help_of(command);
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_EQ(help.err, "") << command;
     EXPECT_THAT(help.out, HasSubstr("Example")) << command;
@@ -88,12 +95,8 @@ TEST(Help, IsThereForEveryCommandWithAnExample) {
 }
 
 TEST(Help, HasOneLineAnOptionWithinAHundredColumns) {
-  for (const std::string command :
-       {"", "run", "reproduce", "reduce", "export", "list", "report", "truth", "defects", "diff",
-        "gate", "accept", "ab", "tune", "merge", "init"}) {
-    std::vector<std::string> arguments = {"--help"};
-    if (!command.empty()) arguments.insert(arguments.begin(), command);
-    const std::string help = contactcheck_program(arguments).out;
+  for (const char* command : kCommands) {
+    const std::string help = help_of(command).out;
     std::istringstream lines(help.substr(0, help.find("\nExample")));
     for (std::string line; std::getline(lines, line);) {
       EXPECT_LE(line.size(), 100u) << line;

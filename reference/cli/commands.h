@@ -62,9 +62,10 @@ struct ReduceArguments {
   std::string target;    ///< a case file, or what `run` takes as a scene, with "@FRAME" behind it
   std::string detector;  ///< name or library; empty: the case's
   std::string command;   ///< of the detector, one that is talked to over pipes; empty: none
-  std::string level, kind;    ///< empty: the case's, or what is found first
-  std::filesystem::path out;  ///< file; empty: beside the case, or in out/cases
-  std::string drawn;          ///< parameters of the scene if it is a drawn one, for the record
+  std::string level, kind;       ///< empty: the case's, or what is found first
+  std::filesystem::path out;     ///< file; empty: beside the case, or in out/cases
+  std::string language = "c++";  ///< of the test that is printed: c++, c or python
+  std::string drawn;             ///< parameters of the scene if it is a drawn one, for the record
   std::size_t budget = 20000;
   double call_limit = 10.0;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
@@ -77,7 +78,7 @@ struct GateArguments {
 };
 
 struct AbArguments {
-  std::filesystem::path base, head;    ///< two builds of this program, or two libraries
+  std::filesystem::path base, head;    ///< two programs, libraries or commands
   std::vector<std::string> targets;    ///< as of `run`; empty: the suite default
   std::vector<std::string> detectors;  ///< empty: those of the suite
   std::size_t rounds = 7, frames = 0;

@@ -232,7 +232,10 @@ std::string title_of(const reduce::MinimalCase& minimal) {
          reduce::described(minimal.finding);
 }
 
-void print(const ReducedCase& reduced) {
+void print(const ReducedCase& reduced, const std::string& language) {
+  const reduce::TestLanguage test = language == "python" ? reduce::TestLanguage::kPython
+                                    : language == "c"    ? reduce::TestLanguage::kC
+                                                         : reduce::TestLanguage::kCpp;
   const reduce::CaseCandidate &before = reduced.whole, &after = reduced.minimal.candidate;
   std::printf("%s\n\n", title_of(reduced.minimal).c_str());
   std::printf("  %-28s %10s %10s\n", "", "before", "after");
@@ -247,7 +250,8 @@ void print(const ReducedCase& reduced) {
               after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
   std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", reduced.answers.exact.c_str(),
               reduced.answers.detector.c_str(),
-              reduce::printed_test(reduced.minimal, reduced.answers).c_str(), reduced.file.c_str());
+              reduce::printed_test(reduced.minimal, reduced.answers, test).c_str(),
+              reduced.file.c_str());
 }
 
 /// What to reduce of a run, and into which file: the first case of every detector, level and kind,
@@ -295,7 +299,7 @@ std::vector<ReduceArguments> first_errors(const results::Results& results, const
 }  // namespace
 
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
-  print(ReduceCommand(arguments, own_detector(arguments, catalog)).run());
+  print(ReduceCommand(arguments, own_detector(arguments, catalog)).run(), arguments.language);
   return 0;
 }
 

@@ -1,9 +1,14 @@
 #include "reference/reduce/minimal_case.h"
 
 #include <cctype>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "reference/oracle/exact_tests.h"
 #include "reference/suite/case_file.h"
+#include "reference/text/json_field.h"
 #include "reference/text/json_value.h"
 
 namespace contactcheck::reduce {
@@ -83,47 +88,74 @@ std::string id_from(const std::string& words) {
 
 namespace {
 
+/// The words of `text`, in ASCII letters and digits.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> out(1);
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool kept = std::isalnum(byte) != 0 && byte < 128;
+    if (kept) out.back() += c;
+    if (!kept && !out.back().empty()) out.emplace_back();
+  }
+  if (out.back().empty()) out.pop_back();
+  return out;
+}
+
 /// "fcl-obbrss" becomes "FclObbrss".
 std::string camel_case(const std::string& text) {
   std::string out;
-  bool capital = true;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) == 0 || byte > 127) {
-      capital = true;
-      continue;
-    }
-    out += capital ? static_cast<char>(std::toupper(byte)) : c;
-    capital = false;
+  for (std::string word : words_of(text)) {
+    word[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
+    out += word;
   }
   return out;
 }
 
-template <typename Items, typename Text>
-std::string array_text(const std::string& element, std::size_t count, const std::string& name,
-                       const Items& items, Text&& text_of) {
-  std::string out = "  const std::array<std::array<" + element + ", 3>, " + std::to_string(count) +
-                    "> " + name + " = {{\n";
-  for (const auto& item : items) out += "      {{" + text_of(item) + "}},\n";
-  return out + "  }};\n";
+/// "fcl-obbrss" becomes "fcl_obbrss".
+std::string snake_case(const std::string& text) {
+  std::string out;
+  for (const std::string& word : words_of(text)) out += (out.empty() ? "" : "_") + word;
+  return out;
 }
 
 // "2.0", not "2": pasted into other types than arrays of double, it still gives doubles.
-std::string literal(double value) {
-  const std::string text = number_text(value);
+std::string literal(double value, TestLanguage language) {
+  // Python reads hexadecimal by a call alone; its decimals are exact.
+  const std::string text =
+      language == TestLanguage::kPython ? text::shown(value) : number_text(value);
   return text.find_first_of(".xe") == std::string::npos ? text + ".0" : text;
 }
 
-std::string mesh_text(const TriangleMesh& mesh, const std::string& name) {
-  return array_text("double", mesh.vertices.size(), name + "_vertices", mesh.vertices,
-                    [](const Vec3& v) {
-                      return literal(v.x()) + ", " + literal(v.y()) + ", " + literal(v.z());
-                    }) +
-         array_text("int", mesh.triangles.size(), name + "_triangles", mesh.triangles,
-                    [](const Triangle& t) {
-                      return std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
-                             std::to_string(t[2]);
-                    });
+/// Vertices and triangles of one mesh as two arrays.
+std::string mesh_text(const TriangleMesh& mesh, const std::string& name, TestLanguage language) {
+  const auto array = [&](const std::string& element, const std::string& what, const auto& items,
+                         const auto& text_of) {
+    const std::string count = std::to_string(items.size());
+    std::string open, row[2], close;
+    switch (language) {
+      case TestLanguage::kCpp:
+        open = "  const std::array<std::array<" + element + ", 3>, " + count + "> " + name + what +
+               " = {{\n";
+        row[0] = "      {{", row[1] = "}},\n", close = "  }};\n";
+        break;
+      case TestLanguage::kC:
+        open = "  const " + element + " " + name + what + "[" + count + "][3] = {\n";
+        row[0] = "      {", row[1] = "},\n", close = "  };\n";
+        break;
+      case TestLanguage::kPython:
+        open = "    " + name + what + " = [\n";
+        row[0] = "        [", row[1] = "],\n", close = "    ]\n";
+        break;
+    }
+    for (const auto& item : items)
+      open +=
+          row[0] + text_of(item[0]) + ", " + text_of(item[1]) + ", " + text_of(item[2]) + row[1];
+    return open + close;
+  };
+  return array("double", "_vertices", mesh.vertices,
+               [&](double x) { return literal(x, language); }) +
+         array("int", "_triangles", mesh.triangles,
+               [](std::uint32_t v) { return std::to_string(v); });
 }
 
 std::string pair_text(const MinimalCase& c, const judge::Disagreement& d) {
@@ -151,12 +183,44 @@ std::string truth_text(const std::string& level, bool contact) {
   return contact ? "share a point" : "share no point";
 }
 
+/// Which edges of the one triangle meet the other: "edge 3-4 of left meets triangle 0 of right".
+std::string crossing_text(const MinimalCase& c, const ElementPair& pair) {
+  const std::uint32_t bodies[] = {pair.body_a, pair.body_b}, triangles[] = {pair.a, pair.b};
+  std::string out;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const TriangleMesh &one = c.candidate.meshes[bodies[side]],
+                       &other = c.candidate.meshes[bodies[1 - side]];
+    const Triangle &edges_of = one.triangles[triangles[side]],
+                   &face = other.triangles[triangles[1 - side]];
+    const oracle::TriangleCorners corners = {other.vertices[face[0]], other.vertices[face[1]],
+                                             other.vertices[face[2]]};
+    std::vector<std::string> edges;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = edges_of[k], to = edges_of[(k + 1) % 3];
+      if (oracle::segment_meets_triangle({one.vertices[from], one.vertices[to]}, corners))
+        edges.push_back(std::to_string(from) + "-" + std::to_string(to));
+    }
+    if (edges.empty()) continue;
+    out += std::string(out.empty() ? ": " : "; ") + (edges.size() == 1 ? "edge " : "edges ") +
+           text::joined(edges) + " of " + c.candidate.names[bodies[side]] +
+           (edges.size() == 1 ? " meets" : " meet") + " triangle " +
+           std::to_string(triangles[1 - side]) + " of " + c.candidate.names[bodies[1 - side]];
+  }
+  return out;
+}
+
 /// What a test of a detector would say, in words that every suite has its own for.
-std::string expectation(const Finding& finding) {
+std::string expectation(const Finding& finding, TestLanguage language) {
   const std::string call =
       "your_detector(first_vertices, first_triangles, second_vertices, second_triangles)";
-  if (finding.kind == "error") return "EXPECT_NO_FATAL_FAILURE(" + call + ");";
-  return (finding.kind == "missed" ? "EXPECT_TRUE(" : "EXPECT_FALSE(") + call + ");";
+  const bool contact = finding.kind == "missed";
+  if (language == TestLanguage::kCpp) {
+    if (finding.kind == "error") return "EXPECT_NO_FATAL_FAILURE(" + call + ");";
+    return (contact ? "EXPECT_TRUE(" : "EXPECT_FALSE(") + call + ");";
+  }
+  if (language == TestLanguage::kPython)
+    return finding.kind == "error" ? call : (contact ? "assert " : "assert not ") + call;
+  return finding.kind == "error" ? call + ";" : (contact ? "assert(" : "assert(!") + call + ");";
 }
 
 }  // namespace
@@ -168,21 +232,30 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   const judge::Disagreement& d = disagreement_of(verdict, c.finding);
   const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
-  return {pair_text(c, d) + " " + truth_text(d.level, missed),
+  const bool triangles = d.level == name_of(Level::kTriangle) || d.level == name_of(Level::kCell);
+  return {pair_text(c, d) + " " + truth_text(d.level, missed) +
+              (missed && triangles ? crossing_text(c, d.pair) : ""),
           std::to_string(counts.reported) + (counts.reported == 1 ? " pair" : " pairs") +
               " at level " + d.level + " of " + std::to_string(counts.truth) +
               " true: " + std::to_string(counts.missed) + " missed, " +
               std::to_string(counts.spurious) + " spurious"};
 }
 
-std::string printed_test(const MinimalCase& c, const CaseAnswers& answers) {
-  return "// " + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
-         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + "TEST(" +
-         camel_case(c.detector) + ", " +
-         camel_case(c.finding.kind + "-" + c.finding.level + "-" + c.scene) + ") {\n" +
-         mesh_text(c.candidate.meshes[0], "first") + mesh_text(c.candidate.meshes[1], "second") +
-         "  // Exact: " + answers.exact + ".\n" + "  // " + c.detector +
-         " answered: " + answers.detector + ".\n" + "  // " + expectation(c.finding) + "\n" + "}\n";
+std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestLanguage language) {
+  const std::string words = c.finding.kind + "-" + c.finding.level + "-" + c.scene;
+  const bool python = language == TestLanguage::kPython;
+  const std::string comment = python ? "# " : "// ", indent = python ? "    " : "  ";
+  std::string head = "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
+  if (language == TestLanguage::kC)
+    head = "void test_" + snake_case(c.detector + "-" + words) + "(void) {\n";
+  if (python) head = "def test_" + snake_case(c.detector + "-" + words) + "():\n";
+  return comment + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
+         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head +
+         mesh_text(c.candidate.meshes[0], "first", language) +
+         mesh_text(c.candidate.meshes[1], "second", language) + indent + comment +
+         "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
+         " answered: " + answers.detector + ".\n" + indent + comment +
+         expectation(c.finding, language) + "\n" + (python ? "" : "}\n");
 }
 
 }  // namespace contactcheck::reduce

@@ -39,8 +39,15 @@ struct CaseAnswers {
 };
 CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
 
-/// A GoogleTest in plain C++17 that needs `<array>` alone: the vertices and triangles of both
-/// meshes bit for bit, with what is to be expected, and what was answered, in comments.
-std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers);
+enum class TestLanguage {
+  kCpp,     ///< C++17, a GoogleTest that needs `<array>` alone
+  kC,       ///< C99
+  kPython,  ///< nested lists of floats and integers, for pytest
+};
+
+/// A test: the vertices and triangles of both meshes bit for bit, with what is to be expected, and
+/// what was answered, in comments.
+std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers,
+                         TestLanguage language);
 
 }  // namespace contactcheck::reduce

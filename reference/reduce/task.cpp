@@ -32,7 +32,8 @@ class CaseElement {
  public:
   CaseElement(const text::JsonField& field, const Recording& recording, std::size_t frame)
       : field_(field), body_(find_body(recording)) {
-    field.only_keys({"body", "triangle", "vertices", "cell", "nodes", "vertex", "position"});
+    field.only_keys({"body", "triangle", "vertices", "vertices_decimal", "cell", "nodes",
+                     "nodes_decimal", "vertex", "position", "position_decimal"});
     shape_ = recording.bodies[body_].shape;
     nodes_ = recording.frames[frame][body_];
     vertices_.resize(shape_->mesh.vertices.size());

@@ -2,6 +2,9 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/deform/atomic_file.h"
 #include "core/deform/lattice.h"
@@ -12,22 +15,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json point(const Vec3& p) { return {hex_float(p.x()), hex_float(p.y()), hex_float(p.z())}; }
+Json decimal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-Json triangle_points(const judge::JudgedScene& judged, std::size_t frame, std::uint32_t body,
-                     std::uint32_t triangle) {
-  Json out = Json::array();
-  for (std::uint32_t v : judged.scene->bodies[body].shape->mesh.triangles[triangle])
-    out.push_back(point(judged.positions[frame].vertices[body][v]));
-  return out;
-}
-
-Json cell_nodes(const judge::JudgedScene& judged, std::size_t frame, std::uint32_t body,
-                std::uint32_t cell) {
-  Json out = Json::array();
-  const Corners corners = corners_of(*judged.scene->bodies[body].shape->lattice, cell,
-                                     judged.positions[frame].nodes[body]);
-  for (const Vec3& p : corners) out.push_back(point(p));
-  return out;
+// Bit for bit, and for people.
+void add_points(Json& element, const std::string& key, const std::vector<Vec3>& points) {
+  Json hex = Json::array(), decimals = Json::array();
+  for (const Vec3& p : points) {
+    hex.push_back(point(p));
+    decimals.push_back(decimal(p));
+  }
+  element[key] = std::move(hex);
+  element[key + "_decimal"] = std::move(decimals);
 }
 
 // A missed contact at level `cell` is a pair of triangles; a spurious one is a pair of cells.
@@ -47,20 +45,28 @@ bool names_vertex(const judge::Disagreement& d) {
 }
 
 Json first_of_vertex_pair(const judge::JudgedScene& judged, const judge::Disagreement& d) {
+  const Vec3& place = judged.positions[d.frame].vertices[d.pair.body_a][d.pair.a];
   return {{"body", judged.scene->bodies[d.pair.body_a].name},
           {"vertex", d.pair.a},
-          {"position", point(judged.positions[d.frame].vertices[d.pair.body_a][d.pair.a])}};
+          {"position", point(place)},
+          {"position_decimal", decimal(place)}};
 }
 
 Json element(const judge::JudgedScene& judged, const judge::Disagreement& d, std::uint32_t body,
              std::uint32_t id) {
+  const BodyShape& shape = *judged.scene->bodies[body].shape;
+  const scene::FramePosition& positions = judged.positions[d.frame];
   Json out = {{"body", judged.scene->bodies[body].name}};
   if (names_triangles(d) || d.level == name_of(Level::kNear)) {
     out["triangle"] = id;
-    out["vertices"] = triangle_points(judged, d.frame, body, id);
+    std::vector<Vec3> corners;
+    for (const std::uint32_t v : shape.mesh.triangles[id])
+      corners.push_back(positions.vertices[body][v]);
+    add_points(out, "vertices", corners);
   } else if (names_cells(d)) {
     out["cell"] = id;
-    out["nodes"] = cell_nodes(judged, d.frame, body, id);
+    const Corners corners = corners_of(*shape.lattice, id, positions.nodes[body]);
+    add_points(out, "nodes", {corners.begin(), corners.end()});
   }
   return out;
 }

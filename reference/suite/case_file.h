@@ -1,4 +1,4 @@
-// Disagreements as self-contained files: ids, and the vertices as hex floats.
+// Disagreements as self-contained files: ids, and the vertices as hex floats and as decimals.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@ namespace contactcheck::suite {
 
 /// Writes what is needed to look at a disagreement without the scene: level, kind, frame, and for
 /// pairs of triangles, the six deformed vertices bit for bit; for pairs of cells, the mapped nodes;
-/// for a vertex, its place. `recording`: the path of the scene's recording from the folder where
-/// the case will lie, which `contactcheck reduce` finds the whole frame with; empty where there is
-/// none.
+/// for a vertex, its place. `..._decimal` repeats hex floats for people. `recording`: the path of
+/// the scene's recording from the folder where the case will lie, which `contactcheck reduce` finds
+/// the whole frame with; empty where there is none.
 void write_case(const std::filesystem::path& file, const judge::JudgedScene& judged,
                 const judge::Disagreement& disagreement, const std::string& recording);
 

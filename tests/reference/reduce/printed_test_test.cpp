@@ -35,7 +35,7 @@ TEST(PrintedTest, IsATestWithExactNumbers) {
   const Finding finding{"triangle", "missed"};
   const MinimalCase minimal = printed_case(finding);
   EXPECT_EQ(
-      printed_test(minimal, answers_of(minimal, verdict(finding))),
+      printed_test(minimal, answers_of(minimal, verdict(finding)), TestLanguage::kCpp),
       R"(// fcl-obbrss (fcl 0.7.0): missed at level triangle. From hard-balls, value 1e-3 (frame 4).
 TEST(FclObbrss, MissedTriangleHardBalls) {
   const std::array<std::array<double, 3>, 3> first_vertices = {{
@@ -59,6 +59,53 @@ TEST(FclObbrss, MissedTriangleHardBalls) {
   // EXPECT_TRUE(your_detector(first_vertices, first_triangles, second_vertices, second_triangles));
 }
 )");
+}
+
+TEST(PrintedTest, IsPythonOrC) {
+  const Finding finding{"triangle", "spurious"};
+  const MinimalCase minimal = printed_case(finding);
+  const CaseAnswers answers = answers_of(minimal, verdict(finding));
+  EXPECT_EQ(
+      printed_test(minimal, answers, TestLanguage::kPython),
+      R"(# fcl-obbrss (fcl 0.7.0): spurious at level triangle. From hard-balls, value 1e-3 (frame 4).
+def test_fcl_obbrss_spurious_triangle_hard_balls():
+    first_vertices = [
+        [0.0, 1.0, 2.0],
+        [-3.0, 0.5, 0.3333333333333333],
+        [0.0, 0.0, 0.0],
+    ]
+    first_triangles = [
+        [0, 1, 2],
+    ]
+    second_vertices = [
+        [1e-05, 6.0, 7.0],
+        [8.0, 9.0, 1.0],
+        [2.0, 3.0, 1e+300],
+    ]
+    second_triangles = [
+        [0, 1, 2],
+    ]
+    # Exact: triangle 0 of first and triangle 0 of second share no point.
+    # fcl-obbrss answered: 1 pair at level triangle of 3 true: 2 missed, 0 spurious.
+    # assert not your_detector(first_vertices, first_triangles, second_vertices, second_triangles)
+)");
+  const std::string c = printed_test(minimal, answers, TestLanguage::kC);
+  EXPECT_THAT(c, testing::HasSubstr("void test_fcl_obbrss_spurious_triangle_hard_balls(void) {\n"
+                                    "  const double first_vertices[3][3] = {\n"
+                                    "      {0.0, 1.0, 2.0},\n"
+                                    "      {-3.0, 0.5, 0x1.5555555555555p-2},\n"));
+  EXPECT_THAT(c, testing::HasSubstr("  // assert(!your_detector(first_vertices, "));
+}
+
+TEST(AnswersOf, NameTheEdgesThatMeetTheOtherTriangle) {
+  const Finding finding{"triangle", "missed"};
+  MinimalCase minimal = printed_case(finding);
+  // The second stands upright in the plane x = y and passes through the first.
+  minimal.candidate = test::two_triangles({0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                                           1, 1, 1, 1, 1, -1, 9, 9, 0});
+  EXPECT_EQ(answers_of(minimal, verdict(finding)).exact,
+            "triangle 0 of first and triangle 0 of second share a point: edge 1-2 of first meets "
+            "triangle 0 of second; edge 0-1 of second meets triangle 0 of first");
 }
 
 TEST(AnswersOf, SayWhatIsTrueAtEveryLevel) {

@@ -56,9 +56,11 @@ class CaseFile : public testing::Test {
     ASSERT_EQ(element.at("vertices").size(), 3u);
     const Triangle& corners = scene_.bodies[body].shape->mesh.triangles[triangle];
     for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k)
-        EXPECT_EQ(read_back(element.at("vertices")[c][k]),
-                  judged_.positions[2].vertices[body][corners[c]][k]);
+      for (int k = 0; k < 3; ++k) {
+        const double place = judged_.positions[2].vertices[body][corners[c]][k];
+        EXPECT_EQ(read_back(element.at("vertices")[c][k]), place);
+        EXPECT_EQ(element.at("vertices_decimal")[c][k], place);
+      }
   }
 
   void expect_cell(const json& element, std::uint32_t body, std::uint32_t cell) {
@@ -66,9 +68,11 @@ class CaseFile : public testing::Test {
     ASSERT_EQ(element.at("nodes").size(), 8u);
     const Lattice& lattice = *scene_.bodies[body].shape->lattice;
     for (int c = 0; c < 8; ++c)
-      for (int k = 0; k < 3; ++k)
-        EXPECT_EQ(read_back(element.at("nodes")[c][k]),
-                  judged_.positions[2].nodes[body][lattice.cell_nodes[cell][c]][k]);
+      for (int k = 0; k < 3; ++k) {
+        const double place = judged_.positions[2].nodes[body][lattice.cell_nodes[cell][c]][k];
+        EXPECT_EQ(read_back(element.at("nodes")[c][k]), place);
+        EXPECT_EQ(element.at("nodes_decimal")[c][k], place);
+      }
   }
 
   process::SharedProgress page_;

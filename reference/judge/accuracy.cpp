@@ -113,6 +113,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
   BodyPairsPerFrame true_pairs, reported_pairs;
   std::vector<results::Stage> stages;
   FrameNotes notes;
+  ExchangedPairs exchanged;
   std::uint64_t hash = 0;
   ContactSet contacts, other;
 
@@ -169,8 +170,12 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
     progress.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
     std::vector<NearPair> near;
     if (judges_near) near = tools.oracle.near(frame, semantics.margin);
-    for (const Level level : levels)
-      totals.add(f, level, compare_at(level, scene.bodies, semantics, truth, contacts, near));
+    for (const Level level : levels) {
+      const LevelComparison comparison =
+          compare_at(level, scene.bodies, semantics, truth, contacts, near);
+      totals.add(f, level, comparison);
+      if (level == Level::kTriangle) exchanged.add_frame(comparison);
+    }
 
     // 4. Errors with a size.
     std::optional<double>& covered_here = covered.emplace_back();
@@ -209,6 +214,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
   if (scene.follows_time()) run.geometry.episodes = find_episodes(true_pairs, reported_pairs);
   sum_up_episodes(run.geometry);  // once more when gaps are measured
   for (const std::string& note : notes.summary()) run.notes.push_back(note);
+  if (const std::string note = exchanged.sentence(); !note.empty()) run.notes.push_back(note);
   return outcome;
 }
 

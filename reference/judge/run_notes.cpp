@@ -34,4 +34,18 @@ std::vector<std::string> FrameNotes::summary() const {
   return out;
 }
 
+void ExchangedPairs::add_frame(const LevelComparison& comparison) {
+  missed_ += comparison.missed.size();
+  for (const ElementPair& p : comparison.missed)
+    if (std::binary_search(comparison.spurious.begin(), comparison.spurious.end(),
+                           ElementPair{p.body_a, p.body_b, p.b, p.a}))
+      ++exchanged_;
+}
+
+std::string ExchangedPairs::sentence() const {
+  if (missed_ == 0 || exchanged_ < missed_) return "";
+  return "reports all " + std::to_string(missed_) +
+         " missed pairs with a and b exchanged; a belongs to the body with the lower index";
+}
+
 }  // namespace contactcheck::judge

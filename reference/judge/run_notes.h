@@ -1,9 +1,12 @@
 // What a run writes down about a detector beside its counts.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "reference/judge/judge.h"
 #include "reference/process/float_environment.h"
 #include "reference/results/results.h"
 
@@ -27,6 +30,18 @@ class FrameNotes {
   };
   std::vector<Line> lines_;
   std::size_t frames_ = 0;
+};
+
+/// Recognises an answer whose pairs name the triangle of the other body first.
+class ExchangedPairs {
+ public:
+  /// A frame of level `triangle`.
+  void add_frame(const LevelComparison& comparison);
+  /// A sentence, if the answer has every missed pair so; else empty.
+  std::string sentence() const;
+
+ private:
+  std::uint64_t missed_ = 0, exchanged_ = 0;
 };
 
 }  // namespace contactcheck::judge

@@ -150,6 +150,18 @@ std::string scene_head(const results::Scene& scene, bool color) {
                      scene.frames, scene.contact_frames, more);
 }
 
+// What was noted about detectors from outside: their makers read the terminal.
+std::string own_notes(const results::Results& results, const results::Scene& scene,
+                      const results::Index& index) {
+  std::string out;
+  for (const results::Plugin& plugin : results.plugins)
+    for (const results::Run* run : index.runs_of(scene.id))
+      if (run->detector.substr(0, run->detector.find(':')) == plugin.detector)
+        for (const std::string& note : run->notes)
+          out += fmt::format("  {}: {}\n", run->detector, note);
+  return out.empty() ? "" : out + "\n";
+}
+
 std::string terminal_legend() {
   std::string out;
   for (std::size_t i = 1; i < result_columns().size(); ++i)
@@ -167,7 +179,7 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
     TitledTable rows{"", "", result_columns(), {}};
     for (const results::Run* run : index.runs_of(scene->id))
       rows.rows.push_back(result_cells(*run));
-    out += scene_head(*scene, color) + table(rows, color);
+    out += scene_head(*scene, color) + table(rows, color) + own_notes(results, *scene, index);
     if (scene->sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.scenes.size() > 1)

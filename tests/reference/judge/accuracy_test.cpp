@@ -57,6 +57,18 @@ TEST(Accuracy, ExactDetectorsAreExact) {
   }
 }
 
+TEST(Accuracy, RecognisesExchangedTriangles) {
+  test::SwapsIds swaps;
+  const Judged swapped = accuracy_of(spheres(), swaps);
+  ASSERT_EQ(swapped.notes.size(), 1u);
+  EXPECT_EQ(swapped.notes[0],
+            "reports all " + std::to_string(swapped.levels.at(Level::kTriangle).missed) +
+                " missed pairs with a and b exchanged; a belongs to the body with the lower index");
+  test::DropsEveryTenth drops;
+  EXPECT_TRUE(accuracy_of(spheres(), drops).notes.empty());
+  EXPECT_TRUE(accuracy_of(spheres(), "fcl-aabb").notes.empty());
+}
+
 TEST(Accuracy, CountsFramesAndContactFrames) {
   const Judged result = accuracy_of(spheres(), "fcl-aabb");
   EXPECT_EQ(result.frames, 12u);

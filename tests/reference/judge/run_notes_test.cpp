@@ -22,5 +22,21 @@ TEST(FrameNotes, AreSilentWhenNothingIsSaid) {
   EXPECT_THAT(notes.summary(), IsEmpty());
 }
 
+TEST(ExchangedPairs, AreAllThatIsMissedOrNone) {
+  LevelComparison frame;
+  frame.missed = {{0, 1, 3, 5}, {0, 1, 4, 9}};
+  frame.spurious = {{0, 1, 5, 3}, {0, 1, 9, 4}};
+  ExchangedPairs exchanged;
+  EXPECT_EQ(exchanged.sentence(), "");
+  exchanged.add_frame(frame);
+  EXPECT_EQ(
+      exchanged.sentence(),
+      "reports all 2 missed pairs with a and b exchanged; a belongs to the body with the lower "
+      "index");
+  frame.spurious.pop_back();
+  exchanged.add_frame(frame);
+  EXPECT_EQ(exchanged.sentence(), "");
+}
+
 }  // namespace
 }  // namespace contactcheck::judge

@@ -99,6 +99,19 @@ TEST(Terminal, ShowsADetectorsOwnClockBesideOurs) {
   EXPECT_THAT(text, HasSubstr("  2.00  ")) << "one without a clock has none";
 }
 
+TEST(Terminal, NotesOfDetectorsFromOutsideFollowTheTable) {
+  auto results = sample_results();
+  results["runs"][1]["notes"] = {"a and b exchanged"};
+  EXPECT_THAT(terminal_of(results, false), Not(HasSubstr("exchanged")));
+  results["plugins"] = {{{"detector", "ffd-aabb-sphere2+tri"},
+                         {"kind", "command"},
+                         {"source", "python3 mine.py"},
+                         {"content", "0x0123456789abcdef"},
+                         {"version", ""}}};
+  EXPECT_THAT(terminal_of(results, false),
+              HasSubstr("\n  ffd-aabb-sphere2+tri: a and b exchanged\n"));
+}
+
 TEST(Terminal, PaintsMissesSpuriousAndFailuresAlone) {
   const std::string text = terminal_of(sample_results(), true);
   EXPECT_THAT(text, HasSubstr("\x1b[31merror\x1b[0m"));

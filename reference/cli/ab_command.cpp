@@ -31,55 +31,67 @@ namespace fs = std::filesystem;
 
 /// How one side is run.
 struct AbSide {
-  std::string name;                    ///< "base" or "head"
-  std::filesystem::path program;       ///< absolute
-  std::vector<std::string> detectors;  ///< of its command line
+  std::string name;                ///< "base" or "head"
+  std::filesystem::path program;   ///< absolute
+  std::vector<std::string> flags;  ///< that name its detectors
 };
 
-// A program may lie anywhere: its path alone says nothing, but none is called so.
-bool is_library(const std::string& text) { return text.substr(0, text.find(':')).ends_with(".so"); }
+enum class BuildKind { kProgram, kLibrary, kCommand };
 
-AbSide program_side(const char* name, const std::string& text, const AbArguments& arguments) {
-  const fs::path program = fs::absolute(text);
-  if (!fs::is_regular_file(program) || access(program.c_str(), X_OK) != 0)
-    throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run");
-  return {name, program, arguments.detectors};
+constexpr const char* kKindNames[] = {"a program", "a library", "a command"};
+
+// A program may lie anywhere, so its path says nothing; but none is called "x.so", and a text of
+// several words that is no file can only be a command.
+BuildKind kind_of(const std::string& text) {
+  if (text.substr(0, text.find(':')).ends_with(".so")) return BuildKind::kLibrary;
+  const bool words = text.find(' ') != std::string::npos;
+  return words && !fs::exists(text) ? BuildKind::kCommand : BuildKind::kProgram;
 }
 
-AbSide library_side(const char* name, const std::string& text, const AbArguments& arguments) {
-  // A name without a folder is a file here, as for any other library.
-  AbSide side = {name, fs::read_symlink("/proc/self/exe"), {text}};
-  side.detectors.insert(side.detectors.end(), arguments.detectors.begin(),
-                        arguments.detectors.end());
+AbSide side_of(const char* name, const std::string& text, BuildKind kind,
+               const AbArguments& arguments) {
+  AbSide side = {name, fs::absolute(text), {}};
+  if (kind == BuildKind::kProgram) {
+    if (!fs::is_regular_file(side.program) || access(side.program.c_str(), X_OK) != 0)
+      throw InputError(std::string(name) + " \"" + text + "\" is not a program that can be run");
+  } else {
+    side.program = fs::read_symlink("/proc/self/exe");
+    side.flags = {kind == BuildKind::kLibrary ? "--detector" : "--detector-cmd", text};
+  }
+  for (const std::string& detector : arguments.detectors) {
+    side.flags.push_back("--detector");
+    side.flags.push_back(detector);
+  }
   return side;
 }
 
-std::string detector_name(const std::string& library, const DetectorCatalog& catalog) {
-  const OwnDetectors own = load_own_detectors({library}, {}, suite::RunSettings{}, catalog);
+std::string detector_name(const std::string& text, BuildKind kind, const DetectorCatalog& catalog) {
+  const bool library = kind == BuildKind::kLibrary;
+  const OwnDetectors own = load_own_detectors(
+      library ? std::vector{text} : std::vector<std::string>(),
+      library ? std::vector<std::string>() : std::vector{text}, suite::RunSettings{}, catalog);
   return own.catalog.parse(own.names.front()).name;
 }
 
-// Rows are compared by their names.
-void require_one_detector(const AbArguments& arguments, const DetectorCatalog& catalog) {
-  const std::string base = detector_name(arguments.base, catalog),
-                    head = detector_name(arguments.head, catalog);
-  if (base == head) return;
-  throw InputError("base \"" + arguments.base.string() + "\" is the detector \"" + base +
-                   "\" and head \"" + arguments.head.string() + "\" is \"" + head +
-                   "\"; ab compares two builds of one detector with the same options");
-}
-
-// Base and head. @throws InputError: no program that can be run, no library that can be used, a
-// program against a library, libraries whose detectors have different names
+// Base and head. @throws InputError: no program that can be run, no library or command that can be
+// used, two of different kinds, detectors with different names
 std::vector<AbSide> ab_sides(const AbArguments& arguments, const DetectorCatalog& catalog) {
-  const bool of_libraries = is_library(arguments.base);
-  if (of_libraries != is_library(arguments.head))
-    throw InputError("base \"" + arguments.base.string() + "\" and head \"" +
-                     arguments.head.string() +
-                     "\" are a library and a program; ab compares two of a kind");
-  if (of_libraries) require_one_detector(arguments, catalog);
-  const auto side = of_libraries ? library_side : program_side;
-  return {side("base", arguments.base, arguments), side("head", arguments.head, arguments)};
+  const std::string &base = arguments.base.string(), &head = arguments.head.string();
+  const BuildKind kind = kind_of(base), other = kind_of(head);
+  if (kind != other)
+    throw InputError("base \"" + base + "\" is " + kKindNames[static_cast<int>(kind)] +
+                     " and head \"" + head + "\" is " + kKindNames[static_cast<int>(other)] +
+                     "; ab compares two of a kind");
+  if (kind != BuildKind::kProgram) {
+    // Rows are compared by their names.
+    const std::string old_name = detector_name(base, kind, catalog),
+                      new_name = detector_name(head, kind, catalog);
+    if (old_name != new_name)
+      throw InputError("base \"" + base + "\" is the detector \"" + old_name + "\" and head \"" +
+                       head + "\" is \"" + new_name +
+                       "\"; ab compares two builds of one detector with the same options");
+  }
+  return {side_of("base", base, kind, arguments), side_of("head", head, kind, arguments)};
 }
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
@@ -91,7 +103,7 @@ class Build {
       : name_(side.name), program_(side.program), out_(fs::absolute(arguments.out) / side.name) {
     words_ = {"run", "--quiet", "--processes", "1"};
     if (arguments.frames > 0) add("--frames", std::to_string(arguments.frames));
-    for (const std::string& detector : side.detectors) add("--detector", detector);
+    words_.insert(words_.end(), side.flags.begin(), side.flags.end());
     add("--out", out_.string());
     words_.insert(words_.end(), arguments.targets.begin(), arguments.targets.end());
   }

@@ -33,9 +33,9 @@ void add_ab(CommandLine& line) {
   const auto arguments = std::make_shared<AbArguments>();
   CLI::App* ab = line.app.add_subcommand(
       "ab", "Compares two builds: is HEAD slower, does it answer differently");
-  ab->add_option("base", arguments->base, "old program, or shared library of a detector")
+  ab->add_option("base", arguments->base, "old program, or a detector's old library or command")
       ->required();
-  ab->add_option("head", arguments->head, "new program, or shared library of a detector")
+  ab->add_option("head", arguments->head, "new program, or a detector's new library or command")
       ->required();
   ab->add_option("targets", arguments->targets,
                  "suites, scenes or files, as of run (default: default)");
@@ -59,7 +59,8 @@ void add_ab(CommandLine& line) {
       "Examples:\n"
       "  contactcheck ab ../main/build/release/contactcheck build/release/contactcheck "
       "bunny-touch\n"
-      "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch");
+      "  contactcheck ab ./libmine-old.so ./libmine.so bunny-touch\n"
+      "  contactcheck ab 'python3 old.py' 'python3 new.py' bunny-touch");
   choose(*ab, line, [arguments, &line] { return ab_command(*arguments, line.catalog); });
 }
 

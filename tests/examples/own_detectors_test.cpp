@@ -172,6 +172,18 @@ TEST(OwnDetectors, OfTwoBuildsOfALibraryAreComparedInTurns) {
   EXPECT_THAT(mixed.err, testing::HasSubstr("ab compares two of a kind"));
 }
 
+TEST(OwnDetectors, OfTwoCommandsAreComparedInTurns) {
+  const test::Scratch scratch;
+  const std::string out = (scratch.folder() / "ab").string();
+  const Outcome same = ab(python_command(), "env " + python_command(), out);
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_THAT(same.out, testing::HasSubstr("PASS: 1 of 1 times are within the limit."));
+  const Outcome mixed = ab(python_command(), c_library(), out);
+  EXPECT_EQ(mixed.exit_code, 2);
+  EXPECT_THAT(mixed.err, testing::HasSubstr("is a command and head"));
+  EXPECT_THAT(mixed.err, testing::HasSubstr("is a library; ab compares two of a kind"));
+}
+
 TEST(OwnDetectors, InCppAreJudgedByTheirProgram) {
   PluginRun run({"--detector", "cpp-sweep:axis=y"}, {"--no-timing"}, CONTACTCHECK_CPP_EXAMPLE);
   EXPECT_EQ(run.outcome().exit_code, 0) << run.outcome().err;

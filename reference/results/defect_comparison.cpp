@@ -69,6 +69,9 @@ DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun
   for (const KnownDefect& d : known.defects) {
     DefectComparison::Count& count = out.counts.emplace_back();
     count.other_version = version_in(versions, d.library) != d.version;
+    count.possible = std::any_of(d.seen.begin(), d.seen.end(), [&](const auto& entry) {
+      return run.possible.contains(entry.first);
+    });
     if (count.other_version) continue;
     for (const auto& [s, was] : d.seen) {
       listed.insert(s);
@@ -100,6 +103,7 @@ DefectCounts in_results(const KnownDefects& known, const DefectComparison& compa
   for (std::size_t i = 0; i < known.defects.size(); ++i) {
     const KnownDefect& d = known.defects[i];
     const DefectComparison::Count& count = comparison.counts[i];
+    if (!count.possible) continue;
     (d.is_reading() ? out.readings : out.defects)
         .push_back({d.library, d.version, d.where, d.upstream.value_or(""), name_of(d.kind),
                     d.sentence, names_of(d, [](const Sighting& s) { return s.detector; }),

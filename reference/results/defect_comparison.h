@@ -24,6 +24,7 @@ struct DefectComparison {
     std::size_t shown = 0;       ///< of these, with whatever count
     std::size_t changed = 0;     ///< of those, with another count than the listed one
     bool other_version = false;  ///< the run has another version of the library: nothing compared
+    bool possible = false;       ///< the run has some detector and case of it
   };
   /// A count that was listed and one that the run shows; 0 where there is none.
   struct Change {
@@ -47,7 +48,7 @@ DefectComparison compare_defects(const KnownDefects& known, const SightingsOfRun
 /// True when some detector failed where the list has no error.
 bool any_unlisted_error(const DefectComparison& comparison);
 
-/// What results.json says about the list.
+/// What results.json says about the defects that the run could have shown.
 DefectCounts in_results(const KnownDefects& known, const DefectComparison& comparison);
 
 /// Of which library a detector is made; by its canonical name.

@@ -227,6 +227,9 @@ bool has_place_for(const KnownDefect& defect, const Sighting& sighting) {
 KnownDefects read_known_defects(const std::filesystem::path& folder) {
   KnownDefects known;
   for (const ListFile& list : kFiles) read_list(folder, list, known);
+  std::error_code none;
+  for (const auto& file : std::filesystem::directory_iterator(folder / "families", none))
+    known.families.insert(file.path().stem().string());
   return known;
 }
 

@@ -79,6 +79,7 @@ struct KnownDefect {
 
 struct KnownDefects {
   std::vector<KnownDefect> defects;
+  std::set<std::string> families = {};  ///< ids of the hard cases beside the lists
 };
 
 /// Does the defect already have sightings of that detector in that scene, of that kind? Then it is
@@ -88,8 +89,8 @@ bool has_place_for(const KnownDefect& defect, const Sighting& sighting);
 /// Place and sentence of a defect that no person has looked at yet.
 inline constexpr const char* kUnexplained = "not looked into yet";
 
-/// known-defects.json and readings.json of the folder, in this order; a file that is missing is an
-/// empty list.
+/// known-defects.json and readings.json of the folder, in this order, and the names of the files in
+/// its families/; a file that is missing is an empty list.
 /// @throws InputError with file, place and value; also when two defects of one version have the
 /// same detector, scene and kind, and for the form without counts
 KnownDefects read_known_defects(const std::filesystem::path& folder);

@@ -145,8 +145,8 @@ bool from_outside(const std::string& detector, const Results& results) {
                      [&](const results::Plugin& plugin) { return plugin.detector == id; });
 }
 
-// Where nothing could have shown a defect, there is nothing to say about them. An error of a
-// detector from outside is its own matter, which its row tells.
+// The list is about the families beside it: of others, as a minimal case, the rows say it all. An
+// error of a detector from outside is its own matter, which its row tells.
 void add_known_defects(const results::KnownDefects& known, Results& results,
                        SuiteOutcome* outcome) {
   const results::DefectComparison comparison = results::compare_defects(
@@ -154,15 +154,16 @@ void add_known_defects(const results::KnownDefects& known, Results& results,
   const std::vector<results::Scene>& scenes = results.scenes;
   const bool any_unjudged =
       std::any_of(scenes.begin(), scenes.end(), [](const auto& s) { return !s.unjudged.empty(); });
-  const bool any_family =
-      std::any_of(scenes.begin(), scenes.end(), [](const auto& s) { return s.family.has_value(); });
+  const bool any_listed = std::any_of(scenes.begin(), scenes.end(), [&](const auto& s) {
+    return s.family.has_value() && known.families.contains(s.id);
+  });
   const bool own_error =
       std::any_of(comparison.unlisted.begin(), comparison.unlisted.end(), [&](const auto& entry) {
         const results::Sighting& s = entry.first;
         return s.kind == results::SightingKind::kError && !from_outside(s.detector, results);
       });
   outcome->unlisted_error = results::any_unlisted_error(comparison) || any_unjudged;
-  if (any_family || own_error) results.known_defects = results::in_results(known, comparison);
+  if (any_listed || own_error) results.known_defects = results::in_results(known, comparison);
 }
 
 template <typename T>

@@ -417,7 +417,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
                                        return std::holds_alternative<scene::SceneText>(task.source);
                                      });
   if (of_meshes && !arguments.quiet && !arguments.json_lines)
-    for (const std::string& note : scene::size_notes(arguments.meshes))
+    for (const std::string& note : scene::mesh_notes(arguments.meshes))
       std::fprintf(stderr, "%s\n", note.c_str());
   Watcher watcher(arguments);
   watcher.events.print(start_event(request));

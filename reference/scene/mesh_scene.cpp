@@ -11,6 +11,7 @@
 
 #include "core/deform/name_check.h"
 #include "core/types/check.h"
+#include "core/types/mesh_topology.h"
 #include "core/types/semantics.h"
 #include "core/types/vec3.h"
 #include "reference/mesh/mesh_file.h"
@@ -233,7 +234,7 @@ std::string mesh_path_from(const fs::path& folder, const fs::path& mesh) {
   return to.lexically_proximate(from).string();
 }
 
-std::vector<std::string> size_notes(const MeshSceneRequest& request) {
+std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
   constexpr double kDoubtful = 100.0;  // times as large: millimetres beside metres
   const auto digits = [](double value) {
     char text[32];
@@ -244,13 +245,17 @@ std::vector<std::string> size_notes(const MeshSceneRequest& request) {
   std::pair<double, std::string> smallest, largest;
   for (const fs::path& file : request.meshes) {
     const std::string name = stem_of(file);
-    const double side = 2.0 * half_side(mesh::read_mesh_file(file).mesh);
+    const mesh::LoadedMesh loaded = mesh::read_mesh_file(file);
+    const double side = 2.0 * half_side(loaded.mesh);
     if (smallest.second.empty() || side < smallest.first) smallest = {side, name};
     if (largest.second.empty() || side > largest.first) largest = {side, name};
     std::string note = name + ": " + digits(side) + " m";
     if (request.size && *request.size != side)
       note += ", scaled to " + digits(*request.size) + " m (--size file keeps it)";
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    if (std::find(notes.begin(), notes.end(), note) != notes.end()) continue;
+    notes.push_back(note);
+    for (const std::string& found : {loaded.notes, describe(analyse_topology(loaded.mesh))})
+      if (!found.empty()) notes.push_back(name + ": " + found);
   }
   if (largest.first > kDoubtful * smallest.first)
     notes.push_back("warning: " + largest.second + " is " + digits(largest.first / smallest.first) +

@@ -34,10 +34,11 @@ const std::vector<std::string>& motion_names();
 /// point or too large, meshes that no axis leads into contact, a number of meshes that is not meant
 SceneText mesh_scene(const MeshSceneRequest& request, const std::filesystem::path& folder);
 
-/// What becomes of the sizes in the files, a line a mesh: "cow: 10.4 m, scaled to 1 m (--size file
-/// keeps it)"; and a warning where one is over a hundred times as large as another.
+/// What becomes of the sizes in the files, "cow: 10.4 m, scaled to 1 m (--size file keeps it)",
+/// with what reading them and the mesh check found, "cow: 3 boundary-edge (first: triangle 17)";
+/// and a warning where one is over a hundred times as large as another.
 /// @throws InputError as mesh_scene
-std::vector<std::string> size_notes(const MeshSceneRequest& request);
+std::vector<std::string> mesh_notes(const MeshSceneRequest& request);
 
 /// How a scene file in `folder` names the mesh. Through no link: a link's ".." is not the folder
 /// that names it.

@@ -158,6 +158,15 @@ TEST_F(MeshRun, SaysWhatBecomesOfTheSizes) {
   EXPECT_EQ(run({"--quiet"}).err, "");
 }
 
+TEST_F(MeshRun, SaysWhatTheMeshCheckFound) {
+  TriangleMesh open = test::unit_box_mesh(1);
+  open.triangles.pop_back();
+  scratch_.write("cube.obj", test::obj_text(open));
+  const std::string err = run({}).err;
+  EXPECT_THAT(err, HasSubstr("\ncube: 3 boundary-edge (first: triangle "));
+  EXPECT_THAT(err, Not(HasSubstr("\nball: 0 ")));
+}
+
 TEST_F(MeshRun, TakesTheDetectorsOfASuite) {
   const Outcome outcome = contactcheck_program(
       {"run", in("ball.obj"), in("cube.obj"), "--no-timing", "--detectors", "scaling", "--detector",

@@ -80,7 +80,8 @@ TEST_F(RecordedRun, FramesOfASceneGiveItsContactHash) {
   // Who needs a lattice says so, and is judged nowhere.
   EXPECT_EQ(replayed["runs"][3]["status"], "refused");
   EXPECT_THAT(replayed["runs"][3]["message"].get<std::string>(),
-              HasSubstr("needs a lattice for every body"));
+              HasSubstr("needs a lattice for every body; a body of a scene file gets one by "
+                        "\"lattice\": {\"kept\": 150, \"fit\": true}"));
   EXPECT_FALSE(replayed["scenes"][0].contains("fits"));
 }
 

@@ -13,8 +13,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "contactcheck-contacts/1";
 
-enum class Element { kTriangle, kCell, kVertex, kNone };
-
 struct PairKind {
   Element first, second;
 };
@@ -57,42 +55,46 @@ void check_contacts(const Json& contacts, const Recording& recording) {
       throw InputError("frame " + std::to_string(number) + " is not among the " +
                        std::to_string(recording.frames.size()) + " recorded ones");
   };
-  const auto check_element = [&](std::int64_t body, std::int64_t element, Element kind) {
+  for (const Json& frame : contacts.at("truth")) check_frame(frame);
+  for (const Json& detector : contacts.at("detectors")) {
+    detector.at("detector").get<std::string>();
+    for (const Json& frame : detector.at("frames")) check_frame(frame);
+  }
+  visit_elements(contacts, [&](std::int64_t body, std::int64_t element, Element kind) {
     if (body < 0 || body >= static_cast<std::int64_t>(recording.bodies.size()))
       throw InputError("body " + std::to_string(body) + " is not recorded");
     if (kind == Element::kNone && element == -1) return;
     if (element < 0 || element >= element_count(*recording.bodies[body].shape, kind))
       throw InputError("body " + std::to_string(body) + " has no element " +
                        std::to_string(element));
-  };
-  const auto check_pairs = [&](const Json& listed, PairKind kind) {
+  });
+}
+
+}  // namespace
+
+void visit_elements(
+    const Json& contacts,
+    const std::function<void(std::int64_t body, std::int64_t element, Element kind)>& visit) {
+  const auto visit_pairs = [&](const Json& listed, PairKind kind) {
     listed.at("count").get<std::uint64_t>();
     const auto pairs = listed.at("pairs").get<std::vector<std::int64_t>>();
     if (pairs.size() % 4 != 0)
       throw InputError("a list of pairs has " + std::to_string(pairs.size()) +
                        " numbers, which is no multiple of 4");
     for (std::size_t i = 0; i < pairs.size(); i += 4) {
-      check_element(pairs[i], pairs[i + 1], kind.first);
-      check_element(pairs[i + 2], pairs[i + 3], kind.second);
+      visit(pairs[i], pairs[i + 1], kind.first);
+      visit(pairs[i + 2], pairs[i + 3], kind.second);
     }
   };
-
-  for (const Json& frame : contacts.at("truth")) {
-    check_frame(frame);
-    check_pairs(frame, pair_kind("triangle", true));
-  }
+  for (const Json& frame : contacts.at("truth")) visit_pairs(frame, pair_kind("triangle", true));
   for (const Json& detector : contacts.at("detectors")) {
     const auto level = detector.at("level").get<std::string>();
-    detector.at("detector").get<std::string>();
     for (const Json& frame : detector.at("frames")) {
-      check_frame(frame);
-      check_pairs(frame.at("missed"), pair_kind(level, true));
-      check_pairs(frame.at("spurious"), pair_kind(level, false));
+      visit_pairs(frame.at("missed"), pair_kind(level, true));
+      visit_pairs(frame.at("spurious"), pair_kind(level, false));
     }
   }
 }
-
-}  // namespace
 
 Json read_contacts(const std::string& text, const std::string& name, const Recording& recording) {
   std::string fault;

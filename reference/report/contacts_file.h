@@ -1,6 +1,8 @@
 // contacts/SCENE.json: which pairs touch, and which are missed or spurious, for the 3D view.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -14,5 +16,14 @@ namespace contactcheck::report {
 /// cell or vertex that the recording does not have
 nlohmann::ordered_json read_contacts(const std::string& text, const std::string& name,
                                      const Recording& recording);
+
+/// What a number of a pair counts; kNone: nothing, the pair is one of bodies.
+enum class Element { kTriangle, kCell, kVertex, kNone };
+
+/// Calls with both elements of every listed pair, true ones first.
+/// @throws Json::exception or InputError where a field is missing, of another type or unknown
+void visit_elements(
+    const nlohmann::ordered_json& contacts,
+    const std::function<void(std::int64_t body, std::int64_t element, Element kind)>& visit);
 
 }  // namespace contactcheck::report

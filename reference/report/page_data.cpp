@@ -29,6 +29,8 @@
 #include "reference/report/stage_losses.h"
 #include "reference/report/summary.h"
 #include "reference/results/references.h"
+#include "reference/results/rerun.h"
+#include "reference/text/shell_word.h"
 
 namespace contactcheck::report {
 namespace {
@@ -326,6 +328,9 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
   Json groups = Json::array(), group_names = Json::array();
   for (const std::string& detector : index.detectors()) groups.push_back(group_of(detector));
   for (std::size_t i = 0; i < kDetectorGroups; ++i) group_names.push_back(detector_group(i).name);
+  Json reduce = Json::array();
+  for (const std::string& detector : index.detectors())
+    reduce.push_back(results::detector_words(results, detector));
   Json pairs = Json::array();
   for (const results::Scene& scene : results.scenes)
     if (scene.pairs) pairs.push_back({{"scene", scene.id}, {"table", to_json(pairs_table(scene))}});
@@ -337,8 +342,10 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
                                   machine.cores, machine.isa)},
               {"parts", part_sentences(results)},
               {"machine", machine_lines(results)},
+              {"out", text::in_shell(results::out_folder(results))},
               {"detectors", index.detectors()},
               {"options", options_of(index)},
+              {"reduce", std::move(reduce)},
               {"groups", std::move(groups)},
               {"group_names", std::move(group_names)},
               {"timed", timed},

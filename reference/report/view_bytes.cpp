@@ -38,8 +38,11 @@ constexpr std::string_view kMagic = "CCVIEW1\n";
 constexpr double kSmallestShare = 1.0 / 64.0;
 
 // A recording that is larger than the limit by this factor is not read: the view of a recording,
-// compressed, has been between a third and a seventh of it.
-constexpr std::size_t kReadLimits = 10;
+// compressed, has been between a third and a seventh of it. With contacts, a part of it may do.
+constexpr std::size_t kReadLimits = 10, kReadLimitsWithContacts = 50;
+
+// A view that takes more than this part of the limit is cut to so many triangles near its contacts.
+constexpr std::size_t kLargePart = 3, kKeptTriangles = 20'000;
 
 // Halved before the difference: the extent of a box as large as the doubles is no double.
 double half_size(const Aabb& box) {
@@ -95,12 +98,81 @@ std::vector<std::uint32_t> flat(const std::vector<std::array<std::uint32_t, N>>&
   return out;
 }
 
+/// Of a shape, by ascending numbers.
+struct KeptParts {
+  std::vector<std::uint32_t> triangles, vertices;
+};
+using KeptShapes = std::map<const BodyShape*, KeptParts>;
+
+// Triangles that share a vertex with what is kept are added, ring after ring, in all shapes alike.
+KeptShapes kept_near_contacts(const Recording& recording, const Json& contacts) {
+  std::map<const BodyShape*, std::vector<char>> near;  // per vertex
+  for (const Body& body : recording.bodies)
+    near[body.shape.get()].resize(body.shape->mesh.vertices.size());
+  visit_elements(contacts, [&](std::int64_t body, std::int64_t element, Element kind) {
+    const BodyShape& shape = *recording.bodies[static_cast<std::size_t>(body)].shape;
+    const auto id = static_cast<std::size_t>(element);
+    if (kind == Element::kVertex) near[&shape][id] = 1;
+    if (kind != Element::kTriangle) return;
+    for (const std::uint32_t v : shape.mesh.triangles[id]) near[&shape][v] = 1;
+  });
+  // Of a body without named elements something, so that it has a place.
+  for (auto& [shape, marks] : near)
+    if (std::find(marks.begin(), marks.end(), 1) == marks.end() && !shape->mesh.triangles.empty())
+      marks[shape->mesh.triangles[0][0]] = 1;
+
+  KeptShapes out;
+  for (std::size_t count = 0, before = 1; count < kKeptTriangles && count != before;) {
+    before = count;
+    count = 0;
+    for (auto& [shape, marks] : near) {
+      KeptParts& kept = out[shape] = {};
+      const std::vector<Triangle>& triangles = shape->mesh.triangles;
+      for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (std::any_of(triangles[t].begin(), triangles[t].end(),
+                        [&](std::uint32_t v) { return marks[v] != 0; }))
+          kept.triangles.push_back(t);
+      for (const std::uint32_t t : kept.triangles)
+        for (const std::uint32_t v : triangles[t]) marks[v] = 1;
+      for (std::uint32_t v = 0; v < marks.size(); ++v)
+        if (marks[v] != 0) kept.vertices.push_back(v);
+      count += kept.triangles.size();
+    }
+  }
+  return out;
+}
+
+template <typename T>
+std::vector<T> picked(const std::vector<T>& all, const KeptParts* kept) {
+  if (kept == nullptr) return all;
+  std::vector<T> out;
+  for (const std::uint32_t v : kept->vertices) out.push_back(all[v]);
+  return out;
+}
+
 // The header's entry of a shape: its triangles, and how its vertices, FFD-AABBs and bounding
 // spheres follow from the nodes of a frame. Boxes and spheres are those of ffd-aabb-sphere and
 // ffd-aabb-sphere2 as the paper has them; both have the same sphere of level 1.
-Json shape_view(const BodyShape& shape, std::string& arrays) {
-  Json out = {{"vertices", shape.mesh.vertices.size()}, {"nodes", shape.node_count()}};
-  out["triangles"] = add_ids(flat(shape.mesh.triangles), arrays);
+// `kept`: null for all of it.
+Json shape_view(const BodyShape& shape, const KeptParts* kept, std::string& arrays) {
+  const std::size_t vertices = kept ? kept->vertices.size() : shape.mesh.vertices.size();
+  std::vector<Triangle> triangles = shape.mesh.triangles;
+  if (kept != nullptr) {
+    triangles.clear();
+    const auto place = [&](std::uint32_t v) {
+      const auto found = std::lower_bound(kept->vertices.begin(), kept->vertices.end(), v);
+      return static_cast<std::uint32_t>(found - kept->vertices.begin());
+    };
+    for (const std::uint32_t t : kept->triangles) {
+      const Triangle& whole = shape.mesh.triangles[t];
+      triangles.push_back({place(whole[0]), place(whole[1]), place(whole[2])});
+    }
+  }
+  Json out = {{"vertices", vertices}, {"nodes", shape.lattice ? shape.node_count() : vertices}};
+  out["triangles"] = add_ids(flat(triangles), arrays);
+  if (kept != nullptr)
+    out["kept"] = {{"triangles", add_ids(kept->triangles, arrays)},
+                   {"vertices", add_ids(kept->vertices, arrays)}};
   if (!shape.lattice) return out;
   FfdConfig config;
   config.sphere_levels = 2;
@@ -116,8 +188,8 @@ Json shape_view(const BodyShape& shape, std::string& arrays) {
   for (const double radius : model.rest_radius[1]) radii.push_back(radius);
   Json& lattice = out["lattice"];
   lattice["cell_nodes"] = add_ids(flat(shape.lattice->cell_nodes), arrays);
-  lattice["home"] = add_ids(shape.embedding.home_cell, arrays);
-  lattice["local"] = add_points(shape.embedding.local, arrays);
+  lattice["home"] = add_ids(picked(shape.embedding.home_cell, kept), arrays);
+  lattice["local"] = add_points(picked(shape.embedding.local, kept), arrays);
   lattice["boxes"] = add_points(boxes, arrays);
   lattice["spheres"] = {{"radius1", model.rest_radius[0][0]},
                         {"centers2", add_ids(centers, arrays)},
@@ -130,14 +202,19 @@ struct SceneView {
   std::string arrays;  ///< its size is a multiple of 4
 };
 
-// `contacts`: of read_contacts(), or null where the results name none.
-SceneView scene_view(const Recording& recording, const Json& contacts) {
+// `contacts`: of read_contacts(), or null where the results name none. `kept`: of every shape, or
+// of none.
+SceneView scene_view(const Recording& recording, const Json& contacts, const KeptShapes& kept) {
+  const auto kept_of = [&](const BodyShape* shape) {
+    const auto found = kept.find(shape);
+    return found == kept.end() ? nullptr : &found->second;
+  };
   std::string arrays;
   Json shapes = Json::array(), bodies = Json::array();
   std::map<const BodyShape*, std::size_t> numbers;
   for (const Body& body : recording.bodies) {
     const auto [shape, fresh] = numbers.try_emplace(body.shape.get(), shapes.size());
-    if (fresh) shapes.push_back(shape_view(*body.shape, arrays));
+    if (fresh) shapes.push_back(shape_view(*body.shape, kept_of(body.shape.get()), arrays));
     bodies.push_back({{"name", body.name}, {"shape", shape->second}});
   }
 
@@ -147,9 +224,12 @@ SceneView scene_view(const Recording& recording, const Json& contacts) {
     placed.push_back({{"origin", {p.origin.x(), p.origin.y(), p.origin.z()}}, {"scale", p.scale}});
   std::vector<Vec3> nodes;
   for (std::size_t f = 0; f < recording.frames.size(); ++f)
-    for (const std::vector<Vec3>& body : recording.frames[f])
-      for (const Vec3& p : body)
+    for (std::size_t b = 0; b < recording.bodies.size(); ++b) {
+      const BodyShape* shape = recording.bodies[b].shape.get();
+      for (const Vec3& p :
+           picked(recording.frames[f][b], shape->lattice ? nullptr : kept_of(shape)))
         nodes.push_back(placements[std::min(f, placements.size() - 1)].in_view(p));
+    }
 
   Json header = {{"id", recording.scene},
                  {"frames", recording.frames.size()},
@@ -162,6 +242,21 @@ SceneView scene_view(const Recording& recording, const Json& contacts) {
                  {"detectors", contacts.is_null() ? Json::array() : contacts.at("detectors")}};
   align(arrays, '\0');
   return {std::move(header), std::move(arrays)};
+}
+
+// Names come from files, which may hold any bytes.
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::size_t compressed_size(const SceneView& view) {
+  const std::string bytes = dumped(view.header) + view.arrays;
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  const int result =
+      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_SPEED);
+  return result == Z_OK ? size : bytes.size();
 }
 
 struct Candidate {
@@ -185,7 +280,7 @@ Candidate candidate(const fs::path& folder, const std::string& name, const resul
   Candidate out{scene.id, {}, ""};
   std::error_code error;  // the read reports it
   const std::uintmax_t size = fs::file_size(folder / name, error);
-  if (!error && size / kReadLimits > limit) {
+  if (!error && size / (scene.contacts.empty() ? kReadLimits : kReadLimitsWithContacts) > limit) {
     out.why = too_large(limit);
     return out;
   }
@@ -194,29 +289,17 @@ Candidate candidate(const fs::path& folder, const std::string& name, const resul
     if (recording.scene != scene.id)
       throw InputError("recording \"" + name + "\": it is of the scene \"" + recording.scene +
                        "\".");
-    const std::string& contacts = scene.contacts;
-    out.view = scene_view(recording, contacts.empty() ? Json()
-                                                      : read_contacts(file_bytes(folder, contacts),
-                                                                      contacts, recording));
+    const std::string& name_of_contacts = scene.contacts;
+    Json contacts;
+    if (!name_of_contacts.empty())
+      contacts = read_contacts(file_bytes(folder, name_of_contacts), name_of_contacts, recording);
+    out.view = scene_view(recording, contacts, {});
+    if (!contacts.is_null() && compressed_size(out.view) > limit / kLargePart)
+      out.view = scene_view(recording, contacts, kept_near_contacts(recording, contacts));
   } catch (const InputError& e) {
     out.why = e.what();
   }
   return out;
-}
-
-// Names come from files, which may hold any bytes.
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::size_t compressed_size(const SceneView& view) {
-  const std::string bytes = dumped(view.header) + view.arrays;
-  uLongf size = compressBound(bytes.size());
-  std::string out(size, '\0');
-  const int result =
-      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_SPEED);
-  return result == Z_OK ? size : bytes.size();
 }
 
 // The smallest scenes first, so that as many as possible are kept.

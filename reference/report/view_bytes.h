@@ -14,6 +14,10 @@
 //      "placements": [{"origin": [x, y, z], "scale"}]   one, or one per frame; metres. A position
 //                                          here is (scene - origin) / scale, within [-1, 1]
 //      "shapes": [{"vertices": V, "nodes": N, "triangles": ids[T][3],
+//        "kept": {"triangles": ids[T], "vertices": ids[V]}   of a scene too large for the page:
+//        what
+//                                          is here, near its contacts, by the numbers that pairs
+//                                          name, ascending; absent where all is here
 //        "lattice": {                     absent without one: then nodes are vertices
 //          "cell_nodes": ids[C][8]        corner c is at the high end of s, t, u by its bits 0, 1,
 //          2 "home": ids[V], "local": f32[V][3]     cell of each vertex, and (s, t, u) in it
@@ -63,10 +67,11 @@ std::vector<Placement> view_placements(const FrameNodes& frames);
 /// then stays below 15 MB.
 inline constexpr std::size_t kViewLimit = 9'500'000;
 
-/// From the recordings and contacts that `results` name, in `folder`, where results.json stands. A
-/// scene is left out, and named, when a file of its is missing or unreadable, or when the smaller
-/// scenes leave no room for it below `limit` compressed bytes. Empty when no scene of the results
-/// has a recording.
+/// From the recordings and contacts that `results` name, in `folder`, where results.json stands. Of
+/// a scene that would take a third of `limit` compressed bytes, only what is near its listed
+/// contacts is kept. A scene is left out, and named, when a file of its is missing or unreadable,
+/// or when the smaller scenes leave no room for it. Empty when no scene of the results has a
+/// recording.
 std::string view_bytes(const results::Results& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
 

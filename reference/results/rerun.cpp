@@ -70,4 +70,11 @@ std::string scene_words(const Results& results, const std::string& scene) {
   return of_meshes ? meshes + options : text::in_shell(scene);
 }
 
+std::string out_folder(const Results& results) {
+  std::string out = "out";
+  for (const auto& [flag, word] : flags_of(results.command))
+    if (flag == "--out") out = word;
+  return out;
+}
+
 }  // namespace contactcheck::results

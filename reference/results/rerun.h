@@ -15,4 +15,7 @@ std::string detector_words(const Results& results, const std::string& detector);
 /// results' command named.
 std::string scene_words(const Results& results, const std::string& scene);
 
+/// The folder of --out, as the results' command names it.
+std::string out_folder(const Results& results);
+
 }  // namespace contactcheck::results

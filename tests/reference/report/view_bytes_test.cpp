@@ -207,8 +207,65 @@ TEST_F(ViewBytes, KeepTheSmallestScenesBelowTheLimit) {
             "come first.");
 }
 
+// A box of 60,000 triangles that moves without a lattice above one in a lattice.
+TEST_F(ViewBytes, OfALargeSceneHoldWhatIsNearItsContacts) {
+  const TriangleMesh mesh = test::unit_box_mesh(71);
+  Recording large;
+  large.scene = "boxes";
+  large.time_step = 0.25;
+  const auto bare = make_bare_shape(mesh);
+  const Body box = test::make_body("box", mesh, {3, 3, 3});
+  large.bodies = {{"bare", bare}, box};
+  for (int f = 0; f < 2; ++f) {
+    std::vector<Vec3> moved = mesh.vertices;
+    for (Vec3& p : moved) p.z() += 1.5 + 0.1 * f + 1e-3 * p.x() * p.y();
+    large.frames.push_back({moved, test::rest_nodes_at(*box.shape, {0, 0, 0})});
+  }
+  write_recording(scratch_.folder() / "boxes.ccr", large);
+  scratch_.write("boxes.json", R"({"schema": "contactcheck-contacts/1", "scene": "boxes",
+      "limit": 500, "truth": [{"frame": 1, "count": 1, "pairs": [0, 3000, 1, 5]}],
+      "detectors": [{"detector": "d", "level": "near", "frames": [
+        {"frame": 0, "missed": {"count": 1, "pairs": [0, 4321, 1, 9000]},
+         "spurious": {"count": 0, "pairs": []}}]}]})");
+  const std::string bytes = view_bytes(
+      results::from_json(results_naming("boxes.ccr", "boxes.json")), scratch_.folder(), 1'000'000);
+  const ViewReader reader(bytes);
+  const Json& scene = reader.scene(0);
+  const std::vector<double> nodes = reader.array(scene, scene.at("nodes"));
+  std::size_t triangles_kept = 0;
+  for (const std::size_t s : {0, 1}) {
+    const Json& shape = scene.at("shapes").at(s);
+    const std::vector<double> triangles = reader.array(scene, shape.at("triangles")),
+                              kept = reader.array(scene, shape.at("kept").at("triangles")),
+                              vertices = reader.array(scene, shape.at("kept").at("vertices"));
+    ASSERT_EQ(triangles.size(), 3 * kept.size());
+    EXPECT_EQ(shape.at("vertices"), vertices.size());
+    triangles_kept += kept.size();
+    for (std::size_t t = 0; t < kept.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(vertices.at(static_cast<std::size_t>(triangles[3 * t + k])),
+                  mesh.triangles[static_cast<std::size_t>(kept[t])][k]);
+    const auto has = [](const std::vector<double>& all, double id) {
+      return std::binary_search(all.begin(), all.end(), id);
+    };
+    EXPECT_TRUE(has(kept, s == 0 ? 3000 : 5));
+    EXPECT_TRUE(s == 0 ? has(vertices, 4321) : has(kept, 9000));
+  }
+  EXPECT_GT(triangles_kept, 20'000u);
+  EXPECT_LT(triangles_kept, mesh.triangles.size());
+  // The bare body's nodes are its kept vertices.
+  const Json& bare_shape = scene.at("shapes").at(0);
+  const std::vector<double> vertices = reader.array(scene, bare_shape.at("kept").at("vertices"));
+  EXPECT_EQ(bare_shape.at("nodes"), vertices.size());
+  EXPECT_EQ(nodes.size(), 3 * 2 * (vertices.size() + box.shape->node_count()));
+  EXPECT_LT((origin_of(scene) + scale_of(scene) * point(nodes, 1) -
+             large.frames[0][0][static_cast<std::size_t>(vertices[1])])
+                .norm(),
+            1e-6);
+}
+
 TEST_F(ViewBytes, LeaveOutUnreadWhatIsFarTooLarge) {
-  scratch_.write("boxes.ccr", std::string(10'010, 'x'));
+  scratch_.write("boxes.ccr", std::string(50'050, 'x'));
   const ViewReader reader(view_bytes(results::from_json(results_naming("boxes.ccr", "boxes.json")),
                                      scratch_.folder(), 1000));
   EXPECT_THAT(reader.header().at("left_out").at(0).at("why"),

@@ -157,6 +157,8 @@ export function reportOf(template) {
     machine: [],
     detectors: ["half-blind"],
     options: ["-"],
+    out: "out",
+    reduce: ["--detector half-blind"],
     groups: [8],
     group_names: [],
     timed: false,

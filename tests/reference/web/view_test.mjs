@@ -52,6 +52,9 @@ const drawnOn = (picture) => count(picture, (...c) => !near(background(picture),
 /** Much more blue than red, as the colour of missed pairs alone is in both themes. */
 const missedColour = (r, g, b) => b > r + 90 && b > g + 50;
 
+/** More red and blue than green, as the second triangle of a chosen pair is in both themes. */
+const secondColour = (r, g, b) => r > g + 50 && b > g + 25;
+
 async function setFrame(page, frame) {
   await page.locator(".view-slider input").fill(String(frame));
   await settled(page);
@@ -125,15 +128,25 @@ async function leadsToTheMissedPair(page) {
   assert.ok(distance > 0.5 && distance < 10, `near enough to see it: ${distance} m`);
   assert.equal(await rows.first().getAttribute("data-chosen"), "");
   const picture = await pixels(page);
-  const blue = count(picture, missedColour);
-  assert.ok(blue > 0.005 * picture.width * picture.height, `the pair is coloured: ${blue} pixels`);
+  const blue = count(picture, missedColour),
+    purple = count(picture, secondColour);
+  assert.ok(
+    blue > 0.005 * picture.width * picture.height,
+    `the first triangle is coloured: ${blue} pixels`,
+  );
+  // Most of it is behind the first.
+  assert.ok(purple >= 5, `the second triangle has its own colour: ${purple} pixels`);
+  assert.equal(
+    await page.locator(".view-message code").textContent(),
+    "contactcheck reduce out/recordings/seeded.ccr@1 --detector half-blind --level triangle --kind missed",
+  );
   // Its own mean on the screen: the middle of the canvas, but for perspective and the hidden half.
   let x = 0,
     y = 0;
   for (let i = 0; i < picture.rgba.length / 4; ++i)
-    if (missedColour(...picture.rgba.slice(4 * i, 4 * i + 3))) {
-      x += (i % picture.width) / picture.width / blue;
-      y += Math.floor(i / picture.width) / picture.height / blue;
+    if ([missedColour, secondColour].some((is) => is(...picture.rgba.slice(4 * i, 4 * i + 3)))) {
+      x += (i % picture.width) / picture.width / (blue + purple);
+      y += Math.floor(i / picture.width) / picture.height / (blue + purple);
     }
   assert.ok(
     Math.abs(x - 0.5) < 0.2 && Math.abs(y - 0.5) < 0.2,

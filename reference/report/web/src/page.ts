@@ -12,9 +12,15 @@ export interface Page {
   /** Of what whole this is a part. */
   parts: string[];
   machine: string[];
-  /** In the order of their first runs; of each its options in words, and its place in `group_names`. */
+  /** The folder of the run, as a word of a shell. */
+  out: string;
+  /**
+   * In the order of their first runs; of each its options in words, the words that name it to
+   * `reduce`, and its place in `group_names`.
+   */
   detectors: string[];
   options: string[];
+  reduce: string[];
   groups: number[];
   group_names: string[];
   /** Of the results; `scenes` has no drawn ones where there are many. */

@@ -286,6 +286,7 @@ export const cost: Section = {
       regime: "playback",
       scene: page.scenes[0],
     };
+    const sizes = new Set(page.scenes.map((scene) => scene.cost.triangles));
     const legends = h("div"),
       [triangles, frames, contacts, separation] = charts(page, state);
     const redraw = (change: Partial<State>): void => {
@@ -315,11 +316,15 @@ export const cost: Section = {
         ),
       ),
       legends,
-      h("h3", {}, "Against the number of triangles"),
-      p(
-        "A line joins the sizes of one scene; the suite scaling has scenes of 1, 4 and 16 times the triangles.",
-      ),
-      triangles.element,
+      ...(sizes.size < 2
+        ? []
+        : [
+            h("h3", {}, "Against the number of triangles"),
+            p(
+              "A line joins the sizes of one scene; the suite scaling has scenes of 1, 4 and 16 times the triangles.",
+            ),
+            triangles.element,
+          ]),
       h("h3", {}, "In one scene"),
       controlBar(
         select(

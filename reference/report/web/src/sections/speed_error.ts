@@ -5,6 +5,7 @@ import {controlBar, radios, select, selectPlace, type Option} from "../controls"
 import {h, p, unfolding} from "../dom";
 import {term} from "../glossary";
 import {groupColour, groupsOf} from "../groups";
+import {names} from "../names";
 import type {Measure, Page, PointsChart, Regime} from "../page";
 import type {Section} from "../section";
 import {square, symbol} from "../swatch";
@@ -73,51 +74,15 @@ function sentenceOf({cells, options}: Point): string {
 // Shares of 0 and of 1 in 10,000 must both be seen: the axis is linear below 0.1 %, then a logarithm.
 const kErrorAxis = {type: "symlog" as const, constant: 0.001, ticks: [0, 0.001, 0.01, 0.1, 0.5, 1]};
 
-// Names of many points would cover one another: then the fastest and the best of each front are named.
-const kFew = 5;
-
 function isEnd(point: Point, front: Point[]): boolean {
   const own = front.filter((other) => other.question === point.question);
   return point === own[0] || point === own[own.length - 1];
 }
 
-/** A share's place on the axis of errors, from 0 at the bottom to 1 at the top. */
-const height = (error: number, top: number): number =>
-  Math.log1p(error / kErrorAxis.constant) / Math.log1p(top / kErrorAxis.constant);
-
-/** Of the points named, those whose names would lie on the name of one further left; they go below. */
-function below(
-  ends: Point[],
-  [low, high]: [number, number],
-  width: number,
-  top: number,
-): Set<Point> {
-  const out = new Set<Point>(),
-    letters = 7,
-    lines = 0.06;
-  const across = (point: Point): number =>
-    (width * Math.log(point.ms / low)) / Math.log(high / low);
-  ends.forEach((point, i) => {
-    const near = ends
-      .slice(0, i)
-      .filter(
-        (other) =>
-          !out.has(other) &&
-          across(point) - across(other) <
-            letters * Math.max(other.detector.length, point.detector.length) &&
-          Math.abs(height(point.error, top) - height(other.error, top)) < lines,
-      );
-    if (near.length > 0) out.add(point);
-  });
-  return out;
-}
-
-// Names at the edges grow inwards.
-type Anchor = "start" | "middle" | "end";
-
-function anchorOf(ms: number, [low, high]: [number, number]): Anchor {
-  const place = Math.log(ms / low) / Math.log(high / low);
-  return place < 0.3 ? "start" : place > 0.7 ? "end" : "middle";
+// The fastest and the best of each front are named first, then all others by time.
+function byImportance(all: Point[], front: Point[]): Point[] {
+  const rank = (point: Point): number => (point.onFront ? (isEnd(point, front) ? 0 : 1) : 2);
+  return [...all].sort((a, b) => rank(a) - rank(b) || a.ms - b.ms);
 }
 
 function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
@@ -126,12 +91,7 @@ function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
   const times = all.map((point) => point.ms),
     span: [number, number] = [Math.min(...times) / 1.5, Math.max(...times) * 1.5];
   const highest = Math.max(0.01, ...all.map((point) => point.error));
-  const ends =
-    all.length <= kFew
-      ? [...all].sort((a, b) => a.ms - b.ms)
-      : front.filter((point) => isEnd(point, front));
   const top = Math.min(1, 1.6 * highest);
-  const low = below(ends, span, width, top);
   const xy = {x: "ms", y: "error"} as const;
   return Plot.plot({
     width,
@@ -178,25 +138,7 @@ function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
         ariaLabel: sentenceOf,
         className: "points",
       }),
-      ...(["start", "middle", "end"] as const).flatMap((textAnchor) =>
-        [false, true].map((under) =>
-          Plot.text(
-            ends.filter(
-              (point) => anchorOf(point.ms, span) === textAnchor && low.has(point) === under,
-            ),
-            {
-              ...xy,
-              text: "detector",
-              dy: under ? 15 : -13,
-              textAnchor,
-              fill: "currentColor",
-              stroke: "var(--surface)",
-              strokeWidth: 4,
-              className: "names",
-            },
-          ),
-        ),
-      ),
+      names(byImportance(all, front), "ms", "error", "detector"),
       Plot.tip(all, Plot.pointer({...xy, title: sentenceOf, fill: "var(--surface)", fontSize: 12})),
     ],
   });

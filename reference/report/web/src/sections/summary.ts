@@ -1,13 +1,26 @@
 // One line per detector: the sums over scenes, as the other reports have them.
 import {p} from "../dom";
 import {term} from "../glossary";
+import type {TextTable} from "../page";
 import type {Section} from "../section";
 import {table} from "../table";
+
+// Where every line says the same, the column only makes the table wider than the window.
+function withoutUniform({columns, rows}: TextTable): Pick<TextTable, "columns" | "rows"> {
+  const kept = columns.map(
+    ({title}, i) =>
+      !["scenes", "passes", "question"].includes(title) ||
+      rows.some((row) => row[i] !== rows[0][i]),
+  );
+  const keep = <T>(cells: T[]): T[] => cells.filter((_, i) => kept[i]);
+  return {columns: keep(columns), rows: rows.map(keep)};
+}
 
 export const summary: Section = {
   id: "summary",
   title: "Summary",
-  build({summary: {columns, rows}, scene_count: count}) {
+  build({summary: whole, scene_count: count}) {
+    const {columns, rows} = withoutUniform(whole);
     return [
       p(
         `Sums over ${count} ${count === 1 ? "scene" : "scenes"}, at the finest `,

@@ -9,6 +9,8 @@ export interface Colours {
   true: Color;
   missed: Color;
   spurious: Color;
+  /** Of the second element of the pair that was asked for. */
+  second: Color;
   body(number: number): Color;
 }
 
@@ -28,6 +30,7 @@ export function readColours(place: HTMLElement): Colours {
     true: color("--view-true"),
     missed: color("--view-missed"),
     spurious: color("--view-spurious"),
+    second: color("--view-second"),
     body: (number) => {
       const lightness = (dark ? 0.42 : 0.66) + (number % 2 ? -0.06 : 0.03);
       return new Color().setHSL(kHues[number % kHues.length] / 360, 0.16, lightness);

@@ -103,6 +103,8 @@ export interface MarkStyle {
   color: Color;
   /** The pair that was asked for: thick outlines, and a ring that finds it however small it is. */
   selected: boolean;
+  /** The second element of that pair, which the first one's ring finds. */
+  second?: boolean;
   /** Another pair was asked for. */
   dimmed: boolean;
 }
@@ -211,11 +213,11 @@ export function makeMarks(
     group.add(outlines(geometries, origin, style));
   const own = (points: number[], extent = 0): Points =>
     markers(points, origin, style, kPattern[style.kind], kMarkerPixels[style.kind], extent);
-  if (style.selected) {
+  if (style.selected && !style.second) {
     const extent = Math.max(...all.map((g) => reach(g, centroid(g))));
     group.add(markers(centers, origin, style, kRing, kRingPixels, extent));
     group.add(own(geometries.flatMap(({points}) => points.flat())));
-  } else if (!style.dimmed) {
+  } else if (!style.dimmed && !style.second) {
     group.add(own(centers));
   }
   for (const child of group.children) {

@@ -114,16 +114,18 @@ export class SceneModel {
     if (what === "triangle") out.triangles.push(this.triangle(body, element));
     else if (what === "cell")
       out.boxes.push(Array.from(this.shapeOf(body).boxCorners(this.nodesOf(body), element)));
-    else if (what === "vertex")
-      out.points.push(Array.from(this.verticesOf(body).subarray(3 * element, 3 * element + 3)));
-    else if (what === "body") out.points.push(this.middleOf(body));
+    else if (what === "vertex") {
+      const at = 3 * this.shapeOf(body).place("vertices", element);
+      out.points.push(Array.from(this.verticesOf(body).subarray(at, at + 3)));
+    } else if (what === "body") out.points.push(this.middleOf(body));
   }
 
   private triangle(body: number, number: number): number[] {
-    const {triangles} = this.shapeOf(body);
-    const points = this.verticesOf(body);
+    const shape = this.shapeOf(body),
+      points = this.verticesOf(body),
+      at = shape.place("triangles", number);
     return [0, 1, 2].flatMap((i) => {
-      const v = triangles[3 * number + i];
+      const v = shape.triangles[3 * at + i];
       return [points[3 * v], points[3 * v + 1], points[3 * v + 2]];
     });
   }

@@ -34,6 +34,9 @@ export class Shape {
   readonly triangles: Numbers;
   readonly vertices: number;
   readonly nodes: number;
+  /** Only what is near contacts is here: places of triangles and vertices by their numbers. */
+  readonly cut: boolean;
+  private readonly places: Record<"triangles" | "vertices", Map<number, number>> | null = null;
   private readonly lattice: Lattice | null = null;
 
   constructor(container: Container, scene: SceneHeader, header: ShapeHeader) {
@@ -42,6 +45,15 @@ export class Shape {
     this.triangles = array(header.triangles);
     this.vertices = header.vertices;
     this.nodes = header.nodes;
+    this.cut = header.kept !== undefined;
+    if (header.kept) {
+      const places = (reference: ShapeHeader["triangles"]): Map<number, number> =>
+        new Map(Array.from(array(reference), (number, place) => [number, place]));
+      this.places = {
+        triangles: places(header.kept.triangles),
+        vertices: places(header.kept.vertices),
+      };
+    }
     if (!header.lattice) return;
     const {cell_nodes, home, local, boxes, spheres} = header.lattice;
     this.lattice = {
@@ -53,6 +65,11 @@ export class Shape {
       centers2: array(spheres.centers2),
       radii2: spheres.radii2,
     };
+  }
+
+  /** Where a triangle or vertex of a pair stands in the arrays. */
+  place(kind: "triangles" | "vertices", number: number): number {
+    return this.places ? this.places[kind].get(number)! : number;
   }
 
   get cells(): number {

@@ -12,6 +12,7 @@ export interface ShapeHeader {
   vertices: number;
   nodes: number;
   triangles: ArrayReference;
+  kept?: {triangles: ArrayReference; vertices: ArrayReference};
   lattice?: {
     cell_nodes: ArrayReference;
     home: ArrayReference;

@@ -1,6 +1,6 @@
 // The 3D view: any scene of the report, frame by frame, with the contacts that a detector missed or
 // made up. It draws from the container alone, which was made from recordings and contacts files.
-import {h} from "../dom";
+import {code, h} from "../dom";
 import type {Page} from "../page";
 import {Bodies} from "./bodies";
 import {Bounds, kBounds} from "./bounds";
@@ -41,17 +41,21 @@ class SceneViewer implements View {
   private detector = "";
   /** The values of the parameters of families, whose frames are cases. */
   private readonly cases: Map<string, string[]>;
+  /** The command that shrinks a pair, but for its level and kind. */
+  private readonly reduce: (detector: string, recording: string) => string;
   private pairs: ListedPair[] = [];
   private chosen: ListedPair | null = null;
   private started = false;
 
   constructor(
     private readonly place: HTMLElement,
-    {scenes, families}: Page,
+    {scenes, families, detectors, reduce, out}: Page,
     private readonly container: Container,
   ) {
     const title = (scene: string): string =>
       [...scenes, ...families].find(({id}) => id === scene)?.title ?? scene;
+    this.reduce = (detector, recording) =>
+      `contactcheck reduce ${out}/recordings/${recording} ${reduce[detectors.indexOf(detector)]}`;
     this.cases = new Map(families.map(({id, values}) => [id, values]));
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
@@ -205,7 +209,7 @@ class SceneViewer implements View {
   private refresh(): void {
     this.frames.frame = this.model.frame;
     this.table.select(this.chosen);
-    this.message.textContent = this.words();
+    this.message.replaceChildren(...this.words());
     this.canvas.setAttribute(
       "aria-label",
       `3D view of ${this.model.header.id}, frame ${this.model.frame}`,
@@ -257,23 +261,59 @@ class SceneViewer implements View {
     const {shown} = this.panel;
     return [
       // what matters most first: it takes the faces that others share with it
-      ...(chosen ? [make(chosen.kind, [chosen.pair], true)] : []),
+      ...(chosen ? this.chosenMarks(chosen, origin, drawn) : []),
       ...(shown.has("missed") ? [make("missed", others("missed", missed), false)] : []),
       ...(shown.has("spurious") ? [make("spurious", spurious, false)] : []),
       ...(shown.has("true") ? [make("true", truth, false)] : []),
     ];
   }
 
-  private words(): string {
+  // Its two elements have two colours; the second is drawn first, since no face is drawn twice.
+  private chosenMarks(
+    {pair, level, kind}: ListedPair,
+    origin: number[],
+    drawn: Set<string>,
+  ): ReturnType<typeof makeMarks>[] {
+    const whole = this.model.geometry(pair, level, kind);
+    const second = {
+      triangles: whole.triangles.slice(-1),
+      boxes: whole.boxes.slice(-1),
+      points: [],
+    };
+    const style = {kind, selected: true, dimmed: false};
+    const hasSecond = second.triangles.length + second.boxes.length > 0;
+    return [
+      ...(hasSecond
+        ? [makeMarks([second], origin, {...style, color: this.colours.second, second: true}, drawn)]
+        : []),
+      makeMarks([whole], origin, {...style, color: this.colours[kind]}, drawn),
+    ];
+  }
+
+  private words(): (Node | string)[] {
     const {frame, header} = this.model,
       place = this.cases.has(header.id) ? "case" : "frame";
     const start = `${place[0].toUpperCase()}${place.slice(1)} ${frame}`;
     if (this.chosen) {
       const [one, other] = pairWords(this.chosen, (body) => header.bodies[body].name);
-      return `${this.detector}, ${place} ${frame}, ${this.chosen.kind}: ${one} and ${other}.`;
+      const {kind, level} = this.chosen;
+      return [
+        `${this.detector}, ${place} ${frame}, ${kind}: `,
+        h("strong", {class: `view-${kind}`}, one),
+        " and ",
+        h("strong", {class: "view-second"}, other),
+        ".",
+        ...(level === "vertex" || level === "containment"
+          ? []
+          : [
+              code(
+                `${this.reduce(this.detector, `${header.id}.ccr@${frame}`)} --level ${level} --kind ${kind}`,
+              ),
+            ]),
+      ];
     }
     if (header.detectors.length === 0 && header.truth.length === 0)
-      return `${start}. The results list no contacts of this scene one by one.`;
+      return [`${start}. The results list no contacts of this scene one by one.`];
     const truth = header.truth.find((entry) => entry.frame === frame)?.count ?? 0;
     const found = this.model.detector(this.detector)?.frames.find((entry) => entry.frame === frame);
     const differs =
@@ -283,7 +323,12 @@ class SceneViewer implements View {
     const listed = found
       ? [found.missed, found.spurious].some(({count, pairs}) => count > pairs.length / 4)
       : false;
-    return `${start}: ${truth} ${truth === 1 ? "pair of triangles touches" : "pairs of triangles touch"}${differs}${listed ? " (the first of them are drawn)" : ""}.`;
+    return [
+      `${start}: ${truth} ${truth === 1 ? "pair of triangles touches" : "pairs of triangles touch"}${differs}${listed ? " (the first of them are drawn)" : ""}.`,
+      this.model.shapes.some(({cut}) => cut)
+        ? " The scene is too large for this page: only surfaces near its contacts are drawn."
+        : "",
+    ];
   }
 
   private repaint(): void {

@@ -12,9 +12,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/deform/body.h"
@@ -41,7 +43,8 @@ constexpr double kSmallestShare = 1.0 / 64.0;
 // compressed, has been between a third and a seventh of it. With contacts, a part of it may do.
 constexpr std::size_t kReadLimits = 10, kReadLimitsWithContacts = 50;
 
-// A view that takes more than this part of the limit is cut to so many triangles near its contacts.
+// Where not all scenes fit, a view that takes more than this part of the limit is cut to so many
+// triangles near its contacts.
 constexpr std::size_t kLargePart = 3, kKeptTriangles = 20'000;
 
 // Halved before the difference: the extent of a box as large as the doubles is no double.
@@ -262,7 +265,8 @@ std::size_t compressed_size(const SceneView& view) {
 struct Candidate {
   std::string scene;
   SceneView view;
-  std::string why;  ///< why it is left out; empty: it is not
+  std::optional<SceneView> cut;  ///< of a large one, what is near its contacts
+  std::string why;               ///< why it is left out; empty: it is not
 };
 
 std::string too_large(std::size_t limit) {
@@ -277,7 +281,7 @@ std::string file_bytes(const fs::path& folder, const std::string& name) {
 
 Candidate candidate(const fs::path& folder, const std::string& name, const results::Scene& scene,
                     std::size_t limit) {
-  Candidate out{scene.id, {}, ""};
+  Candidate out{scene.id, {}, {}, ""};
   std::error_code error;  // the read reports it
   const std::uintmax_t size = fs::file_size(folder / name, error);
   if (!error && size / (scene.contacts.empty() ? kReadLimits : kReadLimitsWithContacts) > limit) {
@@ -295,17 +299,24 @@ Candidate candidate(const fs::path& folder, const std::string& name, const resul
       contacts = read_contacts(file_bytes(folder, name_of_contacts), name_of_contacts, recording);
     out.view = scene_view(recording, contacts, {});
     if (!contacts.is_null() && compressed_size(out.view) > limit / kLargePart)
-      out.view = scene_view(recording, contacts, kept_near_contacts(recording, contacts));
+      out.cut = scene_view(recording, contacts, kept_near_contacts(recording, contacts));
   } catch (const InputError& e) {
     out.why = e.what();
   }
   return out;
 }
 
-// The smallest scenes first, so that as many as possible are kept.
+// Large scenes whole where all fit, else cut; then the smallest first, so that as many as possible
+// are kept.
 void leave_out_beyond(std::size_t limit, std::vector<Candidate>& scenes) {
   std::vector<std::size_t> sizes, order(scenes.size());
   for (const Candidate& scene : scenes) sizes.push_back(compressed_size(scene.view));
+  const bool fit = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) <= limit;
+  for (std::size_t i = 0; i < scenes.size() && !fit; ++i) {
+    if (!scenes[i].cut) continue;
+    scenes[i].view = std::move(*scenes[i].cut);
+    sizes[i] = compressed_size(scenes[i].view);
+  }
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
@@ -313,7 +324,7 @@ void leave_out_beyond(std::size_t limit, std::vector<Candidate>& scenes) {
   for (std::size_t i : order) {
     if (!scenes[i].why.empty()) continue;
     if (used + sizes[i] > limit)
-      scenes[i] = {scenes[i].scene, {}, too_large(limit)};
+      scenes[i] = {scenes[i].scene, {}, {}, too_large(limit)};
     else
       used += sizes[i];
   }

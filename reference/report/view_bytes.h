@@ -67,11 +67,11 @@ std::vector<Placement> view_placements(const FrameNodes& frames);
 /// then stays below 15 MB.
 inline constexpr std::size_t kViewLimit = 9'500'000;
 
-/// From the recordings and contacts that `results` name, in `folder`, where results.json stands. Of
-/// a scene that would take a third of `limit` compressed bytes, only what is near its listed
-/// contacts is kept. A scene is left out, and named, when a file of its is missing or unreadable,
-/// or when the smaller scenes leave no room for it. Empty when no scene of the results has a
-/// recording.
+/// From the recordings and contacts that `results` name, in `folder`, where results.json stands.
+/// Where not all scenes fit into `limit` compressed bytes, of one that would take a third of them
+/// only what is near its listed contacts is kept. A scene is left out, and named, when a file of
+/// its is missing or unreadable, or when the smaller scenes leave no room for it. Empty when no
+/// scene of the results has a recording.
 std::string view_bytes(const results::Results& results, const std::filesystem::path& folder,
                        std::size_t limit = kViewLimit);
 

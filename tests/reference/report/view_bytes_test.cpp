@@ -227,8 +227,14 @@ TEST_F(ViewBytes, OfALargeSceneHoldWhatIsNearItsContacts) {
       "detectors": [{"detector": "d", "level": "near", "frames": [
         {"frame": 0, "missed": {"count": 1, "pairs": [0, 4321, 1, 9000]},
          "spurious": {"count": 0, "pairs": []}}]}]})");
-  const std::string bytes = view_bytes(
-      results::from_json(results_naming("boxes.ccr", "boxes.json")), scratch_.folder(), 1'000'000);
+  const results::Results results = results::from_json(results_naming("boxes.ccr", "boxes.json"));
+  EXPECT_FALSE(ViewReader(view_bytes(results, scratch_.folder(), 10'000'000))
+                   .scene(0)
+                   .at("shapes")
+                   .at(0)
+                   .contains("kept"))
+      << "all fits";
+  const std::string bytes = view_bytes(results, scratch_.folder(), 400'000);
   const ViewReader reader(bytes);
   const Json& scene = reader.scene(0);
   const std::vector<double> nodes = reader.array(scene, scene.at("nodes"));

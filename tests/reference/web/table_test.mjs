@@ -71,7 +71,6 @@ test("the summary has the sums of the other reports", async () => {
     "2",
     "cell",
     "16",
-    "0.75000",
     "4",
     "1",
     "0/0",

@@ -5,12 +5,14 @@ import type {TextTable} from "../page";
 import type {Section} from "../section";
 import {table} from "../table";
 
-// Where every line says the same, the column only makes the table wider than the window.
-function withoutUniform({columns, rows}: TextTable): Pick<TextTable, "columns" | "rows"> {
+// What only makes the table wider than the window: recall, which is truth and missed, and columns in
+// which every line says the same.
+function narrowed({columns, rows}: TextTable): Pick<TextTable, "columns" | "rows"> {
   const kept = columns.map(
     ({title}, i) =>
-      !["scenes", "passes", "question"].includes(title) ||
-      rows.some((row) => row[i] !== rows[0][i]),
+      title !== "recall" &&
+      (!["scenes", "passes", "question"].includes(title) ||
+        rows.some((row) => row[i] !== rows[0][i])),
   );
   const keep = <T>(cells: T[]): T[] => cells.filter((_, i) => kept[i]);
   return {columns: keep(columns), rows: rows.map(keep)};
@@ -20,7 +22,7 @@ export const summary: Section = {
   id: "summary",
   title: "Summary",
   build({summary: whole, scene_count: count}) {
-    const {columns, rows} = withoutUniform(whole);
+    const {columns, rows} = narrowed(whole);
     return [
       p(
         `Sums over ${count} ${count === 1 ? "scene" : "scenes"}, at the finest `,

@@ -196,7 +196,10 @@ TEST(LibraryAtWork, WhatItPrintsIsANote) {
   EXPECT_EQ(run.outcome().exit_code, 0) << run.outcome().err;
   EXPECT_THAT(run.row("misbehaving:fault=prints").at("notes").dump(),
               HasSubstr("garbage on standard output"));
-  EXPECT_THAT(run.outcome().out, testing::Not(HasSubstr("garbage")));
+  EXPECT_THAT(run.outcome().out, testing::Not(HasSubstr("\ngarbage"))) << "not among our lines";
+  EXPECT_THAT(run.outcome().out,
+              HasSubstr("\n  misbehaving:fault=prints: wrote to standard output: "
+                        "\"garbage on standard output\"\n"));
 }
 
 }  // namespace

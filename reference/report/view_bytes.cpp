@@ -12,7 +12,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -263,10 +262,11 @@ std::size_t compressed_size(const SceneView& view) {
 }
 
 struct Candidate {
-  std::string scene;
+  const results::Scene* scene = nullptr;
+  std::string recording;  ///< its file
   SceneView view;
-  std::optional<SceneView> cut;  ///< of a large one, what is near its contacts
-  std::string why;               ///< why it is left out; empty: it is not
+  std::size_t size = 0;  ///< compressed
+  std::string why;       ///< why it is left out; empty: it is not
 };
 
 std::string too_large(std::size_t limit) {
@@ -279,54 +279,51 @@ std::string file_bytes(const fs::path& folder, const std::string& name) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-Candidate candidate(const fs::path& folder, const std::string& name, const results::Scene& scene,
-                    std::size_t limit) {
-  Candidate out{scene.id, {}, {}, ""};
+// `cut`: only what is near the contacts, which the results name.
+void read_view(const fs::path& folder, std::size_t limit, bool cut, Candidate& out) {
+  const std::string &name = out.recording, &contacts_name = out.scene->contacts;
   std::error_code error;  // the read reports it
   const std::uintmax_t size = fs::file_size(folder / name, error);
-  if (!error && size / (scene.contacts.empty() ? kReadLimits : kReadLimitsWithContacts) > limit) {
+  if (!error && size / (contacts_name.empty() ? kReadLimits : kReadLimitsWithContacts) > limit) {
     out.why = too_large(limit);
-    return out;
+    return;
   }
   try {
     const Recording recording = read_recording_bytes(file_bytes(folder, name), name);
-    if (recording.scene != scene.id)
+    if (recording.scene != out.scene->id)
       throw InputError("recording \"" + name + "\": it is of the scene \"" + recording.scene +
                        "\".");
-    const std::string& name_of_contacts = scene.contacts;
     Json contacts;
-    if (!name_of_contacts.empty())
-      contacts = read_contacts(file_bytes(folder, name_of_contacts), name_of_contacts, recording);
-    out.view = scene_view(recording, contacts, {});
-    if (!contacts.is_null() && compressed_size(out.view) > limit / kLargePart)
-      out.cut = scene_view(recording, contacts, kept_near_contacts(recording, contacts));
+    if (!contacts_name.empty())
+      contacts = read_contacts(file_bytes(folder, contacts_name), contacts_name, recording);
+    out.view = scene_view(recording, contacts,
+                          cut ? kept_near_contacts(recording, contacts) : KeptShapes());
+    out.size = compressed_size(out.view);
   } catch (const InputError& e) {
     out.why = e.what();
   }
-  return out;
 }
 
-// Large scenes whole where all fit, else cut; then the smallest first, so that as many as possible
-// are kept.
-void leave_out_beyond(std::size_t limit, std::vector<Candidate>& scenes) {
-  std::vector<std::size_t> sizes, order(scenes.size());
-  for (const Candidate& scene : scenes) sizes.push_back(compressed_size(scene.view));
-  const bool fit = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) <= limit;
-  for (std::size_t i = 0; i < scenes.size() && !fit; ++i) {
-    if (!scenes[i].cut) continue;
-    scenes[i].view = std::move(*scenes[i].cut);
-    sizes[i] = compressed_size(scenes[i].view);
-  }
+// Large scenes whole where all fit, else read again and cut; then the smallest first, so that as
+// many as possible are kept.
+void fit(const fs::path& folder, std::size_t limit, std::vector<Candidate>& scenes) {
+  std::size_t whole = 0;
+  for (const Candidate& scene : scenes) whole += scene.size;
+  for (Candidate& scene : scenes)
+    if (whole > limit && scene.size > limit / kLargePart && !scene.scene->contacts.empty())
+      read_view(folder, limit, true, scene);
+  std::vector<std::size_t> order(scenes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sizes[a] < sizes[b]; });
+                   [&](std::size_t a, std::size_t b) { return scenes[a].size < scenes[b].size; });
   std::size_t used = 0;
-  for (std::size_t i : order) {
-    if (!scenes[i].why.empty()) continue;
-    if (used + sizes[i] > limit)
-      scenes[i] = {scenes[i].scene, {}, {}, too_large(limit)};
+  for (const std::size_t i : order) {
+    Candidate& scene = scenes[i];
+    if (!scene.why.empty()) continue;
+    if (used + scene.size > limit)
+      scene.why = too_large(limit);
     else
-      used += sizes[i];
+      used += scene.size;
   }
 }
 
@@ -336,7 +333,7 @@ std::string container(std::vector<Candidate>& scenes) {
   std::string arrays;
   for (Candidate& scene : scenes) {
     if (!scene.why.empty()) {
-      header["left_out"].push_back({{"scene", scene.scene}, {"why", scene.why}});
+      header["left_out"].push_back({{"scene", scene.scene->id}, {"why", scene.why}});
       continue;
     }
     scene.view.header["base"] = arrays.size();
@@ -376,11 +373,12 @@ std::string view_bytes(const results::Results& results, const fs::path& folder, 
     const std::vector<const results::Run*>& runs = index.runs_of(scene->id);
     const auto recorded = std::find_if(
         runs.begin(), runs.end(), [](const results::Run* run) { return !run->recording.empty(); });
-    if (recorded != runs.end())
-      scenes.push_back(candidate(folder, (*recorded)->recording, *scene, limit));
+    if (recorded == runs.end()) continue;
+    scenes.push_back({scene, (*recorded)->recording, {}, 0, ""});
+    read_view(folder, limit, false, scenes.back());
   }
   if (scenes.empty()) return "";
-  leave_out_beyond(limit, scenes);
+  fit(folder, limit, scenes);
   return container(scenes);
 }
 

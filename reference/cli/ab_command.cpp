@@ -76,7 +76,7 @@ std::string detector_name(const std::string& text, BuildKind kind, const Detecto
 // Base and head. @throws InputError: no program that can be run, no library or command that can be
 // used, two of different kinds, detectors with different names
 std::vector<AbSide> ab_sides(const AbArguments& arguments, const DetectorCatalog& catalog) {
-  const std::string &base = arguments.base.string(), &head = arguments.head.string();
+  const std::string base = arguments.base.string(), head = arguments.head.string();
   const BuildKind kind = kind_of(base), other = kind_of(head);
   if (kind != other)
     throw InputError("base \"" + base + "\" is " + kKindNames[static_cast<int>(kind)] +

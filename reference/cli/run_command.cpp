@@ -236,11 +236,8 @@ void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
 
 // A case names every detector but one from outside.
 std::string own_words(const std::string& detector, const results::Results& results) {
-  const bool own = std::any_of(results.plugins.begin(), results.plugins.end(),
-                               [&](const results::Plugin& plugin) {
-                                 return plugin.detector == detector.substr(0, detector.find(':'));
-                               });
-  return own ? " " + results::detector_words(results, detector) : "";
+  return results.plugin_of(detector) == nullptr ? ""
+                                                : " " + results::detector_words(results, detector);
 }
 
 // The first wrong answer that can be reduced; one of a detector from outside before all others.

@@ -245,10 +245,11 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
   const std::string words = c.finding.kind + "-" + c.finding.level + "-" + c.scene;
   const bool python = language == TestLanguage::kPython;
   const std::string comment = python ? "# " : "// ", indent = python ? "    " : "  ";
-  std::string head = "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
-  if (language == TestLanguage::kC)
-    head = "void test_" + snake_case(c.detector + "-" + words) + "(void) {\n";
-  if (python) head = "def test_" + snake_case(c.detector + "-" + words) + "():\n";
+  const std::string function = "test_" + snake_case(c.detector + "-" + words);
+  const std::string head = python                         ? "def " + function + "():\n"
+                           : language == TestLanguage::kC ? "void " + function + "(void) {\n"
+                                                          : "TEST(" + camel_case(c.detector) +
+                                                                ", " + camel_case(words) + ") {\n";
   return comment + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
          described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head +
          mesh_text(c.candidate.meshes[0], "first", language) +

@@ -154,11 +154,10 @@ std::string scene_head(const results::Scene& scene, bool color) {
 std::string own_notes(const results::Results& results, const results::Scene& scene,
                       const results::Index& index) {
   std::string out;
-  for (const results::Plugin& plugin : results.plugins)
-    for (const results::Run* run : index.runs_of(scene.id))
-      if (run->detector.substr(0, run->detector.find(':')) == plugin.detector)
-        for (const std::string& note : run->notes)
-          out += fmt::format("  {}: {}\n", run->detector, note);
+  for (const results::Run* run : index.runs_of(scene.id))
+    if (results.plugin_of(run->detector) != nullptr)
+      for (const std::string& note : run->notes)
+        out += fmt::format("  {}: {}\n", run->detector, note);
   return out.empty() ? "" : out + "\n";
 }
 

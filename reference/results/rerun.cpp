@@ -41,17 +41,15 @@ std::vector<std::pair<std::string, std::string>> flags_of(const std::string& com
 }  // namespace
 
 std::string detector_words(const Results& results, const std::string& detector) {
-  const std::size_t colon = detector.find(':');
-  for (const Plugin& plugin : results.plugins) {
-    if (plugin.detector != detector.substr(0, colon)) continue;
-    if (plugin.kind == "command") return "--detector-cmd " + text::in_shell(plugin.source);
+  const Plugin* const plugin = results.plugin_of(detector);
+  if (plugin != nullptr && plugin->kind == "command")
+    return "--detector-cmd " + text::in_shell(plugin->source);
+  if (plugin != nullptr)
     for (const auto& [flag, word] : flags_of(results.command)) {
       const std::string file = word.substr(0, word.find(':'));
-      if (flag == "--detector" && fs::path(file).filename() == plugin.source)
-        return "--detector " +
-               text::in_shell(file + (colon == std::string::npos ? "" : detector.substr(colon)));
+      if (flag == "--detector" && fs::path(file).filename() == plugin->source)
+        return "--detector " + text::in_shell(file + detector.substr(plugin->detector.size()));
     }
-  }
   return "--detector " + text::in_shell(detector);
 }
 

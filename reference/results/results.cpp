@@ -1,5 +1,6 @@
 #include "reference/results/results.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 
@@ -51,6 +52,12 @@ const char* name_of(Status status) {
       return "refused";
   }
   return "unknown";
+}
+
+const Plugin* Results::plugin_of(const std::string& detector) const {
+  const auto found =
+      std::ranges::find(plugins, detector.substr(0, detector.find(':')), &Plugin::detector);
+  return found == plugins.end() ? nullptr : &*found;
 }
 
 Index::Index(const Results& results) : results_(&results) {

@@ -351,6 +351,9 @@ struct Results {
   std::optional<std::vector<std::string>> resumed;
   std::optional<Shard> shard;
   std::vector<std::string> merged;
+
+  /// That the detector, with or without options, is of; null: one of the program's own.
+  const Plugin* plugin_of(const std::string& detector) const;
 };
 
 /// Scenes and rows by name, of results that outlive it and do not change. What is asked for and is

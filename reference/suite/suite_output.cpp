@@ -139,12 +139,6 @@ namespace {
 namespace fs = std::filesystem;
 using results::Results;
 
-bool from_outside(const std::string& detector, const Results& results) {
-  const std::string id = detector.substr(0, detector.find(':'));
-  return std::any_of(results.plugins.begin(), results.plugins.end(),
-                     [&](const results::Plugin& plugin) { return plugin.detector == id; });
-}
-
 // The list is about the families beside it: of others, as a minimal case, the rows say it all. An
 // error of a detector from outside is its own matter, which its row tells.
 void add_known_defects(const results::KnownDefects& known, Results& results,
@@ -160,7 +154,7 @@ void add_known_defects(const results::KnownDefects& known, Results& results,
   const bool own_error =
       std::any_of(comparison.unlisted.begin(), comparison.unlisted.end(), [&](const auto& entry) {
         const results::Sighting& s = entry.first;
-        return s.kind == results::SightingKind::kError && !from_outside(s.detector, results);
+        return s.kind == results::SightingKind::kError && results.plugin_of(s.detector) == nullptr;
       });
   outcome->unlisted_error = results::any_unlisted_error(comparison) || any_unjudged;
   if (any_listed || own_error) results.known_defects = results::in_results(known, comparison);

@@ -22,6 +22,12 @@ TEST(Rerun, NamesDetectorsFromOutsideAsTheCommandDid) {
   EXPECT_EQ(detector_words(results, "ffd-aabb:bounds=safe"), "--detector ffd-aabb:bounds=safe");
 }
 
+TEST(Rerun, NamesTheFolderOfTheResults) {
+  EXPECT_EQ(out_folder(of_command("a.json --quiet")), "out");
+  EXPECT_EQ(out_folder(of_command("a.json --out 'my own' --quiet")), "my own");
+  EXPECT_EQ(out_folder(of_command("a.json --out=there")), "there");
+}
+
 TEST(Rerun, NamesAScenesFile) {
   const Results results = of_command("my/a.json --no-timing b.ccr default --out c.json");
   EXPECT_EQ(scene_words(results, "a"), "my/a.json");

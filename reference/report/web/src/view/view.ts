@@ -241,11 +241,11 @@ class SceneViewer implements View {
       drawn = new Set<string>();
     const missed = this.model.differences(this.detector, "missed"),
       keys = new Set(missed.map(String));
-    const make = (kind: MarkKind, pairs: Pair[], selected: boolean) =>
+    const make = (kind: MarkKind, pairs: Pair[]) =>
       makeMarks(
         pairs.map((pair) => this.model.geometry(pair, level, kind)),
         origin,
-        {kind, color: this.colours[kind], selected, dimmed: chosen !== null && !selected},
+        {kind, color: this.colours[kind], selected: false, dimmed: chosen !== null},
         drawn,
       );
     const others = (kind: Kind, pairs: Pair[]): Pair[] =>
@@ -262,9 +262,9 @@ class SceneViewer implements View {
     return [
       // what matters most first: it takes the faces that others share with it
       ...(chosen ? this.chosenMarks(chosen, origin, drawn) : []),
-      ...(shown.has("missed") ? [make("missed", others("missed", missed), false)] : []),
-      ...(shown.has("spurious") ? [make("spurious", spurious, false)] : []),
-      ...(shown.has("true") ? [make("true", truth, false)] : []),
+      ...(shown.has("missed") ? [make("missed", others("missed", missed))] : []),
+      ...(shown.has("spurious") ? [make("spurious", spurious)] : []),
+      ...(shown.has("true") ? [make("true", truth)] : []),
     ];
   }
 

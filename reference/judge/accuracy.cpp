@@ -139,28 +139,34 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
     note_environment(guard, "query", run);
     contacts.canonicalize();
     check_answer(scene, f, contacts);
-    outcome.answers.front().frames.push_back(fingerprint_of(contacts, {own, true}));
+    outcome.answers.front().frames.push_back(fingerprint_of(contacts, asked(own, semantics)));
     const std::vector<Count> counts = detector.counts();
     if (run.counters.empty())
       for (const Count& count : counts) run.counters.emplace_back(count.name, 0);
     CONTACTCHECK_INVARIANT(counts.size() == run.counters.size(), "the same counts every frame");
     for (std::size_t i = 0; i < counts.size(); ++i) run.counters[i].second += counts[i].value;
-    hash = chain_hash(hash, f, contacts);
     true_pairs.push_back(truth.surface.bodies);
     reported_pairs.push_back(contacts.bodies);
 
-    // 2. Its other questions: bodies, depths and normals are judged by these answers.
+    // 2. Its other questions. Each level is judged by the answer to its question, depths and
+    // normals by the answer to `contacts`.
     for (std::size_t q = 1; q < outcome.answers.size(); ++q) {
       const Question question = outcome.answers[q].question;
       ask(detector, question, scene, f, other);
-      outcome.answers[q].frames.push_back(fingerprint_of(other, {question, false}));
+      outcome.answers[q].frames.push_back(fingerprint_of(other, asked(question, semantics)));
       note_environment(guard, "query", run);
-      if (question == Question::kBody) contacts.bodies = other.bodies;
+      const auto judges = [&](Level level) { return question_of(level, semantics) == question; };
+      if (judges(Level::kBody)) contacts.bodies = other.bodies;
+      if (judges(Level::kCell)) contacts.cells = other.cells;
+      if (judges(Level::kTriangle)) contacts.triangles = other.triangles;
+      if (judges(Level::kVertex)) contacts.vertices = other.vertices;
+      if (judges(Level::kNear)) contacts.near = other.near;
       if (question == Question::kContacts) {
         contacts.piece_contacts = other.piece_contacts;
         contacts.vertex_contacts = other.vertex_contacts;
       }
     }
+    hash = chain_hash(hash, f, contacts);
     progress.enter(position, f, process::Phase::kTrace);
     const StageTrace trace = detector.trace();
     notes.add_frame(detector.notes());

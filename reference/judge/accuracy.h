@@ -32,13 +32,12 @@ struct AccuracyOutcome {
 /// Runs `detector` over all frames and fills levels, graded errors, stages, episodes, hash, memory,
 /// notes and float environment of `run`.
 ///
-/// The detector's own question (its first) is judged at every level. Where it answers the question
-/// `body`, that answer is judged at the levels of bodies, because that is the one that is timed.
-/// Depths and normals are taken from its answer to the question `contacts`. A detector in single
-/// precision that is fed vertices is judged a second time, against the truth for the values that it
-/// was fed; one that is fed nodes maps vertices of its own, which only it knows. Exceptions of the
-/// detector pass through. An answer that names elements that do not exist throws
-/// std::runtime_error.
+/// Each level is judged by the answer to its question (question_of), which is the one that is
+/// timed. Episodes of contact are those of the detector's first question. Depths and normals are
+/// taken from its answer to the question `contacts`. A detector in single precision that is fed
+/// vertices is judged a second time, against the truth for the values that it was fed; one that is
+/// fed nodes maps vertices of its own, which only it knows. Exceptions of the detector pass
+/// through. An answer that names elements that do not exist throws std::runtime_error.
 AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
                              process::ProgressWriter& progress, results::Run& run);
 

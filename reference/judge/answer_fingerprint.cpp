@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/types/hash.h"
+#include "reference/judge/judge.h"
 
 namespace contactcheck::judge {
 namespace {
@@ -25,7 +26,7 @@ bool is_compared(std::size_t list, const Asked& asked) {
              (asked.own || asked.question != Question::kContacts);
     case kVertices:
     case kNear:
-      return asked.own;
+      return asked.vertices;
     default:
       return asked.question == Question::kContacts;
   }
@@ -93,6 +94,11 @@ AnswerSizes sizes_of(const ContactSet& c) {
 }
 
 }  // namespace
+
+Asked asked(Question question, const Semantics& semantics) {
+  return {question, question == semantics.questions.front(),
+          question == question_of(Level::kVertex, semantics)};
+}
 
 AnswerFingerprint fingerprint_of(const ContactSet& contacts, const Asked& asked) {
   const AnswerSizes sizes = sizes_of(contacts);

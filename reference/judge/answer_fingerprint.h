@@ -19,11 +19,13 @@ constexpr std::size_t kAnswerLists = 7;
 /// How many records each list of an answer has.
 using AnswerSizes = std::array<std::uint64_t, kAnswerLists>;
 
-/// A question, and whether it is the detector's own: then more of its answer is judged.
+/// A question, and how much of its answer is judged.
 struct Asked {
   Question question = Question::kTriangles;
-  bool own = true;
+  bool own = true;      ///< the detector's first
+  bool vertices = own;  ///< judged at the levels of vertices, too
 };
+Asked asked(Question question, const Semantics& semantics);
 
 /// Per list that an answer is judged by, how many records it has and which; nothing of the others.
 /// Of contacts the number alone, and that roughly.

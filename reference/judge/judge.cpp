@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "core/types/check.h"
 
@@ -110,6 +111,17 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
     }
   }
   return out;
+}
+
+Question question_of(Level level, const Semantics& semantics) {
+  std::optional<Question> about;  // of vertices and near pairs there is none
+  if (level == Level::kBody || level == Level::kContainment) about = Question::kBody;
+  if (level == Level::kCell || level == Level::kBox) about = Question::kCells;
+  if (level == Level::kTriangle) about = Question::kTriangles;
+  if (about && semantics.answers(*about)) return *about;
+  for (const Question question : semantics.questions)
+    if (question != Question::kBody) return question;
+  return Question::kBody;
 }
 
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,

@@ -45,6 +45,11 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged);
 
+/// The question whose answer is judged at `level`: the one that is about it (`body`, `triangles`,
+/// `cells`) where the detector answers that. Else its first but `body`, which may end early; else
+/// `body`.
+Question question_of(Level level, const Semantics& semantics);
+
 /// An answer to one frame compared with the ground truth at one level.
 struct LevelComparison {
   results::LevelCounts counts;  ///< without rates

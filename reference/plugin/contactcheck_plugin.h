@@ -179,8 +179,8 @@ typedef struct contactcheck_vertex_contact {
 /* Where query() puts its answer: each function appends `count` items, as often as wanted, in any
  * order; repeats are allowed. Pass `host` on. A pair of elements implies its pair of bodies.
  * Questions: TRIANGLES wants triangles; BODY bodies; CELLS cells; CONTACTS piece_contacts or
- * vertex_contacts, by the kind of depth. Vertices and near pairs go with the detector's own
- * (first) question. */
+ * vertex_contacts, by the kind of depth. Vertices and near pairs go with the detector's first
+ * question that is not BODY (with BODY where it answers nothing else). */
 typedef struct contactcheck_answer {
   void* host;
   void (*bodies)(void* host, const contactcheck_body_pair* items, size_t count);

@@ -57,7 +57,7 @@ TurnAnswer take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry,
       const Semantics semantics = entry.detector->semantics();
       timing::PassRequest request;
       request.position = turn.position;
-      request.asked = {turn.question, turn.question == semantics.questions.front()};
+      request.asked = judge::asked(turn.question, semantics);
       request.judged = &judged_question(worker, turn, semantics).frames;
       request.sweep = sweep;
       request.threads = threads_of(worker, entry);

@@ -116,6 +116,42 @@ TEST(Accuracy, BodiesAreJudgedByTheAnswerToTheirOwnQuestion) {
             talkative.frames - talkative.contact_frames);
 }
 
+// Its first question is `body`, which ends at the first pair of triangles. Loses pairs on demand.
+class AnswersBodiesFirst : public test::DropsEveryTenth {
+ public:
+  explicit AnswersBodiesFirst(bool loses_pairs) : loses_pairs_(loses_pairs) {
+    semantics_ = DropsEveryTenth::semantics();
+    std::reverse(semantics_.questions.begin(), semantics_.questions.end());
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  void query(Question question, ContactSet& out) override {
+    if (question == Question::kTriangles && loses_pairs_)
+      return DropsEveryTenth::query(question, out);
+    out.triangles = truth_.triangles;
+    if (question == Question::kBody && !out.triangles.empty()) out.triangles.resize(1);
+  }
+
+ private:
+  Semantics semantics_;
+  bool loses_pairs_;
+};
+
+TEST(Accuracy, TrianglesAreJudgedByTheAnswerToTheirQuestionAlsoWhereItIsNotTheFirst) {
+  const scene::Scene scene = spheres();
+  AnswersBodiesFirst right(false), wrong(true);
+  ASSERT_EQ(right.semantics().questions.front(), Question::kBody);
+  const Judged perfect = accuracy_of(scene, right), losing = accuracy_of(scene, wrong);
+  const std::uint64_t pairs = perfect.levels.at(Level::kTriangle).truth;
+  EXPECT_EQ(perfect.levels.at(Level::kTriangle).hit, pairs);
+  EXPECT_TRUE(perfect.disagreements.empty());
+  EXPECT_GE(losing.levels.at(Level::kTriangle).missed, pairs / 10);
+  EXPECT_LT(losing.levels.at(Level::kTriangle).missed, pairs);
+  EXPECT_TRUE(losing.levels.at(Level::kBody).perfect());
+  // Which pairs are missing shows in the hash, too.
+  EXPECT_EQ(perfect.contact_hash, accuracy_of(scene, "fcl-aabb").contact_hash);
+  EXPECT_NE(perfect.contact_hash, losing.contact_hash);
+}
+
 // Finds nothing, and holds so much memory in each frame.
 class HoldsMemory : public Detector {
  public:

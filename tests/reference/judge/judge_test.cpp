@@ -210,6 +210,33 @@ TEST(Judge, InformativeLevelIsCountedButNeverADisagreementNorTheFinest) {
   EXPECT_THAT(totals.disagreements, IsEmpty());
 }
 
+// Whatever the order of the questions.
+TEST(QuestionOf, IsTheOneAboutTheLevel) {
+  Semantics semantics;
+  const auto of = [&](Level level, std::vector<Question> questions) {
+    semantics.questions = std::move(questions);
+    return question_of(level, semantics);
+  };
+  EXPECT_EQ(of(Level::kTriangle, {Question::kBody, Question::kTriangles}), Question::kTriangles);
+  EXPECT_EQ(of(Level::kTriangle, {Question::kContacts, Question::kTriangles}),
+            Question::kTriangles);
+  EXPECT_EQ(of(Level::kCell, {Question::kTriangles, Question::kCells}), Question::kCells);
+  EXPECT_EQ(of(Level::kBox, {Question::kBody, Question::kCells}), Question::kCells);
+  for (const Level level : {Level::kBody, Level::kContainment}) {
+    EXPECT_EQ(of(level, {Question::kTriangles, Question::kBody}), Question::kBody);
+    EXPECT_EQ(of(level, {Question::kContacts, Question::kTriangles}), Question::kContacts);
+  }
+}
+
+TEST(QuestionOf, WithoutOneAboutTheLevelIsTheFirstThatMayNotEndEarly) {
+  Semantics semantics;
+  semantics.questions = {Question::kBody, Question::kContacts, Question::kTriangles};
+  for (const Level level : {Level::kVertex, Level::kNear, Level::kCell})
+    EXPECT_EQ(question_of(level, semantics), Question::kContacts);
+  semantics.questions = {Question::kBody};
+  for (const Level level : kLevels) EXPECT_EQ(question_of(level, semantics), Question::kBody);
+}
+
 TEST(JudgedLevels, HoldWhatIsInformativeToo) {
   Semantics semantics;
   semantics.levels = {Level::kBody};

@@ -28,7 +28,7 @@ void add_reduce(CommandLine& line) {
       ->add_option("--out", arguments->out,
                    "minimal case, a family that run takes (default: beside the case)")
       ->type_name("FILE");
-  reduce->add_option("--print", arguments->language, "test to print: c++ (default), c or python")
+  reduce->add_option("--print", arguments->language, "test on stdout: c++ (default), c or python")
       ->check(CLI::IsMember({"c++", "c", "python"}))
       ->type_name("LANGUAGE");
   reduce->add_option("--budget", arguments->budget, "candidates to try at most (default 20000)")
@@ -40,7 +40,7 @@ void add_reduce(CommandLine& line) {
       "position stays in it. The detector runs in a process of its own: crashes and hangs are\n"
       "reduced as well.\n"
       "Examples:\n"
-      "  contactcheck reduce out/cases/0001.json --print python\n"
+      "  contactcheck reduce out/cases/0001.json --print python > test_contact.py\n"
       "  contactcheck reduce hard-balls-scale@1 --detector fcl-obbrss --out minimal.json\n"
       "  contactcheck run minimal.json --detector fcl-obbrss --no-timing");
   choose(*reduce, line, [arguments, &line] { return reduce_command(*arguments, line.catalog); });

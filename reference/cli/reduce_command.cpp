@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -30,6 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kProgressEvery = 20;  // candidates
+constexpr std::chrono::seconds kLogEvery{2};
 
 // Of the command line: a case file that named a program to be started would be no mere data.
 OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalog& catalog) {
@@ -148,11 +150,16 @@ class ReduceCommand {
                           : std::vector<reduce::CaseCandidate>());
   }
 
-  // On a terminal alone; the line is cleared by whatever is printed next.
-  void show_progress(const reduce::CaseCandidate& candidate) const {
-    if (isatty(STDERR_FILENO) == 0 || probe_->asked() % kProgressEvery != 0) return;
-    std::fprintf(stderr, "\r%zu candidates tried, now %zu triangles   \r", probe_->asked(),
-                 candidate.triangles());
+  // On a terminal one line, cleared by whatever is printed next; in a log a line every few seconds.
+  void show_progress(const reduce::CaseCandidate& candidate) {
+    const bool terminal = isatty(STDERR_FILENO) != 0;
+    const auto now = std::chrono::steady_clock::now();
+    if (terminal ? probe_->asked() % kProgressEvery != 0 : now - shown_ < kLogEvery) return;
+    shown_ = now;
+    std::fprintf(stderr,
+                 terminal ? "\r%zu candidates tried, now %zu triangles   \r"
+                          : "%zu candidates tried, now %zu triangles\n",
+                 probe_->asked(), candidate.triangles());
   }
 
   static bool keeps_position(const reduce::CaseCandidate& candidate,
@@ -217,6 +224,7 @@ class ReduceCommand {
   bool is_case_ = false;
   std::string detector_;
   std::optional<reduce::Probe> probe_;
+  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();  // of progress
 };
 
 // A number is as simple as its binary or its decimal text, whichever is shorter.
@@ -232,26 +240,27 @@ std::string title_of(const reduce::MinimalCase& minimal) {
          reduce::described(minimal.finding);
 }
 
+// The test alone on standard output, so that it can be written into a file.
 void print(const ReducedCase& reduced, const std::string& language) {
   const reduce::TestLanguage test = language == "python" ? reduce::TestLanguage::kPython
                                     : language == "c"    ? reduce::TestLanguage::kC
                                                          : reduce::TestLanguage::kCpp;
   const reduce::CaseCandidate &before = reduced.whole, &after = reduced.minimal.candidate;
-  std::printf("%s\n\n", title_of(reduced.minimal).c_str());
-  std::printf("  %-28s %10s %10s\n", "", "before", "after");
+  std::fprintf(stderr, "%s\n\n", title_of(reduced.minimal).c_str());
+  std::fprintf(stderr, "  %-28s %10s %10s\n", "", "before", "after");
   const auto line = [](const char* what, std::size_t was, std::size_t is) {
-    std::printf("  %-28s %10zu %10zu\n", what, was, is);
+    std::fprintf(stderr, "  %-28s %10zu %10zu\n", what, was, is);
   };
   line("triangles", before.triangles(), after.triangles());
   line("vertices", before.vertices(), after.vertices());
   line("bits or digits, most", most_figures(before), most_figures(after));
-  std::printf("  %zu candidates tried%s; %s\n\n", reduced.reduction.evaluations,
-              reduced.reduction.complete ? "" : ", the whole budget: --budget N allows more",
-              after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
-  std::printf("exact:    %s\nanswered: %s\n\n%s\n%s\n", reduced.answers.exact.c_str(),
-              reduced.answers.detector.c_str(),
-              reduce::printed_test(reduced.minimal, reduced.answers, test).c_str(),
-              reduced.file.c_str());
+  std::fprintf(stderr, "  %zu candidates tried%s; %s\n\n", reduced.reduction.evaluations,
+               reduced.reduction.complete ? "" : ", the whole budget: --budget N allows more",
+               after.on_nodes ? "the vertices are lattice nodes" : "no lattice");
+  std::fprintf(stderr, "exact:    %s\nanswered: %s\nwritten:  %s\n\n",
+               reduced.answers.exact.c_str(), reduced.answers.detector.c_str(),
+               reduced.file.c_str());
+  std::printf("%s", reduce::printed_test(reduced.minimal, reduced.answers, test).c_str());
 }
 
 /// What to reduce of a run, and into which file: the first case of every detector, level and kind,

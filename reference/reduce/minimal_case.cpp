@@ -209,18 +209,31 @@ std::string crossing_text(const MinimalCase& c, const ElementPair& pair) {
   return out;
 }
 
-/// What a test of a detector would say, in words that every suite has its own for.
-std::string expectation(const Finding& finding, TestLanguage language) {
-  const std::string call =
-      "your_detector(first_vertices, first_triangles, second_vertices, second_triangles)";
+/// The line that fails. `your_detector` is what the reader has to write: for a pair of triangles it
+/// is asked for that pair, since one of several pairs of the same bodies can be wrong.
+std::string expectation(const Finding& finding, const CaseAnswers& answers, TestLanguage language) {
+  std::string call =
+      "your_detector(first_vertices, first_triangles, second_vertices, second_triangles";
+  if (answers.triangles)
+    call += ", " + std::to_string(answers.triangles->first) + ", " +
+            std::to_string(answers.triangles->second);
+  call += ")";
   const bool contact = finding.kind == "missed";
   if (language == TestLanguage::kCpp) {
-    if (finding.kind == "error") return "EXPECT_NO_FATAL_FAILURE(" + call + ");";
+    if (finding.kind == "error") return "EXPECT_NO_THROW(" + call + ");";
     return (contact ? "EXPECT_TRUE(" : "EXPECT_FALSE(") + call + ");";
   }
   if (language == TestLanguage::kPython)
     return finding.kind == "error" ? call : (contact ? "assert " : "assert not ") + call;
   return finding.kind == "error" ? call + ";" : (contact ? "assert(" : "assert(!") + call + ");";
+}
+
+/// What `your_detector` has to tell.
+std::string contract(const Finding& finding, const CaseAnswers& answers) {
+  if (finding.kind == "error") return "your_detector: answers, whatever it says";
+  if (!answers.triangles) return "your_detector: does it report a contact of the two?";
+  return "your_detector: does it report triangle " + std::to_string(answers.triangles->first) +
+         " of first with triangle " + std::to_string(answers.triangles->second) + " of second?";
 }
 
 }  // namespace
@@ -233,12 +246,15 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
   const bool triangles = d.level == name_of(Level::kTriangle) || d.level == name_of(Level::kCell);
-  return {pair_text(c, d) + " " + truth_text(d.level, missed) +
-              (missed && triangles ? crossing_text(c, d.pair) : ""),
-          std::to_string(counts.reported) + (counts.reported == 1 ? " pair" : " pairs") +
-              " at level " + d.level + " of " + std::to_string(counts.truth) +
-              " true: " + std::to_string(counts.missed) + " missed, " +
-              std::to_string(counts.spurious) + " spurious"};
+  CaseAnswers out;
+  out.exact = pair_text(c, d) + " " + truth_text(d.level, missed) +
+              (missed && triangles ? crossing_text(c, d.pair) : "");
+  out.detector = std::to_string(counts.reported) + (counts.reported == 1 ? " pair" : " pairs") +
+                 " at level " + d.level + " of " + std::to_string(counts.truth) +
+                 " true: " + std::to_string(counts.missed) + " missed, " +
+                 std::to_string(counts.spurious) + " spurious";
+  if (names_triangles(c.finding)) out.triangles = {d.pair.a, d.pair.b};
+  return out;
 }
 
 std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestLanguage language) {
@@ -256,7 +272,8 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
          mesh_text(c.candidate.meshes[1], "second", language) + indent + comment +
          "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
          " answered: " + answers.detector + ".\n" + indent + comment +
-         expectation(c.finding, language) + "\n" + (python ? "" : "}\n");
+         contract(c.finding, answers) + "\n" + indent + expectation(c.finding, answers, language) +
+         "\n" + (python ? "" : "}\n");
 }
 
 }  // namespace contactcheck::reduce

@@ -2,7 +2,10 @@
 // and a test that the detector's maintainers paste into their suite.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reference/reduce/candidate.h"
@@ -36,6 +39,8 @@ std::string id_from(const std::string& words);
 /// What is exactly true of the case and what the detector answered, one sentence each.
 struct CaseAnswers {
   std::string exact, detector;
+  /// Of the first body and the second, where the wrong answer is about a pair of triangles.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> triangles = {};
 };
 CaseAnswers answers_of(const MinimalCase& minimal, const ProbeVerdict& verdict);
 
@@ -45,8 +50,8 @@ enum class TestLanguage {
   kPython,  ///< nested lists of floats and integers, for pytest
 };
 
-/// A test: the vertices and triangles of both meshes bit for bit, with what is to be expected, and
-/// what was answered, in comments.
+/// A test: the vertices and triangles of both meshes bit for bit, what was answered, and the
+/// assertion, of a function `your_detector` that the reader writes.
 std::string printed_test(const MinimalCase& minimal, const CaseAnswers& answers,
                          TestLanguage language);
 

@@ -47,7 +47,7 @@ TEST_F(ReduceCase, EveryCaseOfARunBecomesOneThatRunShowsAgain) {
     ASSERT_EQ(reduce.exit_code, 0) << reduce.err;
     fs::path least = file;
     least.replace_extension(".min.json");
-    EXPECT_THAT(reduce.out, HasSubstr(least.string() + "\n"));
+    EXPECT_THAT(reduce.err, HasSubstr(least.string() + "\n"));
     const json after = results_of_run(least.string(), "fcl-aabb", out("again"));
     const auto same = [&](const json& other) {
       return other.at("level") == d.at("level") && other.at("kind") == d.at("kind");
@@ -70,7 +70,7 @@ TEST_F(ReduceCase, TakesAnotherDetectorThatErrsInTheSameWay) {
   const fs::path file = out("out") / "cases/0002.json";
   const Outcome other = contactcheck_program({"reduce", file.string(), "--detector", "fcl-obbrss"});
   EXPECT_EQ(other.exit_code, 0) << other.err;
-  EXPECT_THAT(other.out, HasSubstr("fcl-obbrss spurious at level triangle"));
+  EXPECT_THAT(other.err, HasSubstr("fcl-obbrss spurious at level triangle"));
 }
 
 TEST_F(ReduceCase, ThatDoesNotShowAnyMoreIsRefused) {
@@ -89,7 +89,7 @@ TEST_F(ReduceCase, OfAFamilyIsTheFirstFrameOrTheNamedValue) {
   const Outcome first = contactcheck_program(
       {"reduce", "hard-balls-scale", "--detector", "fcl-obbrss", "--out", file});
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_THAT(first.out, HasSubstr("(frame 0): fcl-obbrss missed at level triangle"));
+  EXPECT_THAT(first.err, HasSubstr("(frame 0): fcl-obbrss missed at level triangle"));
   EXPECT_EQ(scene::load_scene(file).id, "least");
   const Outcome named = contactcheck_program({"reduce", std::string(kFamily) + "@0", "--detector",
                                               "fcl-obbrss", "--kind", "missed", "--out", file});

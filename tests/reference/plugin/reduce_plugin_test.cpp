@@ -25,7 +25,7 @@ std::string spurious_case(PluginRun& run) {
 void expect_minimal(const Outcome& outcome, const std::string& case_file) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string least = case_file.substr(0, case_file.rfind('.')) + ".min.json";
-  EXPECT_THAT(outcome.out, HasSubstr(least));
+  EXPECT_THAT(outcome.err, HasSubstr(least));
   EXPECT_TRUE(std::filesystem::exists(least));
 }
 

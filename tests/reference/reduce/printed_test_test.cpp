@@ -56,7 +56,8 @@ TEST(FclObbrss, MissedTriangleHardBalls) {
   }};
   // Exact: triangle 0 of first and triangle 0 of second share a point.
   // fcl-obbrss answered: 1 pair at level triangle of 3 true: 2 missed, 0 spurious.
-  // EXPECT_TRUE(your_detector(first_vertices, first_triangles, second_vertices, second_triangles));
+  // your_detector: does it report triangle 0 of first with triangle 0 of second?
+  EXPECT_TRUE(your_detector(first_vertices, first_triangles, second_vertices, second_triangles, 0, 0));
 }
 )");
 }
@@ -87,14 +88,33 @@ def test_fcl_obbrss_spurious_triangle_hard_balls():
     ]
     # Exact: triangle 0 of first and triangle 0 of second share no point.
     # fcl-obbrss answered: 1 pair at level triangle of 3 true: 2 missed, 0 spurious.
-    # assert not your_detector(first_vertices, first_triangles, second_vertices, second_triangles)
+    # your_detector: does it report triangle 0 of first with triangle 0 of second?
+    assert not your_detector(first_vertices, first_triangles, second_vertices, second_triangles, 0, 0)
 )");
   const std::string c = printed_test(minimal, answers, TestLanguage::kC);
   EXPECT_THAT(c, testing::HasSubstr("void test_fcl_obbrss_spurious_triangle_hard_balls(void) {\n"
                                     "  const double first_vertices[3][3] = {\n"
                                     "      {0.0, 1.0, 2.0},\n"
                                     "      {-3.0, 0.5, 0x1.5555555555555p-2},\n"));
-  EXPECT_THAT(c, testing::HasSubstr("  // assert(!your_detector(first_vertices, "));
+  EXPECT_THAT(c, testing::HasSubstr("\n  assert(!your_detector(first_vertices, "));
+}
+
+// Of bodies the answer is yes or no; of an error any answer will do.
+TEST(PrintedTest, AssertsWhatTheLevelIsAbout) {
+  const auto test_of = [](const Finding& finding) {
+    const MinimalCase minimal = printed_case(finding);
+    const ProbeVerdict answered = finding.kind == "error" ? ProbeVerdict() : verdict(finding);
+    return printed_test(minimal, answers_of(minimal, answered), TestLanguage::kCpp);
+  };
+  EXPECT_THAT(test_of({"body", "missed"}),
+              testing::AllOf(testing::HasSubstr("does it report a contact of the two?"),
+                             testing::HasSubstr("\n  EXPECT_TRUE(your_detector(first_vertices, "
+                                                "first_triangles, second_vertices, "
+                                                "second_triangles));\n")));
+  EXPECT_THAT(test_of({"cell", "missed"}), testing::HasSubstr("second_triangles, 0, 0));\n"));
+  EXPECT_THAT(test_of({"cell", "spurious"}), testing::HasSubstr("second_triangles));\n"));
+  EXPECT_THAT(test_of({"", "error", "threw"}),
+              testing::HasSubstr("\n  EXPECT_NO_THROW(your_detector("));
 }
 
 TEST(AnswersOf, NameTheEdgesThatMeetTheOtherTriangle) {

@@ -164,7 +164,7 @@ void add_run(CommandLine& line) {
   run->add_flag("--resume", arguments.resume, "continue an interrupted run in --out");
   add_shard(*run, arguments);
   run->add_flag("--quiet", arguments.quiet, "print no progress and no tables");
-  run->add_flag("--explain", arguments.explain, "print what the columns mean");
+  run->add_flag("--explain", arguments.explain, "print what the columns mean; alone: only that");
   run->add_flag("--json-lines", arguments.json_lines,
                 "print events as JSON lines, nothing else (fixtures/README.md)");
   run->footer(

@@ -75,6 +75,11 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
     const std::string word = app.remaining().front();
     say(std::string("unknown ") + (word.rfind('-', 0) == 0 ? "flag" : "command") + " \"" + word +
         "\"; contactcheck --help names all");
+  } else if (error.get_name() == "RequiredError") {
+    const auto chosen = app.get_subcommands();
+    say(chosen.empty() ? "which command? contactcheck --help names all"
+                       : std::string(error.what()) + "; contactcheck " +
+                             chosen.front()->get_name() + " --help says more");
   } else {
     say(error.what());
   }

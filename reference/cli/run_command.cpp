@@ -427,6 +427,12 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
 }
 
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog) {
+  // By itself it is a question, not a run of the suite `default`.
+  if (arguments.explain && arguments.targets.empty() && arguments.meshes.meshes.empty() &&
+      arguments.detectors.empty() && arguments.commands.empty() && !arguments.pairs) {
+    std::fputs(report::column_legend().c_str(), stdout);
+    return 0;
+  }
   process::say_when_interrupted(
       "contactcheck: interrupted; finished scenes are kept: repeat the command with --resume to "
       "continue\n");

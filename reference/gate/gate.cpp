@@ -79,32 +79,52 @@ void apply_rule(const Rule& rule, const results::Index& now, const results::Inde
       add(std::move(check), row.scene, row.detector);
     }
   }
-  for (Check& idle : idle_patterns(rule, rows)) out.push_back(std::move(idle));
+  for (Check& idle : idle_patterns(rule, rows, now.results())) out.push_back(std::move(idle));
 }
 
 }  // namespace
 
-std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows) {
+std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows,
+                                 const results::Results& results) {
   std::vector<Check> out;
   const auto add = [&](const std::string& reason) {
     out.push_back(failure(rule.name, "matches nothing: no row " + reason));
     out.back().why = rule.why;
   };
+  const auto names_in_results = [&](const std::string& what, std::string results::Run::*name) {
+    constexpr std::size_t kMost = 8;
+    std::vector<std::string> names;
+    for (const results::Run& run : results.runs)
+      if (std::find(names.begin(), names.end(), run.*name) == names.end())
+        names.push_back(run.*name);
+    const std::size_t more = names.size() > kMost ? names.size() - kMost : 0;
+    names.resize(names.size() - more);
+    return names.empty()
+               ? "; the results have none"
+               : "; the results have the " + what + (names.size() > 1 ? "s " : " ") +
+                     quoted(names) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+  };
+  const std::string has_scenes = names_in_results("scene", &results::Run::scene),
+                    has_detectors = names_in_results("detector", &results::Run::detector);
   if (rows.empty()) {
     const std::vector<std::string>& detectors = rule.detectors.wanted;
+    const bool has_scene =
+        std::any_of(results.runs.begin(), results.runs.end(),
+                    [&](const results::Run& run) { return rule.scenes.hold(run.scene); });
     add("has a scene of " + quoted(rule.scenes.wanted) +
-        (detectors.empty() ? "" : " and a detector of " + quoted(detectors)));
+        (detectors.empty() ? "" : " and a detector of " + quoted(detectors)) +
+        (has_scene && !detectors.empty() ? has_detectors : has_scenes));
     return out;
   }
   const auto add_unused = [&](const Patterns& patterns, const std::string& what,
-                              std::string RowName::*name) {
+                              std::string RowName::*name, const std::string& has) {
     for (const std::string& pattern : patterns.wanted)
       if (std::none_of(rows.begin(), rows.end(),
                        [&](const RowName& row) { return matches(pattern, row.*name); }))
-        add("of the rule has a " + what + " " + text::in_quotes(pattern));
+        add("of the rule has a " + what + " " + text::in_quotes(pattern) + has);
   };
-  add_unused(rule.scenes, "scene", &RowName::scene);
-  add_unused(rule.detectors, "detector", &RowName::detector);
+  add_unused(rule.scenes, "scene", &RowName::scene, has_scenes);
+  add_unused(rule.detectors, "detector", &RowName::detector, has_detectors);
   return out;
 }
 

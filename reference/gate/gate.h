@@ -25,8 +25,9 @@ struct RowName {
 };
 
 /// A failure for every pattern of the rule that matches none of `rows`, which are those that the
-/// rule is about; one failure for a rule without any row.
-std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows);
+/// rule is about; one failure for a rule without any row. They name what `results` have instead.
+std::vector<Check> idle_patterns(const Rule& rule, const std::vector<RowName>& rows,
+                                 const results::Results& results);
 
 /// A failure where more rules cannot judge some of their rows than the policy allows.
 std::optional<Check> too_many_open(const Policy& policy, const GateResult& result);

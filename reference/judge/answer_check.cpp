@@ -22,21 +22,28 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
     if (a == b) fail("names body \"" + scene.bodies[a].name + "\" in contact with itself");
   };
   const auto check_element = [&](const char* kind, std::uint32_t body, std::uint32_t id,
-                                 std::size_t count) {
+                                 std::size_t count, const char* hint = "") {
     if (id < count) return;
     fail("names " + std::string(kind) + " " + std::to_string(id) + " of body \"" +
-         scene.bodies[body].name + "\", which has " + std::to_string(count));
+         scene.bodies[body].name + "\", which has " + std::to_string(count) + hint);
   };
-  const auto check_triangle = [&](std::uint32_t body, std::uint32_t id) {
-    check_element("triangle", body, id, shape(body).mesh.triangles.size());
+  const auto check_elements = [&](const char* kind, const ElementPair& pair, auto&& count_of) {
+    const std::size_t of_a = count_of(pair.body_a), of_b = count_of(pair.body_b);
+    const char* const hint = pair.a < of_b && pair.b < of_a
+                                 ? "; exchanged, both would exist: a belongs to the body with the "
+                                   "lower index"
+                                 : "";
+    check_element(kind, pair.body_a, pair.a, of_a, hint);
+    check_element(kind, pair.body_b, pair.b, of_b, hint);
   };
+  const auto triangles_of = [&](std::uint32_t body) { return shape(body).mesh.triangles.size(); };
   const auto check_triangles = [&](const ElementPair& pair) {
-    check_triangle(pair.body_a, pair.a);
-    check_triangle(pair.body_b, pair.b);
+    check_elements("triangle", pair, triangles_of);
   };
   const auto check_cells = [&](const ElementPair& pair) {
-    for (const auto& [body, id] : {std::pair(pair.body_a, pair.a), std::pair(pair.body_b, pair.b)})
-      check_element("cell", body, id, shape(body).lattice ? shape(body).lattice->cells.size() : 0);
+    check_elements("cell", pair, [&](std::uint32_t body) {
+      return shape(body).lattice ? shape(body).lattice->cells.size() : 0;
+    });
   };
   const auto check_vertex = [&](const VertexInBody& v) {
     check_pair(v.body, v.in);
@@ -53,7 +60,7 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
   for (const VertexInBody& v : contacts.vertices) check_vertex(v);
   for (const NearPair& p : contacts.near) {
     check_vertex({p.body, p.other, p.vertex});
-    check_triangle(p.other, p.triangle);
+    check_element("triangle", p.other, p.triangle, triangles_of(p.other));
   }
   for (const PieceContact& c : contacts.piece_contacts) {
     check_pair(c.pieces.body_a, c.pieces.body_b);

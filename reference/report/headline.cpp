@@ -54,7 +54,8 @@ bool was_asked(const Index& index, const Run& run) {
   return scene == nullptr || scene->unjudged.empty();
 }
 
-// Of detectors that had something to find, or reported something; in the order of their first runs.
+// Of detectors that had something to find, reported something or ended in an error; in the order of
+// their first runs.
 std::vector<Verdict> verdicts_of(const Index& index) {
   std::vector<Verdict> all;
   std::set<std::string> families;
@@ -72,9 +73,10 @@ std::vector<Verdict> verdicts_of(const Index& index) {
       if (!counts.informative) own.levels[level].add(run, level);
   }
   std::erase_if(all, [](const Verdict& verdict) {
-    return std::none_of(verdict.levels.begin(), verdict.levels.end(), [](const auto& level) {
-      return level.second.truth > 0 || level.second.reported > 0;
-    });
+    return !verdict.failed &&
+           std::none_of(verdict.levels.begin(), verdict.levels.end(), [](const auto& level) {
+             return level.second.truth > 0 || level.second.reported > 0;
+           });
   });
   return all;
 }
@@ -97,17 +99,24 @@ std::string title_of(const Results& results, const std::vector<Verdict>& all) {
 
   const auto right = static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.flawless(); }));
-  const bool failed =
-      std::any_of(all.begin(), all.end(), [](const Verdict& v) { return v.failed; });
+  const auto failed = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const Verdict& v) { return v.failed; }));
+  const bool answered =
+      std::any_of(all.begin(), all.end(), [](const Verdict& v) { return !v.levels.empty(); });
+  if (!answered)
+    return fmt::format("{} ended in status error in {}",
+                       failed == 1 ? all[0].detector : fmt::format("All {} detectors", failed),
+                       places);
   const std::string who = all.size() == 1 ? all[0].detector + " has"
                           : right == 0 || right == all.size()
                               ? fmt::format("All {} detectors have", all.size())
                               : fmt::format("{} of {} detectors have", right, all.size());
-  return fmt::format("{} {} in {}", who,
-                     right > 0 ? "no missed and no spurious contacts"
-                     : failed  ? "missed or spurious contacts, or status error,"
-                               : "missed or spurious contacts",
-                     places);
+  return fmt::format(
+      "{} {} in {}{}", who,
+      right > 0    ? "no missed and no spurious contacts"
+      : failed > 0 ? "missed or spurious contacts, or status error,"
+                   : "missed or spurious contacts",
+      places, right > 0 && failed > 0 ? fmt::format("; {} ended in status error", failed) : "");
 }
 
 void add_exact(const std::vector<Verdict>& all, std::vector<HeadlineFinding>& out) {

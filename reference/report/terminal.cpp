@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reference/report/error_counts.h"
 #include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/headline.h"
@@ -150,6 +151,23 @@ std::string scene_head(const results::Scene& scene, bool color) {
                      scene.frames, scene.contact_frames, more);
 }
 
+// The table shows the finest level. Where that is right and another is not, the verdict on the
+// first line would seem to contradict it.
+std::string errors_elsewhere(const results::Scene& scene, const results::Index& index) {
+  std::string out;
+  for (const results::Run* run : index.runs_of(scene.id)) {
+    ErrorCounts finest;
+    if (!run->ok() || !finest.add(*run, run->per_frame.level) || finest.missed > 0 ||
+        finest.spurious > 0)
+      continue;
+    for (const auto& [level, counts] : run->levels)
+      if (!counts.informative && counts.missed + counts.spurious > 0)
+        out += fmt::format("  {} at level {}: {} missed, {} spurious\n", run->detector,
+                           name_of(level), counts.missed, counts.spurious);
+  }
+  return out.empty() ? "" : out + "\n";
+}
+
 // What was noted about detectors from outside: their makers read the terminal.
 std::string own_notes(const results::Results& results, const results::Scene& scene,
                       const results::Index& index) {
@@ -161,14 +179,14 @@ std::string own_notes(const results::Results& results, const results::Scene& sce
   return out.empty() ? "" : out + "\n";
 }
 
-std::string terminal_legend() {
+}  // namespace
+
+std::string column_legend() {
   std::string out;
   for (std::size_t i = 1; i < result_columns().size(); ++i)
     out += fmt::format("  {:<13}  {}\n", result_columns()[i].title, result_columns()[i].meaning);
   return out;
 }
-
-}  // namespace
 
 std::string terminal_tables(const results::Results& results, bool color, bool explain) {
   std::string out = paint(headline_of(results).title, kBold, color) + "\n\n";
@@ -178,7 +196,8 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
     TitledTable rows{"", "", result_columns(), {}};
     for (const results::Run* run : index.runs_of(scene->id))
       rows.rows.push_back(result_cells(*run));
-    out += scene_head(*scene, color) + table(rows, color) + own_notes(results, *scene, index);
+    out += scene_head(*scene, color) + table(rows, color) + errors_elsewhere(*scene, index) +
+           own_notes(results, *scene, index);
     if (scene->sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.scenes.size() > 1)
@@ -196,7 +215,7 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
   if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";
-  return out + terminal_legend();
+  return out + column_legend();
 }
 
 }  // namespace contactcheck::report

@@ -12,4 +12,7 @@ namespace contactcheck::report {
 /// columns and how times were taken.
 std::string terminal_tables(const results::Results& results, bool color, bool explain = false);
 
+/// What the columns of these tables mean, a line each.
+std::string column_legend();
+
 }  // namespace contactcheck::report

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/types/check.h"
@@ -102,9 +103,11 @@ Lines faster_lines(const AbJudgement& judgement, const AbLimits& limits) {
   return lines;
 }
 
-Lines change_lines(const std::vector<RowChange>& changes) {
+Lines change_lines(const std::vector<RowChange>& changes,
+                   std::optional<Direction> direction = std::nullopt) {
   Lines lines;
-  for (const RowChange& change : changes) lines.push_back(change_line(change));
+  for (const RowChange& change : changes)
+    if (!direction || change.direction == *direction) lines.push_back(change_line(change));
   return lines;
 }
 
@@ -117,7 +120,12 @@ std::vector<Section> sections_of(const AbJudgement& judgement, const AbSetting& 
   const char* const allowed = setting.accuracy_may_change ? " (allowed)" : "";
   return {{fmt::format("Slower than {:.2f}x", setting.limits.slower_than),
            lines_of(judgement, AbVerdict::kSlower)},
-          {std::string("Other answers, base -> head") + allowed, change_lines(judgement.answers)},
+          {std::string("Worse answers, base -> head") + allowed,
+           change_lines(judgement.answers, Direction::kWorse)},
+          {std::string("Better answers, base -> head") + allowed,
+           change_lines(judgement.answers, Direction::kBetter)},
+          {std::string("Other answers, base -> head") + allowed,
+           change_lines(judgement.answers, Direction::kOther)},
           {std::string("Other answers from round to round of one build") + allowed,
            change_lines(judgement.unsteady)},
           {"Too noisy to judge: more rounds or a quieter machine would tell",
@@ -134,12 +142,30 @@ std::string limits_text(const AbSetting& setting) {
       setting.rounds, setting.limits.slower_than, setting.limits.floor_us);
 }
 
+// "FAIL: 1 answer is worse, 2 times are within the limit." Answers first: of others a time says
+// little.
 std::string verdict_text(const AbJudgement& judgement, const AbSetting& setting) {
-  std::string text = fmt::format(
-      "{}: {} of {} times are within the limit", setting.fails(judgement) ? "FAIL" : "PASS",
-      lines_of(judgement, AbVerdict::kPass).size(), judgement.times.size());
-  if (judgement.untimed > 0) text += fmt::format("; {} rows have no times", judgement.untimed);
-  return text + ".";
+  std::vector<std::string> parts;
+  const auto add = [&parts](std::size_t count, const char* one, const char* many) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
+  };
+  add(change_lines(judgement.answers, Direction::kWorse).size(), "answer is worse",
+      "answers are worse");
+  add(change_lines(judgement.answers, Direction::kBetter).size(), "answer is better",
+      "answers are better");
+  add(change_lines(judgement.answers, Direction::kOther).size(), "answer is another",
+      "answers are others");
+  add(judgement.unsteady.size(), "answer changes from round to round",
+      "answers change from round to round");
+  const bool compared = !judgement.times.empty() || judgement.untimed > 0;
+  if (compared && parts.empty()) parts.emplace_back("answers are equal");
+  const auto times = [&](AbVerdict verdict) { return lines_of(judgement, verdict).size(); };
+  add(times(AbVerdict::kSlower), "time is too slow", "times are too slow");
+  add(times(AbVerdict::kTooNoisy), "time is too noisy to judge", "times are too noisy to judge");
+  add(times(AbVerdict::kPass), "time is within the limit", "times are within the limit");
+  if (judgement.times.empty()) parts.emplace_back("nothing was timed");
+  add(judgement.untimed, "row has no times", "rows have no times");
+  return fmt::format("{}: {}.", setting.fails(judgement) ? "FAIL" : "PASS", fmt::join(parts, ", "));
 }
 
 const char* name_of(AbVerdict verdict) {
@@ -223,8 +249,11 @@ std::vector<std::string> ab_failures(const AbJudgement& judgement, const AbSetti
   for (const std::string& line : lines_of(judgement, AbVerdict::kSlower))
     failures.push_back(fmt::format("slower than {:.2f}x: {}", setting.limits.slower_than, line));
   if (setting.accuracy_may_change) return failures;
-  for (const std::string& line : change_lines(judgement.answers))
-    failures.push_back("other answers than base: " + line);
+  for (const auto& [direction, words] :
+       {std::pair(Direction::kWorse, "worse"), std::pair(Direction::kBetter, "better"),
+        std::pair(Direction::kOther, "other")})
+    for (const std::string& line : change_lines(judgement.answers, direction))
+      failures.push_back(fmt::format("{} answers than base: {}", words, line));
   for (const std::string& line : change_lines(judgement.unsteady))
     failures.push_back("other answers from round to round: " + line);
   return failures;

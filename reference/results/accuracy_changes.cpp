@@ -12,8 +12,14 @@
 namespace contactcheck::results {
 namespace {
 
-std::string text_of(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : "none";
+// Four digits, or as many as show the difference.
+std::string change_text(const std::optional<double>& was, const std::optional<double>& is) {
+  const auto text = [](const std::optional<double>& value, int digits) {
+    return value ? fmt::format("{:.{}g}", *value, digits) : "none";
+  };
+  int digits = 4;
+  while (digits < 17 && text(was, digits) == text(is, digits)) ++digits;
+  return text(was, digits) + " -> " + text(is, digits);
 }
 
 double error_size(const std::string& key, double value) {
@@ -77,7 +83,7 @@ RowChange row_change(const results::Run& before, const results::Run& after) {
       const auto& [key, is] = errors_after[i];
       const std::optional<double> was = errors_before[i].second;
       if (was == is) continue;
-      note(fmt::format("{} {} -> {}", key, text_of(was), text_of(is)));
+      note(key + (" " + change_text(was, is)));
       if (!was || !is) continue;
       // Equal where only the sign of late_frames has changed.
       const double size_before = error_size(key, *was), size_after = error_size(key, *is);

@@ -254,8 +254,10 @@ std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
       note += ", scaled to " + digits(*request.size) + " m (--size file keeps it)";
     if (std::find(notes.begin(), notes.end(), note) != notes.end()) continue;
     notes.push_back(note);
-    for (const std::string& found : {loaded.notes, describe(analyse_topology(loaded.mesh))})
+    const MeshTopology topology = analyse_topology(loaded.mesh);
+    for (const std::string& found : {loaded.notes, describe(topology)})
       if (!found.empty()) notes.push_back(name + ": " + found);
+    if (!topology.solid) notes.push_back(name + ": not closed, so containment is not judged");
   }
   if (largest.first > kDoubtful * smallest.first)
     notes.push_back("warning: " + largest.second + " is " + digits(largest.first / smallest.first) +

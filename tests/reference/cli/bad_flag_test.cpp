@@ -28,6 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadCommand{"UnknownFlag", {"--verbose"}, {"unknown flag \"--verbose\""}},
         BadCommand{"FlagOfACommandBeforeIt", {"--frames", "3", "run"}, {"--frames"}},
+        BadCommand{"NoFolder", {"init"}, {"folder", "contactcheck init --help"}},
         BadCommand{"EmptyWord", {""}, {"unknown command \"\""}},
         BadCommand{"CommandInCapitals", {"RUN"}, {"unknown command \"RUN\""}},
         BadCommand{"TwoCommands", {"list", "run", "--frames", "0"}, {"--frames", "0"}},

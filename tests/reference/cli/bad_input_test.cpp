@@ -57,7 +57,7 @@ class BadInput : public testing::Test {
   Scratch scratch_;
 };
 
-TEST_F(BadInput, NoSubcommand) { expect_refused({}, {"subcommand"}); }
+TEST_F(BadInput, NoSubcommand) { expect_refused({}, {"which command?", "--help"}); }
 
 TEST_F(BadInput, UnknownSubcommand) {
   expect_refused({"frobnicate"}, {"unknown command", "\"frobnicate\""});

@@ -164,7 +164,9 @@ TEST_F(MeshRun, SaysWhatTheMeshCheckFound) {
   scratch_.write("cube.obj", test::obj_text(open));
   const std::string err = run({}).err;
   EXPECT_THAT(err, HasSubstr("\ncube: 3 boundary-edge (first: triangle "));
+  EXPECT_THAT(err, HasSubstr("\ncube: not closed, so containment is not judged\n"));
   EXPECT_THAT(err, Not(HasSubstr("\nball: 0 ")));
+  EXPECT_THAT(err, Not(HasSubstr("\nball: not closed")));
 }
 
 TEST_F(MeshRun, TakesTheDetectorsOfASuite) {

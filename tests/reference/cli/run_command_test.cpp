@@ -71,6 +71,14 @@ class RunCommand : public testing::Test {
   Outcome last_;
 };
 
+// It ran the suite `default`.
+TEST(RunExplain, AloneSaysWhatTheColumnsMeanAndRunsNothing) {
+  const Outcome outcome = contactcheck_program({"run", "--explain"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("recall         hit / truth, cut, not rounded\n"));
+  EXPECT_EQ(outcome.err, "");
+}
+
 TEST_F(RunCommand, WritesResultsReportRecordingAndNothingElse) {
   const json results = run("out", {scene_, "--no-timing"});
   const fs::path out = scratch_.folder() / "out";

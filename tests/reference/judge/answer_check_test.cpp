@@ -64,6 +64,30 @@ TEST(AnswerCheck, RefusesContactsOfPiecesThatAreNotThere) {
             "frame 3: the answer names body \"moving\" in contact with itself");
 }
 
+// A ball of over 100 triangles after a box of 12.
+TEST(AnswerCheck, SaysWhereExchangedElementsWouldExist) {
+  const auto box = test::make_body("", test::unit_box_mesh(1), {1, 1, 1}).shape;
+  const auto ball = test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 2), {1, 1, 1}).shape;
+  const scene::Scene scene =
+      test::approach_scene(box, ball, {{0.0, 0.5}}, 0, 0, 1, 1.0, {Level::kBody});
+  const auto complaint_about = [&](const ElementPair& pair) -> std::string {
+    ContactSet answer;
+    answer.triangles = {pair};
+    answer.canonicalize();
+    try {
+      check_answer(scene, 0, answer);
+      return "";
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(complaint_about({0, 1, 70, 5}),
+            "frame 0: the answer names triangle 70 of body \"resting\", which has 12; exchanged, "
+            "both would exist: a belongs to the body with the lower index");
+  EXPECT_EQ(complaint_about({0, 1, 70, 40}),
+            "frame 0: the answer names triangle 70 of body \"resting\", which has 12");
+}
+
 TEST(AnswerCheck, RefusesDepthsAndNormalsThatAreNoNumbers) {
   const std::string sentence =
       "frame 3: the answer holds a depth or normal that is negative or no number";

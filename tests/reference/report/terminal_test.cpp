@@ -19,8 +19,9 @@ std::string terminal_of(const nlohmann::ordered_json& results, bool color) {
 }
 
 TEST(Terminal, IsThisText) {
-  EXPECT_EQ(terminal_of(sample_results(), false),
-            R"(1 of 2 detectors have no missed and no spurious contacts in 1 scene
+  EXPECT_EQ(
+      terminal_of(sample_results(), false),
+      R"(1 of 3 detectors have no missed and no spurious contacts in 1 scene; 1 ended in status error
 
 hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact
@@ -97,6 +98,15 @@ TEST(Terminal, ShowsADetectorsOwnClockBesideOurs) {
   const std::string text = terminal_of(results, false);
   EXPECT_THAT(text, HasSubstr("  0.500 (own 0.375)  "));
   EXPECT_THAT(text, HasSubstr("  2.00  ")) << "one without a clock has none";
+}
+
+// The row shows the finest level alone, which is right.
+TEST(Terminal, NamesErrorsAtLevelsThatTheTableDoesNotShow) {
+  auto results = sample_results();
+  results["runs"][0]["levels"]["body"]["missed"] = 3;
+  EXPECT_THAT(terminal_of(results, false),
+              HasSubstr("\n  fcl-aabb at level body: 3 missed, 0 spurious\n"));
+  EXPECT_THAT(terminal_of(sample_results(), false), Not(HasSubstr(" at level body")));
 }
 
 TEST(Terminal, NotesOfDetectorsFromOutsideFollowTheTable) {

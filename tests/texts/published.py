@@ -17,12 +17,17 @@ class TextError(Exception):
     """What is wrong, with its place, in one sentence."""
 
 
-def read_json(path, shown):
+def read_text(path, shown):
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or error
         raise TextError(f"{shown} cannot be read: {why}") from error
+
+
+def read_json(path, shown):
+    try:
+        return json.loads(read_text(path, shown))
     except ValueError as error:
         raise TextError(f"{shown} is not JSON: {error}") from error
 
@@ -195,7 +200,38 @@ def paper_sums(reproduction, _):
              "test": means["test_ratio"]["ours"], "steps": means["frame_rate_ratio"]["ours"]}]
 
 
-MAKERS = {"scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
+def drawn_sums(results, _):
+    """Of scenes drawn from one seed."""
+    scenes = [scene for scene in results["scenes"] if "drawn" in scene]
+    seeds = {scene["drawn"]["seed"] for scene in scenes}
+    if len(seeds) != 1:
+        raise TextError(f"the scenes are drawn from {len(seeds)} seeds and not from one")
+    judged = [scene for scene in scenes if "unjudged" not in scene]
+    return [{"seed": seeds.pop(), "scenes": len(scenes), "judged": len(judged),
+             "redrawn": sum(scene["drawn"]["redrawn"] > 0 for scene in scenes),
+             "with_contact": sum(scene["contact_frames"] > 0 for scene in judged),
+             "frames": sum(scene["frames"] for scene in judged),
+             "true_pairs": sum(scene["truth"]["triangle"] for scene in judged)}]
+
+
+def drawn_rows(results, titles):
+    """Rows of the run's own report, in its words: of tables whose title begins with one of these."""
+    rows, title, columns = [], "", None
+    section = results["report"].partition("\n## Drawn scenes\n")[2].partition("\n## ")[0]
+    for line in section.splitlines():
+        if line.startswith("### "):
+            title, columns = line[4:], None
+        elif line.startswith("| ") and title.startswith(titles):
+            cells = [cell.strip() for cell in line.strip("| ").split(" | ")]
+            if columns:
+                rows.append({"table": title, **dict(zip(columns, cells, strict=True))})
+            columns = columns or cells
+    if not rows:
+        raise TextError(f"the report has no rows of drawn scenes below \"{titles[0]}\"")
+    return rows
+
+
+MAKERS = {"drawn_sums": drawn_sums, "drawn": drawn_rows, "scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
           "detectors": family_rows, "paper_sums": paper_sums, "paper": paper_rows}
 
 GOAL = ("goal", "detector", "part", "at_least", "at_most", "measured", "low", "high", "unit", "why",
@@ -217,6 +253,8 @@ FILES = {
     "single-historic-times": {"runs": ("ms", "passes")},
     "paper-64": {"scenes": ("steps",), "runs": ("memory_bytes",)},
     "reproduce": {"paper_sums": (), "paper": ()},
+    "drawn": {"drawn_sums": (), "drawn": ("Missed and spurious",)},
+    "drawn-times": {"drawn_sums": (), "drawn": ("Missed and spurious", "Speed-ups")},
 }
 
 
@@ -229,14 +267,18 @@ def command_of(results):
     return command
 
 
-def published(name, path, seconds):
-    """The text of the file NAME, made of the results at `path`."""
+def published(name, path, seconds, commit=""):
+    """The text of the file NAME, made of the results at `path` by the program of `commit`."""
     if name not in FILES:
         raise TextError(f"{name} is no published file; there are {', '.join(FILES)}")
     results = read_json(path, path)
     date = datetime.datetime.fromtimestamp(os.stat(path).st_mtime, datetime.timezone.utc)
+    if "drawn" in FILES[name]:
+        results["report"] = read_text(path.parent / "report.md", "report.md")
     head = {"command": command_of(results), "version": results["version"],
             "machine": results["machine"], "date": f"{date:%Y-%m-%d}", "seconds": seconds}
+    if commit:
+        head["commit"] = commit
     try:
         sections = {kind: MAKERS[kind](results, fields) for kind, fields in FILES[name].items()}
     except KeyError as error:

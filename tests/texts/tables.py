@@ -265,10 +265,82 @@ def paper_overview(files):
                   "at rest, mm apart: `ffd-grid`:", "`ffd-aabb-sphere2`:"], rows)
 
 
-TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers, "goals": performance_goals,
-          "single-lazy": single_lazy, "single-lazy-times": single_lazy_times,
-          "single-historic": single_historic, "single-historic-times": single_historic_times,
-          "hard": hard_wrong, "reproduce": paper_overview}
+# With contact first: where a detector has to do something.
+DRAWN_KINDS = ("with contact", "without contact")
+DRAWN_SPEED = ("ffd-lazy", "full-refit", "ffd-aabb-sphere2+tri")
+DRAWN_PEERS = {"fcl-aabb": "FCL", "embree": "Embree"}
+
+
+def drawn_row(file, table, kind, **wanted):
+    found = [row for row in file.rows("drawn")
+             if re.fullmatch(rf"{table} in \d+ scenes? {kind}", row["table"]) and
+             all(row[k] == v for k, v in wanted.items())]
+    if len(found) != 1:
+        raise TextError(f"{file.place} has {len(found)} rows \"{table}\" {kind} of "
+                        f"{', '.join(wanted.values())}; one is needed")
+    return found[0]
+
+
+def drawn_headline(files):
+    """One row a detector: median, 10th percentile and worst in a cell."""
+    file, columns, rows = files["drawn-times"], ["detector"], []
+    for detector in DRAWN_SPEED:
+        cells = [f"`{detector}`"]
+        for kind in DRAWN_KINDS:
+            for over, peer in DRAWN_PEERS.items():
+                row = drawn_row(file, "Speed-ups", kind, detector=detector, over=over)
+                cells.append(f"{row['median']}, {row['10th percentile']}, {row['worst']}")
+                columns.append(f"{peer}, {kind}:")
+        rows.append(cells)
+    return table(list(dict.fromkeys(columns)), rows)
+
+
+def drawn_speed(files):
+    file, rows = files["drawn-times"], []
+    for detector in DRAWN_SPEED:
+        for kind in DRAWN_KINDS:
+            for over, peer in DRAWN_PEERS.items():
+                row = drawn_row(file, "Speed-ups", kind, detector=detector, over=over)
+                rows.append([f"`{detector}`", kind, peer, row["median"], row["10th percentile"],
+                             row["worst"], f"{row['faster in']} of {row['scenes']}"])
+    return table(["detector", "scenes", "over", "median:", "10th percentile:", "worst:",
+                  "faster in:"], rows)
+
+
+def drawn_decides(files):
+    """The three strongest rank correlations of each ratio with what was drawn."""
+    file, rows = files["drawn-times"], []
+    for row in file.rows("drawn"):
+        if row["table"] == "Speed-ups against the parameters of the scenes" and \
+                row["detector"] in DRAWN_SPEED and row["over"] in DRAWN_PEERS:
+            strongest = row["rank correlations, strongest first"].split(", ")[:3]
+            rows.append([f"`{row['detector']}`", DRAWN_PEERS[row["over"]], ", ".join(strongest),
+                         row["medians for the strongest"]])
+    return table(["detector", "over", "rank correlations", "medians for the strongest"], rows)
+
+
+def drawn_accuracy(files):
+    file, rows = files["drawn"], []
+    for detector in dict.fromkeys(row["detector"] for row in file.rows("drawn")):
+        cells = [f"`{detector}`"]
+        for kind in DRAWN_KINDS:
+            row = drawn_row(file, "Missed and spurious", kind, detector=detector)
+            cells += [row["level"], row["scenes"]] if kind == DRAWN_KINDS[0] else [row["scenes"]]
+            if kind == DRAWN_KINDS[0]:
+                cells += [row["missed"], row["recall"]]
+            cells += [row["spurious"], row["scenes wrong"]]
+        rows.append(cells)
+    return table(["detector", "level", "with contact:", "missed:", "recall:", "spurious:",
+                  "scenes wrong:", "without contact:", "spurious:", "scenes wrong:"], rows)
+
+
+TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers,
+          "goals": performance_goals, "drawn": drawn_headline, "drawn-times": drawn_speed,
+          "drawn-decides": drawn_decides,
+          "drawn-accuracy": drawn_accuracy, "single-lazy": single_lazy,
+          "single-lazy-times": single_lazy_times, "single-historic": single_historic,
+          "single-historic-times": single_historic_times, "hard": hard_wrong,
+          "reproduce": paper_overview}
 
 
 def lost_in(file, detector, stage):
@@ -291,11 +363,30 @@ def figures(files):
     """By name, each a function: what a page does not quote need not exist."""
     default, performance, hard = files["default"], files["performance"], files["hard"]
     lazy, hard_single, paper = files["single-lazy"], files["single-hard"], files["reproduce"]
+    drawn, drawn_times = files["drawn"].row("drawn_sums"), files["drawn-times"].row("drawn_sums")
     historic_times, lazy_times, small = (files["single-historic-times"], files["single-lazy-times"],
                                          files["paper-64"])
 
-    def faster(scene, peer):
-        return three_digits(performance.run(scene, "ffd-lazy")["speedup"][peer][0])
+    def fastest_with_contact():
+        """With what the sentence says about ffd-lazy."""
+        for kind in DRAWN_KINDS:
+            for over in DRAWN_PEERS:
+                row = drawn_row(files["drawn-times"], "Speed-ups", kind, detector="ffd-lazy",
+                                over=over)
+                if row["faster in"] != row["scenes"]:
+                    raise TextError(f"{files['drawn-times'].place}: {over} is faster than ffd-lazy "
+                                    f"{kind}; the text says that it never is")
+        return count(drawn_times["with_contact"])
+
+    def pairs_of_drawn():
+        """With what the front page says about all of them."""
+        for detector in ("fcl-aabb", "embree", "full-refit", "ffd-lazy", "ffd-aabb-sphere2+tri"):
+            for kind in DRAWN_KINDS:
+                row = drawn_row(files["drawn"], "Missed and spurious", kind, detector=detector)
+                if (row["missed"], row["spurious"], row["no answer"]) != ("0", "0", "-"):
+                    raise TextError(f"{files['drawn'].place}: {detector} is wrong in drawn scenes "
+                                    f"{kind}; the text says that it is right in all")
+        return count(drawn["true_pairs"])
 
     def of_fed(field):
         return hard_single.same([hard_single.row("detectors", detector=detector)[field]
@@ -356,15 +447,20 @@ def figures(files):
         "performance.machine": lambda: machine(performance),
         "performance.minutes": lambda: minutes_of(performance),
         "performance.passes": lambda: str(passes_of(performance)),
-        "performance.contact.triangles": lambda: count(
-            performance.row("scenes", scene="contact")["triangles"] // 2),
-        "performance.contact.embree": lambda: faster("contact", "embree"),
-        "performance.contact.fcl-aabb": lambda: faster("contact", "fcl-aabb"),
-        "performance.near-miss.embree": lambda: faster("near-miss", "embree"),
-        "performance.near-miss.fcl-aabb": lambda: faster("near-miss", "fcl-aabb"),
         "performance.coincident.pairs": lambda: count(
             performance.run("coincident", "fcl-obbrss")["truth"]),
         "performance.coincident.fcl-obbrss.missed": lambda: count(missed_in_coincident()),
+        "drawn.scenes": lambda: count(drawn["scenes"]),
+        "drawn.with_contact": lambda: count(drawn["with_contact"]),
+        "drawn.true_pairs": pairs_of_drawn,
+        "drawn.frames": lambda: count(drawn["frames"]),
+        "drawn.seed": lambda: str(drawn["seed"]),
+        "drawn.machine": lambda: machine(files["drawn"]),
+        "drawn.minutes": lambda: minutes_of(files["drawn"]),
+        "drawn-times.scenes": lambda: count(drawn_times["scenes"]),
+        "drawn-times.with_contact": fastest_with_contact,
+        "drawn-times.machine": lambda: machine(files["drawn-times"]),
+        "drawn-times.minutes": lambda: minutes_of(files["drawn-times"]),
         "hard.families": lambda: str(hard.row("sums")["families"]),
         "hard.cases": lambda: count(hard.row("sums")["cases"]),
         "hard.detectors": lambda: str(len(hard.rows("detectors"))),

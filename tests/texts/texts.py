@@ -2,7 +2,8 @@
 """Tables and figures of the pages are made of results.
 
     texts.py publish NAME RESULTS --seconds N   fixtures/published/NAME.json from a results.json or
-                                                reproduction.json; N: how long its command took
+                     [--commit COMMIT]          reproduction.json; N: how long its command took;
+                                                COMMIT: of the program
     texts.py write                              all tables and figures of the pages
     texts.py check                              exit code 1 where a page and the files differ
 
@@ -72,10 +73,7 @@ def made_piece(piece, values):
     def value(match):
         if match[1] not in values:
             raise TextError(f"{LIST}: \"{piece}\" names {match[1]}, which is no figure")
-        try:
-            return values[match[1]]()
-        except KeyError as error:
-            raise TextError(f"the results of figure {match[1]} have no {error}") from error
+        return values[match[1]]()
     return FIELD.sub(value, piece)
 
 
@@ -213,12 +211,13 @@ def main(arguments, root=ROOT):
     publish.add_argument("name", metavar="NAME")
     publish.add_argument("results", metavar="RESULTS", type=pathlib.Path)
     publish.add_argument("--seconds", type=float, required=True)
+    publish.add_argument("--commit", default="")
     commands.add_parser("write")
     commands.add_parser("check")
     options = parser.parse_args(arguments)
     try:
         if options.command == "publish":
-            text = published(options.name, options.results, options.seconds)
+            text = published(options.name, options.results, options.seconds, options.commit)
             (root / FOLDER / f"{options.name}.json").write_text(text, encoding="utf-8")
         elif options.command == "write":
             write(root)

@@ -13,10 +13,10 @@
 namespace contactcheck {
 namespace {
 
-// By measurement. In shallow contact nodes cost half of a refit already at 26 triangles per cell,
-// in deep contact they cost a quarter more at 24 and less; and refitting needs memory for all
-// vertices.
-constexpr std::size_t kFewTrianglesPerCell = 24;
+// By measurement over 260 drawn scenes: from 16 to 24 triangles per cell nodes take half of a
+// refit's time, from 12 to 16 a tenth less or more, below 9 more. Coincident surfaces, where no
+// bound ends anything, take 5 % more with nodes at 13.
+constexpr std::size_t kFewTrianglesPerCell = 16;
 
 bool refits(const BodyShape& shape, BoundSource bounds) {
   if (!shape.lattice || bounds == BoundSource::kVertices) return true;

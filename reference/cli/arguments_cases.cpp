@@ -37,7 +37,7 @@ void add_reduce(CommandLine& line) {
   add_limits(*reduce, arguments->call_limit, arguments->memory_limit_mib);
   reduce->footer(
       "Triangles keep their dimension, a missed crossing stays a crossing, and a pair in general\n"
-      "position stays in it. The detector runs in a process of its own: crashes and hangs are\n"
+      "position stays in it. The detector runs in a separate process: crashes and hangs are\n"
       "reduced as well.\n"
       "Examples:\n"
       "  contactcheck reduce out/cases/0001.json --print python > test_contact.py\n"

@@ -31,13 +31,13 @@ std::string timing_line(const results::Results& results) {
   std::string out = fmt::format("timing: {}, {} in a fresh process that has judged nothing",
                                 counted_passes(t.processes), t.processes == 1 ? "made" : "each");
   if (t.one_pass_beyond > 0.0 && t.processes > 1)
-    out += fmt::format("; a detector whose pass takes over {:g} s has 1", t.one_pass_beyond);
-  out += fmt::format("; order drawn by seed {}", t.seed);
+    out += fmt::format(". A detector whose pass takes over {:g} s has 1", t.one_pass_beyond);
+  out += fmt::format(". Order drawn by seed {}", t.seed);
   Range cold;
   for (const results::Scene& scene : results.scenes)
     if (!scene.cold_frames.empty()) cold.add(static_cast<double>(scene.cold_frames.size()));
   if (cold.low)
-    out += fmt::format("; cold: {} {} of each scene after a sweep of {:g} MiB", format_counts(cold),
+    out += fmt::format(". Cold: {} {} of each scene after a sweep of {:g} MiB", format_counts(cold),
                        *cold.high > 1.0 ? "frames" : "frame",
                        static_cast<double>(t.sweep_bytes) / 1048576.0);
   double taken = 0.0, wall = 0.0;
@@ -49,7 +49,7 @@ std::string timing_line(const results::Results& results) {
     }
   if (taken > 0.0)
     out +=
-        fmt::format("; {:.1f} % of the time was given to others by the machine, and is taken off",
+        fmt::format(". {:.1f} % of the time was given to others by the machine, and is taken off",
                     100.0 * taken / wall);
   return out;
 }

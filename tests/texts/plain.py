@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Are the pages easy to read? plain.py [PAGE ...]
+What does the program say? plain.py --program PROGRAM
 
-Without arguments it checks PAGES. Exit code 1 for a paragraph of more than 80 words (README.md: 60),
+Without arguments it checks PAGES, with --program the help texts of all commands and the reports of
+two small runs. Exit code 1 for a paragraph of more than 80 words (README.md: 60),
 a sentence of more than 40, or a phrase of PHRASES; a word of WORDS is only a warning. A list item is
 a paragraph. Tables are no paragraphs, but their sentences and phrases count. Code is not checked; a
 piece of code within a line is one word. What a check cannot see, a reader has to: a text may pass
@@ -10,7 +12,9 @@ and be bad.
 
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -106,6 +110,41 @@ def blocks(text):
     return [(number, kind, CODE.sub("§", LINK.sub(r"\1", block))) for number, kind, block in found]
 
 
+def help_as_page(text):
+    """Each command and option a list item, in its own words; examples are code."""
+    lines = []
+    for line in text.splitlines():
+        entry = re.match(r"^ {2,}\S.*? {2,}(\S.*)$", line)
+        if line.startswith("  contactcheck "):
+            continue
+        if entry:
+            lines.append("- " + entry[1])
+        elif line.startswith("  ") and lines and lines[-1].startswith("- "):
+            lines[-1] += " " + line.strip()
+        else:
+            lines.append("" if line.endswith(":") else line)
+    return "\n".join(lines)
+
+
+def said_by(program):
+    """By name, what the program says as pages."""
+    def run(*words):
+        done = subprocess.run([program, *words], capture_output=True, text=True, check=True)
+        return done.stdout
+    top = run("--help")
+    commands = re.findall(r"^  ([a-z]+)  ", top.partition("Subcommands:")[2], re.MULTILINE)
+    said = {f"{command or 'contactcheck'} --help": help_as_page(run(*command.split(), "--help"))
+            for command in ("", *commands)}
+    for words in (["bunny-touch", "--frames", "4", "--processes", "1"],
+                  ["hard-balls-scale", "--no-timing"]):
+        with tempfile.TemporaryDirectory() as out:
+            run("run", *words, "--detector", "fcl-aabb", "--detector", "ffd-aabb", "--detector",
+                "libccd-gjk", "--quiet", "--out", out)
+            report = (pathlib.Path(out) / "report.md").read_text(encoding="utf-8")
+            said[f"report.md of {words[0]}"] = report
+    return said
+
+
 def findings(page, text):
     """Errors and warnings, in the order of lines."""
     errors, warnings = [], []
@@ -130,12 +169,15 @@ def findings(page, text):
 
 def main(arguments):
     failed = False
-    for page in arguments or PAGES:
+    if arguments[:1] == ["--program"]:
+        texts = said_by(arguments[1])
+    else:
         try:
-            text = (ROOT / page).read_text(encoding="utf-8")
+            texts = {page: (ROOT / page).read_text(encoding="utf-8") for page in arguments or PAGES}
         except OSError as error:
-            print(f"{page} cannot be read: {error.strerror}", file=sys.stderr)
+            print(f"{error.filename} cannot be read: {error.strerror}", file=sys.stderr)
             return 2
+    for page, text in texts.items():
         errors, warnings = findings(page, text)
         for warning in warnings:
             print(f"warning: {warning}")

@@ -23,6 +23,24 @@ def paragraph(count):
     return " ".join(sentences)
 
 
+class Help(unittest.TestCase):
+    HELP = ("Runs it\nUsage: x run\n\nOptions:\n  -h,--help                Print {}\n"
+            "  --out DIR                folder\n                           for all\n\n"
+            "It stops. {}\nExamples:\n  contactcheck run {}")
+
+    def test_options_are_items_and_examples_are_code(self):
+        text = plain.help_as_page(self.HELP.format("help", "Then it ends.", words(50)))
+        self.assertEqual([block for _, _, block in plain.blocks(text)],
+                         ["Runs it Usage: x run", "Print help", "folder for all",
+                          "It stops. Then it ends."])
+        self.assertEqual(errors(text), [])
+
+    def test_long_options_and_listed_phrases_are_errors(self):
+        self.assertEqual(len(errors(plain.help_as_page(self.HELP.format(words(41), "", "")))), 1)
+        self.assertEqual(len(errors(plain.help_as_page(
+            self.HELP.format("", "It takes down all.", "")))), 1)
+
+
 class Lengths(unittest.TestCase):
     def test_paragraph_at_and_beyond_the_limit(self):
         self.assertEqual(errors(paragraph(80)), [])

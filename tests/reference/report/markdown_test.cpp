@@ -25,7 +25,7 @@ TEST(Markdown, IsThisText) {
 - built with g++ 12, Release
 - libraries: eigen 3.4.0, fcl 0.7.0
 - contactcheck 0.1.0, schema contactcheck-results/2
-- timing: 5 passes, each in a fresh process that has judged nothing; a detector whose pass takes over 2 s has 1; order drawn by seed 1; cold: 8 frames of each scene after a sweep of 64 MiB
+- timing: 5 passes, each in a fresh process that has judged nothing. A detector whose pass takes over 2 s has 1. Order drawn by seed 1. Cold: 8 frames of each scene after a sweep of 64 MiB
 
 ## Summary
 

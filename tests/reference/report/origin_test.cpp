@@ -92,7 +92,7 @@ TEST(TimingLine, SaysWhatShareOfTheTimeWasTakenOff) {
   EXPECT_THAT(line_of(), Not(HasSubstr("given to others")));
   // Of 2 and 0.5 ms in the two rows, beside which it is.
   json["runs"][0]["time_ms"]["playback"]["taken"] = 0.5;
-  EXPECT_THAT(line_of(), HasSubstr("; 16.7 % of the time was given to others by the machine"));
+  EXPECT_THAT(line_of(), HasSubstr(". 16.7 % of the time was given to others by the machine"));
 }
 
 }  // namespace

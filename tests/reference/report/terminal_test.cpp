@@ -41,7 +41,7 @@ TEST(Terminal, ExplainsTheColumnsWhereAskedTo) {
   EXPECT_THAT(
       text,
       testing::EndsWith(
-          R"(  timing: 5 passes, each in a fresh process that has judged nothing; a detector whose pass takes over 2 s has 1; order drawn by seed 1; cold: 8 frames of each scene after a sweep of 64 MiB
+          R"(  timing: 5 passes, each in a fresh process that has judged nothing. A detector whose pass takes over 2 s has 1. Order drawn by seed 1. Cold: 8 frames of each scene after a sweep of 64 MiB
 
   level          finest level judged
   truth          true contacts at that level, over all frames

@@ -78,7 +78,7 @@ test("command, machine and libraries are told", async () => {
   assert.match(await facts.textContent(), /fcl 0\.7\.0/);
   assert.match(
     await facts.textContent(),
-    /timing: 5 passes, each in a fresh process that has judged nothing; .*cold: 2 frames of each scene after a sweep of 64 MiB/,
+    /timing: 5 passes, each in a fresh process that has judged nothing. .*Cold: 2 frames of each scene after a sweep of 64 MiB/,
   );
 });
 

@@ -43,8 +43,10 @@ void ExchangedPairs::add_frame(const LevelComparison& comparison) {
 }
 
 std::string ExchangedPairs::sentence() const {
-  if (missed_ == 0 || exchanged_ < missed_) return "";
-  return "reports all " + std::to_string(missed_) +
+  if (missed_ == 0 || 2 * exchanged_ < missed_) return "";
+  const std::string missed = std::to_string(missed_);
+  return "reports " +
+         (exchanged_ == missed_ ? "all " + missed : std::to_string(exchanged_) + " of " + missed) +
          " missed pairs with a and b exchanged; a belongs to the body with the lower index";
 }
 

@@ -37,7 +37,7 @@ class ExchangedPairs {
  public:
   /// A frame of level `triangle`.
   void add_frame(const LevelComparison& comparison);
-  /// A sentence, if the answer has every missed pair so; else empty.
+  /// A sentence, if the answer has at least half of the missed pairs so; else empty.
   std::string sentence() const;
 
  private:

@@ -262,12 +262,17 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
   const bool python = language == TestLanguage::kPython;
   const std::string comment = python ? "# " : "// ", indent = python ? "    " : "  ";
   const std::string function = "test_" + snake_case(c.detector + "-" + words);
-  const std::string head = python                         ? "def " + function + "():\n"
-                           : language == TestLanguage::kC ? "void " + function + "(void) {\n"
-                                                          : "TEST(" + camel_case(c.detector) +
-                                                                ", " + camel_case(words) + ") {\n";
+  const std::string head =
+      python ? "def " + function + "():\n"
+      : language == TestLanguage::kC
+          ? "#include <assert.h>\nvoid " + function + "(void) {\n"
+          : "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
+  const std::array<std::string, 2>& names = c.candidate.names;
+  const std::string whose = names[0] == "first" ? ""
+                                                : indent + comment + "first is " + names[0] +
+                                                      ", second is " + names[1] + ".\n";
   return comment + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
-         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head +
+         described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head + whose +
          mesh_text(c.candidate.meshes[0], "first", language) +
          mesh_text(c.candidate.meshes[1], "second", language) + indent + comment +
          "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +

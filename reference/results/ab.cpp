@@ -165,7 +165,11 @@ std::string verdict_text(const AbJudgement& judgement, const AbSetting& setting)
   add(times(AbVerdict::kPass), "time is within the limit", "times are within the limit");
   if (judgement.times.empty()) parts.emplace_back("nothing was timed");
   add(judgement.untimed, "row has no times", "rows have no times");
-  return fmt::format("{}: {}.", setting.fails(judgement) ? "FAIL" : "PASS", fmt::join(parts, ", "));
+  const bool by_answers_alone = setting.fails(judgement) && judgement.answers_differ() &&
+                                !judgement.slower() && !judgement.times.empty();
+  return fmt::format("{}: {}.{}", setting.fails(judgement) ? "FAIL" : "PASS",
+                     fmt::join(parts, ", "),
+                     by_answers_alone ? " --accuracy-may-change allows it." : "");
 }
 
 const char* name_of(AbVerdict verdict) {

@@ -92,10 +92,12 @@ def test_fcl_obbrss_spurious_triangle_hard_balls():
     assert not your_detector(first_vertices, first_triangles, second_vertices, second_triangles, 0, 0)
 )");
   const std::string c = printed_test(minimal, answers, TestLanguage::kC);
-  EXPECT_THAT(c, testing::HasSubstr("void test_fcl_obbrss_spurious_triangle_hard_balls(void) {\n"
-                                    "  const double first_vertices[3][3] = {\n"
-                                    "      {0.0, 1.0, 2.0},\n"
-                                    "      {-3.0, 0.5, 0x1.5555555555555p-2},\n"));
+  EXPECT_THAT(c,
+              testing::HasSubstr(
+                  "#include <assert.h>\nvoid test_fcl_obbrss_spurious_triangle_hard_balls(void) {\n"
+                  "  const double first_vertices[3][3] = {\n"
+                  "      {0.0, 1.0, 2.0},\n"
+                  "      {-3.0, 0.5, 0x1.5555555555555p-2},\n"));
   EXPECT_THAT(c, testing::HasSubstr("\n  assert(!your_detector(first_vertices, "));
 }
 

@@ -49,7 +49,8 @@ TEST(AbText, OtherAnswersFailUnlessTheyMay) {
   const std::string line = "  s  d  triangle missed 0 -> 1\n";
   EXPECT_THAT(ab_text(judgement, setting()),
               HasSubstr("Worse answers, base -> head (1)\n" + line +
-                        "FAIL: 1 answer is worse, 1 time is within the limit.\n"));
+                        "FAIL: 1 answer is worse, 1 time is within the limit. "
+                        "--accuracy-may-change allows it.\n"));
   EXPECT_THAT(ab_failures(judgement, setting()),
               ElementsAre("worse answers than base: s  d  triangle missed 0 -> 1"));
   AbSetting lenient = setting();
@@ -76,7 +77,7 @@ TEST(AbText, BetterAnswersAreToldFromWorse) {
   EXPECT_THAT(text,
               HasSubstr("Other answers, base -> head (1)\n  s  e  contact hash 0x1 -> 0x2\n"));
   EXPECT_THAT(text, HasSubstr("FAIL: 1 answer is better, 1 answer is another, 2 times are within "
-                              "the limit.\n"));
+                              "the limit. --accuracy-may-change"));
   EXPECT_THAT(ab_failures(judgement, setting()),
               ElementsAre("better answers than base: s  d  triangle missed 7 -> 0",
                           "other answers than base: s  e  contact hash 0x1 -> 0x2"));

@@ -87,7 +87,7 @@ test("the title counts scenes and hard cases", async () => {
   const {page} = await report.shared();
   assert.equal(
     await page.locator("h1").textContent(),
-    "All 2 detectors have missed or spurious contacts in 3 scenes and 3 hard cases",
+    "All 3 detectors have missed or spurious contacts, or status error, in 3 scenes and 3 hard cases",
   );
 });
 

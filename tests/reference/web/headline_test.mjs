@@ -16,11 +16,11 @@ test("the title says how many were right", async () => {
   const {page} = await report.shared();
   assert.equal(
     await page.locator("h1").textContent(),
-    "2 of 5 detectors have no missed and no spurious contacts in 2 scenes",
+    "2 of 6 detectors have no missed and no spurious contacts in 2 scenes; 1 ended in status error",
   );
   assert.equal(
     await page.title(),
-    "contactcheck: 2 of 5 detectors have no missed and no spurious contacts in 2 scenes",
+    "contactcheck: 2 of 6 detectors have no missed and no spurious contacts in 2 scenes; 1 ended in status error",
   );
 });
 
@@ -66,7 +66,7 @@ test("a scene that could not be judged is nobody's error", async () => {
   );
   assert.match(
     await page.locator("h1").textContent(),
-    /no missed and no spurious contacts in 1 scene$/,
+    /no missed and no spurious contacts in 1 scene; 1 ended in status error$/,
   );
 });
 

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"fails", {"frame 2", "update failed: xxx"}},
         Fault{"strange-status", {"frame 2", "update failed"}},
         Fault{"memory", {"frame 2", "memory limit"}, "error", kLittleMemory},
-        Fault{"leaks", {"more than 400 MiB resident"}, "error", kLeakingLong},
+        Fault{"leaks", {"frame", "phase", "more than 400 MiB resident"}, "error", kLeakingLong},
         Fault{"crash-when-destroyed", {"phase destroy", "signal 11"}},
         Fault{"no-such-body", {"frame 2: the answer names body 7 of 2 bodies"}},
         Fault{"no-such-triangle", {"frame 2: the answer names triangle 1000000"}},

@@ -231,8 +231,9 @@ def drawn_rows(results, titles):
     return rows
 
 
-MAKERS = {"drawn_sums": drawn_sums, "drawn": drawn_rows, "scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
-          "detectors": family_rows, "paper_sums": paper_sums, "paper": paper_rows}
+MAKERS = {"scenes": scene_rows, "runs": run_rows, "goals": goal_rows, "sums": family_sums,
+          "detectors": family_rows, "paper_sums": paper_sums, "paper": paper_rows,
+          "drawn_sums": drawn_sums, "drawn": drawn_rows}
 
 GOAL = ("goal", "detector", "part", "at_least", "at_most", "measured", "low", "high", "unit", "why",
         "met")

@@ -281,28 +281,27 @@ def drawn_row(file, table, kind, **wanted):
     return found[0]
 
 
+def drawn_speedups(file, detector):
+    """(kind of scenes, reference, row) of each of its ratios."""
+    return [(kind, over, drawn_row(file, "Speed-ups", kind, detector=detector, over=over))
+            for kind in DRAWN_KINDS for over in DRAWN_PEERS]
+
+
 def drawn_headline(files):
     """One row a detector: median, 10th percentile and worst in a cell."""
-    file, columns, rows = files["drawn-times"], ["detector"], []
-    for detector in DRAWN_SPEED:
-        cells = [f"`{detector}`"]
-        for kind in DRAWN_KINDS:
-            for over, peer in DRAWN_PEERS.items():
-                row = drawn_row(file, "Speed-ups", kind, detector=detector, over=over)
-                cells.append(f"{row['median']}, {row['10th percentile']}, {row['worst']}")
-                columns.append(f"{peer}, {kind}:")
-        rows.append(cells)
-    return table(list(dict.fromkeys(columns)), rows)
+    columns = ["detector", *(f"{peer}, {kind}:" for kind in DRAWN_KINDS
+                             for peer in DRAWN_PEERS.values())]
+    rows = [[f"`{detector}`", *(f"{row['median']}, {row['10th percentile']}, {row['worst']}"
+                                for _, _, row in drawn_speedups(files["drawn-times"], detector))]
+            for detector in DRAWN_SPEED]
+    return table(columns, rows)
 
 
 def drawn_speed(files):
-    file, rows = files["drawn-times"], []
-    for detector in DRAWN_SPEED:
-        for kind in DRAWN_KINDS:
-            for over, peer in DRAWN_PEERS.items():
-                row = drawn_row(file, "Speed-ups", kind, detector=detector, over=over)
-                rows.append([f"`{detector}`", kind, peer, row["median"], row["10th percentile"],
-                             row["worst"], f"{row['faster in']} of {row['scenes']}"])
+    rows = [[f"`{detector}`", kind, DRAWN_PEERS[over], row["median"], row["10th percentile"],
+             row["worst"], f"{row['faster in']} of {row['scenes']}"]
+            for detector in DRAWN_SPEED
+            for kind, over, row in drawn_speedups(files["drawn-times"], detector)]
     return table(["detector", "scenes", "over", "median:", "10th percentile:", "worst:",
                   "faster in:"], rows)
 
@@ -322,14 +321,11 @@ def drawn_decides(files):
 def drawn_accuracy(files):
     file, rows = files["drawn"], []
     for detector in dict.fromkeys(row["detector"] for row in file.rows("drawn")):
-        cells = [f"`{detector}`"]
-        for kind in DRAWN_KINDS:
-            row = drawn_row(file, "Missed and spurious", kind, detector=detector)
-            cells += [row["level"], row["scenes"]] if kind == DRAWN_KINDS[0] else [row["scenes"]]
-            if kind == DRAWN_KINDS[0]:
-                cells += [row["missed"], row["recall"]]
-            cells += [row["spurious"], row["scenes wrong"]]
-        rows.append(cells)
+        touching, apart = (drawn_row(file, "Missed and spurious", kind, detector=detector)
+                           for kind in DRAWN_KINDS)
+        rows.append([f"`{detector}`", touching["level"], touching["scenes"], touching["missed"],
+                     touching["recall"], touching["spurious"], touching["scenes wrong"],
+                     apart["scenes"], apart["spurious"], apart["scenes wrong"]])
     return table(["detector", "level", "with contact:", "missed:", "recall:", "spurious:",
                   "scenes wrong:", "without contact:", "spurious:", "scenes wrong:"], rows)
 
@@ -369,13 +365,10 @@ def figures(files):
 
     def fastest_with_contact():
         """With what the sentence says about ffd-lazy."""
-        for kind in DRAWN_KINDS:
-            for over in DRAWN_PEERS:
-                row = drawn_row(files["drawn-times"], "Speed-ups", kind, detector="ffd-lazy",
-                                over=over)
-                if row["faster in"] != row["scenes"]:
-                    raise TextError(f"{files['drawn-times'].place}: {over} is faster than ffd-lazy "
-                                    f"{kind}; the text says that it never is")
+        for kind, over, row in drawn_speedups(files["drawn-times"], "ffd-lazy"):
+            if row["faster in"] != row["scenes"]:
+                raise TextError(f"{files['drawn-times'].place}: {over} is faster than ffd-lazy "
+                                f"{kind}; the text says that it never is")
         return count(drawn_times["with_contact"])
 
     def pairs_of_drawn():

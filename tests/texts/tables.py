@@ -363,13 +363,11 @@ def figures(files):
     historic_times, lazy_times, small = (files["single-historic-times"], files["single-lazy-times"],
                                          files["paper-64"])
 
-    def fastest_with_contact():
-        """With what the sentence says about ffd-lazy."""
-        for kind, over, row in drawn_speedups(files["drawn-times"], "ffd-lazy"):
-            if row["faster in"] != row["scenes"]:
-                raise TextError(f"{files['drawn-times'].place}: {over} is faster than ffd-lazy "
-                                f"{kind}; the text says that it never is")
-        return count(drawn_times["with_contact"])
+    def faster_than(reference):
+        """In how many drawn scenes ffd-lazy is."""
+        return count(sum(int(row["faster in"])
+                         for _, over, row in drawn_speedups(files["drawn-times"], "ffd-lazy")
+                         if over == reference))
 
     def pairs_of_drawn():
         """With what the front page says about all of them."""
@@ -451,7 +449,9 @@ def figures(files):
         "drawn.machine": lambda: machine(files["drawn"]),
         "drawn.minutes": lambda: minutes_of(files["drawn"]),
         "drawn-times.scenes": lambda: count(drawn_times["scenes"]),
-        "drawn-times.with_contact": fastest_with_contact,
+        "drawn-times.with_contact": lambda: count(drawn_times["with_contact"]),
+        "drawn-times.faster.fcl": lambda: faster_than("fcl-aabb"),
+        "drawn-times.faster.embree": lambda: faster_than("embree"),
         "drawn-times.machine": lambda: machine(files["drawn-times"]),
         "drawn-times.minutes": lambda: minutes_of(files["drawn-times"]),
         "hard.families": lambda: str(hard.row("sums")["families"]),

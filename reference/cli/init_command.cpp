@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -79,11 +80,16 @@ int init_command(const fs::path& folder, const std::string& language_name) {
     write_file_atomically(folder / name, text);
     std::printf("%s\n", (folder / name).c_str());
   }
+  // Where it was called by a path, that path: after a build it is on no other.
+  fs::path program = program_invocation_name;
+  if (program.has_parent_path()) program = fs::absolute(program).lexically_normal();
+  const std::string called = text::in_shell(program.string());
   std::printf(
-      "\nnext:\n  cd %s\n%s  contactcheck run scene.json %s --detector fcl-aabb\n"
-      "  contactcheck gate out/results.json --policy policy.json\n",
+      "\nnext:\n  cd %s\n%s  %s run scene.json %s --detector fcl-aabb\n"
+      "  %s gate out/results.json --policy policy.json\n",
       text::in_shell(folder.string()).c_str(),
-      compiled ? ("  " + std::string(language.build) + "\n").c_str() : "", language.detector);
+      compiled ? ("  " + std::string(language.build) + "\n").c_str() : "", called.c_str(),
+      language.detector, called.c_str());
   return 0;
 }
 

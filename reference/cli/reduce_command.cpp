@@ -48,6 +48,14 @@ OwnDetectors own_detector(const ReduceArguments& arguments, const DetectorCatalo
   return own;
 }
 
+// A number is as simple as its binary or its decimal text, whichever is shorter.
+std::size_t most_figures(const reduce::CaseCandidate& candidate) {
+  int out = 0;
+  for (const double x : reduce::coordinates_of(candidate))
+    out = std::max(out, std::min(reduce::significant_bits(x), reduce::decimal_digits(x)));
+  return static_cast<std::size_t>(out);
+}
+
 struct ReducedCase {
   fs::path file;
   reduce::CaseCandidate whole;  ///< what it was reduced from
@@ -157,9 +165,9 @@ class ReduceCommand {
     if (terminal ? probe_->asked() % kProgressEvery != 0 : now - shown_ < kLogEvery) return;
     shown_ = now;
     std::fprintf(stderr,
-                 terminal ? "\r%zu candidates tried, now %zu triangles   \r"
-                          : "%zu candidates tried, now %zu triangles\n",
-                 probe_->asked(), candidate.triangles());
+                 terminal ? "\r%zu candidates tried, now %zu triangles, %zu bits or digits   \r"
+                          : "%zu candidates tried, now %zu triangles, %zu bits or digits\n",
+                 probe_->asked(), candidate.triangles(), most_figures(candidate));
   }
 
   static bool keeps_position(const reduce::CaseCandidate& candidate,
@@ -226,14 +234,6 @@ class ReduceCommand {
   std::optional<reduce::Probe> probe_;
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();  // of progress
 };
-
-// A number is as simple as its binary or its decimal text, whichever is shorter.
-std::size_t most_figures(const reduce::CaseCandidate& candidate) {
-  int out = 0;
-  for (const double x : reduce::coordinates_of(candidate))
-    out = std::max(out, std::min(reduce::significant_bits(x), reduce::decimal_digits(x)));
-  return static_cast<std::size_t>(out);
-}
 
 std::string title_of(const reduce::MinimalCase& minimal) {
   return minimal.scene + ", " + minimal.place + ": " + minimal.detector + " " +

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <set>
@@ -252,9 +253,13 @@ void print_next(const RunArguments& arguments, const results::Results& results) 
     words = own;
     if (!own.empty()) break;
   }
-  if (next != nullptr)
-    std::printf("next: contactcheck reduce %s%s\n",
-                text::in_shell((arguments.out / next->case_file).string()).c_str(), words.c_str());
+  if (next == nullptr) return;
+  // As it was called: after a build it is on no path.
+  std::printf("%s %s contact in %s, frame %zu, level %s\nnext: %s reduce %s%s\n",
+              next->detector.c_str(), next->kind == "missed" ? "missed a" : "reported a spurious",
+              next->scene.c_str(), next->frame, next->level.c_str(),
+              text::in_shell(program_invocation_name).c_str(),
+              text::in_shell((arguments.out / next->case_file).string()).c_str(), words.c_str());
 }
 
 void print_outcome(const RunArguments& arguments, const ReportedRun& run_and_reports) {

@@ -77,7 +77,8 @@ void add_plugin(const Plugin& plugin, DetectorCatalog& catalog) {
   // would be taken for theirs.
   const std::string& id = plugin.declaration.id;
   const std::string claim = described(plugin.source) + " calls itself \"" + id + "\", ";
-  if (catalog.find(id) != nullptr) throw InputError(claim + "which is another detector's name");
+  if (catalog.find(id) != nullptr)
+    throw InputError(claim + "which is another detector's name; change the id that it declares");
   if (id == kOracle || adapters::library_of(id) != "contactcheck")
     throw InputError(claim + "a name that is kept for " +
                      (id == kOracle ? "the oracle" : adapters::library_of(id)));

@@ -278,7 +278,7 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
          "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
          " answered: " + answers.detector + ".\n" + indent + comment +
          contract(c.finding, answers) + "\n" + indent + expectation(c.finding, answers, language) +
-         "\n" + (python ? "" : "}\n");
+         "\n" + (python ? "\n\nif __name__ == \"__main__\":\n    " + function + "()\n" : "}\n");
 }
 
 }  // namespace contactcheck::reduce

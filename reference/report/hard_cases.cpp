@@ -125,15 +125,16 @@ TitledTable hard_sums(const results::Results& results) {
       "the last column names the family that costs most.",
       {{"detector", true, ""},
        {"level", true, ""},
-       {"families right", false, ""},
-       {"cases right", false, ""},
+       {"families right", false, "families without a wrong case, of those run"},
+       {"cases right", false,
+        "cases answered as claimed; with an error or refused: none of its family"},
        {"missed", false, ""},
        {"spurious", false, ""},
-       {"families with error", false, ""},
-       {"families refused", false, ""},
-       {"ms a case", false, ""},
+       {"families with error", false, "families that ended in status error"},
+       {"families refused", false, "families refused as input that it must not answer"},
+       {"ms a case", false, "map + update + query in playback, mean over the families timed"},
        {"passes", false, ""},
-       {"slowest family", true, ""}},
+       {"slowest family", true, "ms a case of the family that costs most, and its name"}},
       {}};
   std::vector<std::string> order;
   std::map<std::string, DetectorSum> sums;

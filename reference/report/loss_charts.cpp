@@ -66,7 +66,7 @@ std::string part_of(std::uint64_t part, std::uint64_t whole) {
 std::string errors_picture(const results::Results& results) {
   const ChosenScenes scenes = chosen_scenes(results);
   BarChart chart;
-  chart.title = "Who misses contacts and who invents them: " + scenes.words;
+  chart.title = "Missed and spurious contacts: " + scenes.words;
   chart.series = {"share of the true contacts missed", "share of the reports spurious"};
   chart.axis = "share of errors, nearly a logarithm";
   chart.scale = BarChart::Scale::kErrors;
@@ -81,8 +81,8 @@ std::string errors_picture(const results::Results& results) {
                           missed + "; " + spurious});
   }
   chart.foot = {
-      "In brackets: the finest level that the detector claims. Who is not here made no "
-      "error, or did not end well."};
+      "In brackets: the finest level that the detector claims. Detectors that are not "
+      "shown have no errors here, or status error."};
   return bar_plot(chart);
 }
 
@@ -120,7 +120,7 @@ std::string stages_picture(const results::Results& results) {
     row.words += fmt::format(" of {}", own.truth);
   }
   chart.foot = {
-      "Who is not here lost none, has no stages to look into, or was not judged at cells or "
+      "Detectors that are not shown lost none, have no stages, or were not judged at cells or "
       "triangles."};
   return bar_plot(chart);
 }
@@ -135,7 +135,7 @@ std::string loss_markdown(const results::Results& results) {
     out += fmt::format(
         "![Share of true pairs of triangles lost, stage by stage, a row per detector]({})\n\n",
         kStagesFile);
-  return out.empty() ? "" : "## Who errs, and in which stage\n\n" + out;
+  return out.empty() ? "" : "## Errors by detector and stage\n\n" + out;
 }
 
 }  // namespace contactcheck::report

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "reference/report/error_counts.h"
 #include "reference/report/goals_table.h"
@@ -129,9 +131,7 @@ void join_messages(std::vector<Line>& rows) {
   rows = std::move(out);
 }
 
-std::string table(TitledTable of, bool color) {
-  join_messages(of.rows);
-  fit(of);
+std::string text_of(const TitledTable& of, bool color) {
   const std::vector<std::size_t> widths = widths_of(of.columns, of.rows);
   Line titles;
   for (const Column& c : of.columns) titles.emplace_back(c.title);
@@ -181,41 +181,55 @@ std::string own_notes(const results::Results& results, const results::Scene& sce
 
 }  // namespace
 
-std::string column_legend() {
+std::string column_legend(const std::set<std::string>& shown) {
+  std::vector<Column> columns = result_columns();
+  for (Column& column : hard_sums({}).columns) columns.push_back(std::move(column));
+  std::erase_if(columns, [&](const Column& column) {
+    return column.meaning.empty() || (!shown.empty() && !shown.contains(column.title));
+  });
+  std::size_t width = 0;
+  for (const Column& column : columns) width = std::max(width, column.title.size());
   std::string out;
-  for (std::size_t i = 1; i < result_columns().size(); ++i)
-    out += fmt::format("  {:<13}  {}\n", result_columns()[i].title, result_columns()[i].meaning);
+  for (const Column& column : columns)
+    out += fmt::format("  {:<{}}  {}\n", column.title, width, column.meaning);
   return out;
 }
 
 std::string terminal_tables(const results::Results& results, bool color, bool explain) {
   std::string out = paint(headline_of(results).title, kBold, color) + "\n\n";
   const results::Index index(results);
+  std::set<std::string> shown;
+  const auto table = [&](TitledTable of) {
+    join_messages(of.rows);
+    fit(of);
+    for (const Column& column : of.columns) shown.insert(column.title);
+    return text_of(of, color);
+  };
   for (const results::Scene* scene : shown_scenes(results)) {
     if (scene->family) continue;
     TitledTable rows{"", "", result_columns(), {}};
     for (const results::Run* run : index.runs_of(scene->id))
       rows.rows.push_back(result_cells(*run));
-    out += scene_head(*scene, color) + table(rows, color) + errors_elsewhere(*scene, index) +
+    out += scene_head(*scene, color) + table(std::move(rows)) + errors_elsewhere(*scene, index) +
            own_notes(results, *scene, index);
     if (scene->sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
   if (results.scenes.size() > 1)
     out += paint("all scenes", kBold, color) +
            "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
-           table(summary_table(results), color);
+           table(summary_table(results));
   if (const TitledTable sums = hard_sums(results); !sums.rows.empty())
     out += paint("hard cases", kBold, color) +
-           "  who goes wrong where: report.md, \"Where they go wrong\"\n" + table(sums, color);
+           "  errors by family: report.md, \"Where they go wrong\"\n" + table(sums);
   if (results.known_defects)
     out += paint("known defects", kBold, color) + "\n" + defects_summary(*results.known_defects) +
            "\n";
   if (const TitledTable goals = goals_table(results); !goals.rows.empty())
-    out += paint("goals", kBold, color) + "\n" + table(goals, color);
+    out += paint("goals", kBold, color) + "\n" + table(goals);
   if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";
-  return out + column_legend();
+  return out + column_legend(shown);
 }
 
 }  // namespace contactcheck::report

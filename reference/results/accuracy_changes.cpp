@@ -94,6 +94,7 @@ RowChange row_change(const results::Run& before, const results::Run& after) {
     if (before.contact_hash != after.contact_hash)
       note(fmt::format("contact hash {} -> {}", before.contact_hash, after.contact_hash));
   }
+  if (worse && better) note("mixed: better in some of these");
   if (worse || better) change.direction = worse ? Direction::kWorse : Direction::kBetter;
   return change;
 }

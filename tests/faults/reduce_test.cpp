@@ -104,6 +104,17 @@ TEST_F(Reduce, SaysWhatItFoundAndPrintsATest) {
                                     "0));\n}\n"));
 }
 
+TEST_F(Reduce, PrintsPythonThatRunsAsItIs) {
+  const Outcome outcome = reduce("fault-misses-high", {"--print", "python"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* answer : {"True", "False"}) {
+    const std::string script =
+        std::string("def your_detector(*given):\n    return ") + answer + "\n" + outcome.out;
+    EXPECT_EQ(test::run_program("/usr/bin/env", {"python3", "-c", script}).exit_code == 0,
+              answer == std::string("True"));
+  }
+}
+
 TEST_F(Reduce, InALogSaysHowFarItIs) {
   const Outcome outcome = reduce("fault-hang:frame=0", {"--call-limit", "1", "--budget", "4"});
   EXPECT_THAT(outcome.err, HasSubstr(" candidates tried, now "));

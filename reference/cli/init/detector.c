@@ -86,7 +86,17 @@ static int32_t query(void* self, uint32_t question, const contactcheck_answer* a
 }
 
 static const contactcheck_plugin table = {
-    CONTACTCHECK_PLUGIN_ABI, CONTACTCHECK_STRUCT_SIZES, "mine", "compares boxes of bodies", "0.1", NULL, 0, 0,
-    create, destroy, declare, prepare, update, query};
+    .abi_version = CONTACTCHECK_PLUGIN_ABI,
+    .struct_sizes = CONTACTCHECK_STRUCT_SIZES,
+    .id = "mine",
+    .summary = "compares boxes of bodies",
+    .version = "0.1",
+    .create = create,
+    .destroy = destroy,
+    .declare = declare,
+    .prepare = prepare,
+    .update = update,
+    .query = query,
+};
 
 const contactcheck_plugin* contactcheck_plugin_entry(void) { return &table; }

@@ -17,10 +17,10 @@ class InitCommand : public testing::Test {
  protected:
   std::string folder() const { return (scratch_.folder() / "my own").string(); }
 
-  // What stands after "next:", with the program of this build.
+  // What stands after "next:", with C compilers that warn.
   static std::string script(const std::string& out) {
     const std::size_t at = out.find("\nnext:\n");
-    return "set -e\ncontactcheck() { '" CONTACTCHECK_PROGRAM "' \"$@\"; }\n" + out.substr(at + 7);
+    return "set -e\ncc() { command cc -Wall -Wextra -Werror \"$@\"; }\n" + out.substr(at + 7);
   }
   void expect_green(const std::string& language) const {
     const Outcome init = contactcheck_program({"init", folder(), "--language", language});

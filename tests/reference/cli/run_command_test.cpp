@@ -75,7 +75,9 @@ class RunCommand : public testing::Test {
 TEST(RunExplain, AloneSaysWhatTheColumnsMeanAndRunsNothing) {
   const Outcome outcome = contactcheck_program({"run", "--explain"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("recall         hit / truth, cut, not rounded\n"));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("  recall               hit / truth, cut, not rounded\n"),
+                    HasSubstr("  slowest family       ms a case of")));
   EXPECT_EQ(outcome.err, "");
 }
 

@@ -55,7 +55,8 @@ TEST(CommandAtHello, ThatIsNotThereIsRefused) {
 TEST(CommandAtHello, TwoOfOneNameAreRefused) {
   test::expect_refusal(PluginRun({"--detector-cmd", misbehaving_command("none"), "--detector-cmd",
                                   misbehaving_command("lies")}),
-                       {"lies\" calls itself \"misbehaving\", which is another detector's name"});
+                       {"lies\" calls itself \"misbehaving\", which is another detector's name; "
+                        "change the id that it declares"});
 }
 
 // ---- while it works: its row says so, and the others' are as they were ----------------------

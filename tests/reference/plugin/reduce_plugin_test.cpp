@@ -52,7 +52,7 @@ TEST(ReducePlugin, ByTheCommandThatTheRunPrints) {
         {"--detector-cmd", test::misbehaving_command("always-lies")}}) {
     const PluginRun run(detector, {"--no-timing", "--detector", "fcl-aabb"});
     const std::string& out = run.outcome().out;
-    const std::string mark = "\nnext: contactcheck ";
+    const std::string mark = "\nnext: " + text::in_shell(CONTACTCHECK_PROGRAM) + " ";
     const std::size_t at = out.find(mark);
     ASSERT_NE(at, std::string::npos) << out;
     std::vector<std::string> words =

@@ -90,6 +90,10 @@ def test_fcl_obbrss_spurious_triangle_hard_balls():
     # fcl-obbrss answered: 1 pair at level triangle of 3 true: 2 missed, 0 spurious.
     # your_detector: does it report triangle 0 of first with triangle 0 of second?
     assert not your_detector(first_vertices, first_triangles, second_vertices, second_triangles, 0, 0)
+
+
+if __name__ == "__main__":
+    test_fcl_obbrss_spurious_triangle_hard_balls()
 )");
   const std::string c = printed_test(minimal, answers, TestLanguage::kC);
   EXPECT_THAT(c,

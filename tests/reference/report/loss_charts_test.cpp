@@ -114,7 +114,7 @@ TEST(LossCharts, AreFilesOfTheReport) {
   results::Results right = sample_losses();
   right.runs.erase(right.runs.begin() + 1);
   EXPECT_FALSE(report_files(right).contains(kErrorsFile));
-  EXPECT_THAT(report_files(right).at("report.md"), Not(HasSubstr("Who errs")));
+  EXPECT_THAT(report_files(right).at("report.md"), Not(HasSubstr("Errors by detector and stage")));
 }
 
 TEST(LossCharts, TakeNoMarkupFromResults) {

@@ -52,7 +52,7 @@ Over scene hello. A time is that of mapping, update and query in playback, the m
 
 Not in the chart: fcl-obbrss, embree, ffd-grid (ended well in 0 of 1 scenes).
 
-## Who errs, and in which stage
+## Errors by detector and stage
 
 ![Share of true contacts missed and of reports spurious, a row per detector](plots/who_errs.svg)
 

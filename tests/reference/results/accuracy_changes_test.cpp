@@ -55,6 +55,8 @@ TEST(AccuracyChanges, WorseAnywhereIsWorse) {
   after.levels[Level::kTriangle].missed = 1;
   const auto changes = changes_between(results_of({before}), results_of({after}));
   EXPECT_EQ(changes.at(0).direction, Direction::kWorse);
+  EXPECT_THAT(changes.at(0).what, ElementsAre("triangle missed 0 -> 1", "triangle spurious 5 -> 0",
+                                              "mixed: better in some of these"));
 }
 
 TEST(AccuracyChanges, WhatIsNotClaimedIsNamedAndNotHeldAgainstADetector) {

@@ -137,7 +137,7 @@ test("a family is drawn case by case, and told from which value on it goes wrong
       "ffd-aabb-sphere2 at 1: 0 missed of 6, 0 spurious",
     ],
   );
-  assert.deepEqual((await tableTexts(page, "Who goes wrong in hello"))[1], [
+  assert.deepEqual((await tableTexts(page, "Errors in hello"))[1], [
     "ffd-aabb-sphere2",
     "0",
     "0 missed, 1 spurious of 0 true",

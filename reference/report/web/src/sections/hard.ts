@@ -32,7 +32,7 @@ function wrongTable({id, table: {columns, rows}, shown}: WrongFamily): HTMLEleme
   return table(
     [...columns, ...(shows ? [left("in 3D")] : [])],
     rows.map((row, i) => [...textRow(row), ...showing(i)]),
-    `Who goes wrong in ${id}`,
+    `Errors in ${id}`,
   );
 }
 

@@ -9,7 +9,7 @@ type Measure = "recall" | "spurious";
 
 export const levels: Section = {
   id: "levels",
-  title: "Who finds what, scene by scene",
+  title: "Recall and spurious rate by scene",
   short: "Scene by scene",
   build(page) {
     if (page.scenes.length === 0) return [];

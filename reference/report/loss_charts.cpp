@@ -82,7 +82,7 @@ std::string errors_picture(const results::Results& results) {
   }
   chart.foot = {
       "In brackets: the finest level that the detector claims. Detectors that are not "
-      "shown have no errors here, or status error."};
+      "shown made no error, or their status is not ok."};
   return bar_plot(chart);
 }
 

@@ -53,20 +53,31 @@ std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
   return lines;
 }
 
-// By flat index.
-std::vector<bool> kept_flags(const Grid& grid, const TriangleMesh& mesh) {
-  std::vector<bool> kept(grid.cell_count(), false);
+/// By flat index.
+struct KeptFlags {
+  std::vector<bool> flags;
+  std::size_t count = 0;  ///< of those that are set
+
+  void set(std::size_t flat) {
+    if (flags[flat]) return;
+    flags[flat] = true;
+    ++count;
+  }
+};
+
+KeptFlags kept_flags(const Grid& grid, const TriangleMesh& mesh) {
+  KeptFlags kept{std::vector<bool>(grid.cell_count(), false)};
   // Every cell that meets a triangle, exactly.
   for (const Triangle& t : mesh.triangles)
     grid.for_cells_meeting({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
-                           [&](const GridIndex& cell) { kept[grid.flat(cell)] = true; });
+                           [&](const GridIndex& cell) { kept.set(grid.flat(cell)); });
   // A vertex without a triangle still needs a home.
-  for (const Vec3& v : mesh.vertices) kept[grid.flat(grid.cell_of(v))] = true;
+  for (const Vec3& v : mesh.vertices) kept.set(grid.flat(grid.cell_of(v)));
   return kept;
 }
 
 std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
-  const std::vector<bool> kept = kept_flags(grid, mesh);
+  const std::vector<bool> kept = kept_flags(grid, mesh).flags;
   std::vector<GridIndex> cells;
   for (std::size_t flat = 0; flat < kept.size(); ++flat) {
     if (kept[flat]) cells.push_back(grid.unflat(flat));
@@ -147,10 +158,9 @@ Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, do
   // Kept cells grow about quadratically with the divisions: stop once far beyond the wish.
   for (int divisions = 1; divisions <= 256; ++divisions) {
     const Resolution r = resolution_at(divisions);
-    // Counted by words: a mesh that is small in its box is tried in grids of 256^3 cells.
+    // Counted as they are set: a mesh that is small in its box is tried in grids of 256^3 cells.
     const auto lines = make_lines(mesh, r, padding);
-    const std::vector<bool> flags = kept_flags(Grid(lines), mesh);
-    const auto kept = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), true));
+    const std::size_t kept = kept_flags(Grid(lines), mesh).count;
     const std::size_t gap = kept > wanted ? kept - wanted : wanted - kept;
     if (gap < best_gap) {
       best_gap = gap;

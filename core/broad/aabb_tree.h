@@ -70,6 +70,10 @@ class AabbTreesOf {
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>
   void visit_candidates(Visit&& visit);
+  /// The same of two triangles of one body: calls `visit(SelfPair)`, in either order of the two;
+  /// true: the rest of this body is skipped.
+  template <typename Visit>
+  void visit_own_candidates(Visit&& visit);
   /// Pairs of boxes, of nodes and of triangles, that the last traversal compared.
   std::uint64_t visited() const { return visited_; }
 
@@ -93,6 +97,27 @@ void AabbTreesOf<T>::visit_candidates(Visit&& visit) {
                   [&](BodyPair bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) {
                     return visit_leaves(bodies, leaf_a, leaf_b, visit);
                   });
+}
+
+template <typename T>
+template <typename Visit>
+void AabbTreesOf<T>::visit_own_candidates(Visit&& visit) {
+  visited_ = 0;
+  for (std::uint32_t body = 0; body < trees_.size(); ++body) {
+    const AabbTreeOf<T>& volumes = trees_[body];
+    const TriangleTree& tree = volumes.tree();
+    traverse_self(volumes, stack_, visited_, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+      const TriangleTree::Node a = tree.nodes[leaf_a], b = tree.nodes[leaf_b];
+      for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+        for (std::uint32_t j = leaf_a == leaf_b ? i + 1 : b.first; j < b.first + b.count; ++j) {
+          ++visited_;
+          if (volumes.triangle_box(i).overlaps(volumes.triangle_box(j)) &&
+              visit(SelfPair{body, tree.ids[i], tree.ids[j]}))
+            return true;
+        }
+      return false;
+    });
+  }
 }
 
 template <typename T>

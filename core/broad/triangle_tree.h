@@ -79,6 +79,37 @@ void traverse_pairs(const Volumes& a, const Volumes& b, std::vector<NodePair>& s
   }
 }
 
+/// Descends one tree against itself: calls `leaves(leaf, leaf)` for every two leaves that overlap,
+/// once, and for every leaf with itself, until it returns true. Volumes and `visited` as above.
+template <typename Volumes, typename Leaves>
+void traverse_self(const Volumes& volumes, std::vector<NodePair>& stack, std::uint64_t& visited,
+                   Leaves&& leaves) {
+  stack.assign(1, {0, 0});
+  const auto push = [&](std::uint32_t i, std::uint32_t j) {
+    ++visited;
+    if (volumes.overlap(i, volumes, j)) stack.push_back({i, j});
+  };
+  while (!stack.empty()) {
+    const NodePair pair = stack.back();
+    stack.pop_back();
+    const TriangleTree::Node& node_a = volumes.tree().nodes[pair.a];
+    const TriangleTree::Node& node_b = volumes.tree().nodes[pair.b];
+    if (pair.a == pair.b && !node_a.leaf()) {
+      stack.push_back({node_a.first, node_a.first});
+      stack.push_back({node_a.first + 1, node_a.first + 1});
+      push(node_a.first, node_a.first + 1);
+    } else if (node_a.leaf() && node_b.leaf()) {
+      if (leaves(pair.a, pair.b)) return;
+    } else if (node_b.leaf() || (!node_a.leaf() && volumes.size(pair.a) >= volumes.size(pair.b))) {
+      push(node_a.first, pair.b);
+      push(node_a.first + 1, pair.b);
+    } else {
+      push(pair.a, node_b.first);
+      push(pair.a, node_b.first + 1);
+    }
+  }
+}
+
 /// traverse_pairs() of every two bodies, one tree of volumes each: calls `leaves(BodyPair, leaf of
 /// a, leaf of b)`; true: the rest of these two bodies is skipped. Sets `visited` anew.
 template <typename Volumes, typename Leaves>

@@ -1,6 +1,8 @@
 #include "core/deform/body.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "core/deform/mapping.h"
 #include "core/types/check.h"
@@ -38,6 +40,36 @@ std::shared_ptr<const BodyShape> make_shape_on_lines(TriangleMesh mesh,
 
 std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh) {
   return checked_shape(std::move(mesh));
+}
+
+std::shared_ptr<const BodyShape> welded(const BodyShape& shape) {
+  auto out = std::make_shared<BodyShape>(shape);
+  const std::vector<Vec3>& vertices = shape.mesh.vertices;
+  std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t v) {
+    return std::tuple(vertices[v].x(), vertices[v].y(), vertices[v].z());
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && place(order[i]) == place(order[i - 1]);
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  out->welded = shape.mesh.triangles;
+  for (Triangle& triangle : out->welded)
+    for (std::uint32_t& vertex : triangle) vertex = first[vertex];
+  return out;
+}
+
+std::optional<std::array<std::uint32_t, 2>> torn_weld(const BodyShape& shape,
+                                                      std::span<const Vec3> vertices) {
+  for (std::size_t t = 0; t < shape.welded.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t own = shape.mesh.triangles[t][c], first = shape.welded[t][c];
+      if (vertices[own] != vertices[first]) return std::array{first, own};
+    }
+  return std::nullopt;
 }
 
 void map_body(const BodyShape& shape, std::span<const Vec3> nodes, std::span<Vec3> out) {

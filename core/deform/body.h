@@ -20,7 +20,12 @@ struct BodyShape {
   MeshTopology topology;
   std::optional<Lattice> lattice;  ///< none: nodes are vertices
   Embedding embedding;             ///< empty without a lattice
+  /// Of a mesh that is welded: its triangles, each vertex replaced by the first one at its position
+  /// at rest; else empty. Decides which triangles are neighbours, and nothing else.
+  std::vector<Triangle> welded;
 
+  /// The triangles by which two of them share vertices.
+  const std::vector<Triangle>& linked() const { return welded.empty() ? mesh.triangles : welded; }
   std::size_t node_count() const { return lattice ? lattice->nodes.size() : mesh.vertices.size(); }
 };
 
@@ -39,6 +44,12 @@ std::shared_ptr<const BodyShape> make_shape_on_lines(TriangleMesh mesh,
                                                      std::array<std::vector<double>, 3> lines);
 /// Builds a shape without a lattice (static or recorded).
 std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh);
+
+/// The same shape, its mesh welded: vertices with equal coordinates at rest (-0 = 0) are one.
+std::shared_ptr<const BodyShape> welded(const BodyShape& shape);
+/// Two vertices that are welded and not at one place; none where all keep together.
+std::optional<std::array<std::uint32_t, 2>> torn_weld(const BodyShape& shape,
+                                                      std::span<const Vec3> vertices);
 
 /// Deformed vertices of a body: canonical mapping, or a copy of the nodes without a lattice.
 void map_body(const BodyShape& shape, std::span<const Vec3> nodes, std::span<Vec3> out);

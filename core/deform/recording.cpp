@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "core/deform/atomic_file.h"
 #include "core/deform/byte_stream.h"
@@ -24,7 +25,9 @@ constexpr std::string_view kMagic(
     "\x89"
     "CCR\r\n\x1a\n",
     8);
-constexpr std::uint64_t kVersion = 1;
+// Version 2 is written where version 1 has no place for what is known: levels, and welded meshes.
+constexpr std::uint64_t kPlainVersion = 1, kVersion = 2;
+constexpr std::uint64_t kHasLattice = 1, kIsWelded = 2;
 constexpr std::size_t kHeaderSize = 24, kHashSize = 8;
 constexpr std::size_t kSmallestFile = kHeaderSize + kHashSize;
 
@@ -60,7 +63,7 @@ std::string shape_bytes(const BodyShape& shape) {
   out.points(shape.mesh.vertices);
   out.u64(shape.mesh.triangles.size());
   out.u32_rows(shape.mesh.triangles);
-  out.u64(shape.lattice ? 1 : 0);
+  out.u64((shape.lattice ? kHasLattice : 0) | (shape.welded.empty() ? 0 : kIsWelded));
   if (shape.lattice) write_lattice(*shape.lattice, shape.embedding, out);
   return out.bytes();
 }
@@ -124,10 +127,20 @@ void check_recordable(const std::string& name, const Recording& recording) {
   check_frames(name, recording);
 }
 
+std::uint64_t version_of(const Recording& recording) {
+  const bool welded = std::any_of(recording.bodies.begin(), recording.bodies.end(),
+                                  [](const Body& body) { return !body.shape->welded.empty(); });
+  return welded || !recording.levels.empty() ? kVersion : kPlainVersion;
+}
+
 std::string recording_content(const Recording& recording) {
   ByteWriter out;
   out.f64(recording.time_step);
   out.text(recording.scene);
+  if (version_of(recording) == kVersion) {
+    out.u64(recording.levels.size());
+    for (const Level level : recording.levels) out.text(name_of(level));
+  }
   const ShapeTable table = collect_shapes(recording.bodies);
   out.u64(table.shapes.size());
   for (const std::string& shape : table.shapes) {
@@ -148,16 +161,16 @@ std::string recording_content(const Recording& recording) {
 // --- reading ---
 
 // Magic, version and size: afterwards the file is as long as it was written.
-void check_header(ByteReader& in, std::uint64_t size) {
+std::uint64_t check_header(ByteReader& in, std::uint64_t size) {
   if (size < kMagic.size() || in.take(kMagic.size(), "magic") != kMagic) {
     in.fail("not a recording: the first 8 bytes are not those of a .ccr file", 0);
   }
   if (size < kSmallestFile)
     in.fail("the file ends within its first " + std::to_string(kSmallestFile) + " bytes", size);
   const std::uint64_t version = in.u64("version");
-  if (version != kVersion) {
-    in.fail("version " + std::to_string(version) + " is not known, only version " +
-                std::to_string(kVersion),
+  if (version != kPlainVersion && version != kVersion) {
+    in.fail("version " + std::to_string(version) + " is not known, only versions " +
+                std::to_string(kPlainVersion) + " and " + std::to_string(kVersion),
             8);
   }
   const std::uint64_t told = in.u64("file size");
@@ -166,6 +179,7 @@ void check_header(ByteReader& in, std::uint64_t size) {
                 std::to_string(told),
             16);
   }
+  return version;
 }
 
 // Afterwards the bytes are those that were written.
@@ -217,15 +231,18 @@ void read_lattice(ByteReader& in, BodyShape& shape) {
   shape.lattice = std::move(lattice);
 }
 
-std::shared_ptr<const BodyShape> read_shape(ByteReader& in, std::size_t number) {
+std::shared_ptr<const BodyShape> read_shape(ByteReader& in, std::size_t number,
+                                            std::uint64_t version) {
   const std::uint64_t told_hash = in.u64("shape hash");
   const std::size_t begin = in.position();
   auto shape = std::make_shared<BodyShape>();
   shape->mesh.vertices = in.points(in.count("vertices", 24), "vertices");
   shape->mesh.triangles = in.u32_rows<3>(in.count("triangles", 12), "triangles");
-  const std::uint64_t has_lattice = in.u64("lattice flag");
-  if (has_lattice > 1) in.fail("the lattice flag is neither 0 nor 1", in.position() - 8);
-  if (has_lattice == 1) read_lattice(in, *shape);
+  const std::uint64_t flags = in.u64("lattice flag");
+  const std::uint64_t largest = version == kPlainVersion ? kHasLattice : kHasLattice | kIsWelded;
+  if (flags > largest)
+    in.fail("the lattice flag is not in 0 to " + std::to_string(largest), in.position() - 8);
+  if ((flags & kHasLattice) != 0) read_lattice(in, *shape);
   if (fnv1a(in.bytes().substr(begin, in.position() - begin)) != told_hash) {
     in.fail("shape " + std::to_string(number) + " does not have the hash it is keyed by",
             begin - 8);
@@ -234,14 +251,27 @@ std::shared_ptr<const BodyShape> read_shape(ByteReader& in, std::size_t number) 
   const std::string fault = shape_fault(*shape);
   if (!fault.empty()) in.fail("shape " + std::to_string(number) + ": " + fault, begin);
   if (shape->lattice) sort_by_cell(shape->lattice->cells.size(), shape->embedding);
+  if ((flags & kIsWelded) != 0) return welded(*shape);
   return shape;
 }
 
-std::vector<std::shared_ptr<const BodyShape>> read_shapes(ByteReader& in) {
+std::vector<std::shared_ptr<const BodyShape>> read_shapes(ByteReader& in, std::uint64_t version) {
   // The smallest shape: hash, two counts, flag; the count is bounded by that.
   std::vector<std::shared_ptr<const BodyShape>> shapes(in.count("shapes", 32));
-  for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = read_shape(in, s);
+  for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = read_shape(in, s, version);
   return shapes;
+}
+
+std::vector<Level> read_levels(ByteReader& in) {
+  std::vector<Level> levels(in.count("levels", 16));
+  for (Level& level : levels) {
+    const std::size_t where = in.position();
+    const std::string name = in.text("level");
+    const std::optional<Level> known = level_from_name(name);
+    if (!known) in.fail("\"" + name + "\" is no level", where);
+    level = *known;
+  }
+  return levels;
 }
 
 std::vector<Body> read_bodies(ByteReader& in,
@@ -280,7 +310,7 @@ std::string recording_bytes(const Recording& recording, const std::string& name)
   const std::string content = recording_content(recording);
   ByteWriter out;
   out.raw(kMagic);
-  out.u64(kVersion);
+  out.u64(version_of(recording));
   out.u64(kMagic.size() + 16 + content.size() + kHashSize);
   out.raw(content);
   out.u64(fnv1a(out.bytes()));
@@ -293,7 +323,7 @@ void write_recording(const std::filesystem::path& file, const Recording& recordi
 
 Recording read_recording_bytes(const std::string& bytes, const std::string& name) {
   ByteReader header(bytes, name);
-  check_header(header, bytes.size());
+  const std::uint64_t version = check_header(header, bytes.size());
   check_hash(ByteReader(bytes, name));
   ByteReader in(std::string_view(bytes).substr(0, bytes.size() - kHashSize), name);
   in.take(kHeaderSize, "header");
@@ -304,7 +334,8 @@ Recording read_recording_bytes(const std::string& bytes, const std::string& name
   out.scene = in.text("scene name");
   const std::string fault = scene_fault(out.scene);
   if (!fault.empty()) in.fail("the scene name " + fault, where);
-  out.bodies = read_bodies(in, read_shapes(in));
+  if (version == kVersion) out.levels = read_levels(in);
+  out.bodies = read_bodies(in, read_shapes(in, version));
   read_frames(in, out);
   if (in.remaining() != 0)
     in.fail(std::to_string(in.remaining()) + " bytes too many after the last frame");

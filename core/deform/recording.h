@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/types/semantics.h"
 
 namespace contactcheck {
 
@@ -16,6 +17,7 @@ struct Recording {
   std::vector<Body> bodies;  ///< instances share one shape, by content hash
   double time_step = 0.0;    ///< seconds
   std::vector<std::vector<std::vector<Vec3>>> frames;  ///< nodes [frame][body][node]
+  std::vector<Level> levels = {};                      ///< that are judged; empty: not said
 };
 
 /// Written under a temporary name and renamed. @throws InputError with the path when it cannot be.

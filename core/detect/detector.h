@@ -70,6 +70,9 @@ class Detector {
   virtual const Semantics& semantics() const = 0;
   /// True when update() reads BodyState::vertices; the mapping is then timed as phase `map`.
   virtual bool needs_vertices() const = 0;
+  /// Before prepare(), if at all: the questions that will be asked. What only others need can be
+  /// left out, and what these need be done before it is asked for.
+  virtual void expect(const std::vector<Question>&) {}
   /// Once per scene. The bodies outlive the detector.
   virtual void prepare(const std::vector<Body>& bodies) = 0;
   virtual void update(const Frame& frame) = 0;

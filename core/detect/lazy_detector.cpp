@@ -1,5 +1,6 @@
 #include "core/detect/lazy_detector.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -38,13 +39,18 @@ std::string broken_promise(const LazyState& state, const std::vector<Vec3Of<Real
 LazyDetector::LazyDetector(const LazyConfig& config)
     : config_(config),
       kernels_(lazy_kernels(config.isa)),
-      semantics_(exact_triangle_semantics(config.precision)),
+      semantics_(exact_triangle_semantics(config.precision, true)),
       team_(config.threads),
       tasks_(kernels_, team_) {}
+
+void LazyDetector::expect(const std::vector<Question>& questions) {
+  expects_self_ = std::find(questions.begin(), questions.end(), Question::kSelf) != questions.end();
+}
 
 void LazyDetector::prepare(const std::vector<Body>& bodies) {
   trees_.clear();
   states_.clear();
+  patches_.clear();
   std::map<const BodyShape*, std::shared_ptr<const LatticeTree>> known;
   for (const Body& body : bodies) {
     std::shared_ptr<const LatticeTree>& tree = known[body.shape.get()];
@@ -59,6 +65,7 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
     state.precision = config_.precision;
     state.from_vertices = refitted;
   }
+  for (std::size_t b = 0; expects_self_ && b < bodies.size(); ++b) know_patches(b);
   mapped_.assign(bodies.size(), {});
   single_mapped_.assign(bodies.size(), {});
 }
@@ -119,8 +126,9 @@ void LazyDetector::update(const Frame& frame) {
   for (const LazyState& state : states_) boxes.push_back(state.box);
   find_candidate_bodies(boxes, candidates_);
   // full-refit bounds every body; ffd-lazy leaves out bodies that meet no other.
-  std::vector<bool> wanted(states_.size(), bounds_all());
+  std::vector<bool> wanted(states_.size(), bounds_all() || expects_self_);
   for (const BodyPair& pair : candidates_) wanted[pair.a] = wanted[pair.b] = true;
+  bounded_ = wanted;
   to_bound_.clear();
   for (std::size_t b = 0; b < wanted.size(); ++b)
     if (wanted[b]) to_bound_.push_back(b);
@@ -130,11 +138,33 @@ void LazyDetector::update(const Frame& frame) {
 
 void LazyDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  if (question == Question::kSelf) return find_self(out.self);
   if (question == Question::kTriangles)
     return tasks_.run(states_, candidates_, false, out.triangles);
   found_.clear();
   tasks_.run(states_, candidates_, true, found_);
   for (const ElementPair& pair : found_) out.bodies.push_back({pair.body_a, pair.body_b});
+}
+
+// Where bounds come from nodes: what a refitted body has known of its vertices is more.
+void LazyDetector::know_patches(std::size_t index) {
+  LazyState& state = states_[index];
+  if (state.from_vertices || state.patches != nullptr) return;
+  PatchTree& patches = patches_[state.shape];
+  if (patches.children.empty()) patches = make_patch_tree(*state.shape, *trees_[index]);
+  state.patches = &patches;
+}
+
+void LazyDetector::find_self(std::vector<SelfPair>& out) {
+  LazyScratch& scratch = team_.scratch()[0];
+  std::vector<ElementPair> found;
+  for (std::uint32_t body = 0; body < states_.size(); ++body) {
+    know_patches(body);
+    if (!bounded_[body]) bound(body, scratch);
+    bounded_[body] = true;
+    kernels_.collide_self({{body, body}, states_[body], states_[body]}, false, scratch, found);
+  }
+  for (const ElementPair& pair : found) out.push_back({pair.body_a, pair.a, pair.b});
 }
 
 // On one thread: what is tested is the same.

@@ -2,11 +2,13 @@
 // exactly.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/detect/detector.h"
+#include "core/lazy/embedded_patch.h"
 #include "core/lazy/pair_tasks.h"
 
 namespace contactcheck {
@@ -36,6 +38,7 @@ class LazyDetector : public Detector {
   const Semantics& semantics() const override { return semantics_; }
   /// In single precision it maps its own vertices.
   bool needs_vertices() const override { return bounds_all() && !single(); }
+  void expect(const std::vector<Question>& questions) override;
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;
@@ -55,6 +58,8 @@ class LazyDetector : public Detector {
  private:
   bool single() const { return config_.precision == Precision::kSingle; }
   bool bounds_all() const { return config_.bounds == BoundSource::kVertices; }
+  void find_self(std::vector<SelfPair>& out);
+  void know_patches(std::size_t index);
   void bound(std::size_t index, LazyScratch& scratch);
 
   LazyConfig config_;
@@ -62,10 +67,13 @@ class LazyDetector : public Detector {
   Semantics semantics_;
   std::vector<std::shared_ptr<const LatticeTree>> trees_;  // per body; instances share
   std::vector<LazyState> states_;
+  std::map<const BodyShape*, PatchTree> patches_;  // of bodies asked for contacts with themselves
   std::vector<std::vector<Vec3>> mapped_;          // per body that is mapped here
   std::vector<std::vector<Vec3f>> single_mapped_;  // instead in single precision
   std::vector<BodyPair> candidates_;
   std::vector<std::size_t> to_bound_;
+  std::vector<bool> bounded_;  // in this frame
+  bool expects_self_ = false;
   std::vector<ElementPair> found_;
   ThreadTeam team_;
   PairTasks tasks_;

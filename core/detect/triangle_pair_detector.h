@@ -14,6 +14,7 @@
 #include "core/detect/fed_vertices.h"
 #include "core/detect/seen_pairs.h"
 #include "core/detect/triangle_record.h"
+#include "core/narrow/adjacent_triangles.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
 
@@ -32,15 +33,26 @@ template <typename T>
 inline constexpr Precision kPrecision =
     std::is_same_v<T, float> ? Precision::kSingle : Precision::kDouble;
 
+/// Can this broad phase name the candidates of a body's contacts with itself?
+template <typename Broad>
+inline constexpr bool kFindsSelf =
+    requires(Broad broad) { broad.visit_own_candidates([](const SelfPair&) { return false; }); };
+
 /// What a detector claims that tests triangle pairs exactly. In single precision the triangles are
 /// those of vertices, or of nodes, rounded about the local origin: it is not exact.
-inline Semantics exact_triangle_semantics(Precision precision = Precision::kDouble) {
+inline Semantics exact_triangle_semantics(Precision precision = Precision::kDouble,
+                                          bool self = false) {
   Semantics s;
   s.levels = {Level::kBody, Level::kTriangle};
   s.questions = {Question::kTriangles, Question::kBody};
   s.precision = precision;
   s.local_origin = precision == Precision::kSingle;
   s.exact = precision == Precision::kDouble;
+  if (self) {
+    s.levels.insert(s.levels.end(),
+                    {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge, Level::kSelfBody});
+    s.questions.push_back(Question::kSelf);
+  }
   return s;
 }
 
@@ -52,6 +64,8 @@ inline Semantics exact_triangle_semantics(Precision precision = Precision::kDoub
 ///   visit_candidates(visit)       calls bool visit(const ElementPair&) for a superset of the
 ///                                 intersecting pairs of triangles of different bodies; once it has
 ///                                 returned true the rest of these two bodies may be left out
+///   visit_own_candidates(visit)   optional: the same of two triangles of one body, as SelfPair; a
+///                                 detector that has it answers the question `self`
 ///   visited()                     what the last visit_candidates looked at
 /// Narrow:
 ///   bool operator()(p, q)         two triangles of Reals whose AABBs overlap
@@ -90,6 +104,8 @@ class TrianglePairDetector : public Detector {
     CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
     if (question == Question::kBody) {
       find_bodies(out.bodies);
+    } else if (question == Question::kSelf) {
+      find_self(out.self);
     } else {
       find_triangles(out.triangles);
     }
@@ -164,6 +180,17 @@ class TrianglePairDetector : public Detector {
       out.push_back({pair.body_a, pair.body_b});
       return true;
     });
+  }
+
+  void find_self(std::vector<SelfPair>& out) {
+    if constexpr (kFindsSelf<Broad>)
+      broad_.visit_own_candidates([&](const SelfPair& pair) {
+        const BodyShape& shape = *shapes_[pair.body];
+        if (meet_beyond_shared(shared_corners(shape.linked()[pair.a], shape.linked()[pair.b]),
+                               points(pair.body, pair.a), points(pair.body, pair.b)))
+          out.push_back(pair);
+        return false;
+      });
   }
 
   Broad broad_;

@@ -22,7 +22,7 @@ template <typename Broad>
 std::unique_ptr<Detector> with_exact_test(Broad broad) {
   return std::make_unique<TrianglePairDetector<Broad>>(
       std::move(broad), ExactTriangles{},
-      exact_triangle_semantics(kPrecision<typename Broad::Real>));
+      exact_triangle_semantics(kPrecision<typename Broad::Real>, kFindsSelf<Broad>));
 }
 
 // A broad phase for either precision, as it is made of these settings.

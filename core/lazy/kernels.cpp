@@ -21,6 +21,11 @@ void collide(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
   PairTraversal(bodies, first_only, scratch, out).run();
 }
 
+void collide_self(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
+                  std::vector<ElementPair>& out) {
+  PairTraversal(bodies, first_only, scratch, out).run_self();
+}
+
 void spread(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, BvttFront& front) {
   std::vector<ElementPair> none;
   PairTraversal(bodies, false, scratch, none).spread(slots, front);
@@ -52,9 +57,16 @@ const SingleLeafCache& map_single_leaf(LazyState& state, std::uint32_t leaf, Fra
 }
 
 const LazyKernels& kernels() {
-  static const LazyKernels all = {
-      hwy::TargetName(HWY_TARGET), collide,  spread,         collide_part, bound_all, test_batch,
-      test_single_batch,           map_leaf, map_single_leaf};
+  static const LazyKernels all = {hwy::TargetName(HWY_TARGET),
+                                  collide,
+                                  collide_self,
+                                  spread,
+                                  collide_part,
+                                  bound_all,
+                                  test_batch,
+                                  test_single_batch,
+                                  map_leaf,
+                                  map_single_leaf};
   return all;
 }
 

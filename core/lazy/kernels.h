@@ -40,8 +40,9 @@ struct LazyScratch {
   FrameArena arena;
   BvttFront open;
   std::vector<SlotPair> level;
-  TriangleBatch batch{};
-  SingleTriangleBatch single_batch{};              ///< used instead in single precision
+  std::vector<std::uint32_t> own_blocks;  ///< to be crossed with themselves
+  TriangleBatchSet<double> batches;
+  TriangleBatchSet<float> single_batches;          ///< used instead in single precision
   LazyCounters counters;                           ///< without what count_made() adds
   std::vector<ElementPair>* candidates = nullptr;  ///< if set, records tested pairs
 };
@@ -58,6 +59,10 @@ struct LazyKernels {
   /// Appends the intersecting pairs of triangles, each once; stops at the first if `first_only`.
   void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                   std::vector<ElementPair>& out);
+  /// The same of one body with itself (`bodies` names it twice): pairs of its triangles that meet
+  /// in more than the vertices they share.
+  void (*collide_self)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
+                       std::vector<ElementPair>& out);
   /// Opens pairs that meet, level by level, until the front has `slots` slots or none is left.
   void (*spread)(BodiesToTest bodies, std::size_t slots, LazyScratch& scratch, BvttFront& front);
   /// collide() of a part of the front of spread(). All parts together find what collide() finds.

@@ -163,10 +163,14 @@ struct LazyCounters {
   std::uint64_t filter_failures = 0;  ///< of these, left to the exact test
 };
 
+struct PatchTree;  // embedded_patch.h
+
 struct LazyState {
   const BodyShape* shape = nullptr;
   const LatticeTree* tree = nullptr;
   Precision precision = Precision::kDouble;
+  const PatchTree* patches = nullptr;  ///< where known: what cannot meet itself
+  std::vector<std::uint8_t> embedded;  ///< of this frame, by region of `patches`; empty: not asked
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices

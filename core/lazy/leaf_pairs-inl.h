@@ -16,6 +16,8 @@
 #include "core/lazy/leaves-inl.h"
 #include "core/lazy/meeting-inl.h"
 #include "core/lazy/triangles-inl.h"
+#include "core/narrow/adjacent_triangles.h"
+#include "core/types/shared_corners.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace contactcheck {
@@ -32,9 +34,11 @@ HWY_INLINE std::uint32_t overlapping_triangles(const LaneBoxes& box, std::uint32
                           : overlapping(MovedBounds{one, translation}, lanes);
 }
 
-HWY_INLINE TriangleBatch& batch_in(double, LazyScratch& scratch) { return scratch.batch; }
-HWY_INLINE SingleTriangleBatch& batch_in(float, LazyScratch& scratch) {
-  return scratch.single_batch;
+HWY_INLINE TriangleBatchSet<double>& batches_in(double, LazyScratch& scratch) {
+  return scratch.batches;
+}
+HWY_INLINE TriangleBatchSet<float>& batches_in(float, LazyScratch& scratch) {
+  return scratch.single_batches;
 }
 
 // Tests of leaf pairs of two bodies; flush() when all are in.
@@ -47,9 +51,10 @@ class LeafPairTests {
         to_a_(to_a),
         to_b_(to_b),
         scratch_(scratch),
-        batch_(batch_in(Real(), scratch)),
+        batches_(batches_in(Real(), scratch)),
+        own_(&bodies.a == &bodies.b),
         out_(out) {
-    batch_.count = 0;
+    for (TriangleBatchOf<Real>& batch : batches_.of) batch.count = 0;
   }
 
   HWY_NOINLINE void test(const LeafPair& pair) {
@@ -59,7 +64,11 @@ class LeafPairTests {
     if (in_b == 0) return;
     const std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a);
     // One by one on the side that has fewer.
-    if (std::popcount(in_a) <= std::popcount(in_b)) {
+    if (own_ && pair.a == pair.b) {
+      for (std::uint32_t i : Bits(in_a))
+        for (std::uint32_t j : Bits(in_b & partners(a, i, to_b_, b) & ~((2u << i) - 1)))
+          add_pair(pair, a, i, b, j);
+    } else if (std::popcount(in_a) <= std::popcount(in_b)) {
       for (std::uint32_t i : Bits(in_a))
         for (std::uint32_t j : Bits(in_b & partners(a, i, to_b_, b))) add_pair(pair, a, i, b, j);
     } else {
@@ -69,21 +78,7 @@ class LeafPairTests {
   }
 
   HWY_NOINLINE void flush() {
-    TriangleBatchOf<Real>& batch = batch_;
-    if (batch.count == 0) return;
-    const BatchVerdict verdict = test_batch_in(batch);
-    std::uint32_t meeting = verdict.meet;
-    for (std::uint32_t lane : Bits(verdict.unknown))
-      if (triangles_intersect(batch.points(0, lane), batch.points(1, lane))) meeting |= 1u << lane;
-    if (scratch_.candidates != nullptr)
-      for (std::size_t lane = 0; lane < batch.count; ++lane)
-        scratch_.candidates->push_back(
-            {bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
-    scratch_.counters.triangle_tests += batch.count;
-    scratch_.counters.filter_failures += static_cast<std::uint64_t>(std::popcount(verdict.unknown));
-    for (std::uint32_t lane : Bits(meeting))
-      out_.push_back({bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
-    batch.count = 0;
+    for (TriangleBatchOf<Real>& batch : batches_.of) flush(batch);
   }
 
  private:
@@ -103,15 +98,39 @@ class LeafPairTests {
     return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, translation, other);
   }
 
+  HWY_NOINLINE void flush(TriangleBatchOf<Real>& batch) {
+    if (batch.count == 0) return;
+    const BatchVerdict verdict = test_batch_in(batch);
+    std::uint32_t meeting = verdict.meet;
+    for (std::uint32_t lane : Bits(verdict.unknown))
+      if (batch.meets(lane)) meeting |= 1u << lane;
+    if (scratch_.candidates != nullptr)
+      for (std::size_t lane = 0; lane < batch.count; ++lane)
+        scratch_.candidates->push_back(
+            {bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
+    scratch_.counters.triangle_tests += batch.count;
+    scratch_.counters.filter_failures += static_cast<std::uint64_t>(std::popcount(verdict.unknown));
+    for (std::uint32_t lane : Bits(meeting))
+      out_.push_back({bodies_.names.a, bodies_.names.b, batch.a[lane], batch.b[lane]});
+    batch.count = 0;
+  }
+
   HWY_INLINE void add_pair(const LeafPair& leaves, const Leaf& a, std::uint32_t i, const Leaf& b,
                            std::uint32_t j) {
-    TriangleBatchOf<Real>& batch = batch_;
+    const std::uint32_t s = name(bodies_.a, leaves.a, i), t = name(bodies_.b, leaves.b, j);
+    SharedCorners shared;
+    if (own_) {
+      const std::vector<Triangle>& linked = bodies_.a.shape->linked();
+      shared = shared_corners(linked[s], linked[t]);
+      if (shared.duplicates) return;
+    }
+    TriangleBatchOf<Real>& batch = batches_.of[shared.count];
     const std::size_t lane = batch.count;
-    batch.a[lane] = name(bodies_.a, leaves.a, i);
-    batch.b[lane] = name(bodies_.b, leaves.b, j);
-    copy_corners(bodies_.a.tree->leaf_corners[leaves.a], a, i, batch.corner[0], lane);
-    copy_corners(bodies_.b.tree->leaf_corners[leaves.b], b, j, batch.corner[1], lane);
-    if (++batch.count == kBatchWidth) flush();
+    batch.a[lane] = s;
+    batch.b[lane] = t;
+    copy_corners(bodies_.a.tree->leaf_corners[leaves.a], a, i, shared.p, batch.corner[0], lane);
+    copy_corners(bodies_.b.tree->leaf_corners[leaves.b], b, j, shared.q, batch.corner[1], lane);
+    if (++batch.count == kBatchWidth) flush(batch);
   }
 
   static std::uint32_t name(const LazyState& state, std::uint32_t leaf, std::uint32_t triangle) {
@@ -119,10 +138,11 @@ class LeafPairTests {
   }
 
   static HWY_INLINE void copy_corners(const LeafCorners& corners, const Leaf& leaf,
-                                      std::uint32_t triangle, Real (&out)[3][3][kBatchWidth],
-                                      std::size_t lane) {
+                                      std::uint32_t triangle,
+                                      const std::array<std::uint8_t, 3>& order,
+                                      Real (&out)[3][3][kBatchWidth], std::size_t lane) {
     for (int c = 0; c < 3; ++c) {
-      const std::uint32_t v = corners[c][triangle];
+      const std::uint32_t v = corners[order[c]][triangle];
       out[c][0][lane] = leaf.x[v];
       out[c][1][lane] = leaf.y[v];
       out[c][2][lane] = leaf.z[v];
@@ -133,7 +153,8 @@ class LeafPairTests {
   const Translation& to_a_;
   const Translation& to_b_;
   LazyScratch& scratch_;
-  TriangleBatchOf<Real>& batch_;
+  TriangleBatchSet<Real>& batches_;
+  bool own_;  ///< of one body with itself
   std::vector<ElementPair>& out_;
 };
 

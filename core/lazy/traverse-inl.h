@@ -12,6 +12,7 @@
 
 #include <bit>
 
+#include "core/lazy/embedded_patch.h"
 #include "core/lazy/kernels.h"
 #include "core/lazy/leaf_pairs-inl.h"
 #include "core/lazy/meeting-inl.h"
@@ -30,6 +31,7 @@ class PairTraversal {
         first_only_(first_only),
         scratch_(scratch),
         out_(out),
+        patches_(&bodies.a == &bodies.b ? bodies.a.patches : nullptr),
         slabs_(!bodies.a.from_vertices && !bodies.b.from_vertices),
         to_a_(translation_between(bodies.b, bodies.a)),
         to_b_(translation_between(bodies.a, bodies.b)) {
@@ -45,6 +47,18 @@ class PairTraversal {
   HWY_INLINE void run(const FrontPart& part) {
     scratch_.open.slots.assign(part.slots.begin(), part.slots.end());
     scratch_.open.leaves.assign(part.leaves.begin(), part.leaves.end());
+    finish();
+  }
+
+  /// Of one body. Every two of its triangles are under two children of one block, or in one leaf.
+  HWY_INLINE void run_self() {
+    std::vector<std::uint32_t>& own = scratch_.own_blocks;
+    own.assign(1, 0);
+    while (!own.empty()) {
+      const std::uint32_t block = own.back();
+      own.pop_back();
+      cross_with_itself(block);
+    }
     finish();
   }
 
@@ -91,7 +105,15 @@ class PairTraversal {
     cross(0, children(bodies_.a), 0, children(bodies_.b));
   }
 
+  const PatchRest& patch(std::uint32_t block, std::uint32_t lane) const {
+    return patches_->children[block * kBlockWidth + lane];
+  }
+
   HWY_INLINE void meet(const SlotPair& slots) {
+    if (patches_ != nullptr &&
+        stays_embedded(bodies_.a, *patches_, patch(slots.block_a, slots.lane_a),
+                       patch(slots.block_b, slots.lane_b)))
+      return;
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
     if (a.leaf() && b.leaf()) {
@@ -125,6 +147,26 @@ class PairTraversal {
       for (std::uint32_t j : Bits(in_b))
         for (std::uint32_t i : Bits(in_a & meeting(bounds_b, j, to_a_, bounds_a)))
           meet({block_a, i, block_b, j});
+    }
+  }
+
+  HWY_NOINLINE void cross_with_itself(std::uint32_t block) {
+    ++scratch_.counters.block_pairs;
+    const TreeBlock& children = bodies_.a.tree->blocks[block];
+    const BlockBounds& all = bounds(bodies_.a, block, scratch_.arena);
+    for (std::uint32_t i = 0; i < children.children; ++i) {
+      const TreeChild child = children.child[i];
+      if (patches_ != nullptr &&
+          stays_embedded(bodies_.a, *patches_, patch(block, i), patch(block, i))) {
+        // nothing below it meets
+      } else if (child.leaf()) {
+        scratch_.open.leaves.push_back({child.index(), child.index()});
+        ++scratch_.counters.leaf_pairs;
+      } else {
+        scratch_.own_blocks.push_back(child.index());
+      }
+      const std::uint32_t later = ((1u << children.children) - 1) & ~((2u << i) - 1);
+      for (std::uint32_t j : Bits(later & meeting(all, i, to_b_, all))) meet({block, i, block, j});
     }
   }
 
@@ -188,6 +230,7 @@ class PairTraversal {
   bool first_only_;
   LazyScratch& scratch_;
   std::vector<ElementPair>& out_;
+  const PatchTree* patches_;  // of one body with itself, where known
   bool slabs_;
   Translation to_a_, to_b_;
 };

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/narrow/triangle_triangle.h"
+#include "core/narrow/adjacent_triangles.h"
 
 namespace contactcheck {
 
@@ -17,6 +17,9 @@ struct alignas(64) TriangleBatchOf {
   Real corner[2][3][3][kBatchWidth];
   std::uint32_t a[kBatchWidth], b[kBatchWidth];  ///< the caller's names
   std::size_t count = 0;
+  /// How many corners, the first in both, the triangles of each pair share: 0, 1 or 2. With some,
+  /// pairs meet where they have a point beyond these in common (meet_beyond_shared).
+  std::uint32_t shared = 0;
 
   TrianglePointsOf<Real> points(int triangle, std::size_t lane) const {
     TrianglePointsOf<Real> out;
@@ -24,14 +27,28 @@ struct alignas(64) TriangleBatchOf {
       for (int k = 0; k < 3; ++k) out[c][k] = corner[triangle][c][k][lane];
     return out;
   }
+  /// The exact test of one pair.
+  bool meets(std::size_t lane) const {
+    SharedCorners first;
+    first.count = shared;
+    return meet_beyond_shared(first, points(0, lane), points(1, lane));
+  }
+};
+/// By the number of shared corners.
+template <class Real>
+struct TriangleBatchSet {
+  TriangleBatchOf<Real> of[3] = {};
+  TriangleBatchSet() {
+    for (std::uint32_t shared = 0; shared < 3; ++shared) of[shared].shared = shared;
+  }
 };
 using TriangleBatch = TriangleBatchOf<double>;
 using SingleTriangleBatch = TriangleBatchOf<float>;
 
 /// Bit i for lane i.
 struct BatchVerdict {
-  std::uint32_t meet = 0;     ///< share a point
-  std::uint32_t unknown = 0;  ///< the lanes cannot tell: left to triangles_intersect()
+  std::uint32_t meet = 0;     ///< share a point (beyond shared corners)
+  std::uint32_t unknown = 0;  ///< the lanes cannot tell: left to TriangleBatchOf::meets()
 };
 
 }  // namespace contactcheck

@@ -119,19 +119,30 @@ HWY_INLINE PairVec<Real> extent(PairVec<Real> a, PairVec<Real> b, PairVec<Real> 
   return hn::Sub(hi, lo);
 }
 
-// Error bound of every determinant of the lane; infinite where the filter must not decide.
 template <class Real>
-HWY_INLINE PairVec<Real> error_bound(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3]) {
+HWY_INLINE PointOf<Real> extents(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3]) {
+  return {extent<Real>(p[0].x, p[1].x, p[2].x, q[0].x, q[1].x, q[2].x),
+          extent<Real>(p[0].y, p[1].y, p[2].y, q[0].y, q[1].y, q[2].y),
+          extent<Real>(p[0].z, p[1].z, p[2].z, q[0].z, q[1].z, q[2].z)};
+}
+
+// A bound where the filter may decide by it, else infinity.
+template <class Real>
+HWY_INLINE PairVec<Real> sound_bound(PairVec<Real> product, const PointOf<Real>& extents) {
   using Filter = LaneFilter<Real>;
   const PairLanes<Real> d;
-  const auto x = extent<Real>(p[0].x, p[1].x, p[2].x, q[0].x, q[1].x, q[2].x);
-  const auto y = extent<Real>(p[0].y, p[1].y, p[2].y, q[0].y, q[1].y, q[2].y);
-  const auto z = extent<Real>(p[0].z, p[1].z, p[2].z, q[0].z, q[1].z, q[2].z);
-  const auto bound = hn::Mul(hn::Set(d, Filter::kErrorFactor), hn::Mul(hn::Mul(x, y), z));
-  const auto sound =
-      hn::And(hn::Ge(bound, hn::Set(d, Filter::kSmallestBound)),
-              hn::Le(hn::Max(hn::Max(x, y), z), hn::Set(d, Filter::kLargestDifference)));
+  const auto bound = hn::Mul(hn::Set(d, Filter::kErrorFactor), product);
+  const auto sound = hn::And(hn::Ge(bound, hn::Set(d, Filter::kSmallestBound)),
+                             hn::Le(hn::Max(hn::Max(extents.x, extents.y), extents.z),
+                                    hn::Set(d, Filter::kLargestDifference)));
   return hn::IfThenElse(sound, bound, hn::Set(d, std::numeric_limits<Real>::infinity()));
+}
+
+// Error bound of every determinant of the lane.
+template <class Real>
+HWY_INLINE PairVec<Real> error_bound(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3]) {
+  const PointOf<Real> e = extents(p, q);
+  return sound_bound<Real>(hn::Mul(hn::Mul(e.x, e.y), e.z), e);
 }
 
 // Where three signs are known: which lanes are above and below.
@@ -212,6 +223,83 @@ HWY_INLINE Verdict<Real> look_for_corners(const PointOf<Real> (&p)[3], const Poi
   return {hn::Or(found.meet, share), hn::AndNot(share, found.unknown)};
 }
 
+// Triangles of one plane have no sign that a determinant could tell. Where they are apart in the
+// view along an axis, which is a matter of areas, they are apart in space.
+//
+// Claim: in such a view a line holds corners of one triangle and has its third corner, or has all
+// of its corners but a shared one, on one side (or on it), and all corners of the other one, but
+// shared ones, strictly on the other. Then the two share no point but those of shared corners.
+//   * A point of the other triangle off the hull of shared corners is strictly on its side.
+//   * Where two corners are shared, the line is theirs, and each third corner strictly on its side.
+//
+// Claim: the sign of an area that exceeds its bound, 48 e X Y of the extents in the view, is right.
+//   * An area is off by at most 8 e X Y and terms of e^2: 3 e of each of two products, whose
+//     factors are differences, and e of their difference. The difference of two areas is off by at
+//     most twice that and 4 e X Y more.
+//   * Underflow and overflow: as above, with one factor less.
+template <class Real>
+class Views {
+ public:
+  Views(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3]) {
+    const PointOf<Real> e = extents(p, q);
+    bounds_ = {sound_bound<Real>(hn::Mul(e.y, e.z), e), sound_bound<Real>(hn::Mul(e.z, e.x), e),
+               sound_bound<Real>(hn::Mul(e.x, e.y), e)};
+  }
+
+  // Lanes in which, in some view, all areas have one sign.
+  template <class... Areas>
+  HWY_INLINE PairMask<Real> alike(const PointOf<Real>& first, const Areas&... others) const {
+    const auto in_view = [](PairVec<Real> bound, PairVec<Real> area, auto... areas) HWY_ATTR {
+      auto least = area, most = area;
+      ((least = hn::Min(least, areas), most = hn::Max(most, areas)), ...);
+      return hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound)));
+    };
+    return hn::Or(
+        in_view(bounds_.x, first.x, others.x...),
+        hn::Or(in_view(bounds_.y, first.y, others.y...), in_view(bounds_.z, first.z, others.z...)));
+  }
+
+ private:
+  PointOf<Real> bounds_;
+};
+
+// Is one triangle apart from the other by the line of one of its edges?
+template <class Real>
+HWY_INLINE PairMask<Real> apart_by_edges(const Views<Real>& views, const PointOf<Real> (&p)[3],
+                                         const PointOf<Real> (&q)[3]) {
+  const auto by_edge = [&](int i) HWY_ATTR {
+    const PointOf<Real>& from = p[i];
+    const PointOf<Real> along = minus(p[(i + 1) % 3], from);
+    return views.alike(cross(along, minus(p[(i + 2) % 3], from)), cross(minus(q[0], from), along),
+                       cross(minus(q[1], from), along), cross(minus(q[2], from), along));
+  };
+  return hn::Or(by_edge(0), hn::Or(by_edge(1), by_edge(2)));
+}
+
+// Among lanes that are unknown; `shared` corners come first in both.
+template <class Real>
+HWY_NOINLINE PairMask<Real> look_at_views(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3],
+                                          std::uint32_t shared, PairMask<Real> unknown) {
+  if (hn::AllFalse(PairLanes<Real>(), unknown)) return unknown;
+  const Views<Real> views(p, q);
+  if (shared == 0)
+    return hn::AndNot(hn::Or(apart_by_edges(views, p, q), apart_by_edges(views, q, p)), unknown);
+  const PointOf<Real> p1 = minus(p[1], p[0]), p2 = minus(p[2], p[0]), q1 = minus(q[1], q[0]),
+                      q2 = minus(q[2], q[0]);
+  if (shared == 2) return hn::AndNot(views.alike(cross(p1, p2), cross(q2, p1)), unknown);
+  // Lines through the corner: along its four edges, and along those opposite to it.
+  const PointOf<Real> pp = cross(p1, p2), qq = cross(q1, q2), c11 = cross(p1, q1),
+                      c12 = cross(p1, q2), c21 = cross(p2, q1), c22 = cross(p2, q2);
+  const PointOf<Real> none = minus(p[0], p[0]);
+  auto apart =
+      hn::Or(views.alike(pp, minus(none, c11), minus(none, c12)), views.alike(pp, c21, c22));
+  apart = hn::Or(apart, views.alike(pp, minus(c21, c11), minus(c22, c12)));
+  apart = hn::Or(apart, views.alike(qq, c11, c21));
+  apart = hn::Or(apart, views.alike(qq, minus(none, c12), minus(none, c22)));
+  apart = hn::Or(apart, views.alike(qq, minus(c11, c12), minus(c21, c22)));
+  return hn::AndNot(apart, unknown);
+}
+
 template <class Real>
 HWY_INLINE Verdict<Real> test_lanes(const TriangleBatchOf<Real>& batch, std::size_t first) {
   PointOf<Real> p[3] = {}, q[3] = {};
@@ -234,8 +322,51 @@ HWY_INLINE Verdict<Real> test_lanes(const TriangleBatchOf<Real>& batch, std::siz
   const auto miss = hn::Or(hn::Gt(begin, bound), hn::Gt(end, bound));
   known = hn::And(known, hn::Or(meet, miss));
   const Verdict<Real> out = {hn::And(hn::AndNot(separated, known), meet),
-                             hn::Not(hn::Or(separated, known))};
+                             look_at_views(p, q, 0, hn::Not(hn::Or(separated, known)))};
   return look_for_corners(p, q, out);
+}
+
+// Triangles whose first corner is the same point: the filter of meet_beyond_corner() (core/narrow).
+template <class Real>
+HWY_INLINE Verdict<Real> test_corner_lanes(const TriangleBatchOf<Real>& batch, std::size_t first) {
+  PointOf<Real> p[3] = {}, q[3] = {};
+  for (int c = 0; c < 3; ++c) {
+    p[c] = load_corner(batch, 0, c, first);
+    q[c] = load_corner(batch, 1, c, first);
+  }
+  const auto bound = error_bound(p, q), minus_bound = hn::Neg(bound);
+  const auto p_normal = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+  const auto q_normal = cross(minus(q[1], q[0]), minus(q[2], q[0]));
+  PairMask<Real> p_above[2], p_below[2], q_above[2], q_below[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto p_side = dot(q_normal, minus(p[i + 1], q[0]));
+    const auto q_side = dot(p_normal, minus(q[i + 1], p[0]));
+    p_above[i] = hn::Gt(p_side, bound), p_below[i] = hn::Lt(p_side, minus_bound);
+    q_above[i] = hn::Gt(q_side, bound), q_below[i] = hn::Lt(q_side, minus_bound);
+  }
+  const auto separated =
+      hn::Or(hn::Or(hn::And(p_above[0], p_above[1]), hn::And(p_below[0], p_below[1])),
+             hn::Or(hn::And(q_above[0], q_above[1]), hn::And(q_below[0], q_below[1])));
+  const auto known =
+      hn::And(hn::And(hn::Or(p_above[0], p_below[0]), hn::Or(p_above[1], p_below[1])),
+              hn::And(hn::Or(q_above[0], q_below[0]), hn::Or(q_above[1], q_below[1])));
+  const auto alike = hn::Or(hn::And(q_above[0], p_above[1]), hn::And(q_below[0], p_below[1]));
+  return {hn::And(hn::AndNot(separated, known), alike),
+          look_at_views(p, q, 1, hn::Not(hn::Or(separated, known)))};
+}
+
+// Triangles whose first two corners are the same points: they meet in more only in one plane.
+template <class Real>
+HWY_INLINE Verdict<Real> test_edge_lanes(const TriangleBatchOf<Real>& batch, std::size_t first) {
+  PointOf<Real> p[3] = {}, q[3] = {};
+  for (int c = 0; c < 3; ++c) {
+    p[c] = load_corner(batch, 0, c, first);
+    q[c] = load_corner(batch, 1, c, first);
+  }
+  const auto bound = error_bound(p, q);
+  const auto side = determinant(p[0], p[1], p[2], q[2]);
+  const auto off = hn::Or(hn::Gt(side, bound), hn::Lt(side, hn::Neg(bound)));
+  return {hn::And(off, hn::Not(off)), look_at_views(p, q, 2, hn::Not(off))};
 }
 
 template <class Real>
@@ -243,7 +374,9 @@ HWY_NOINLINE BatchVerdict test_batch_in(const TriangleBatchOf<Real>& batch) {
   const PairLanes<Real> d;
   BatchVerdict out;
   for (std::size_t first = 0; first < batch.count; first += hn::Lanes(d)) {
-    const Verdict<Real> verdict = test_lanes(batch, first);
+    const Verdict<Real> verdict = batch.shared == 0   ? test_lanes(batch, first)
+                                  : batch.shared == 1 ? test_corner_lanes(batch, first)
+                                                      : test_edge_lanes(batch, first);
     std::uint8_t bits[2][8] = {};
     hn::StoreMaskBits(d, verdict.meet, bits[0]);
     hn::StoreMaskBits(d, verdict.unknown, bits[1]);

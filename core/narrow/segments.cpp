@@ -22,13 +22,6 @@ bool collinear_segments_meet(const Segment& s, const Segment& t) {
   return !before(s.to, t.from) && !before(t.to, s.from);
 }
 
-/// An axis along which a, b, c keep a non-zero area, or -1 when they are collinear.
-int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (orient2d(a, b, c, axis) != 0) return axis;
-  return -1;
-}
-
 /// @pre the point lies in the triangle's plane
 bool coplanar_point_on_triangle(const Vec3& p, const ProperTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
@@ -47,6 +40,12 @@ bool coplanar_segment_meets_triangle(const Segment& segment, const ProperTriangl
 }
 
 }  // namespace
+
+int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (orient2d(a, b, c, axis) != 0) return axis;
+  return -1;
+}
 
 bool before(const Vec3& a, const Vec3& b) {
   if (a.x() != b.x()) return a.x() < b.x();

@@ -26,6 +26,9 @@ struct ProperTriangle {
 /// True when a comes before b: lower x, or equal x and lower y, or both equal and lower z.
 bool before(const Vec3& a, const Vec3& b);
 
+/// An axis along which a, b, c keep a non-zero area, or -1 when they are collinear.
+int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c);
+
 Segment ordered_segment(const Vec3& a, const Vec3& b);
 
 bool point_on_segment(const Vec3& point, const Segment& segment);

@@ -50,8 +50,7 @@ using Shape = std::variant<Vec3, Segment, ProperTriangle>;
 
 /// What the triangle really is: a point, the segment from its first to its last corner, or proper.
 Shape shape_of(const TrianglePoints& t) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (orient2d(t[0], t[1], t[2], axis) != 0) return ProperTriangle{t, axis};
+  if (const int axis = projection_axis(t[0], t[1], t[2]); axis >= 0) return ProperTriangle{t, axis};
   const auto [first, last] = std::minmax_element(t.begin(), t.end(), before);
   if (*first == *last) return *first;
   return Segment{*first, *last};

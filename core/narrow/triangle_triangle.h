@@ -17,13 +17,14 @@ using TrianglePoints = TrianglePointsOf<double>;
 /// @pre all coordinates finite
 bool triangles_intersect(const TrianglePoints& p, const TrianglePoints& q);
 
+inline TrianglePoints in_doubles(const TrianglePointsOf<float>& t) {
+  return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
+}
+
 /// The same of floats, as exact: floats are doubles.
 inline bool triangles_intersect(const TrianglePointsOf<float>& p,
                                 const TrianglePointsOf<float>& q) {
-  const auto doubles = [](const TrianglePointsOf<float>& t) -> TrianglePoints {
-    return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
-  };
-  return triangles_intersect(doubles(p), doubles(q));
+  return triangles_intersect(in_doubles(p), in_doubles(q));
 }
 
 }  // namespace contactcheck

@@ -24,6 +24,10 @@ void orient(ElementPair& pair) {
   std::swap(pair.a, pair.b);
 }
 
+void orient(SelfPair& pair) {
+  if (pair.a > pair.b) std::swap(pair.a, pair.b);
+}
+
 BodyPair bodies_of(const ElementPair& p) { return {p.body_a, p.body_b}; }
 BodyPair bodies_of(const NearPair& p) {
   return {std::min(p.body, p.other), std::max(p.body, p.other)};
@@ -74,6 +78,8 @@ void ContactSet::clear() {
   triangles.clear();
   vertices.clear();
   near.clear();
+  self.clear();
+  self_bodies.clear();
   piece_contacts.clear();
   vertex_contacts.clear();
 }
@@ -81,6 +87,11 @@ void ContactSet::clear() {
 void ContactSet::canonicalize() {
   contactcheck::canonicalize(cells);
   contactcheck::canonicalize(triangles);
+  for (SelfPair& p : self) orient(p);
+  sort_unique(self);
+  for (const SelfPair& p : self)
+    if (self_bodies.empty() || self_bodies.back() != p.body) self_bodies.push_back(p.body);
+  sort_unique(self_bodies);
   for (BodyPair& p : bodies) orient(p);
   sort_unique(vertices);
   sort_unique(near);
@@ -107,10 +118,13 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   for (const VertexInBody& v : contacts.vertices) {
     for (std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
   }
-  // Only where there are some: sets without keep the hash they had before margins were known.
+  // Only where there are some: sets without keep the hash that they had before there were such.
   for (const NearPair& p : contacts.near) {
     for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
   }
+  for (const SelfPair& p : contacts.self)
+    for (std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);
+  for (const std::uint32_t body : contacts.self_bodies) hash.value(body);
   return hash.digest();
 }
 

@@ -23,6 +23,13 @@ struct ElementPair {
   auto operator<=>(const ElementPair&) const = default;
 };
 
+/// Two triangles of one body that share no vertex, one or two, and meet in more than that (levels
+/// self, self-vertex, self-edge); canonical when a < b.
+struct SelfPair {
+  std::uint32_t body = 0, a = 0, b = 0;
+  auto operator<=>(const SelfPair&) const = default;
+};
+
 /// Makes pairs a set: orients each (lower body first), sorts, removes repeats.
 void canonicalize(std::vector<ElementPair>& pairs);
 
@@ -62,6 +69,9 @@ struct ContactSet {
   std::vector<ElementPair> triangles;
   std::vector<VertexInBody> vertices;
   std::vector<NearPair> near;
+  /// For the question `self`; one list for the three classes, which the mesh tells apart.
+  std::vector<SelfPair> self;
+  std::vector<std::uint32_t> self_bodies;
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
   /// allowed.
   std::vector<PieceContact> piece_contacts;
@@ -70,8 +80,8 @@ struct ContactSet {
   /// Keeps the capacity, so a reused set does not allocate.
   void clear();
   /// Orients every pair (lower body first), sorts, removes repeats. Element, cell and near pairs
-  /// imply their body pair: it is added. Contacts are oriented (a normal turns with its pair) and
-  /// sorted by their pair or vertex; none is removed.
+  /// imply their body pair, self pairs their body: it is added. Contacts are oriented (a normal
+  /// turns with its pair) and sorted by their pair or vertex; none is removed.
   void canonicalize();
 };
 

@@ -20,6 +20,14 @@ const char* name_of(Level level) {
       return "vertex";
     case Level::kNear:
       return "near";
+    case Level::kSelf:
+      return "self";
+    case Level::kSelfVertex:
+      return "self-vertex";
+    case Level::kSelfEdge:
+      return "self-edge";
+    case Level::kSelfBody:
+      return "self-body";
   }
   return "unknown";
 }
@@ -34,6 +42,8 @@ const char* name_of(Question question) {
       return "cells";
     case Question::kContacts:
       return "contacts";
+    case Question::kSelf:
+      return "self";
   }
   return "unknown";
 }

@@ -10,23 +10,41 @@
 namespace contactcheck {
 
 /// The levels of contact; each has its own ground truth (fixtures/README.md).
-enum class Level { kBody, kContainment, kCell, kBox, kTriangle, kVertex, kNear };
+enum class Level {
+  kBody,
+  kContainment,
+  kCell,
+  kBox,
+  kTriangle,
+  kVertex,
+  kNear,
+  // Of a body with itself.
+  kSelf,        ///< pairs of triangles that share no vertex, and meet
+  kSelfVertex,  ///< pairs that share one vertex, and meet in more
+  kSelfEdge,    ///< pairs that share two vertices, and meet in more than the segment between them
+  kSelfBody     ///< bodies with any of the three
+};
 
 /// In the order of tables and files.
-inline constexpr std::array kLevels = {Level::kBody, Level::kContainment, Level::kCell,
-                                       Level::kBox,  Level::kTriangle,    Level::kVertex,
-                                       Level::kNear};
+inline constexpr std::array kLevels = {Level::kBody,     Level::kContainment, Level::kCell,
+                                       Level::kBox,      Level::kTriangle,    Level::kVertex,
+                                       Level::kNear,     Level::kSelf,        Level::kSelfVertex,
+                                       Level::kSelfEdge, Level::kSelfBody};
 /// The first of these that a detector claims is its finest.
-inline constexpr std::array kFineToCoarse = {Level::kTriangle,   Level::kNear, Level::kVertex,
-                                             Level::kCell,       Level::kBox,  Level::kBody,
-                                             Level::kContainment};
+inline constexpr std::array kFineToCoarse = {
+    Level::kTriangle, Level::kNear, Level::kVertex,     Level::kCell,
+    Level::kBox,      Level::kSelf, Level::kSelfVertex, Level::kSelfEdge,
+    Level::kSelfBody, Level::kBody, Level::kContainment};
+/// Is it about a body and itself?
+constexpr bool is_self(Level level) { return level >= Level::kSelf; }
 
 /// What is asked of a detector when its time is taken.
 enum class Question {
   kTriangles,  ///< all pairs of intersecting triangles
   kBody,       ///< pairs of bodies in contact; early-out allowed
   kCells,      ///< all pairs of colliding FFD cells
-  kContacts    ///< all contacts with depth and normal, of the detector's kind of depth
+  kContacts,   ///< all contacts with depth and normal, of the detector's kind of depth
+  kSelf        ///< all contacts of bodies with themselves
 };
 
 enum class Precision { kDouble, kSingle };

@@ -48,6 +48,10 @@ void BodyPairDetector::set_bodies(const std::vector<Body>& bodies, double margin
   mapped_.assign(bodies.size(), {});
 }
 
+void BodyPairDetector::expect(const std::vector<Question>& questions) {
+  expects_self_ = std::ranges::find(questions, Question::kSelf) != questions.end();
+}
+
 void BodyPairDetector::update(const Frame& frame) {
   CONTACTCHECK_INVARIANT(frame.bodies.size() == shapes_.size(), "one state per prepared body");
   const bool by_nodes = prefilter_ == Prefilter::kNodes;
@@ -66,6 +70,9 @@ void BodyPairDetector::update(const Frame& frame) {
     grown_.push_back(grown(boxes_[b], mapping + reach(boxes_[b])));
     if (!by_nodes) vertices_[b] = state.vertices;
   }
+  nodes_.clear();
+  for (const BodyState& state : frame.bodies) nodes_.push_back(state.nodes);
+  moved_all_ = false;
   find_candidate_bodies(grown_, pairs_);
   std::vector<char> wanted(shapes_.size(), 0);
   for (const BodyPair& pair : pairs_) wanted[pair.a] = wanted[pair.b] = 1;
@@ -89,11 +96,36 @@ void BodyPairDetector::update(const Frame& frame) {
   for (std::uint32_t b = 0; b < shapes_.size(); ++b)
     if (wanted[b]) candidates_.push_back({b, vertices_[b], boxes_[b]});
   move(candidates_);
+  if (expects_self_) move_others();
 }
 
 void BodyPairDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics().answers(question), "only claimed questions are asked");
+  if (question == Question::kSelf) {
+    if (!moved_all_) move_others();
+    for (std::uint32_t b = 0; b < shapes_.size(); ++b) collide_self(b, out.self);
+    return;
+  }
   for (const BodyPair& pair : pairs_) collide(pair, question, out);
+}
+
+// A body that meets no other may meet itself.
+void BodyPairDetector::move_others() {
+  moved_all_ = true;
+  std::vector<char> moved(shapes_.size(), 0);
+  for (const CandidateBody& candidate : candidates_) moved[candidate.body] = 1;
+  std::vector<CandidateBody> others;
+  for (std::uint32_t b = 0; b < shapes_.size(); ++b) {
+    if (moved[b] != 0) continue;
+    if (prefilter_ == Prefilter::kNodes) {
+      mapped_[b].resize(shapes_[b]->mesh.vertices.size());
+      map_body(*shapes_[b], nodes_[b], mapped_[b]);
+      vertices_[b] = mapped_[b];
+      boxes_[b] = box_of(mapped_[b]);
+    }
+    others.push_back({b, vertices_[b], boxes_[b]});
+  }
+  move(others);
 }
 
 }  // namespace contactcheck::adapters

@@ -43,6 +43,7 @@ struct CandidateBody {
 class BodyPairDetector : public Detector {
  public:
   bool needs_vertices() const final { return prefilter_ == Prefilter::kNone; }
+  void expect(const std::vector<Question>& questions) final;
   /// @throws RefusedInput for a coordinate that is not finite
   void update(const Frame& frame) final;
   void query(Question question, ContactSet& out) final;
@@ -60,6 +61,8 @@ class BodyPairDetector : public Detector {
   virtual void move(std::span<const CandidateBody> bodies) = 0;
   /// The candidate pairs of the frame, ascending, one after the other.
   virtual void collide(BodyPair pair, Question question, ContactSet& out) = 0;
+  /// A body with itself, after move() of it. Of those that answer the question `self`.
+  virtual void collide_self(std::uint32_t, std::vector<SelfPair>&) {}
 
   const std::vector<BodyPair>& candidate_pairs() const { return pairs_; }
   /// What the last update has given to move().
@@ -67,8 +70,11 @@ class BodyPairDetector : public Detector {
   std::span<const Vec3> vertices(std::uint32_t body) const { return vertices_[body]; }
   const BodyShape& shape(std::uint32_t body) const { return *shapes_[body]; }
   std::size_t body_count() const { return shapes_.size(); }
+  bool expects_self() const { return expects_self_; }
 
  private:
+  void move_others();
+
   const Prefilter prefilter_;
   double margin_ = 0.0, rounding_ = 0.0;
   std::vector<const BodyShape*> shapes_;
@@ -77,6 +83,9 @@ class BodyPairDetector : public Detector {
   std::vector<CandidateBody> candidates_;
   std::vector<std::span<const Vec3>> vertices_;  // of bodies in a pair
   std::vector<std::vector<Vec3>> mapped_;        // with prefilter=nodes
+  std::vector<std::span<const Vec3>> nodes_;     // of the frame
+  bool expects_self_ = false;
+  bool moved_all_ = false;  // in this frame
 };
 
 }  // namespace contactcheck::adapters

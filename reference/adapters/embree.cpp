@@ -32,12 +32,14 @@
 #include <cfenv>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "core/broad/adjacent_pairs.h"
 #include "core/detect/triangle_pair_detector.h"
 #include "core/detect/triangle_record.h"
 #include "core/lazy/kernels.h"
@@ -156,42 +158,36 @@ class ExactPairs {
     triangles_b_ = b.mesh.triangles.data();
     vertices_a_ = vertices_a;
     vertices_b_ = vertices_b;
-    batch_.count = 0;
+    for (TriangleBatch& batch : waiting_.of) batch.count = 0;
   }
 
-  /// Calls `meets(i, j)` for each pair known to share a point, now or at a later call.
+  /// Calls `meets(i, j)` for each pair known to meet, in more than what it shares, now or at a
+  /// later call.
   template <typename Meets>
-  void add(std::uint32_t i, std::uint32_t j, Meets&& meets) {
-    const Triangle &s = triangles_a_[i], &t = triangles_b_[j];
-    const Vec3 &p0 = vertices_a_[s[0]], &p1 = vertices_a_[s[1]], &p2 = vertices_a_[s[2]];
-    const Vec3 &q0 = vertices_b_[t[0]], &q1 = vertices_b_[t[1]], &q2 = vertices_b_[t[2]];
-    const Aabb box_p = {p0.cwiseMin(p1).cwiseMin(p2), p0.cwiseMax(p1).cwiseMax(p2)};
-    const Aabb box_q = {q0.cwiseMin(q1).cwiseMin(q2), q0.cwiseMax(q1).cwiseMax(q2)};
+  void add(const AdjacentPair& pair, Meets&& meets) {
+    const Triangle &s = triangles_a_[pair.a], &t = triangles_b_[pair.b];
+    const Vec3* const p[3] = {&vertices_a_[s[0]], &vertices_a_[s[1]], &vertices_a_[s[2]]};
+    const Vec3* const q[3] = {&vertices_b_[t[0]], &vertices_b_[t[1]], &vertices_b_[t[2]]};
+    const Aabb box_p = {p[0]->cwiseMin(*p[1]).cwiseMin(*p[2]),
+                        p[0]->cwiseMax(*p[1]).cwiseMax(*p[2])};
+    const Aabb box_q = {q[0]->cwiseMin(*q[1]).cwiseMin(*q[2]),
+                        q[0]->cwiseMax(*q[1]).cwiseMax(*q[2])};
     if (!box_p.overlaps(box_q)) return;  // Embree's boxes of floats are wider
-    const std::size_t lane = batch_.count++;
-    batch_.a[lane] = i;
-    batch_.b[lane] = j;
-    const Vec3* corners[2][3] = {{&p0, &p1, &p2}, {&q0, &q1, &q2}};
-    for (int triangle = 0; triangle < 2; ++triangle)
-      for (int c = 0; c < 3; ++c)
-        for (int k = 0; k < 3; ++k)
-          batch_.corner[triangle][c][k][lane] = (*corners[triangle][c])[k];
-    if (batch_.count == kBatchWidth) flush(meets);
+    TriangleBatch& batch = waiting_.of[pair.shared.count];
+    const std::size_t lane = batch.count++;
+    batch.a[lane] = pair.a;
+    batch.b[lane] = pair.b;
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) {
+        batch.corner[0][c][k][lane] = (*p[pair.shared.p[c]])[k];
+        batch.corner[1][c][k][lane] = (*q[pair.shared.q[c]])[k];
+      }
+    if (batch.count == kBatchWidth) flush(batch, meets);
   }
 
   template <typename Meets>
   void flush(Meets&& meets) {
-    if (batch_.count == 0) return;
-    const BatchVerdict verdict = kernels_.test_batch(batch_);
-    tests_ += batch_.count;
-    ++batches_;
-    for (std::size_t lane = 0; lane < batch_.count; ++lane) {
-      const bool unknown = (verdict.unknown >> lane & 1u) != 0;
-      if ((verdict.meet >> lane & 1u) != 0 ||
-          (unknown && triangles_intersect(batch_.points(0, lane), batch_.points(1, lane))))
-        meets(batch_.a[lane], batch_.b[lane]);
-    }
-    batch_.count = 0;
+    for (TriangleBatch& batch : waiting_.of) flush(batch, meets);
   }
 
   std::vector<Count> counts() const {
@@ -200,10 +196,23 @@ class ExactPairs {
   void clear_counts() { tests_ = batches_ = 0; }
 
  private:
+  template <typename Meets>
+  void flush(TriangleBatch& batch, Meets&& meets) {
+    if (batch.count == 0) return;
+    const BatchVerdict verdict = kernels_.test_batch(batch);
+    for (std::size_t lane = 0; lane < batch.count; ++lane)
+      if ((verdict.meet >> lane & 1u) != 0 ||
+          ((verdict.unknown >> lane & 1u) != 0 && batch.meets(lane)))
+        meets(batch.a[lane], batch.b[lane]);
+    tests_ += batch.count;
+    ++batches_;
+    batch.count = 0;
+  }
+
   const LazyKernels& kernels_ = lazy_kernels();
   const Triangle *triangles_a_ = nullptr, *triangles_b_ = nullptr;
   std::span<const Vec3> vertices_a_, vertices_b_;
-  TriangleBatch batch_{};
+  TriangleBatchSet<double> waiting_;
   std::uint64_t tests_ = 0, batches_ = 0;
 };
 
@@ -221,11 +230,13 @@ class EmbreeDetector final : public BodyPairDetector {
   void prepare(const std::vector<Body>& bodies) override {
     set_bodies(bodies);
     bodies_.clear();
+    neighbours_.assign(bodies.size(), std::nullopt);
     std::vector<CandidateBody> rest;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
       const TriangleMesh& mesh = bodies[b].shape->mesh;
       bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), mesh));
       rest.push_back({b, mesh.vertices, bounding_box(mesh.vertices)});
+      if (expects_self()) neighbours_[b] = adjacent_pairs(bodies[b].shape->linked());
     }
     // The first commit builds; the hierarchies are those of the rest shapes ever after.
     move(rest);
@@ -278,8 +289,34 @@ class EmbreeDetector final : public BodyPairDetector {
     const auto meets = [&](std::uint32_t i, std::uint32_t j) {
       out.triangles.push_back({pair.a, pair.b, i, j});
     };
-    for (const auto& [i, j] : candidates_) exact_.add(i, j, meets);
+    for (const auto& [i, j] : candidates_) exact_.add({i, j, {}}, meets);
     exact_.flush(meets);
+  }
+
+  // Neighbours come from the mesh; rtcCollide names the others, each pair in both orders.
+  void collide_self(std::uint32_t body, std::vector<SelfPair>& out) override {
+    const BodyShape& mesh = shape(body);
+    const std::span<const Vec3> positions = vertices(body);
+    linked_ = mesh.linked().data();
+    candidates_.clear();
+    call_collide({body, body}, &EmbreeDetector::collect_strangers);
+    require_ok(device_.get(), "rtcCollide");
+    exact_.begin(mesh, positions, mesh, positions);
+    const auto meets = [&](std::uint32_t i, std::uint32_t j) { out.push_back({body, i, j}); };
+    for (const auto& [i, j] : candidates_) exact_.add({i, j, {}}, meets);
+    if (!neighbours_[body]) neighbours_[body] = adjacent_pairs(mesh.linked());
+    for (const AdjacentPair& pair : *neighbours_[body]) exact_.add(pair, meets);
+    exact_.flush(meets);
+  }
+
+  // Flush-to-zero is on in here, too: indices are compared.
+  static void collect_strangers(void* detector, RTCCollision* collisions, unsigned count) {
+    auto& self = *static_cast<EmbreeDetector*>(detector);
+    for (unsigned i = 0; i < count; ++i) {
+      const unsigned a = collisions[i].primID0, b = collisions[i].primID1;
+      if (a < b && shared_corners(self.linked_[a], self.linked_[b]).count == 0)
+        self.candidates_.emplace_back(a, b);
+    }
   }
 
   void find_candidates(BodyPair pair) {
@@ -322,19 +359,21 @@ class EmbreeDetector final : public BodyPairDetector {
     std::fegetenv(&embrees);
     std::fesetenv(self.environment_);
     for (unsigned i = 0; i < count && !self.contact_; ++i)
-      self.exact_.add(collisions[i].primID0, collisions[i].primID1,
+      self.exact_.add({collisions[i].primID0, collisions[i].primID1, {}},
                       [&](std::uint32_t, std::uint32_t) { self.contact_ = true; });
     std::fesetenv(&embrees);
     if (self.contact_) throw Contact();
   }
 
-  const Semantics semantics_ = exact_triangle_semantics();
+  const Semantics semantics_ = exact_triangle_semantics(Precision::kDouble, true);
   std::unique_ptr<tbb::task_arena> arena_;           // one slot: the calling thread's
   Owned<RTCDevice> device_;                          // outlives the scenes
   std::vector<std::unique_ptr<EmbreeBody>> bodies_;  // Embree holds their addresses
   ExactPairs exact_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates_;  // kept for its capacity
-  bool contact_ = false;                                             // of find_first()
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates_;   // kept for its capacity
+  std::vector<std::optional<std::vector<AdjacentPair>>> neighbours_;  // of bodies asked for self
+  const Triangle* linked_ = nullptr;                                  // of collide_self()
+  bool contact_ = false;                                              // of find_first()
   const std::fenv_t* environment_ = nullptr;  // the caller's, of find_first()
 };
 

@@ -36,6 +36,7 @@
 #include <stdexcept>
 
 #include "core/types/check.h"
+#include "core/types/shared_corners.h"
 #include "reference/adapters/adapters.h"
 #include "reference/adapters/body_pair_detector.h"
 
@@ -47,10 +48,15 @@ void require_ok(int code, const char* call) {
   throw std::runtime_error(std::string("FCL's ") + call + " returned " + std::to_string(code));
 }
 
-Semantics fcl_semantics() {
+/// FCL has no notion of neighbours: their contacts, beyond what they share, it cannot tell.
+Semantics fcl_semantics(bool self) {
   Semantics semantics;
   semantics.levels = {Level::kBody, Level::kTriangle};
   semantics.questions = {Question::kTriangles, Question::kBody, Question::kContacts};
+  if (self) {
+    semantics.levels.push_back(Level::kSelf);
+    semantics.questions.push_back(Question::kSelf);
+  }
   semantics.closed = true;
   semantics.depth = DepthKind::kConvexPair;
   return semantics;
@@ -90,6 +96,35 @@ void collide_directly(fcl::BVHModel<BV>& a, fcl::BVHModel<BV>& b,
     throw std::runtime_error("FCL's initialize of the mesh traversal returned false");
   }
   fcl::detail::collide(&node);
+}
+
+/// FCL's self-collision traversal meets every two leaves of one hierarchy; this leaves out pairs
+/// that share a vertex, which FCL would call contacts.
+template <typename BV>
+class SelfNode final : public fcl::detail::MeshCollisionTraversalNode<BV> {
+ public:
+  explicit SelfNode(const std::vector<Triangle>& linked) : linked_(linked) {}
+
+  void leafTesting(int b1, int b2) const override {
+    const int a = this->model1->getBV(b1).primitiveId(), b = this->model2->getBV(b2).primitiveId();
+    if (shared_corners(linked_[static_cast<std::size_t>(a)], linked_[static_cast<std::size_t>(b)])
+            .count == 0)
+      fcl::detail::MeshCollisionTraversalNode<BV>::leafTesting(b1, b2);
+  }
+
+ private:
+  const std::vector<Triangle>& linked_;
+};
+
+template <typename BV>
+void collide_with_itself(fcl::BVHModel<BV>& model, const std::vector<Triangle>& linked,
+                         fcl::CollisionResultd& result) {
+  SelfNode<BV> node(linked);
+  fcl::Transform3d first = fcl::Transform3d::Identity(), second = fcl::Transform3d::Identity();
+  const fcl::CollisionRequestd request = request_for(Question::kTriangles);
+  if (!fcl::detail::initialize(node, model, first, model, second, request, result))
+    throw std::runtime_error("FCL's initialize of the mesh traversal returned false");
+  fcl::detail::selfCollide<double>(&node);
 }
 
 /// One body: its hierarchy, refitted to the vertices of the last update.
@@ -133,8 +168,8 @@ class FclBody {
 template <typename BV>
 class FclDetector final : public BodyPairDetector {
  public:
-  FclDetector(CollideFunction<BV> call, Prefilter prefilter)
-      : BodyPairDetector(prefilter), call_(call) {}
+  FclDetector(CollideFunction<BV> call, bool self, Prefilter prefilter)
+      : BodyPairDetector(prefilter), semantics_(fcl_semantics(self)), call_(call) {}
 
   const Semantics& semantics() const override { return semantics_; }
 
@@ -166,6 +201,16 @@ class FclDetector final : public BodyPairDetector {
     }
   }
 
+  void collide_self(std::uint32_t body, std::vector<SelfPair>& out) override {
+    result_.clear();
+    collide_with_itself(bodies_[body]->model(), shape(body).linked(), result_);
+    for (std::size_t i = 0; i < result_.numContacts(); ++i) {
+      const fcl::Contactd& contact = result_.getContact(i);
+      out.push_back(
+          {body, static_cast<std::uint32_t>(contact.b1), static_cast<std::uint32_t>(contact.b2)});
+    }
+  }
+
   void append_depth(const ElementPair& triangles, const fcl::Contactd& contact,
                     ContactSet& out) const {
     if (!bodies_[triangles.body_a]->has_normal(triangles.a) ||
@@ -176,7 +221,7 @@ class FclDetector final : public BodyPairDetector {
     out.piece_contacts.push_back({triangles, contact.penetration_depth, contact.normal});
   }
 
-  const Semantics semantics_ = fcl_semantics();
+  const Semantics semantics_;
   CollideFunction<BV> call_;
   // Models cannot be moved; FCL holds raw arrays.
   std::vector<std::unique_ptr<FclBody<BV>>> bodies_;
@@ -185,14 +230,14 @@ class FclDetector final : public BodyPairDetector {
 
 template <typename BV>
 DetectorInfo info(std::string id, std::string summary, const std::string& given,
-                  CollideFunction<BV> collide) {
+                  CollideFunction<BV> collide, bool self) {
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
   out.given = kSweepAndPrune + given + "; body ends at the first contact of two bodies";
   out.options = {prefilter_option()};
-  out.make = [collide](const Options& options) {
-    return std::make_unique<FclDetector<BV>>(collide, prefilter_of(options));
+  out.make = [collide, self](const Options& options) {
+    return std::make_unique<FclDetector<BV>>(collide, self, prefilter_of(options));
   };
   return out;
 }
@@ -207,12 +252,13 @@ Adapter fcl_adapter() {
       FCL_VERSION,
       {info<Box>("fcl-aabb",
                  "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
-                 "models are not copied", &collide_directly<Box>),
+                 "models are not copied", &collide_directly<Box>, true),
        info<OrientedBox>("fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
-                         "models are not copied", &collide_documented<OrientedBox>),
+                         "models are not copied", &collide_documented<OrientedBox>, true),
        info<Box>("fcl-collide",
                  "FCL's axis-aligned box tree through fcl::collide, which copies both models",
-                 "as documented, and so with copies of both models", &collide_documented<Box>)}};
+                 "as documented, and so with copies of both models", &collide_documented<Box>,
+                 false)}};
 }
 
 }  // namespace contactcheck::adapters

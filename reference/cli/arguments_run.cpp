@@ -69,7 +69,7 @@ void add_mesh_options(CLI::App& run, RunWords& words) {
          [&request](const std::vector<std::string>& files) {
            request.meshes.assign(files.begin(), files.end());
          },
-         "mesh file, twice or more; also without --mesh")
+         "mesh file; also without --mesh")
       ->allow_extra_args(false)
       ->type_name("FILE");
   run.add_option_function<std::string>(
@@ -78,7 +78,7 @@ void add_mesh_options(CLI::App& run, RunWords& words) {
            words.run.meshes.motion = name;
            words.needs_mesh = "--motion";
          },
-         "approach, press, twist or pass (default approach)")
+         "approach (default), press, twist, pass; of one mesh: fold, twist")
       ->type_name("NAME");
   run.add_option_function<std::string>(
          "--size",

@@ -144,7 +144,7 @@ class ReduceCommand {
 
   std::optional<reduce::Reduction> reduce_defect(const reduce::Defect& defect,
                                                  const reduce::CaseCandidate& whole) {
-    const std::vector<Level> levels = reduce::levels_for(defect.finding.level);
+    const std::vector<Level> levels = reduce::levels_for(defect.finding.level, defect.task.self);
     return reduce::reduce(
         whole, defect.task.pair,
         [&](const reduce::CaseCandidate& candidate) {
@@ -212,7 +212,7 @@ class ReduceCommand {
     minimal.library = library();
     minimal.finding = defect.finding;
     minimal.candidate = reduction.result;
-    minimal.levels = reduce::levels_for(defect.finding.level);
+    minimal.levels = reduce::levels_for(defect.finding.level, defect.task.self);
     return minimal;
   }
 

@@ -55,6 +55,9 @@ const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
                           "bullet-vf", "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
                           "ffd-lazy"};
 
+// Of one mesh that meets itself: those that answer.
+const Names kForItself = {"fcl-aabb", "embree", "full-refit", "ffd-lazy"};
+
 void add_new(const std::string& name, Names& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
@@ -159,8 +162,9 @@ RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalo
     // Paths in the text are relative to where it will lie, so that it can be kept as it is.
     const fs::path& kept = arguments.save_scene;
     const bool alone = targets.empty() && !arguments.pairs;
+    const Names& usual = arguments.meshes.meets_itself() ? kForItself : kForMeshes;
     const Names resolved =
-        names.resolved(arguments.detectors.empty() ? kForMeshes : arguments.detectors);
+        names.resolved(arguments.detectors.empty() ? usual : arguments.detectors);
     tasks.scenes.push_back(
         {"",
          scene::mesh_scene(arguments.meshes, kept.empty() ? fs::current_path()

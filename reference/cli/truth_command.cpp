@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "core/types/check.h"
@@ -20,21 +21,35 @@ std::vector<fs::path> files_of(const std::vector<std::string>& families, const f
 }
 
 // The first pairs by name; all of them would drown the table.
-std::string pairs_text(const suite::CaseTruth& truth) {
+template <typename Pair>
+std::string pairs_text(const std::vector<Pair>& pairs) {
   constexpr std::size_t kMost = 3;
   std::string out;
-  for (std::size_t i = 0; i < truth.triangles.size() && i < kMost; ++i)
-    out += "  " + std::to_string(truth.triangles[i].a) + "-" + std::to_string(truth.triangles[i].b);
-  return truth.triangles.size() > kMost ? out + "  ..." : out;
+  for (std::size_t i = 0; i < pairs.size() && i < kMost; ++i)
+    out += "  " + std::to_string(pairs[i].a) + "-" + std::to_string(pairs[i].b);
+  return pairs.size() > kMost ? out + "  ..." : out;
+}
+
+void print_self_family(const scene::Scene& scene, const std::vector<suite::CaseTruth>& cases) {
+  std::string levels;
+  for (const Level level : kLevels)
+    if (scene.judges(level)) levels += std::string(levels.empty() ? "" : ", ") + name_of(level);
+  std::printf("  %-24s %9s  pairs of triangles of one body (%s)\n", scene.family->parameter.c_str(),
+              "pairs", levels.c_str());
+  for (const suite::CaseTruth& c : cases)
+    std::printf("  %-24s %9zu%s\n", c.value.c_str(), c.self.size(), pairs_text(c.self).c_str());
+  std::printf("\n");
 }
 
 void print_family(const scene::Scene& scene, const std::vector<suite::CaseTruth>& cases) {
-  std::printf("%s  %s\n  %-24s %9s %11s %9s  pairs of triangles\n", scene.id.c_str(),
-              scene.title.c_str(), scene.family->parameter.c_str(), "bodies", "containment",
-              "triangles");
+  std::printf("%s  %s\n", scene.id.c_str(), scene.title.c_str());
+  if (std::all_of(scene.levels.begin(), scene.levels.end(), is_self))
+    return print_self_family(scene, cases);
+  std::printf("  %-24s %9s %11s %9s  pairs of triangles\n", scene.family->parameter.c_str(),
+              "bodies", "containment", "triangles");
   for (const suite::CaseTruth& c : cases)
     std::printf("  %-24s %9zu %11zu %9zu%s\n", c.value.c_str(), c.bodies, c.containment,
-                c.triangles.size(), pairs_text(c).c_str());
+                c.triangles.size(), pairs_text(c.triangles).c_str());
   std::printf("\n");
 }
 

@@ -28,7 +28,7 @@ long heap_growth(std::uint64_t before) {
 std::uint64_t list_bytes(const ContactSet& c) {
   const auto bytes = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   return bytes(c.bodies) + bytes(c.cells) + bytes(c.triangles) + bytes(c.vertices) + bytes(c.near) +
-         bytes(c.piece_contacts) + bytes(c.vertex_contacts);
+         bytes(c.self) + bytes(c.self_bodies) + bytes(c.piece_contacts) + bytes(c.vertex_contacts);
 }
 
 }  // namespace
@@ -51,10 +51,19 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
           return judged;
         }
 
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      if (const auto torn = torn_weld(*scene.bodies[b].shape, position.vertices[b])) {
+        judged.refused = "frame " + std::to_string(f) + ", body \"" + scene.bodies[b].name +
+                         "\": vertices " + std::to_string((*torn)[0]) + " and " +
+                         std::to_string((*torn)[1]) + " are welded and come apart";
+        return judged;
+      }
+
     const Frame frame = judged.frame(f);
     const oracle::Truth& truth =
         judged.truth.emplace_back(oracle.judge(frame, wanted_truth(scene)));
-    judged.contact_frames.push_back(!truth.surface.bodies.empty());
+    judged.contact_frames.push_back(!truth.surface.bodies.empty() ||
+                                    !truth.surface.self_bodies.empty());
     if (scene.pairs) {
       check_pairs(*scene.pairs, f, position.vertices, truth, pairs);
       progress.part(kShareOfTruth * static_cast<double>(f) / static_cast<double>(scene.frames));
@@ -79,13 +88,14 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
   progress.enter(position, 0, process::Phase::kPrepare);
   std::uint64_t heap_before = heap_in_use();
   const auto start = std::chrono::steady_clock::now();
+  detector.expect(semantics_in(scene.levels, detector.semantics()).questions);
   detector.prepare(scene.bodies);
   run.prepare_ms =
       1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   long held = heap_growth(heap_before);  // what the detector's calls have left on the heap, bytes
   run.prepared_bytes = run.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held, 0));
   note_environment(guard, "prepare", run);
-  run.semantics = detector.semantics();
+  run.semantics = semantics_in(scene.levels, detector.semantics());
   const Semantics& semantics = run.semantics;
   const Question own = semantics.questions.front();
 
@@ -161,6 +171,10 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
       if (judges(Level::kTriangle)) contacts.triangles = other.triangles;
       if (judges(Level::kVertex)) contacts.vertices = other.vertices;
       if (judges(Level::kNear)) contacts.near = other.near;
+      if (judges(Level::kSelf)) {
+        contacts.self = other.self;
+        contacts.self_bodies = other.self_bodies;
+      }
       if (question == Question::kContacts) {
         contacts.piece_contacts = other.piece_contacts;
         contacts.vertex_contacts = other.vertex_contacts;

@@ -54,6 +54,21 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
       fail("holds a depth or normal that is negative or no number");
   };
 
+  const auto check_body = [&](std::uint32_t body) {
+    if (body >= scene.bodies.size())
+      fail("names body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()) +
+           " bodies");
+  };
+
+  for (const std::uint32_t body : contacts.self_bodies) check_body(body);
+  for (const SelfPair& p : contacts.self) {
+    check_body(p.body);
+    for (const std::uint32_t triangle : {p.a, p.b})
+      check_element("triangle", p.body, triangle, triangles_of(p.body));
+    if (p.a == p.b)
+      fail("names triangle " + std::to_string(p.a) + " of body \"" + scene.bodies[p.body].name +
+           "\" in contact with itself");
+  }
   for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
   for (const ElementPair& p : contacts.triangles) check_triangles(p);
   for (const ElementPair& p : contacts.cells) check_cells(p);

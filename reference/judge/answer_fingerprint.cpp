@@ -8,11 +8,27 @@
 namespace contactcheck::judge {
 namespace {
 
-enum List : std::size_t { kBodies, kCells, kTriangles, kVertices, kNear, kPieces, kVertexContacts };
+enum List : std::size_t {
+  kBodies,
+  kCells,
+  kTriangles,
+  kVertices,
+  kNear,
+  kSelfBodies,
+  kSelf,
+  kPieces,
+  kVertexContacts
+};
 
-constexpr const char* kRecords[kAnswerLists] = {
-    "pairs of bodies", "pairs of cells",     "pairs of triangles",  "vertices in bodies",
-    "near pairs",      "contacts of pieces", "contacts of vertices"};
+constexpr const char* kRecords[kAnswerLists] = {"pairs of bodies",
+                                                "pairs of cells",
+                                                "pairs of triangles",
+                                                "vertices in bodies",
+                                                "near pairs",
+                                                "bodies in contact with themselves",
+                                                "pairs of one body's triangles",
+                                                "contacts of pieces",
+                                                "contacts of vertices"};
 
 // What is judged of the answer (accuracy.h). A question `body` may end at the first pair of
 // triangles that it finds: detectors do not claim which one.
@@ -27,6 +43,9 @@ bool is_compared(std::size_t list, const Asked& asked) {
     case kVertices:
     case kNear:
       return asked.vertices;
+    case kSelfBodies:
+    case kSelf:
+      return asked.question == Question::kSelf;
     default:
       return asked.question == Question::kContacts;
   }
@@ -41,6 +60,10 @@ void feed(const ElementPair& p, Fnv1a& hash) {
 void feed(const VertexInBody& v, Fnv1a& hash) {
   for (const std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
 }
+void feed(const SelfPair& p, Fnv1a& hash) {
+  for (const std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);
+}
+void feed(std::uint32_t body, Fnv1a& hash) { hash.value(body); }
 void feed(const NearPair& p, Fnv1a& hash) {
   for (const std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
 }
@@ -67,6 +90,10 @@ std::uint64_t hash_of(const ContactSet& contacts, std::size_t list) {
       return hash_of(contacts.vertices);
     case kNear:
       return hash_of(contacts.near);
+    case kSelfBodies:
+      return hash_of(contacts.self_bodies);
+    case kSelf:
+      return hash_of(contacts.self);
     default:
       return 0;
   }
@@ -89,8 +116,9 @@ std::string count_difference(std::size_t list, std::uint64_t answered, std::uint
 }
 
 AnswerSizes sizes_of(const ContactSet& c) {
-  return {c.bodies.size(), c.cells.size(),          c.triangles.size(),      c.vertices.size(),
-          c.near.size(),   c.piece_contacts.size(), c.vertex_contacts.size()};
+  return {c.bodies.size(),   c.cells.size(),          c.triangles.size(),
+          c.vertices.size(), c.near.size(),           c.self_bodies.size(),
+          c.self.size(),     c.piece_contacts.size(), c.vertex_contacts.size()};
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct Elements {
 };
 
 Elements elements_of(Level level) {
-  const bool bodies = level == Level::kBody || level == Level::kContainment;
+  const bool bodies =
+      level == Level::kBody || level == Level::kContainment || level == Level::kSelfBody;
   return {!bodies, !bodies && level != Level::kVertex};
 }
 
@@ -45,7 +46,9 @@ ListedPairs first_of(const std::vector<ElementPair>& pairs) {
 std::string truth_contacts(const JudgedScene& judged) {
   Json frames = Json::array();
   for (std::size_t f = 0; f < judged.truth.size(); ++f) {
-    const std::vector<ElementPair>& triangles = judged.truth[f].surface.triangles;
+    std::vector<ElementPair> triangles = judged.truth[f].surface.triangles;
+    for (const SelfPair& p : judged.truth[f].surface.self)
+      triangles.push_back({p.body, p.body, p.a, p.b});
     if (triangles.empty()) continue;
     Json frame = {{"frame", f}};
     frame.update(to_json(first_of(triangles), Elements{}));

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/types/check.h"
+#include "core/types/shared_corners.h"
 
 namespace contactcheck::judge {
 namespace {
@@ -34,6 +35,17 @@ std::vector<ElementPair> as_pairs(const std::vector<VertexInBody>& vertices) {
 std::vector<ElementPair> as_pairs(const std::vector<NearPair>& pairs) {
   std::vector<ElementPair> out;
   for (const NearPair& p : pairs) out.push_back({p.body, p.other, p.vertex, p.triangle});
+  return out;
+}
+
+std::vector<ElementPair> as_pairs(const std::vector<SelfPair>& pairs) {
+  std::vector<ElementPair> out;
+  for (const SelfPair& p : pairs) out.push_back({p.body, p.body, p.a, p.b});
+  return out;
+}
+std::vector<ElementPair> as_pairs(const std::vector<std::uint32_t>& bodies) {
+  std::vector<ElementPair> out;
+  for (const std::uint32_t body : bodies) out.push_back({body, body, 0, 0});
   return out;
 }
 
@@ -113,14 +125,41 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
   return out;
 }
 
+Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics) {
+  const bool self = std::any_of(wanted.begin(), wanted.end(), is_self);
+  const bool others = !std::all_of(wanted.begin(), wanted.end(), is_self);
+  std::erase_if(semantics.levels, [&](Level level) { return is_self(level) ? !self : !others; });
+  if (self && !others && !semantics.answers(Question::kSelf)) return semantics;
+  std::erase_if(semantics.questions,
+                [&](Question question) { return question == Question::kSelf ? !self : !others; });
+  return semantics;
+}
+
+std::optional<Level> self_level(const BodyShape& shape, std::uint32_t a, std::uint32_t b) {
+  const SharedCorners shared = shared_corners(shape.linked()[a], shape.linked()[b]);
+  if (shared.duplicates) return std::nullopt;
+  return shared.count == 0   ? Level::kSelf
+         : shared.count == 1 ? Level::kSelfVertex
+                             : Level::kSelfEdge;
+}
+
+std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
+                                 const std::vector<SelfPair>& pairs) {
+  std::vector<SelfPair> out;
+  for (const SelfPair& p : pairs)
+    if (self_level(*bodies[p.body].shape, p.a, p.b) == level) out.push_back(p);
+  return out;
+}
+
 Question question_of(Level level, const Semantics& semantics) {
   std::optional<Question> about;  // of vertices and near pairs there is none
   if (level == Level::kBody || level == Level::kContainment) about = Question::kBody;
   if (level == Level::kCell || level == Level::kBox) about = Question::kCells;
   if (level == Level::kTriangle) about = Question::kTriangles;
+  if (is_self(level)) return Question::kSelf;
   if (about && semantics.answers(*about)) return *about;
   for (const Question question : semantics.questions)
-    if (question != Question::kBody) return question;
+    if (question != Question::kBody && question != Question::kSelf) return question;
   return Question::kBody;
 }
 
@@ -175,6 +214,15 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       break;
     case Level::kNear:
       compare(near, reported.near);
+      break;
+    case Level::kSelf:
+    case Level::kSelfVertex:
+    case Level::kSelfEdge:
+      compare(self_pairs(level, bodies, truth.surface.self),
+              self_pairs(level, bodies, reported.self));
+      break;
+    case Level::kSelfBody:
+      compare(truth.surface.self_bodies, reported.self_bodies);
       break;
   }
   out.counts.missed = out.missed.size();

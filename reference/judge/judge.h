@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,22 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged);
 
+/// What a detector claims of what a scene asks: without self-contact where the scene names no level
+/// of it, and of self-contact alone where it names no other. A question that is left out is not
+/// asked, so what is not wanted costs nothing.
+Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics);
+
+/// The level self, self-vertex or self-edge that two different triangles of a shape belong to;
+/// none of duplicates, which name the same vertices.
+std::optional<Level> self_level(const BodyShape& shape, std::uint32_t a, std::uint32_t b);
+
+/// Those of `pairs` that belong to one of these three levels.
+std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
+                                 const std::vector<SelfPair>& pairs);
+
 /// The question whose answer is judged at `level`: the one that is about it (`body`, `triangles`,
-/// `cells`) where the detector answers that. Else its first but `body`, which may end early; else
-/// `body`.
+/// `cells`, `self`) where the detector answers that. Else its first but `body`, which may end
+/// early; else `body`.
 Question question_of(Level level, const Semantics& semantics);
 
 /// An answer to one frame compared with the ground truth at one level.

@@ -17,6 +17,9 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
     sums[Level::kBox] += t.boxes.size();
     sums[Level::kTriangle] += t.surface.triangles.size();
     sums[Level::kVertex] += t.surface.vertices.size();
+    for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
+      sums[level] += self_pairs(level, judged.scene->bodies, t.surface.self).size();
+    sums[Level::kSelfBody] += t.surface.self_bodies.size();
   }
   std::map<Level, std::variant<std::uint64_t, std::string>> out;
   for (const auto& [level, sum] : sums) {
@@ -72,8 +75,12 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
     out.family = {scene.family->parameter, scene.family->origin, scene.family->stresses,
                   scene.family->values, /*true_pairs=*/{}};
     // Per value, so that a report can set answers beside it.
-    for (const oracle::Truth& t : judged.truth)
-      out.family->true_pairs.push_back(t.surface.triangles.size());
+    for (const oracle::Truth& t : judged.truth) {
+      std::size_t pairs = t.surface.triangles.size();
+      for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
+        if (scene.judges(level)) pairs += self_pairs(level, scene.bodies, t.surface.self).size();
+      out.family->true_pairs.push_back(pairs);
+    }
   }
   if (scene.sweep)
     out.sweep = {scene.sweep->separations, scene.sweep->orientations, scene.sweep->seed,

@@ -28,11 +28,10 @@ struct ShapeRule {
 };
 
 const std::vector<ShapeRule>& shape_rules() {
-  static const std::vector<ShapeRule> rules = {{"box", {"sides"}, 1, 256, 1},
-                                               {"sphere", {}, 0, 7, 3},
-                                               {"torus", {"tube"}, 3, 512, 16},
-                                               {"letter", {"letter", "depth"}, 1, 32, 4},
-                                               {"teapot", {}, 1, 64, 10}};
+  static const std::vector<ShapeRule> rules = {
+      {"box", {"sides"}, 1, 256, 1},     {"sphere", {}, 0, 7, 3},
+      {"torus", {"tube"}, 3, 512, 16},   {"letter", {"letter", "depth"}, 1, 32, 4},
+      {"sheet", {"length"}, 1, 512, 16}, {"teapot", {"seams"}, 1, 64, 10}};
   return rules;
 }
 
@@ -54,6 +53,10 @@ void parse_shape(const text::JsonField& field, std::vector<std::string> keys, Me
   if (spec.name == "box") {
     const Vec3 sides = field.has("sides") ? field.at("sides").vector(kLength) : Vec3::Ones();
     spec.sides = {sides.x(), sides.y(), sides.z()};
+  } else if (spec.name == "teapot") {
+    spec.seams = field.has("seams") && field.at("seams").boolean();
+  } else if (spec.name == "sheet") {
+    spec.length = field.has("length") ? field.at("length").number(kLength) : 1.0;
   } else if (spec.name == "torus") {
     spec.tube = field.has("tube") ? field.at("tube").number({0.0, true, 1.0, true}) : 0.4;
   } else if (spec.name == "letter") {
@@ -75,9 +78,10 @@ LoadedMesh load_source(const MeshSpec& spec) {
   }
   if (spec.name == "box") return {make_box(Vec3(spec.sides.data()), spec.divisions), ""};
   if (spec.name == "sphere") return {make_sphere(spec.divisions), ""};
+  if (spec.name == "sheet") return {make_sheet(spec.length, spec.divisions), ""};
   if (spec.name == "torus") return {make_torus(spec.tube, spec.divisions), ""};
   if (spec.name == "letter") return {make_letter(spec.letter, spec.depth, spec.divisions), ""};
-  return {make_teapot(spec.divisions), ""};
+  return {make_teapot(spec.divisions, data_roots(), spec.seams), ""};
 }
 
 void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mesh) {
@@ -101,7 +105,8 @@ void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mes
 
 MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::path& folder) {
   const std::string source = field.exactly_one_of({"dataset", "file", "shape"});
-  std::vector<std::string> keys = {source, "triangles", "subdivide", "size", "scale", "center"};
+  std::vector<std::string> keys = {source,  "triangles", "subdivide", "size",
+                                   "scale", "center",    "weld"};
   MeshSpec spec;
   if (source == "shape") {
     parse_shape(field, std::move(keys), spec);
@@ -122,6 +127,7 @@ MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::pa
     const Vec3 c = field.at("center").vector({-kLargestLength, false, kLargestLength, false});
     spec.center = std::array<double, 3>{c.x(), c.y(), c.z()};
   }
+  spec.weld = field.has("weld") && field.at("weld").boolean();
   return spec;
 }
 

@@ -24,11 +24,14 @@ struct MeshSpec {
   double tube = 0.0;                     ///< torus only
   char letter = '\0';                    ///< letters only
   double depth = 0.0;                    ///< letters only
+  bool seams = false;                    ///< teapot only: patches share no vertex
+  double length = 0.0;                   ///< sheet only, along z, metres
   std::optional<std::size_t> triangles;  ///< simplify to this many
   std::size_t subdivide = 0;             ///< times that every triangle is split into four
   std::optional<double> size;            ///< scale so that the largest side has this length, metres
   std::optional<double> scale;           ///< or multiply all coordinates by this
   std::optional<std::array<double, 3>> center;  ///< then move the box's centre here
+  bool weld = false;  ///< vertices at one place are one where neighbours are told from contacts
 
   bool operator==(const MeshSpec&) const = default;
 };

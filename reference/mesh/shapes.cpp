@@ -310,15 +310,34 @@ void add_patch(const Patch& patch, std::size_t divisions, PatchWelder& welder) {
   }
 }
 
+// Every `part` triangles with vertices of their own, at the same places.
+TriangleMesh torn_apart(const TriangleMesh& mesh, std::size_t part) {
+  TriangleMesh out;
+  std::map<std::uint32_t, std::uint32_t> own;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (t % part == 0) own.clear();
+    Triangle triangle = mesh.triangles[t];
+    for (std::uint32_t& vertex : triangle) {
+      const auto next = static_cast<std::uint32_t>(out.vertices.size());
+      const auto [known, fresh] = own.try_emplace(vertex, next);
+      if (fresh) out.vertices.push_back(mesh.vertices[vertex]);
+      vertex = known->second;
+    }
+    out.triangles.push_back(triangle);
+  }
+  return out;
+}
+
 }  // namespace
 
-TriangleMesh make_teapot(std::size_t divisions, const std::vector<std::filesystem::path>& roots) {
+TriangleMesh make_teapot(std::size_t divisions, const std::vector<std::filesystem::path>& roots,
+                         bool seams) {
   CONTACTCHECK_INVARIANT(divisions > 0, "a patch has at least one square");
   PatchWelder welder;
   for (const Patch& patch : read_patches(find_package_file(roots, kPackage, kFile))) {
     add_patch(patch, divisions, welder);
   }
-  return std::move(welder.mesh);
+  return seams ? torn_apart(welder.mesh, 2 * divisions * divisions) : std::move(welder.mesh);
 }
 
 namespace {
@@ -493,6 +512,26 @@ TriangleMesh make_torus(double tube, std::size_t divisions) {
       mesh.triangles.push_back({lower[0], lower[2], at(i, j + 1)});
     }
   }
+  return mesh;
+}
+
+TriangleMesh make_sheet(double length, std::size_t divisions) {
+  CONTACTCHECK_INVARIANT(divisions >= 1 && length > 0.0, "a sheet has a size");
+  const std::size_t line = divisions + 1;
+  const auto along = [&](std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(divisions) - 0.5;
+  };
+  TriangleMesh mesh;
+  for (std::size_t j = 0; j < line; ++j)
+    for (std::size_t i = 0; i < line; ++i)
+      mesh.vertices.emplace_back(along(i), 0.0, length * along(j));
+  for (std::size_t j = 0; j < divisions; ++j)
+    for (std::size_t i = 0; i < divisions; ++i) {
+      const auto corner = static_cast<std::uint32_t>(j * line + i);
+      const auto next = static_cast<std::uint32_t>(corner + line);
+      mesh.triangles.push_back({corner, next, next + 1});
+      mesh.triangles.push_back({corner, next + 1, corner + 1});
+    }
   return mesh;
 }
 

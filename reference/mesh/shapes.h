@@ -35,10 +35,12 @@ inline constexpr double kTeapotWeld = 1e-6;
 /// divisions x divisions squares of two triangles per patch, z up, in the patches' own unit. With
 /// 10 divisions 3,241 vertices and 6,400 triangles: the paper's teapot, of which 80 triangles have
 /// no area (patches that end in a point) and 160 edges lie on a boundary, so it is no solid.
+/// `seams`: patches share no vertex; those that meet have vertices at the same places, bit for bit.
 /// @pre divisions >= 1
 /// @throws InputError when povray-examples is missing or does not hold 32 patches
 TriangleMesh make_teapot(std::size_t divisions,
-                         const std::vector<std::filesystem::path>& roots = data_roots());
+                         const std::vector<std::filesystem::path>& roots = data_roots(),
+                         bool seams = false);
 
 // Points on the unit circle without libm, so that built-in shapes have the same bits everywhere:
 // glibc's sin and cos differ between processors with and without fused multiply-add.
@@ -64,5 +66,9 @@ TriangleMesh make_sphere(std::size_t divisions);
 /// ring's, in (0, 1). 2 * divisions segments round the ring, `divisions` round the tube:
 /// 4 * divisions^2 triangles. @pre divisions >= 3
 TriangleMesh make_torus(double tube, std::size_t divisions);
+
+/// An open, flat sheet in the xz plane, 1 m along x and `length` along z, its normals along y:
+/// divisions x divisions squares of two triangles. @pre divisions >= 1, length > 0
+TriangleMesh make_sheet(double length, std::size_t divisions);
 
 }  // namespace contactcheck::mesh

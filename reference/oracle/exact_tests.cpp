@@ -111,6 +111,47 @@ bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q) {
   return proper_triangles_intersect(p, q);
 }
 
+// A point other than the corner lies on a ray from it, and the ray leaves one of two proper
+// triangles through the edge opposite the corner. A degenerate one is a segment that holds the
+// corner: of either end, what lies between is shared or not.
+bool meet_beyond_corner(const TriangleCorners& p, const TriangleCorners& q) {
+  const Vec3& corner = p[0];
+  const Segment p_opposite{p[1], p[2]}, q_opposite{q[1], q[2]};
+  const bool p_proper = !is_degenerate(p), q_proper = !is_degenerate(q);
+  if (p_proper && q_proper)
+    return segment_meets_triangle(p_opposite, q) || segment_meets_triangle(q_opposite, p);
+  const TriangleCorners& flat = p_proper ? q : p;
+  const TriangleCorners& other = p_proper ? p : q;
+  for (const Vec3& end : {flat[1], flat[2]}) {
+    if (end == corner) continue;
+    if (point_on_triangle(end, other)) return true;
+    const Segment arm{corner, end};
+    if (p_proper || q_proper) {
+      if (segments_intersect(arm, {other[1], other[2]})) return true;
+    } else {
+      for (const Vec3& far : {other[1], other[2]})
+        if (far != corner && point_on_segment(far, arm)) return true;
+    }
+  }
+  return false;
+}
+
+// A proper triangle meets the line of its edge in that edge alone.
+bool meet_beyond_edge(const TriangleCorners& p, const TriangleCorners& q) {
+  const Segment edge{p[0], p[1]};
+  const bool p_proper = !is_degenerate(p), q_proper = !is_degenerate(q);
+  if (p_proper && q_proper) {
+    if (orientation(p[0], p[1], p[2], q[2]) != 0) return false;
+    const int axis = injective_axis(p[0], p[1], p[2]);
+    return same_strict_side(projected_orientation(p[0], p[1], p[2], axis),
+                            projected_orientation(p[0], p[1], q[2], axis));
+  }
+  if (p_proper || q_proper) return false;
+  if (point_on_segment(p[2], edge) || point_on_segment(q[2], edge)) return false;
+  return point_on_segment(p[2], segment_of_degenerate(q)) ||
+         point_on_segment(q[2], segment_of_degenerate(p));
+}
+
 Segment segment_of_degenerate(const TriangleCorners& t) {
   const auto [low, high] = std::minmax_element(t.begin(), t.end(), lexicographically_less);
   return {*low, *high};

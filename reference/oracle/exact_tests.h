@@ -19,6 +19,11 @@ bool segments_intersect(const Segment& p, const Segment& q);
 bool segment_meets_triangle(const Segment& segment, const TriangleCorners& triangle);
 bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
 
+/// True when two triangles share a point other than the corner p[0] = q[0].
+bool meet_beyond_corner(const TriangleCorners& p, const TriangleCorners& q);
+/// True when two triangles share a point off the segment from p[0] = q[0] to p[1] = q[1].
+bool meet_beyond_edge(const TriangleCorners& p, const TriangleCorners& q);
+
 /// The segment (or point) that a degenerate triangle is: between its outermost corners.
 /// @pre the corners are collinear
 Segment segment_of_degenerate(const TriangleCorners& triangle);

@@ -19,12 +19,14 @@ struct WantedTruth {
   bool containment = false;
   bool vertices = false;
   bool boxes = false;  ///< overlapping hulls of mapped FFD-AABB boxes
+  bool self = false;   ///< contacts of bodies with themselves
 };
 
 struct Truth {
   /// bodies: pairs whose surfaces share a point; triangles: pairs that share a point; vertices:
-  /// strictly inside a solid body. Canonical. `cells` stays empty: cell truth is triangle truth
-  /// read through labels.
+  /// strictly inside a solid body; self: pairs of triangles of one body that meet in more than the
+  /// vertices they share, without duplicates (the same vertices). Canonical. `cells` stays empty:
+  /// cell truth is triangle truth read through labels.
   ContactSet surface;
   std::vector<BodyPair> containment;  ///< one solid holds the other, no surface contact
   std::vector<ElementPair> boxes;     ///< pairs of kept cells whose mapped FFD-AABB hulls overlap

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -136,6 +137,8 @@ class ClippedEdge {
     }
   }
   bool empty() const { return empty_ || high_ < low_; }
+  const Fraction& low() const { return low_; }
+  const Fraction& high() const { return high_; }
 
  private:
   Fraction low_{0, 1}, high_{1, 1};
@@ -150,16 +153,16 @@ bool excludes(const Condition& c, const Excesses& e) {
   return first != 0 && sgn(e[1]) == first && sgn(e[2]) == first && (c.equation || first < 0);
 }
 
-bool edge_remains(const std::vector<Condition>& conditions, const std::vector<Excesses>& excesses,
-                  std::size_t from, std::size_t to) {
+ClippedEdge clipped(const std::vector<Condition>& conditions, const std::vector<Excesses>& excesses,
+                    std::size_t from, std::size_t to) {
   ClippedEdge edge;
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const Excesses& e = excesses[i];
     edge.keep_not_negative(e[from], e[to]);
     if (conditions[i].equation) edge.keep_not_negative(-e[from], -e[to]);
-    if (edge.empty()) return false;
+    if (edge.empty()) break;
   }
-  return true;
+  return edge;
 }
 
 enum class Verdict { kApart, kMeet, kNoEdgeMeets };
@@ -171,19 +174,55 @@ Verdict clip_edges(const IntegerTriangle& t, const std::vector<Condition>& condi
     if (excludes(c, excesses.back())) return Verdict::kApart;
   }
   for (std::size_t k = 0; k < 3; ++k)
-    if (edge_remains(conditions, excesses, k, (k + 1) % 3)) return Verdict::kMeet;
+    if (!clipped(conditions, excesses, k, (k + 1) % 3).empty()) return Verdict::kMeet;
   return Verdict::kNoEdgeMeets;
+}
+
+// Is an end of what `conditions` leave of an edge of `t` off the piece that `hull` describes?
+bool an_end_is_off(const IntegerTriangle& t, const std::vector<Condition>& conditions,
+                   const std::vector<Condition>& hull) {
+  std::vector<Excesses> excesses;
+  for (const Condition& c : conditions)
+    excesses.push_back({c.excess(t[0]), c.excess(t[1]), c.excess(t[2])});
+  for (std::size_t k = 0; k < 3; ++k) {
+    const IntegerPoint &from = t[k], &to = t[(k + 1) % 3];
+    const ClippedEdge edge = clipped(conditions, excesses, k, (k + 1) % 3);
+    if (edge.empty()) continue;
+    for (const Fraction* at : {&edge.low(), &edge.high()})
+      for (const Condition& c : hull) {
+        // Of the point from + at (to - from), times the denominator.
+        const mpz_class excess =
+            at->denominator * c.excess(from) + at->numerator * dot(c.gradient, to - from);
+        if (c.equation ? excess != 0 : excess < 0) return true;
+      }
+  }
+  return false;
+}
+
+// The largest power of two of which every coordinate is a multiple.
+int unit_of(std::initializer_list<const TriangleCorners*> all) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const TriangleCorners* t : all) lowest = std::min(lowest, last_bit(*t));
+  return lowest == std::numeric_limits<int>::max() ? 0 : lowest;  // all zero
 }
 
 }  // namespace
 
 bool triangles_intersect_by_clipping(const TriangleCorners& p, const TriangleCorners& q) {
-  const int lowest = std::min(last_bit(p), last_bit(q));
-  const int unit = lowest == std::numeric_limits<int>::max() ? 0 : lowest;  // all zero
+  const int unit = unit_of({&p, &q});
   const IntegerTriangle ip = integers(p, unit), iq = integers(q, unit);
   const Verdict first = clip_edges(ip, conditions_of(iq));
   if (first != Verdict::kNoEdgeMeets) return first == Verdict::kMeet;
   return clip_edges(iq, conditions_of(ip)) == Verdict::kMeet;
+}
+
+bool share_more_than(const Vec3& from, const Vec3& to, const TriangleCorners& p,
+                     const TriangleCorners& q) {
+  const TriangleCorners segment = {from, to, to};
+  const int unit = unit_of({&p, &q, &segment});
+  const IntegerTriangle ip = integers(p, unit), iq = integers(q, unit);
+  const std::vector<Condition> hull = conditions_of(integers(segment, unit));
+  return an_end_is_off(ip, conditions_of(iq), hull) || an_end_is_off(iq, conditions_of(ip), hull);
 }
 
 }  // namespace contactcheck::oracle::rational

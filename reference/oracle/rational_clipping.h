@@ -13,4 +13,11 @@ namespace contactcheck::oracle::rational {
 /// @pre all coordinates finite
 bool triangles_intersect_by_clipping(const TriangleCorners& p, const TriangleCorners& q);
 
+/// Whether the two closed triangles share a point off the segment from `from` to `to` (a point
+/// where the two are equal), by the definition: what they share is the hull of its extreme points,
+/// which lie on edges, so that clipping finds them all.
+/// @pre all coordinates finite; the segment lies on both triangles
+bool share_more_than(const Vec3& from, const Vec3& to, const TriangleCorners& p,
+                     const TriangleCorners& q);
+
 }  // namespace contactcheck::oracle::rational

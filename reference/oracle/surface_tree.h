@@ -87,11 +87,31 @@ bool any_leaf_pair(const SurfaceTree& a, const SurfaceTree& b, const SurfaceTree
 
 }  // namespace surface_tree_detail
 
+template <typename Visit>
+bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i = 0,
+                  std::uint32_t j = 0);
+
+/// Calls `visit(triangle, triangle)` for every two triangles of the surface whose closed boxes
+/// overlap, once, in either order. Stops and returns true when `visit` does.
+template <typename Visit>
+bool any_own_box_pair(const SurfaceTree& tree, Visit&& visit, std::uint32_t index = 0) {
+  const SurfaceTree::Node& node = tree.node(index);
+  if (!node.is_leaf())
+    return any_own_box_pair(tree, visit, index + 1) || any_own_box_pair(tree, visit, node.second) ||
+           any_box_pair(tree, tree, visit, index + 1, node.second);
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    for (std::uint32_t j = node.first; j < i; ++j)
+      if (tree.box_at(i).overlaps(tree.box_at(j)) &&
+          visit(tree.triangle_at(i), tree.triangle_at(j)))
+        return true;
+  return false;
+}
+
 /// Calls `visit(triangle of a, triangle of b)` for every pair whose closed boxes overlap, once.
 /// Stops and returns true when `visit` does.
 template <typename Visit>
-bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i = 0,
-                  std::uint32_t j = 0) {
+bool any_box_pair(const SurfaceTree& a, const SurfaceTree& b, Visit&& visit, std::uint32_t i,
+                  std::uint32_t j) {
   const SurfaceTree::Node& x = a.node(i);
   const SurfaceTree::Node& y = b.node(j);
   if (!x.box.overlaps(y.box)) return false;

@@ -30,9 +30,9 @@ extern "C" {
 #endif
 
 /* Grows with every change of this header. What an earlier version has stays where it is, and the
- * table grows at its end: a library that was built with version 1, without what is said to be there
- * since version 2, is loaded as before; one of a later version is refused. */
-#define CONTACTCHECK_PLUGIN_ABI 2u
+ * table grows at its end: a library that was built with an earlier version, without what is said to
+ * be there since a later one, is loaded as before; one of a version yet to come is refused. */
+#define CONTACTCHECK_PLUGIN_ABI 3u
 
 /* What a function gives back. With anything but OK it should have put a sentence (UTF-8, ended by
  * a zero byte) into `message`, which has room for CONTACTCHECK_MESSAGE_SIZE bytes. */
@@ -53,7 +53,12 @@ enum {
   CONTACTCHECK_LEVEL_BOX = 1 << 3,         /* pairs of mapped FFD-AABBs; reported as cells */
   CONTACTCHECK_LEVEL_TRIANGLE = 1 << 4,    /* pairs of triangles that share a point */
   CONTACTCHECK_LEVEL_VERTEX = 1 << 5,      /* vertices strictly inside another solid */
-  CONTACTCHECK_LEVEL_NEAR = 1 << 6         /* vertices nearer to triangles than the margin */
+  CONTACTCHECK_LEVEL_NEAR = 1 << 6,        /* vertices nearer to triangles than the margin */
+  /* Since version 3, of a body with itself: pairs of its triangles by the vertices they share. */
+  CONTACTCHECK_LEVEL_SELF = 1 << 7,        /* none: they share a point */
+  CONTACTCHECK_LEVEL_SELF_VERTEX = 1 << 8, /* one: they share more than that corner */
+  CONTACTCHECK_LEVEL_SELF_EDGE = 1 << 9,   /* two: they share more than the edge between */
+  CONTACTCHECK_LEVEL_SELF_BODY = 1 << 10   /* bodies with any of the three */
 };
 
 /* What query() is asked. */
@@ -61,7 +66,8 @@ enum {
   CONTACTCHECK_ASK_TRIANGLES = 0, /* all pairs of intersecting triangles */
   CONTACTCHECK_ASK_BODY = 1,      /* pairs of bodies in contact; early-out allowed */
   CONTACTCHECK_ASK_CELLS = 2,     /* all pairs of colliding cells */
-  CONTACTCHECK_ASK_CONTACTS = 3   /* all contacts, with depth and normal */
+  CONTACTCHECK_ASK_CONTACTS = 3,  /* all contacts, with depth and normal */
+  CONTACTCHECK_ASK_SELF = 4       /* all contacts of bodies with themselves; since version 3 */
 };
 
 enum { CONTACTCHECK_DOUBLE = 0, CONTACTCHECK_SINGLE = 1 };
@@ -126,7 +132,8 @@ typedef struct contactcheck_body {
   const char* name;
   uint32_t vertex_count, triangle_count;
   const double* vertices;              /* at rest, 3 per vertex */
-  const uint32_t* triangles;           /* 3 per triangle, counter-clockwise from outside */
+  const uint32_t* triangles;           /* 3 per triangle, counter-clockwise from outside; of a
+                                          welded mesh, one number for all vertices at one place */
   const contactcheck_lattice* lattice; /* NULL: nodes are vertices */
 } contactcheck_body;
 
@@ -179,8 +186,10 @@ typedef struct contactcheck_vertex_contact {
 /* Where query() puts its answer: each function appends `count` items, as often as wanted, in any
  * order; repeats are allowed. Pass `host` on. A pair of elements implies its pair of bodies.
  * Questions: TRIANGLES wants triangles; BODY bodies; CELLS cells; CONTACTS piece_contacts or
- * vertex_contacts, by the kind of depth. Vertices and near pairs go with the detector's first
- * question that is not BODY (with BODY where it answers nothing else). */
+ * vertex_contacts, by the kind of depth; SELF triangles whose two bodies are the same (or bodies, a
+ * body with itself), those of all classes that are claimed, two triangles with the same three
+ * vertices left out. Vertices and near pairs go with the detector's first
+ * question that is not BODY or SELF (with BODY where it answers nothing else). */
 typedef struct contactcheck_answer {
   void* host;
   void (*bodies)(void* host, const contactcheck_body_pair* items, size_t count);

@@ -34,11 +34,6 @@ std::vector<Value> named_values(const text::JsonField& field, const Value (&all)
   return out;
 }
 
-bool truth_value(const text::JsonField& field) {
-  if (!field.is(text::JsonValue::Kind::kBool)) field.refuse("true or false");
-  return field.value().boolean;
-}
-
 // It goes into tables and on terminals.
 std::string one_line(const text::JsonField& field) {
   std::string text = field.text();
@@ -71,7 +66,7 @@ OptionInfo read_option(const text::JsonField& field) {
   }
   option.min = field.at("min").number();
   option.max = field.at("max").number({option.min});
-  option.integer = field.has("integer") && truth_value(field.at("integer"));
+  option.integer = field.has("integer") && field.at("integer").boolean();
   return option;
 }
 
@@ -108,12 +103,12 @@ Semantics read_semantics(const text::JsonField& field) {
     s.informative = named_values(field.at("informative"), kHeaderLevels);
   if (field.has("body")) s.solid = field.at("body").one_of({"surface", "solid"}) == "solid";
   if (field.has("touching")) s.closed = field.at("touching").one_of({"closed", "open"}) == "closed";
-  if (field.has("exact")) s.exact = truth_value(field.at("exact"));
+  if (field.has("exact")) s.exact = field.at("exact").boolean();
   if (field.has("margin")) s.margin = field.at("margin").number();
   if (field.has("precision")) s.precision = named_value(field.at("precision"), kHeaderPrecisions);
   if (field.has("scale")) s.scale = field.at("scale").number();
   if (field.has("depth_kind")) s.depth = named_value(field.at("depth_kind"), kHeaderDepthKinds);
-  if (field.has("whole_cells")) s.whole_cells = truth_value(field.at("whole_cells"));
+  if (field.has("whole_cells")) s.whole_cells = field.at("whole_cells").boolean();
   s.means = optional_line(field, "means");
   const std::string fault = semantics_fault(s);
   if (!fault.empty()) field.fail("does not fit together: " + fault);
@@ -161,6 +156,9 @@ std::string semantics_fault(const Semantics& s) {
     return "it claims the level triangle and does not answer the question triangles";
   if (s.claims(Level::kCell) && !s.answers(Question::kCells))
     return "it claims the level cell and does not answer the question cells";
+  if (std::any_of(levels.begin(), levels.end(), is_self) != s.answers(Question::kSelf))
+    return "the levels self, self-vertex, self-edge, self-body and the question self go together, "
+           "and it declares one of them";
   if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
     return "the question contacts and a kind of depth go together, and it declares one of them";
 
@@ -173,6 +171,23 @@ std::string semantics_fault(const Semantics& s) {
   if (s.local_origin && (s.precision == Precision::kDouble || s.scale != 1.0))
     return "it has a local origin and no single precision at scale 1";
   return "";
+}
+
+void read_self_answer(const std::string& from, ContactSet& answer) {
+  for (const ElementPair& p : answer.triangles) {
+    if (p.body_a != p.body_b)
+      throw InputError(from + " answers the question self with triangles of two bodies, " +
+                       std::to_string(p.body_a) + " and " + std::to_string(p.body_b));
+    answer.self.push_back({p.body_a, p.a, p.b});
+  }
+  for (const BodyPair& p : answer.bodies) {
+    if (p.a != p.b)
+      throw InputError(from + " answers the question self with a pair of bodies, " +
+                       std::to_string(p.a) + " and " + std::to_string(p.b));
+    answer.self_bodies.push_back(p.a);
+  }
+  answer.triangles.clear();
+  answer.bodies.clear();
 }
 
 void require_same_claims(const std::string& from, const Semantics& before, const Semantics& now) {

@@ -6,17 +6,19 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "core/types/contact_set.h"
 #include "core/types/semantics.h"
 #include "reference/text/json_field.h"
 
 namespace contactcheck::plugin {
 
 // What contactcheck_plugin.h numbers from 0 on, in the order of its numbers; all values there are.
-inline constexpr Level kHeaderLevels[] = {Level::kBody, Level::kContainment, Level::kCell,
-                                          Level::kBox,  Level::kTriangle,    Level::kVertex,
-                                          Level::kNear};
-inline constexpr Question kHeaderQuestions[] = {Question::kTriangles, Question::kBody,
-                                                Question::kCells, Question::kContacts};
+inline constexpr Level kHeaderLevels[] = {Level::kBody,     Level::kContainment, Level::kCell,
+                                          Level::kBox,      Level::kTriangle,    Level::kVertex,
+                                          Level::kNear,     Level::kSelf,        Level::kSelfVertex,
+                                          Level::kSelfEdge, Level::kSelfBody};
+inline constexpr Question kHeaderQuestions[] = {
+    Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts, Question::kSelf};
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
 inline constexpr DepthKind kHeaderDepthKinds[] = {DepthKind::kNone, DepthKind::kVertexSurface,
                                                   DepthKind::kConvexPair};
@@ -38,6 +40,10 @@ nlohmann::ordered_json to_json(const Declaration& declaration);
 /// What is wrong with it in itself: levels and questions that do not fit together, margins and
 /// scales that cannot be used; "" when nothing is.
 std::string semantics_fault(const Semantics& semantics);
+
+/// A plug-in answers the question `self` by pairs of triangles and of bodies that name one body
+/// twice; here they become what a Detector answers. @throws InputError for others
+void read_self_answer(const std::string& from, ContactSet& answer);
 
 /// What is claimed may not depend on the bodies: a margin and a scale alone may be other after
 /// prepare. @throws InputError: `from` and the key that has changed

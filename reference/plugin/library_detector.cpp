@@ -122,7 +122,7 @@ BodyView::BodyView(const Body& from) : from_(from) {
   body_.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size());
   body_.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
   body_.vertices = numbers(mesh.vertices);
-  body_.triangles = flat(mesh.triangles);
+  body_.triangles = flat(from_.shape->linked());
   if (!from_.shape->lattice) return;
   const Lattice& lattice = *from_.shape->lattice;
   const Embedding& embedding = from_.shape->embedding;
@@ -216,6 +216,7 @@ class LibraryDetector : public Detector {
   void query(Question question, ContactSet& out) override {
     const contactcheck_answer answer = answer_into(out);
     check(table().query(detector_.get(), number_of(question), &answer, message_.data()), "query");
+    if (question == Question::kSelf) read_self_answer(library_.name(), out);
   }
 
   StageTrace trace() override {

@@ -46,6 +46,7 @@ class PipeDetector : public Detector {
       const Reply contacts = ask(query_message(question), "contacts");
       check_contact_counts(contacts);
       read_contacts(contacts, process_.receive(contacts.bytes()), out);
+      if (question == Question::kSelf) read_self_answer(name_, out);
       reported_ns_ = contacts.reported_ns();
     });
   }

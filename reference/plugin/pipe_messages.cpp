@@ -57,7 +57,7 @@ std::string prepare_message(const std::vector<Body>& bodies, const Options& opti
   for (const Body& body : bodies) {
     const TriangleMesh& mesh = body.shape->mesh;
     append(mesh.vertices, payload);
-    append(mesh.triangles, payload);
+    append(body.shape->linked(), payload);
     Json lattice_json;  // null without a lattice
     if (body.shape->lattice) {
       const Lattice& lattice = *body.shape->lattice;

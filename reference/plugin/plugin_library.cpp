@@ -23,6 +23,7 @@ std::string text_of(const char* text) { return text == nullptr ? "" : text; }
 
 constexpr const char* kToldStructs[] = {"stage", "trace", "counts"};
 static_assert(std::size(kToldStructs) == CONTACTCHECK_TOLD_COUNT);
+// Version 3 has added values and no fields.
 constexpr std::uint32_t kFirstVersion = 1;
 // Of version 1 the table is what stands before the first field that version 2 has added.
 constexpr std::size_t kFirstTableSize = offsetof(contactcheck_plugin, told_sizes);
@@ -37,11 +38,10 @@ std::string size_fault(const char* structure, std::uint32_t said, std::uint32_t 
 std::string layout_fault(const contactcheck_plugin* table) {
   if (table == nullptr) return std::string("gave no table from ") + kEntry + "()";
   const std::uint32_t version = table->abi_version;
-  if (version != kFirstVersion && version != CONTACTCHECK_PLUGIN_ABI)
+  if (version < kFirstVersion || version > CONTACTCHECK_PLUGIN_ABI)
     return "speaks version " + std::to_string(version) +
-           " of contactcheck_plugin.h; this program speaks version " +
-           std::to_string(kFirstVersion) + " and version " +
-           std::to_string(CONTACTCHECK_PLUGIN_ABI);
+           " of contactcheck_plugin.h; this program speaks versions " +
+           std::to_string(kFirstVersion) + " to " + std::to_string(CONTACTCHECK_PLUGIN_ABI);
   std::uint32_t own[] = CONTACTCHECK_STRUCT_SIZES;
   if (version == kFirstVersion) own[0] = kFirstTableSize;
   std::string fault;

@@ -57,7 +57,7 @@ bool off_plane(const oracle::TriangleCorners& of, const oracle::TriangleCorners&
 
 Snapshot snapshot_of(const CaseCandidate& candidate) {
   Snapshot out;
-  for (std::size_t m = 0; m < 2; ++m) {
+  for (std::size_t m = 0; m < candidate.meshes.size(); ++m) {
     const TriangleMesh& mesh = candidate.meshes[m];
     if (candidate.on_nodes) {
       const NodeShape on_nodes = make_node_shape(mesh.vertices.size(), mesh.triangles);
@@ -72,14 +72,13 @@ Snapshot snapshot_of(const CaseCandidate& candidate) {
 }
 
 CaseCandidate candidate_of(const Snapshot& snapshot) {
-  CONTACTCHECK_INVARIANT(snapshot.bodies.size() == 2, "two bodies");
   CaseCandidate out;
-  for (std::size_t m = 0; m < 2; ++m) {
+  for (std::size_t m = 0; m < snapshot.bodies.size(); ++m) {
     const Body& body = snapshot.bodies[m];
-    out.names[m] = body.name;
+    out.names.push_back(body.name);
     std::vector<Vec3> vertices(body.shape->mesh.vertices.size());
     map_body(*body.shape, snapshot.nodes[m], vertices);
-    out.meshes[m] = {std::move(vertices), body.shape->mesh.triangles};
+    out.meshes.push_back({std::move(vertices), body.shape->linked()});
   }
   return out;
 }
@@ -87,10 +86,11 @@ CaseCandidate candidate_of(const Snapshot& snapshot) {
 std::vector<CaseCandidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells) {
   CaseCandidate base;
   base.on_nodes = true;
+  base.meshes.resize(2);
   for (std::size_t m = 0; m < 2; ++m) {
     const BodyShape& shape = *snapshot.bodies[m].shape;
     const Corners corners = corners_of(*shape.lattice, cells[m], snapshot.nodes[m]);
-    base.names[m] = snapshot.bodies[m].name;
+    base.names.push_back(snapshot.bodies[m].name);
     base.meshes[m].vertices.assign(corners.begin(), corners.end());
   }
   std::vector<CaseCandidate> out;
@@ -107,17 +107,17 @@ CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piec
   CaseCandidate out;
   out.names = candidate.names;
   out.on_nodes = candidate.on_nodes;
-  std::array<std::vector<Triangle>, 2> triangles;
+  std::vector<std::vector<Triangle>> triangles(candidate.meshes.size());
   for (const Piece& p : pieces)
     triangles[p.mesh].push_back(candidate.meshes[p.mesh].triangles[p.triangle]);
-  for (std::size_t m = 0; m < 2; ++m)
-    out.meshes[m] = without_unused_vertices(candidate.meshes[m], std::move(triangles[m]));
+  for (std::size_t m = 0; m < triangles.size(); ++m)
+    out.meshes.push_back(without_unused_vertices(candidate.meshes[m], std::move(triangles[m])));
   return out;
 }
 
 std::vector<Piece> pieces_of(const CaseCandidate& candidate) {
   std::vector<Piece> out;
-  for (std::uint32_t m = 0; m < 2; ++m)
+  for (std::uint32_t m = 0; m < candidate.meshes.size(); ++m)
     for (std::uint32_t t = 0; t < candidate.meshes[m].triangles.size(); ++t) out.push_back({m, t});
   return out;
 }
@@ -147,8 +147,10 @@ std::vector<int> dimensions_of(const CaseCandidate& candidate) {
 
 bool in_general_position(const CaseCandidate& candidate, const TrianglePair& pair) {
   std::array<oracle::TriangleCorners, 2> both;
-  for (std::size_t m = 0; m < 2; ++m)
-    both[m] = triangle_corners(candidate.meshes[m], candidate.meshes[m].triangles[pair[m]]);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const TriangleMesh& mesh = candidate.meshes[candidate.mesh_of(side)];
+    both[side] = triangle_corners(mesh, mesh.triangles[pair[side]]);
+  }
   return off_plane(both[0], both[1]) && off_plane(both[1], both[0]);
 }
 

@@ -1,6 +1,8 @@
-// What is reduced: two meshes in one place, and how they become a scene of one frame.
+// What is reduced: two meshes in one place, or one that meets itself, and how they become a scene
+// of one frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,28 +14,38 @@
 
 namespace contactcheck::reduce {
 
-/// One frame of two bodies, as a detector is given it.
+/// One frame of two bodies, or of one, as a detector is given it.
 struct Snapshot {
-  std::vector<Body> bodies;              ///< two
+  std::vector<Body> bodies;
   std::vector<std::vector<Vec3>> nodes;  ///< per body
 };
 
-/// Two meshes whose vertices stand where they are judged.
+/// Two meshes, or one, whose vertices stand where they are judged.
 struct CaseCandidate {
-  std::array<std::string, 2> names;  ///< of the bodies
-  std::array<TriangleMesh, 2> meshes;
+  std::vector<std::string> names;  ///< of the bodies
+  std::vector<TriangleMesh> meshes;
   /// The vertices are nodes of a lattice (make_node_shape); else there is no lattice, and the rest
   /// shape is the judged one.
   bool on_nodes = false;
 
-  std::size_t triangles() const { return meshes[0].triangles.size() + meshes[1].triangles.size(); }
-  std::size_t vertices() const { return meshes[0].vertices.size() + meshes[1].vertices.size(); }
+  std::size_t triangles() const {
+    std::size_t out = 0;
+    for (const TriangleMesh& mesh : meshes) out += mesh.triangles.size();
+    return out;
+  }
+  std::size_t vertices() const {
+    std::size_t out = 0;
+    for (const TriangleMesh& mesh : meshes) out += mesh.vertices.size();
+    return out;
+  }
+  /// The mesh of the first (0) or second (1) triangle of a pair.
+  std::size_t mesh_of(std::size_t side) const { return std::min(side, meshes.size() - 1); }
 };
 
-/// @pre both meshes have a triangle, and all coordinates are finite
+/// @pre every mesh has a triangle, and all coordinates are finite
 Snapshot snapshot_of(const CaseCandidate& candidate);
 
-/// The bodies of a frame without their lattices and rest shapes.
+/// The bodies of a frame without their lattices and rest shapes; welded vertices become one.
 CaseCandidate candidate_of(const Snapshot& snapshot);
 
 /// Ids of two kept cells, of the first and of the second body.
@@ -44,7 +56,7 @@ using CellPair = std::array<std::uint32_t, 2>;
 /// triangles in the faces. @pre both bodies have lattices with these cells
 std::vector<CaseCandidate> cell_candidates(const Snapshot& snapshot, const CellPair& cells);
 
-/// A triangle of one of the two meshes.
+/// A triangle of one of the meshes.
 struct Piece {
   std::uint32_t mesh = 0, triangle = 0;
 };
@@ -64,7 +76,7 @@ CaseCandidate with_coordinates(CaseCandidate candidate, const std::vector<double
 /// point. Exact.
 std::vector<int> dimensions_of(const CaseCandidate& candidate);
 
-/// Ids of two triangles, of the first and of the second mesh.
+/// Ids of two triangles, of the first and of the last mesh.
 using TrianglePair = std::array<std::uint32_t, 2>;
 
 /// True when no corner of either triangle lies in the plane of the other (and both have one): then

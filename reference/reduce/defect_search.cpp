@@ -111,11 +111,16 @@ namespace {
 
 // Where it is not known yet what is wrong.
 std::vector<Level> levels_of(const ReductionTask& task) {
-  if (!task.level.empty()) return levels_for(task.level);
-  return {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle, Level::kNear};
+  if (!task.level.empty()) return levels_for(task.level, task.self);
+  std::vector<Level> levels;
+  for (const Level level : kLevels)
+    if (is_self(level) ? task.self : can_be_reduced(name_of(level))) levels.push_back(level);
+  return levels;
 }
 
+// The same body twice is one.
 Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
+  if (a == b) return {{all.bodies[a]}, {all.nodes[a]}};
   return {{all.bodies[a], all.bodies[b]}, {all.nodes[a], all.nodes[b]}};
 }
 
@@ -140,10 +145,12 @@ Snapshot two_of(const Snapshot& all, std::size_t a, std::size_t b) {
 
 std::string where(const ReductionTask& task) { return task.scene + ", " + task.place; }
 
-std::vector<Level> levels_for(const std::string& level_name) {
+std::vector<Level> levels_for(const std::string& level_name, bool self) {
+  const std::optional<Level> level = level_from_name(level_name);
+  if (level && is_self(*level)) return {*level};
   std::vector<Level> levels = {Level::kBody};
-  const Level level = level_from_name(level_name).value_or(Level::kTriangle);
-  if (level != Level::kBody) levels.push_back(level);
+  if (level != Level::kBody) levels.push_back(level.value_or(Level::kTriangle));
+  if (!level && self) levels.push_back(Level::kSelf);
   return levels;
 }
 
@@ -163,7 +170,7 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
   std::optional<Defect> found;
   ProbeVerdict verdict;  // the last one
   for (const ReductionTask& task : tasks) {
-    if (task.snapshot.bodies.size() < 2) continue;
+    if (task.snapshot.bodies.size() < 2 && !task.self) continue;
     verdict = probe.ask(task.snapshot, levels_of(task));
     if (const std::optional<Finding> finding = finding_of(verdict, task.level, task.kind)) {
       found = Defect{task, *finding};
@@ -176,7 +183,8 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
   const Snapshot whole = defect.task.snapshot;
   require_reducible(defect.finding.level);
   const auto shows_of_two = [&](const Snapshot& two) {
-    return shows(probe.ask(two, levels_for(defect.finding.level)), defect.finding);
+    const std::vector<Level> levels = levels_for(defect.finding.level, defect.task.self);
+    return shows(probe.ask(two, levels), defect.finding);
   };
   const auto more_bodies = [&] {
     return InputError(where(defect.task) + ", " + detector + ": " + described(defect.finding) +
@@ -185,7 +193,7 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
   if (defect.finding.kind == "error" && !is_case) {
     const std::size_t count = whole.bodies.size();
     for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = a + 1; b < count; ++b) {
+      for (std::size_t b = defect.task.self ? a : a + 1; b < count; ++b) {
         defect.task.snapshot = two_of(whole, a, b);
         if (shows_of_two(defect.task.snapshot)) return defect;
       }

@@ -60,7 +60,7 @@ class Probe {
   std::size_t asked_ = 0;
 };
 
-/// What is reduced: a frame of two bodies in which the detector was seen to err.
+/// What is reduced: a frame of two bodies, or of one, in which the detector was seen to err.
 struct Defect {
   ReductionTask task;
   Finding finding;
@@ -70,8 +70,8 @@ struct Defect {
 std::string where(const ReductionTask& task);
 
 /// At which levels answers are judged to see an error at the level of that name (any other text: an
-/// error without one). Bodies are always judged, as in any scene.
-std::vector<Level> levels_for(const std::string& level_name);
+/// error without one). Bodies are always judged, as in any scene of several.
+std::vector<Level> levels_for(const std::string& level_name, bool self);
 
 /// Not where inside counts, which a part of a solid does not have.
 bool can_be_reduced(const std::string& level);
@@ -79,7 +79,7 @@ bool can_be_reduced(const std::string& level);
 void require_reducible(const std::string& level);
 
 /// In the first frame in which the detector (its canonical name) errs as it is looked for.
-/// `is_case`: the task is a case of an earlier run, whose two bodies are known.
+/// `is_case`: the task is a case of an earlier run, whose bodies are known.
 /// @throws InputError, one sentence, where there is none, or where it needs more than two bodies
 Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
                    const std::vector<ReductionTask>& tasks);

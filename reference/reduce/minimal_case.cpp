@@ -65,14 +65,15 @@ std::string family_text(const MinimalCase& c) {
                              (c.drawn.empty() ? "" : " (" + c.drawn + ")") + ", " + c.place +
                              ", detector " + c.detector +
                              (c.library.empty() ? "" : " (" + c.library + ")");
-  std::string levels;
+  std::string bodies, levels;
+  for (std::size_t m = 0; m < c.candidate.meshes.size(); ++m)
+    bodies += (m > 0 ? ",\n" : "") + body_text(c.candidate, m);
   for (const Level level : c.levels)
     levels += (levels.empty() ? "" : ", ") + quoted(name_of(level));
   return "{\n  \"id\": " + quoted(c.id) + ",\n  \"title\": " + quoted("Minimal case: " + what) +
          ",\n  \"origin\": " + quoted(origin) + ",\n  \"stresses\": " + quoted(what) +
          ",\n  \"parameter\": {\"name\": \"case\", \"values\": [\"1\"]},\n  \"levels\": " + "[" +
-         levels + "],\n  \"bodies\": [\n" + body_text(c.candidate, 0) + ",\n" +
-         body_text(c.candidate, 1) + "\n  ]\n}\n";
+         levels + "],\n  \"bodies\": [\n" + bodies + "\n  ]\n}\n";
 }
 
 std::string id_from(const std::string& words) {
@@ -152,9 +153,9 @@ std::string mesh_text(const TriangleMesh& mesh, const std::string& name, TestLan
           row[0] + text_of(item[0]) + ", " + text_of(item[1]) + ", " + text_of(item[2]) + row[1];
     return open + close;
   };
-  return array("double", "_vertices", mesh.vertices,
+  return array("double", "vertices", mesh.vertices,
                [&](double x) { return literal(x, language); }) +
-         array("int", "_triangles", mesh.triangles,
+         array("int", "triangles", mesh.triangles,
                [](std::uint32_t v) { return std::to_string(v); });
 }
 
@@ -165,12 +166,12 @@ std::string pair_text(const MinimalCase& c, const judge::Disagreement& d) {
   const auto of_both = [&](const std::string& element) {
     return element + " " + a + " of " + first + " and " + element + " " + b + " of " + second;
   };
-  if (d.level == name_of(Level::kTriangle)) return of_both("triangle");
+  if (names_triangles(Finding{d.level, d.kind})) return of_both("triangle");
   if (d.level == name_of(Level::kBox)) return of_both("cell");
-  if (d.level == name_of(Level::kCell)) return of_both(d.kind == "missed" ? "triangle" : "cell");
+  if (d.level == name_of(Level::kCell)) return of_both("cell");
   if (d.level == name_of(Level::kNear))
     return "vertex " + a + " of " + first + " and triangle " + b + " of " + second;
-  return first + " and " + second;
+  return first == second ? first : first + " and " + second;
 }
 
 /// What is true of a pair, in the level's words.
@@ -180,6 +181,13 @@ std::string truth_text(const std::string& level, bool contact) {
   if (level == name_of(Level::kBox))
     return contact ? "have mapped boxes that overlap" : "have mapped boxes that do not overlap";
   if (level == name_of(Level::kCell) && !contact) return "hold no pair of triangles that touch";
+  if (level == name_of(Level::kSelfVertex) || level == name_of(Level::kSelfEdge)) {
+    const std::string shared = level == name_of(Level::kSelfEdge) ? "edge" : "corner";
+    return contact ? "share more than their common " + shared
+                   : "share their common " + shared + " alone";
+  }
+  if (level == name_of(Level::kSelfBody))
+    return contact ? "touches itself" : "does not touch itself";
   return contact ? "share a point" : "share no point";
 }
 
@@ -211,9 +219,11 @@ std::string crossing_text(const MinimalCase& c, const ElementPair& pair) {
 
 /// The line that fails. `your_detector` is what the reader has to write: for a pair of triangles it
 /// is asked for that pair, since one of several pairs of the same bodies can be wrong.
-std::string expectation(const Finding& finding, const CaseAnswers& answers, TestLanguage language) {
-  std::string call =
-      "your_detector(first_vertices, first_triangles, second_vertices, second_triangles";
+std::string expectation(const Finding& finding, const CaseAnswers& answers, bool one_mesh,
+                        TestLanguage language) {
+  std::string call = one_mesh ? "your_detector(vertices, triangles"
+                              : "your_detector(first_vertices, first_triangles, second_vertices, "
+                                "second_triangles";
   if (answers.triangles)
     call += ", " + std::to_string(answers.triangles->first) + ", " +
             std::to_string(answers.triangles->second);
@@ -229,11 +239,16 @@ std::string expectation(const Finding& finding, const CaseAnswers& answers, Test
 }
 
 /// What `your_detector` has to tell.
-std::string contract(const Finding& finding, const CaseAnswers& answers) {
+std::string contract(const Finding& finding, const CaseAnswers& answers, bool one_mesh) {
   if (finding.kind == "error") return "your_detector: answers, whatever it says";
-  if (!answers.triangles) return "your_detector: does it report a contact of the two?";
-  return "your_detector: does it report triangle " + std::to_string(answers.triangles->first) +
-         " of first with triangle " + std::to_string(answers.triangles->second) + " of second?";
+  if (!answers.triangles)
+    return one_mesh ? "your_detector: does it report a contact of the mesh with itself?"
+                    : "your_detector: does it report a contact of the two?";
+  const std::string first = std::to_string(answers.triangles->first),
+                    second = std::to_string(answers.triangles->second);
+  return one_mesh ? "your_detector: does it report triangles " + first + " and " + second + "?"
+                  : "your_detector: does it report triangle " + first + " of first with triangle " +
+                        second + " of second?";
 }
 
 }  // namespace
@@ -245,7 +260,9 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   const judge::Disagreement& d = disagreement_of(verdict, c.finding);
   const results::LevelCounts& counts = verdict.levels.at(*level_from_name(d.level));
   const bool missed = d.kind == "missed";
-  const bool triangles = d.level == name_of(Level::kTriangle) || d.level == name_of(Level::kCell);
+  // Neighbours have a corner or an edge in common anyhow.
+  const bool triangles = d.level == name_of(Level::kTriangle) || d.level == name_of(Level::kCell) ||
+                         d.level == name_of(Level::kSelf);
   CaseAnswers out;
   out.exact = pair_text(c, d) + " " + truth_text(d.level, missed) +
               (missed && triangles ? crossing_text(c, d.pair) : "");
@@ -267,18 +284,21 @@ std::string printed_test(const MinimalCase& c, const CaseAnswers& answers, TestL
       : language == TestLanguage::kC
           ? "#include <assert.h>\nvoid " + function + "(void) {\n"
           : "TEST(" + camel_case(c.detector) + ", " + camel_case(words) + ") {\n";
-  const std::array<std::string, 2>& names = c.candidate.names;
-  const std::string whose = names[0] == "first" ? ""
-                                                : indent + comment + "first is " + names[0] +
-                                                      ", second is " + names[1] + ".\n";
+  const std::vector<std::string>& names = c.candidate.names;
+  const bool one_mesh = names.size() == 1;
+  const std::string whose =
+      one_mesh || names[0] == "first"
+          ? ""
+          : indent + comment + "first is " + names[0] + ", second is " + names[1] + ".\n";
+  std::string meshes = mesh_text(c.candidate.meshes[0], one_mesh ? "" : "first_", language);
+  if (!one_mesh) meshes += mesh_text(c.candidate.meshes[1], "second_", language);
   return comment + c.detector + (c.library.empty() ? "" : " (" + c.library + ")") + ": " +
          described(c.finding) + ". From " + c.scene + ", " + c.place + ".\n" + head + whose +
-         mesh_text(c.candidate.meshes[0], "first", language) +
-         mesh_text(c.candidate.meshes[1], "second", language) + indent + comment +
-         "Exact: " + answers.exact + ".\n" + indent + comment + c.detector +
-         " answered: " + answers.detector + ".\n" + indent + comment +
-         contract(c.finding, answers) + "\n" + indent + expectation(c.finding, answers, language) +
-         "\n" + (python ? "\n\nif __name__ == \"__main__\":\n    " + function + "()\n" : "}\n");
+         meshes + indent + comment + "Exact: " + answers.exact + ".\n" + indent + comment +
+         c.detector + " answered: " + answers.detector + ".\n" + indent + comment +
+         contract(c.finding, answers, one_mesh) + "\n" + indent +
+         expectation(c.finding, answers, one_mesh, language) + "\n" +
+         (python ? "\n\nif __name__ == \"__main__\":\n    " + function + "()\n" : "}\n");
 }
 
 }  // namespace contactcheck::reduce

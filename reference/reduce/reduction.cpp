@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -111,24 +112,24 @@ Vec3 centre(const TriangleMesh& mesh, std::uint32_t triangle) {
   return out;
 }
 
-/// Of each mesh the `count` triangles whose centres lie nearest to that of its triangle in `pair`,
+/// Round each triangle of `pair` the `count` of its mesh whose centres lie nearest to its own,
 /// which comes first among equals; in the order of the mesh.
 CaseCandidate surroundings_of(const CaseCandidate& whole, const TrianglePair& pair,
                               std::size_t count) {
-  std::vector<Piece> pieces;
-  for (std::uint32_t m = 0; m < 2; ++m) {
-    const TriangleMesh& mesh = whole.meshes[m];
-    const Vec3 place = centre(mesh, pair[m]);
+  std::vector<std::set<std::uint32_t>> nearest(whole.meshes.size());
+  for (std::size_t side = 0; side < 2; ++side) {
+    const TriangleMesh& mesh = whole.meshes[whole.mesh_of(side)];
+    const Vec3 place = centre(mesh, pair[side]);
     std::vector<std::pair<double, std::uint32_t>> by_distance;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      by_distance.emplace_back(t == pair[m] ? -1.0 : (centre(mesh, t) - place).squaredNorm(), t);
+      by_distance.emplace_back(t == pair[side] ? -1.0 : (centre(mesh, t) - place).squaredNorm(), t);
     std::sort(by_distance.begin(), by_distance.end());
-    std::vector<std::uint32_t> nearest;
     for (std::size_t i = 0; i < by_distance.size() && i < count; ++i)
-      nearest.push_back(by_distance[i].second);
-    std::sort(nearest.begin(), nearest.end());
-    for (const std::uint32_t t : nearest) pieces.push_back({m, t});
+      nearest[whole.mesh_of(side)].insert(by_distance[i].second);
   }
+  std::vector<Piece> pieces;
+  for (std::uint32_t m = 0; m < nearest.size(); ++m)
+    for (const std::uint32_t t : nearest[m]) pieces.push_back({m, t});
   return with_pieces(whole, pieces);
 }
 
@@ -177,7 +178,7 @@ std::optional<Reduction> reduce(const CaseCandidate& whole, const std::optional<
     }
   };
   const std::size_t largest =
-      std::max(whole.meshes[0].triangles.size(), whole.meshes[1].triangles.size());
+      std::max(whole.meshes.front().triangles.size(), whole.meshes.back().triangles.size());
   for (std::size_t n = 1; !start && pair && n < largest; n *= kGrowth)
     try_start(surroundings_of(whole, *pair, n));
   try_start(whole);

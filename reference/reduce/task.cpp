@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "core/deform/lattice.h"
@@ -27,7 +28,7 @@ std::optional<std::uint32_t> triangle_with(const TriangleMesh& mesh, std::size_t
   return std::nullopt;
 }
 
-/// One of the two bodies that a case names, in the recorded frame.
+/// A body that a case names, in the recorded frame.
 class CaseElement {
  public:
   CaseElement(const text::JsonField& field, const Recording& recording, std::size_t frame)
@@ -99,9 +100,11 @@ class CaseElement {
 void take_bodies(const text::JsonField& root, const Recording& recording, ReductionTask& task) {
   CaseElement first(root.at("first"), recording, task.frame),
       second(root.at("second"), recording, task.frame);
-  if (first.body() == second.body()) root.at("second").at("body").refuse("another body than first");
+  if ((first.body() == second.body()) != task.self)
+    root.at("second").at("body").refuse(task.self ? "the body of first"
+                                                  : "another body than first");
   if (first.body() > second.body()) std::swap(first, second);
-  for (const std::size_t b : {first.body(), second.body()}) {
+  for (const std::size_t b : std::set{first.body(), second.body()}) {
     task.snapshot.bodies.push_back(recording.bodies[b]);
     task.snapshot.nodes.push_back(recording.frames[task.frame][b]);
   }
@@ -114,6 +117,8 @@ void take_bodies(const text::JsonField& root, const Recording& recording, Reduct
 // A case without a recording: its two triangles are all there is.
 void take_triangles(const text::JsonField& root, ReductionTask& task) {
   CaseCandidate pair;
+  pair.names.resize(2);
+  pair.meshes.resize(2);
   for (std::size_t side = 0; side < 2; ++side) {
     const text::JsonField element = root.at(side == 0 ? "first" : "second");
     pair.names[side] = element.at("body").text();
@@ -139,6 +144,7 @@ ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
                    ? "value " + scene.family->values[frame] + " (" + frame_text(frame) + ")"
                    : frame_text(frame);
   task.snapshot = {scene.bodies, scene.nodes_of_frame(frame)};
+  task.self = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
   return task;
 }
 
@@ -207,6 +213,9 @@ ReductionTask read_case(const fs::path& file) {
   task.detector = root.at("detector").text();
   task.level = root.at("level").one_of(level_names());
   task.kind = root.at("kind").one_of({"missed", "spurious"});
+  task.self = is_self(*level_from_name(task.level));
+  if (task.self && !root.has("recording"))
+    root.fail("has a contact of a body with itself and no recording, which tells neighbours");
   if (root.has("recording")) {
     const Recording recording = recording_of(root, file);
     task.frame = root.at("frame").whole(0, recording.frames.size() - 1);

@@ -18,7 +18,8 @@ struct ReductionTask {
   std::string place;                 ///< "frame 3", "value 1e-9 (frame 3)": as a message names it
   std::string detector;              ///< as it was named; empty: none was
   std::string level, kind;           ///< empty: whatever is found
-  Snapshot snapshot;                 ///< of all bodies, or of the two that a case names
+  Snapshot snapshot;                 ///< of all bodies, or of those that a case names
+  bool self = false;                 ///< the scene asks for contacts of bodies with themselves
   std::optional<TrianglePair> pair;  ///< the triangles of a case
   std::optional<CellPair> cells;     ///< the cells of a case
 };

@@ -81,8 +81,9 @@ std::string described(const Finding& finding) {
 }
 
 bool names_triangles(const Finding& finding) {
-  return finding.level == name_of(Level::kTriangle) ||
-         (finding.level == name_of(Level::kCell) && finding.kind == "missed");
+  const std::optional<Level> level = level_from_name(finding.level);
+  return level == Level::kTriangle || (level == Level::kCell && finding.kind == "missed") ||
+         level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
 }
 
 std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,

@@ -25,12 +25,12 @@ struct DetectorSum {
   std::string slowest_family;
 
   void add(const FamilyResult& result) {
-    if (result.run.status == results::Status::kAbsent) return;
-    ++families;
     failed += result.failed();
     refused += result.refused();
     // Without an answer no case is right: leaving them out would praise who refuses them.
-    if (result.judged() || result.failed() || result.refused()) cases += result.cases();
+    if (result.run.status == results::Status::kAbsent) return;
+    ++families;
+    cases += result.cases();
     if (!result.judged()) return;
     level = finest_level(result.run);
     right += result.cases() - result.wrong();
@@ -64,6 +64,13 @@ struct DetectorSum {
             timed > 0 ? format_number(slowest) + " " + slowest_family : "-"};
   }
 };
+
+// Of a family about one body, the level that it is judged at; else empty.
+std::string self_level_of(const results::Scene& scene) {
+  for (const auto& [level, truth] : scene.truth)
+    if (is_self(level)) return name_of(level);
+  return "";
+}
 
 std::size_t first_wrong(const FamilyResult& result) {
   std::size_t first = 0;
@@ -136,14 +143,16 @@ TitledTable hard_sums(const results::Results& results) {
        {"passes", false, ""},
        {"slowest family", true, "ms a case of the family that costs most, and its name"}},
       {}};
-  std::vector<std::string> order;
-  std::map<std::string, DetectorSum> sums;
+  // Classes of contacts of a body with itself are not added up, nor with those of two bodies.
+  std::map<std::string, std::map<std::string, DetectorSum>> sums;
+  std::vector<std::pair<std::string, std::string>> order;
   for (const FamilyResult& result : family_results(results)) {
-    const std::string detector = result.detector();
-    if (sums.count(detector) == 0) order.push_back(detector);
-    sums[detector].add(result);
+    const std::string kind = self_level_of(result.scene), detector = result.detector();
+    if (sums[kind].count(detector) == 0) order.emplace_back(kind, detector);
+    sums[kind][detector].add(result);
   }
-  for (const std::string& detector : order) out.rows.push_back(sums[detector].line(detector));
+  for (const auto& [kind, detector] : order)
+    out.rows.push_back(sums[kind][detector].line(detector));
   return out;
 }
 

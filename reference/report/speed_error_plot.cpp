@@ -32,7 +32,8 @@ constexpr Shape kShapes[] = {
     {Question::kTriangles, "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z", "timed: all pairs of triangles"},
     {Question::kBody, "M-4.5-4.5h9v9h-9Z", "timed: which bodies touch"},
     {Question::kCells, "M0-5.5L5.5 4.5h-11Z", "timed: all pairs of cells"},
-    {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"}};
+    {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"},
+    {Question::kSelf, "M0 5.5L5.5-4.5h-11Z", "timed: contacts of bodies with themselves"}};
 
 const Shape& shape_of(Question question) {
   return *std::find_if(std::begin(kShapes), std::end(kShapes),

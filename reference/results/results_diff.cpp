@@ -17,8 +17,8 @@ using Speedups = std::map<std::string, results::Speedup>;
 
 // In the question that most detectors can be asked.
 const Speedups* compared_speedups(const results::Run& run) {
-  for (const Question question :
-       {Question::kTriangles, Question::kBody, Question::kContacts, Question::kCells})
+  for (const Question question : {Question::kTriangles, Question::kBody, Question::kContacts,
+                                  Question::kCells, Question::kSelf})
     if (const auto it = run.speedup.find(question); it != run.speedup.end()) return &it->second;
   return nullptr;
 }

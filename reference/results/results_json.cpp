@@ -533,8 +533,9 @@ void fields(Io& io, Results& r) {
 // --- values, lists and maps
 
 constexpr auto values_of(Level) { return kLevels; }
-constexpr std::array<Question, 4> values_of(Question) {
-  return {Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts};
+constexpr std::array<Question, 5> values_of(Question) {
+  return {Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts,
+          Question::kSelf};
 }
 constexpr std::array<DepthKind, 3> values_of(DepthKind) {
   return {DepthKind::kNone, DepthKind::kVertexSurface, DepthKind::kConvexPair};

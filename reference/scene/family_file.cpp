@@ -154,6 +154,7 @@ struct BaseMesh {
   std::vector<AmountVector> given;  // per vertex, of a mesh that the file spells out
   TriangleMesh built;               // else
   std::vector<Triangle> triangles;
+  bool weld = false;
   std::string source, notes;
 
   std::vector<Vec3> vertices(double parameter) const {
@@ -179,7 +180,8 @@ std::vector<Triangle> parse_triangles(const text::JsonField& field, std::size_t 
 BaseMesh parse_base_mesh(const text::JsonField& field, const std::filesystem::path& folder) {
   BaseMesh base;
   if (field.has("vertices")) {
-    field.only_keys({"vertices", "triangles"});
+    field.only_keys({"vertices", "triangles", "weld"});
+    base.weld = field.has("weld") && field.at("weld").boolean();
     for (const text::JsonField& v : field.at("vertices").items(1))
       base.given.push_back(parse_amount_vector(v));
     base.triangles = parse_triangles(field.at("triangles"), base.given.size());
@@ -191,6 +193,7 @@ BaseMesh parse_base_mesh(const text::JsonField& field, const std::filesystem::pa
   if (loaded.mesh.vertices.size() > kMostFamilyVertices)
     field.fail("has " + std::to_string(loaded.mesh.vertices.size()) +
                " vertices; a family may have " + std::to_string(kMostFamilyVertices));
+  base.weld = spec.weld;
   base.triangles = loaded.mesh.triangles;
   base.built = std::move(loaded.mesh);
   base.source = mesh::described_source(spec);
@@ -210,6 +213,7 @@ class FamilyBody {
       }
     try {
       build(first_value);
+      if (base_.weld) shape_ = welded(*shape_);
     } catch (const InputError& error) {
       field.at("mesh").fail("cannot be used: " + text::without_full_stop(error.what()));
     }

@@ -33,10 +33,11 @@ struct BodyPlan {
     Vec3 position = Vec3::Zero();
   };
   struct Deformation {
-    std::string kind;    ///< "twist" or "stretch"
+    std::string kind;    ///< "twist", "stretch" or "bend"
     std::string amount;  ///< its key of the curve: "degrees" or "amount"
     int axis = 0;
     std::vector<std::pair<double, double>> keys;  ///< time and value
+    std::optional<int> toward;                    ///< of "bend": another axis
   };
 
   std::string name, path;
@@ -94,6 +95,7 @@ std::string body_text(const BodyPlan& body, bool lattices) {
     for (const auto& [time, value] : d.keys)
       keys.push_back("[" + text::shown(time) + ", " + text::shown(value) + "]");
     deformers.push_back("{" + quoted(d.kind) + ": {\"axis\": " + axis_name(d.axis) + ", " +
+                        (d.toward ? "\"toward\": " + axis_name(*d.toward) + ", " : "") +
                         quoted(d.amount) + ": [" + joined_lines(keys, " ").substr(1) + "]}}");
   }
   if (!deformers.empty())
@@ -108,12 +110,16 @@ std::string body_text(const BodyPlan& body, bool lattices) {
 std::string scene_text(const ScenePlan& plan) {
   std::vector<std::string> bodies;
   for (const BodyPlan& body : plan.bodies) bodies.push_back(body_text(body, plan.lattices));
+  // One body meets itself, several each other.
+  nlohmann::json levels = nlohmann::json::array();
+  for (const Level level : kLevels)
+    if (is_self(level) == (plan.bodies.size() == 1)) levels.push_back(name_of(level));
   const std::vector<std::string> parts = {
       "\"id\": " + quoted(plan.id),
       "\"title\": " + quoted(plan.title),
       "\"frames\": " + std::to_string(plan.frames),
       "\"duration\": " + text::shown(plan.duration),
-      "\"levels\": " + nlohmann::json(level_names()).dump(),
+      "\"levels\": " + levels.dump(),
       "\"bodies\": [" + joined_lines(bodies, "\n    ") + "\n  ]"};
   return "{" + joined_lines(parts, "\n  ") + "\n}\n";
 }
@@ -128,6 +134,8 @@ constexpr double kStretch = -0.15, kTwist = 30.0;  // at the deepest; degrees ov
 // Seconds: in contact, at the deepest, in contact, out of contact. (pass: a shorter stay.)
 constexpr double kMeet = 0.8, kDeepest = 1.0, kPart = 1.2, kEnd = 2.0;
 constexpr double kPassMeet = 0.9, kPassPart = 1.1;
+// Of one mesh, at the end, degrees: more than a ring, so that its ends sink into one another.
+constexpr double kRing = 400.0, kTurn = 360.0;
 
 std::string stem_of(const fs::path& mesh) {
   const std::string stem = mesh.stem().string();
@@ -161,13 +169,19 @@ std::string id_of(const MeshSceneRequest& request) {
 }
 
 void check(const MeshSceneRequest& request) {
-  const std::vector<std::string>& names = motion_names();
+  std::vector<std::string> names = motion_names();
+  names.emplace_back("fold");
   if (std::find(names.begin(), names.end(), request.motion) == names.end())
     throw InputError("--motion: " + text::in_quotes(request.motion) + " is not one of " +
                      text::joined(names));
+  if (request.meets_itself()) return;
   if (request.meshes.size() < 2)
     throw InputError("--mesh " + text::in_quotes(request.meshes.front().string()) +
-                     ": one mesh meets nothing; name a second, or the same once more");
+                     ": one mesh meets nothing; name a second, the same once more, or --motion "
+                     "fold or twist for contacts with itself");
+  if (request.motion == "fold")
+    throw InputError("--motion fold is for one mesh; " + std::to_string(request.meshes.size()) +
+                     " are named");
   const std::size_t most = request.motion == "pass" ? 2 : MeshSceneRequest::kMostMeshes;
   if (request.meshes.size() > most)
     throw InputError("--mesh is given " + std::to_string(request.meshes.size()) +
@@ -281,15 +295,27 @@ SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
   }
   plan.title += ": " + motion;
   const std::vector<TriangleMesh> meshes = load_meshes(plan, folder);
+  if (request.meets_itself()) {
+    int longest = 0, shortest = 0;
+    const Vec3 extent = bounding_box(meshes[0].vertices).extent();
+    extent.maxCoeff(&longest);
+    extent.minCoeff(&shortest);
+    if (shortest == longest) shortest = (longest + 1) % 3;
+    std::vector<BodyPlan::Deformation>& deformations = plan.bodies[0].deformations;
+    if (motion == "twist")
+      deformations.push_back({"twist", "degrees", longest, {{0.0, 0.0}, {kEnd, kTurn}}, {}});
+    deformations.push_back({"bend", "degrees", longest, {{0.0, 0.0}, {kEnd, kRing}}, shortest});
+    return {scene_text(plan), kDocument, folder};
+  }
   const std::vector<Approach> approaches = find_approaches(plan, meshes);
 
   const auto deform = [&](int axis, double sign, BodyPlan& body) {
     if (motion == "press")
       body.deformations.push_back(
-          {"stretch", "amount", axis, {{kMeet, 0.0}, {kDeepest, kStretch}, {kPart, 0.0}}});
+          {"stretch", "amount", axis, {{kMeet, 0.0}, {kDeepest, kStretch}, {kPart, 0.0}}, {}});
     if (motion == "twist")
       body.deformations.push_back(
-          {"twist", "degrees", axis, {{kMeet, 0.0}, {kDeepest, sign * kTwist}, {kPart, 0.0}}});
+          {"twist", "degrees", axis, {{kMeet, 0.0}, {kDeepest, sign * kTwist}, {kPart, 0.0}}, {}});
   };
   // With more than two bodies each one starts beyond all others, on its own side.
   double reach = 0.0;

@@ -16,6 +16,11 @@ struct MeshSceneRequest {
   std::vector<std::filesystem::path> meshes;  ///< the same file may be named twice
   std::string motion = "approach";
   std::optional<double> size = 1.0;  ///< metres, each mesh's largest side; none: as in the file
+
+  /// One mesh, to be judged against itself.
+  bool meets_itself() const {
+    return meshes.size() == 1 && (motion == "fold" || motion == "twist");
+  }
 };
 
 /// approach: the others come to the first mesh, touch it and leave again. press: the same, going
@@ -25,6 +30,10 @@ struct MeshSceneRequest {
 /// Every motion starts with disjoint bodies (a plane separates the first body from each other one,
 /// and the other ones from one another), leads into contact for at least a tenth of the time, and
 /// separates them again.
+///
+/// One mesh is judged against itself. fold: its longest axis is bent to more than a ring, so that
+/// its ends sink into one another. twist: the same, twisted by a turn.
+/// Of several meshes:
 const std::vector<std::string>& motion_names();
 
 /// The scene file that the request amounts to, with paths relative to `folder`: bodies named after

@@ -263,7 +263,10 @@ void RecordedBodies::add(const text::JsonField& body, const std::string& name,
   frames.spec().place(loaded.mesh.vertices);
   std::string notes = loaded.notes;
   try {
-    scene.bodies.push_back({name, build_shape(std::move(loaded.mesh), lattice)});
+    std::shared_ptr<const BodyShape> shape = build_shape(std::move(loaded.mesh), lattice);
+    if (body.has("mesh") && mesh::parse_mesh_spec(body.at("mesh"), folder).weld)
+      shape = welded(*shape);
+    scene.bodies.push_back({name, std::move(shape)});
   } catch (const InputError& error) {
     field.fail("has a mesh that cannot be used: " + text::without_full_stop(error.what()));
   }

@@ -78,6 +78,7 @@ Scene load_recording(const std::filesystem::path& file) {
   scene.frames = recording.frames.size();
   scene.time_step = recording.time_step;
   scene.levels = {Level::kBody, Level::kCell, Level::kBox, Level::kTriangle, Level::kNear};
+  if (!recording.levels.empty()) scene.levels = recording.levels;
   scene.recorded = std::move(recording.frames);
   for (const Body& body : scene.bodies) {
     scene.origins.push_back({body.name, "recording", describe(body.shape->topology)});

@@ -46,6 +46,7 @@ class Workshop {
     Made made{mesh, lattice, nullptr, loaded.notes};
     try {
       made.shape = build_shape(loaded.mesh, lattice);
+      if (mesh.weld) made.shape = welded(*made.shape);
     } catch (const InputError& error) {
       body.at("mesh").fail("cannot be used: " + text::without_full_stop(error.what()));
     }

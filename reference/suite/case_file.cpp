@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +31,9 @@ void add_points(Json& element, const std::string& key, const std::vector<Vec3>& 
 
 // A missed contact at level `cell` is a pair of triangles; a spurious one is a pair of cells.
 bool names_triangles(const judge::Disagreement& d) {
-  return d.level == name_of(Level::kTriangle) ||
-         (d.level == name_of(Level::kCell) && d.kind == "missed");
+  const std::optional<Level> level = level_from_name(d.level);
+  return level == Level::kTriangle || (level == Level::kCell && d.kind == "missed") ||
+         level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
 }
 
 bool names_cells(const judge::Disagreement& d) {

@@ -1,9 +1,11 @@
 #include "reference/suite/family_truth.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/judge/judge.h"
 #include "reference/judge/judged_scene.h"
 #include "reference/oracle/oracle.h"
 #include "reference/suite/job.h"
@@ -17,6 +19,7 @@ CaseTruth case_truth(const scene::Scene& scene, std::size_t frame, oracle::Oracl
   const auto vertices = scene::map_bodies(scene, scene.recorded[frame]);
   oracle::WantedTruth wanted;
   wanted.containment = scene.judges(Level::kContainment);
+  wanted.self = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
   oracle::Truth truth =
       oracle.judge(judge::make_frame(frame, 0.0, scene.recorded[frame], vertices), wanted);
   CaseTruth out;
@@ -25,21 +28,29 @@ CaseTruth case_truth(const scene::Scene& scene, std::size_t frame, oracle::Oracl
   out.containment = truth.containment.size();
   out.hash = results::hex(chain_hash(0, 0, truth.surface));
   out.triangles = std::move(truth.surface.triangles);
+  for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge}) {
+    if (!scene.judges(level)) continue;
+    const auto pairs = judge::self_pairs(level, scene.bodies, truth.surface.self);
+    out.self.insert(out.self.end(), pairs.begin(), pairs.end());
+  }
+  std::sort(out.self.begin(), out.self.end());
   return out;
 }
 
 Json case_json(const ExpectedCase& c) {
-  return {{"value", c.value},
-          {"bodies", c.bodies},
-          {"containment", c.containment},
-          {"triangles", c.triangles},
-          {"hash", c.hash}};
+  Json out = {{"value", c.value},
+              {"bodies", c.bodies},
+              {"containment", c.containment},
+              {"triangles", c.triangles}};
+  if (c.self > 0) out["self"] = c.self;
+  out["hash"] = c.hash;
+  return out;
 }
 
 ExpectedCase parse_case(const Json& c) {
-  return {c.at("value").get<std::string>(), c.at("bodies").get<std::size_t>(),
+  return {c.at("value").get<std::string>(),       c.at("bodies").get<std::size_t>(),
           c.at("containment").get<std::size_t>(), c.at("triangles").get<std::size_t>(),
-          c.at("hash").get<std::string>()};
+          c.value("self", std::size_t{0}),        c.at("hash").get<std::string>()};
 }
 
 // One case a line: a change is seen as the lines that changed.
@@ -53,7 +64,8 @@ std::string family_text(const std::string& id, const std::vector<ExpectedCase>& 
 }  // namespace
 
 ExpectedCase summary_of(const CaseTruth& truth) {
-  return {truth.value, truth.bodies, truth.containment, truth.triangles.size(), truth.hash};
+  return {truth.value,       truth.bodies, truth.containment, truth.triangles.size(),
+          truth.self.size(), truth.hash};
 }
 
 std::vector<CaseTruth> family_truth(const scene::Scene& scene) {

@@ -20,13 +20,14 @@ struct CaseTruth {
   std::size_t bodies = 0;              ///< pairs of bodies whose surfaces share a point
   std::size_t containment = 0;         ///< pairs of bodies of which one holds the other
   std::vector<ElementPair> triangles;  ///< canonical
-  std::string hash;                    ///< chain_hash of bodies and triangles, from 0
+  std::vector<SelfPair> self;          ///< canonical, of the levels that the family judges
+  std::string hash;  ///< chain_hash of bodies, triangles and pairs of one body, from 0
 };
 
 /// As the file keeps it: counts and hash stand for the pairs.
 struct ExpectedCase {
   std::string value;
-  std::size_t bodies = 0, containment = 0, triangles = 0;
+  std::size_t bodies = 0, containment = 0, triangles = 0, self = 0;
   std::string hash;
 
   bool operator==(const ExpectedCase&) const = default;

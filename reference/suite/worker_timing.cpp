@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reference/judge/closed_loop.h"
+#include "reference/judge/judge.h"
 #include "reference/scene/driven_simulation.h"
 #include "reference/suite/worker_state.h"
 #include "reference/timing/cache_sweep.h"
@@ -52,9 +53,11 @@ TurnAnswer take_turn(WorkerState& worker, const Turn& turn, WorkerEntry& entry,
   if (entry.usable()) {
     guarded(worker, entry, [&] {
       make_detector(worker, entry);
+      entry.detector->expect({turn.question});
       entry.detector->prepare(worker.scene.bodies);
       answer.lazy_map = !entry.detector->needs_vertices();
-      const Semantics semantics = entry.detector->semantics();
+      const Semantics semantics =
+          judge::semantics_in(worker.scene.levels, entry.detector->semantics());
       timing::PassRequest request;
       request.position = turn.position;
       request.asked = judge::asked(turn.question, semantics);

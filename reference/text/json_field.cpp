@@ -83,6 +83,11 @@ std::vector<JsonField> JsonField::items(std::size_t fewest) const {
   return out;
 }
 
+bool JsonField::boolean() const {
+  if (!is(JsonValue::Kind::kBool)) refuse("true or false");
+  return value_->boolean;
+}
+
 std::string JsonField::text() const {
   if (!is(JsonValue::Kind::kText) || value_->text.empty()) refuse("a text that is not empty");
   // The name of a file would end there, and another one be opened.

@@ -53,6 +53,7 @@ class JsonField {
   /// Items of an array. @throws when it is no array or has fewer than `fewest`
   std::vector<JsonField> items(std::size_t fewest = 0) const;
 
+  bool boolean() const;
   std::string text() const;
   /// A text out of a list.
   std::string one_of(const std::vector<std::string>& allowed) const;

@@ -29,7 +29,8 @@ bool same_contacts(std::vector<Contact> a, std::vector<Contact> b) {
 
 bool same_sets(const ContactSet& a, const ContactSet& b) {
   return a.bodies == b.bodies && a.cells == b.cells && a.triangles == b.triangles &&
-         a.vertices == b.vertices && a.near == b.near;
+         a.vertices == b.vertices && a.near == b.near && a.self == b.self &&
+         a.self_bodies == b.self_bodies;
 }
 
 std::vector<ElementPair> pieces_of(const ContactSet& set) {
@@ -53,6 +54,8 @@ ContactSet renamed(ContactSet set, std::uint32_t last) {
   for (ElementPair& p : set.triangles) rename_pair(p);
   for (VertexInBody& v : set.vertices) rename(v.body), rename(v.in);
   for (NearPair& p : set.near) rename(p.body), rename(p.other);
+  for (SelfPair& p : set.self) rename(p.body);
+  for (std::uint32_t& body : set.self_bodies) rename(body);
   for (PieceContact& c : set.piece_contacts) rename_pair(c.pieces);
   for (VertexContact& c : set.vertex_contacts) rename(c.where.body), rename(c.where.in);
   set.canonicalize();
@@ -95,6 +98,11 @@ class IdCheck {
     if (!pair(v.body, v.in)) return;
     bad_ += v.vertex >= bodies_[v.body].shape->mesh.vertices.size() ? 1 : 0;
   }
+  void self(const SelfPair& p) {
+    const bool good = p.body < bodies_.size() && p.a < triangles_of(p.body) &&
+                      p.b < triangles_of(p.body) && p.a != p.b;
+    bad_ += good ? 0 : 1;
+  }
   void near(const NearPair& p) {
     vertex({p.body, p.other, p.vertex});
     if (p.other < bodies_.size()) bad_ += p.triangle >= triangles_of(p.other) ? 1 : 0;
@@ -133,6 +141,8 @@ bool contacts_are_reported(const ContactSet& set) {
 
 // A question about bodies alone may leave the elements out.
 bool agree(const ContactSet& own, const ContactSet& other, Question question) {
+  if (question == Question::kSelf)
+    return other.bodies.empty() && other.triangles.empty() && other.cells.empty();
   if (own.bodies != other.bodies || !contacts_are_reported(other)) return false;
   return question == Question::kBody ||
          (own.triangles == other.triangles && own.cells == other.cells);
@@ -186,6 +196,8 @@ std::string text(const Answers& answers) {
     add("pairs of triangles", set.triangles.size());
     add("vertices", set.vertices.size());
     add("near pairs", set.near.size());
+    add("pairs of one body's triangles", set.self.size());
+    add("bodies that touch themselves", set.self_bodies.size());
     add("contacts of pieces", set.piece_contacts.size());
     add("contacts of vertices", set.vertex_contacts.size());
   }
@@ -199,6 +211,7 @@ std::uint64_t invalid_ids(const ContactSet& set, const std::vector<Body>& bodies
   for (const ElementPair& p : set.triangles) check.triangles(p);
   for (const VertexInBody& v : set.vertices) check.vertex(v);
   for (const NearPair& p : set.near) check.near(p);
+  for (const SelfPair& p : set.self) check.self(p);
   for (const ElementPair& p : pieces_of(set))
     holds(set.cells, p) ? check.cells(p) : check.triangles(p);
   for (const VertexInBody& v : vertices_of(set)) check.vertex(v);

@@ -27,6 +27,7 @@ oracle::WantedTruth wanted_truth(const std::vector<Level>& levels, const Semanti
   wanted.containment = has(Level::kContainment) || semantics.solid;
   wanted.vertices = has(Level::kVertex);
   wanted.boxes = has(Level::kBox);
+  wanted.self = std::any_of(levels.begin(), levels.end(), is_self);
   return wanted;
 }
 
@@ -52,6 +53,10 @@ ContactSet judged_answer(const Answers& answers, const Semantics& semantics) {
   ContactSet set = answers.at(semantics.questions.front());
   const auto body = answers.find(Question::kBody);
   if (body != answers.end()) set.bodies = body->second.bodies;
+  if (const auto self = answers.find(Question::kSelf); self != answers.end()) {
+    set.self = self->second.self;
+    set.self_bodies = self->second.self_bodies;
+  }
   return set;
 }
 

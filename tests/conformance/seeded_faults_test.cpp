@@ -57,7 +57,8 @@ TEST(SeededFaults, OfTheAnswerAreFound) {
             }),
             (Findings{{"triangle missed", 1}, {"contradiction", 1}}));
   EXPECT_EQ(findings_of([](Question q, ContactSet& set) {
-              if (q != Question::kBody) set.triangles.push_back({0, 1, 1, 1});
+              if (q == Question::kTriangles || q == Question::kContacts)
+                set.triangles.push_back({0, 1, 1, 1});
             }),
             (Findings{{"triangle spurious", 1}}));
   EXPECT_EQ(findings_of([](Question q, ContactSet& set) {

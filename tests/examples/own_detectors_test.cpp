@@ -101,6 +101,28 @@ TEST(OwnDetectors, AreTimedInEveryProcessBesideTheirOwnClock) {
   }
 }
 
+TEST(OwnDetectors, InPythonAnswerForBodiesThatTouchThemselves) {
+  const test::Scratch scratch;
+  const std::filesystem::path out = scratch.folder() / "out";
+  const Outcome outcome = test::contactcheck_program(
+      {"run", "hard-self-layers", "hard-self-crossing-scale", "hard-self-t-junction",
+       "hard-self-sectors-turned", "hard-self-corner-segment", "hard-self-repeated-index",
+       "hard-self-point", "hard-self-hinge-turned", "hard-self-edge-segments",
+       "hard-self-edge-needle", "hard-self-duplicates", "--detector-cmd", python_command(),
+       "--no-timing", "--out", out.string()});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json results = json::parse(test::text_of(out / "results.json"));
+  ASSERT_EQ(results.at("runs").size(), 11u);
+  for (const json& row : results.at("runs")) {
+    ASSERT_EQ(row.at("status"), "ok") << row.at("message");
+    ASSERT_EQ(row.at("levels").size(), 1u) << row.at("scene");
+    for (const auto& [name, level] : row.at("levels").items()) {
+      EXPECT_EQ(level.at("missed"), 0) << row.at("scene");
+      EXPECT_EQ(level.at("spurious"), 0) << row.at("scene");
+    }
+  }
+}
+
 // Touching, degenerate and coplanar triangles, and pairs that rounding gets wrong: the example in
 // Python claims them all.
 TEST(OwnDetectors, InPythonAreExactOnHardCases) {

@@ -14,7 +14,7 @@ import math
 import struct
 
 MAGIC = b"\x89CCR\r\n\x1a\n"
-VERSION = 1
+VERSIONS = (1, 2)
 SMALLEST_FILE = 32  # bytes: magic, version, size, hash
 HASH_SIZE = 8
 
@@ -124,7 +124,7 @@ def read_shape(reader: Reader) -> Shape:
     if not vertices:
         reader.fail("has a shape without vertices")
     triangles = reader.u32_rows(reader.u64(), 3, len(vertices))
-    has_lattice = reader.u64() == 1
+    has_lattice = reader.u64() & 1 == 1  # bit 1, of version 2: welded
     lattice = read_lattice(reader, len(vertices), len(triangles)) if has_lattice else None
     return Shape(vertices, triangles, lattice)
 
@@ -140,9 +140,10 @@ def read_body(reader: Reader, shapes: list[Shape]) -> Body:
 class Recording:
     """Scene, bodies and frames; the nodes of a frame are decoded when they are asked for."""
 
-    def __init__(self, reader: Reader):
+    def __init__(self, reader: Reader, version: int):
         self.time_step = reader.f64s(1)[0]  # seconds
         self.scene = reader.text()
+        self.levels = [reader.text() for _ in range(reader.u64())] if version > 1 else []
         shapes = [read_shape(reader) for _ in range(reader.u64())]
         self.bodies = [read_body(reader, shapes) for _ in range(reader.u64())]
         self.frame_count = reader.u64()
@@ -167,8 +168,8 @@ def read(file: str) -> Recording:
     if data[:8] != MAGIC or len(data) < SMALLEST_FILE:
         raise BadRecording(f'"{file}" is not a recording: it does not start as a .ccr file does.')
     version, size = struct.unpack_from("<2Q", data, 8)
-    if version != VERSION:
-        raise BadRecording(f'"{file}" has version {version}, only version {VERSION} is known.')
+    if version not in VERSIONS:
+        raise BadRecording(f'"{file}" has version {version}, only versions 1 and 2 are known.')
     if size != len(data):
         raise BadRecording(f'"{file}" has {len(data)} bytes but was written with {size}.')
     content, told_hash = data[:-HASH_SIZE], struct.unpack("<Q", data[-HASH_SIZE:])[0]
@@ -176,7 +177,7 @@ def read(file: str) -> Recording:
         raise BadRecording(f'"{file}" is damaged: its bytes do not have the hash at its end.')
     reader = Reader(content, file)
     reader.at = 24
-    return Recording(reader)
+    return Recording(reader, version)
 
 
 def blend(a: float, b: float, w: float) -> float:

@@ -133,7 +133,7 @@ class RenderRecording(unittest.TestCase):
         far_nodes = with_hash(good[:-8 - 48] + struct.pack("<6d", *[1.7e308, -1.7e308] * 3))
         for expected, data in (("does not start as a .ccr file does", b"solid cube\n"),
                                ("does not start as a .ccr file does", b""),
-                               ("version 2", good[:8] + b"\2" + good[9:]),
+                               ("version 3", good[:8] + b"\3" + good[9:]),
                                ("was written with", good[:-1]),
                                ("is damaged", bytes(flipped)),
                                ("ends before", huge_count),

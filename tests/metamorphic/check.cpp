@@ -18,6 +18,10 @@ std::string text(const ElementPair& p) {
 std::string text(const VertexInBody& v) {
   return std::to_string(v.body) + ":" + std::to_string(v.vertex) + " in " + std::to_string(v.in);
 }
+std::string text(const SelfPair& p) {
+  return std::to_string(p.body) + ":" + std::to_string(p.a) + "-" + std::to_string(p.b);
+}
+std::string text(std::uint32_t body) { return std::to_string(body); }
 std::string text(const NearPair& p) {
   return std::to_string(p.body) + ":" + std::to_string(p.vertex) + "-" + std::to_string(p.other) +
          ":" + std::to_string(p.triangle);
@@ -50,19 +54,23 @@ std::string difference(const ContactSet& expected, const ContactSet& found) {
          difference("cells", expected.cells, found.cells) +
          difference("triangles", expected.triangles, found.triangles) +
          difference("vertices", expected.vertices, found.vertices) +
-         difference("near", expected.near, found.near);
+         difference("near", expected.near, found.near) +
+         difference("self", expected.self, found.self) +
+         difference("bodies with themselves", expected.self_bodies, found.self_bodies);
 }
 
 std::size_t elements(const ContactSet& set) {
   return set.bodies.size() + set.cells.size() + set.triangles.size() + set.vertices.size() +
-         set.near.size();
+         set.near.size() + set.self.size() + set.self_bodies.size();
 }
 
 std::vector<ContactSet> truth_of(const Subject& subject) {
   oracle::Oracle oracle(subject.bodies);
+  oracle::WantedTruth wanted;
+  wanted.self = true;
   std::vector<ContactSet> truth;
   for (std::size_t f = 0; f < subject.frames.size(); ++f)
-    truth.push_back(oracle.judge(subject.frames[f].frame(f), {}).surface);
+    truth.push_back(oracle.judge(subject.frames[f].frame(f), wanted).surface);
   return truth;
 }
 
@@ -70,6 +78,11 @@ std::vector<ContactSet> truth_of(const Subject& subject) {
 Answers answers_by_truth(const ContactSet& truth, const std::vector<Question>& questions) {
   Answers out;
   for (Question question : questions) {
+    if (question == Question::kSelf) {
+      out[question].self = truth.self;
+      out[question].self_bodies = truth.self_bodies;
+      continue;
+    }
     out[question].bodies = truth.bodies;
     if (question != Question::kBody) out[question].triangles = truth.triangles;
   }

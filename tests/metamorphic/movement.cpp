@@ -86,14 +86,23 @@ std::optional<FrameData> scaled_frame(const std::vector<Body>& bodies, const Fra
   return mapped.vertices == *vertices ? std::optional(std::move(mapped)) : std::nullopt;
 }
 
+// With the same vertices welded.
+std::shared_ptr<const BodyShape> welded_as(const BodyShape& shape,
+                                           std::shared_ptr<const BodyShape> moved) {
+  if (shape.welded.empty()) return moved;
+  auto out = std::make_shared<BodyShape>(*moved);
+  out->welded = shape.welded;
+  return out;
+}
+
 std::shared_ptr<const BodyShape> scaled_shape(const BodyShape& shape, int exponent) {
   TriangleMesh mesh = shape.mesh;
   for (Vec3& v : mesh.vertices) v = times_power(v, exponent);
-  if (!shape.lattice) return make_bare_shape(std::move(mesh));
+  if (!shape.lattice) return welded_as(shape, make_bare_shape(std::move(mesh)));
   std::array<std::vector<double>, 3> lines = shape.lattice->lines;
   for (std::vector<double>& axis : lines)
     for (double& line : axis) line = std::ldexp(line, exponent);
-  return make_shape_on_lines(std::move(mesh), std::move(lines));
+  return welded_as(shape, make_shape_on_lines(std::move(mesh), std::move(lines)));
 }
 
 std::vector<Body> scaled_bodies(const std::vector<Body>& bodies, int exponent) {
@@ -161,6 +170,7 @@ class Carriers {
       if (shape.shape == nullptr && carrier == Carrier::kNodes)
         shape = make_node_shape(mesh.vertices.size(), mesh.triangles);
       if (shape.shape == nullptr) shape.shape = make_bare_shape(mesh);
+      shape.shape = welded_as(*body.shape, shape.shape);
       shapes_.push_back(shape);
       bodies_.push_back({body.name, shape.shape});
     }

@@ -51,13 +51,14 @@ RenamedShape renamed_shape(const BodyShape& shape, const Renaming& how) {
   for (std::uint32_t v : out.vertex) made.vertices.push_back(mesh.vertices[v]);
   for (std::uint32_t t : out.triangle)
     made.triangles.push_back(renamed_triangle(mesh.triangles[t], t, new_vertex, how));
-  if (!shape.lattice) {
+  if (shape.lattice) {
+    out.shape = make_shape_on_lines(std::move(made), shape.lattice->lines);
+    CONTACTCHECK_INVARIANT(out.shape->lattice->cells == shape.lattice->cells,
+                           "which cells are kept does not depend on ids");
+  } else {
     out.shape = make_bare_shape(std::move(made));
-    return out;
   }
-  out.shape = make_shape_on_lines(std::move(made), shape.lattice->lines);
-  CONTACTCHECK_INVARIANT(out.shape->lattice->cells == shape.lattice->cells,
-                         "which cells are kept does not depend on ids");
+  if (!shape.welded.empty()) out.shape = welded(*out.shape);
   return out;
 }
 

@@ -41,6 +41,11 @@ ContactSet in_names_of_subject(ContactSet set, const Names& names) {
     p.vertex = names.vertex[p.body][p.vertex], p.triangle = names.triangle[p.other][p.triangle];
     body(p.body), body(p.other);
   }
+  for (SelfPair& p : set.self) {
+    p.a = names.triangle[p.body][p.a], p.b = names.triangle[p.body][p.b];
+    body(p.body);
+  }
+  for (std::uint32_t& b : set.self_bodies) body(b);
   // Depths and normals are no part of what is compared, and which pieces they have the sets say.
   set.piece_contacts.clear();
   set.vertex_contacts.clear();

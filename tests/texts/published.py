@@ -39,6 +39,8 @@ SCENE_FIELDS = {
     "triangles": lambda scene: sum(body["triangles"] for body in scene["bodies"]),
     "true_pairs": lambda scene: scene["truth"]["triangle"],
     "true_bodies": lambda scene: scene["truth"]["body"],
+    "true_self": lambda scene: [scene["truth"][level] for level in
+                                ("self", "self-vertex", "self-edge")],
 }
 
 
@@ -70,6 +72,26 @@ def speedups(run):
     return out
 
 
+def self_ms(run):
+    """Of contacts of bodies with themselves, whatever else is timed."""
+    return next(times["playback"]["frame"]
+                for times in (run["time_ms"], *run.get("time_ms_other_questions", []))
+                if times["question"] == "self")
+
+
+def self_wrong(run):
+    """Missed and spurious contacts of bodies with themselves, all classes."""
+    levels = [counts for level, counts in run["levels"].items() if level.startswith("self")]
+    return [sum(counts[kind] for counts in levels) for kind in COUNTS]
+
+
+def self_speedup(run):
+    """Over Embree [ratio, low, high, passes]."""
+    speedup = run["speedup"].get("self", {}).get("embree")
+    ratio = speedup and speedup["playback"]
+    return ratio and [ratio["ratio"], ratio["low"], ratio["high"], speedup["passes"]]
+
+
 # What a run's row may have. Counts are of the finest level judged.
 RUN_FIELDS = {
     "level": level_of,
@@ -90,6 +112,9 @@ RUN_FIELDS = {
     "speedup": speedups,
     "ratios": lambda run: {reference: ends[0] for reference, ends in speedups(run).items()},
     "memory_bytes": lambda run: run["memory_bytes"],
+    "self_ms": self_ms,
+    "self_wrong": self_wrong,
+    "self_speedup": self_speedup,
 }
 
 
@@ -126,14 +151,17 @@ def goal_rows(results, fields):
 
 
 def family_rows(results, fields):
-    """One row a detector: sums over all families of hard cases; `rounded`: by levels_rounded, too."""
+    """One row a detector, and one more for each class of contacts of a body with itself: sums over
+    families of hard cases; `rounded`: by levels_rounded, too."""
     cases = {scene["id"]: len(scene["family"]["values"])
              for scene in results["scenes"] if "family" in scene}
+    own = {scene["id"]: next((level for level in scene["truth"] if level.startswith("self")), "")
+           for scene in results["scenes"]}
     rows = {}
     for run in results["runs"]:
         if run["scene"] not in cases or run["status"] == "absent":
             continue
-        row = rows.setdefault(run["detector"], {
+        row = rows.setdefault((own[run["scene"]], run["detector"]), {
             "detector": run["detector"], "level": "-", "families": 0, "families_right": 0, "cases": 0,
             "right": 0, "truth": 0, "missed": 0, "spurious": 0, "refused": 0, "refused_cases": 0,
             "errors": 0})
@@ -153,8 +181,8 @@ def family_rows(results, fields):
         row["right"] += cases[run["scene"]] - wrong
         for kind in ("truth", *COUNTS):
             row[kind] += sum(frames[kind])
-        if "rounded" in fields and "levels_rounded" in run:
-            rounded = run["levels_rounded"]["triangle"]
+        rounded = run.get("levels_rounded", {}).get("triangle")
+        if "rounded" in fields and rounded:
             row["rounded_truth"] = row.get("rounded_truth", 0) + rounded["truth"]
             row["rounded_wrong"] = (row.get("rounded_wrong", 0) + rounded["missed"] +
                                     rounded["spurious"])
@@ -244,6 +272,8 @@ FILES = {
                          "lost", "question", "ms", "passes", "ratios")},
     "performance": {"scenes": ("frames", "triangles", "true_pairs"),
                     "runs": ("truth", *COUNTS, "ms", "passes", "speedup"), "goals": GOAL},
+    "self": {"scenes": ("frames", "triangles", "true_self"),
+             "runs": ("self_wrong", "self_ms", "self_speedup"), "goals": GOAL},
     "hard": {"sums": (), "detectors": ()},
     "single-lazy": {"scenes": ("true_pairs",),
                     "runs": (*COUNTS, "missed_bodies", "spurious_bodies", "spurious_distance")},

@@ -169,9 +169,43 @@ def performance_peers(files):
 GOAL_PARTS = {"playback": "all", "contact_frames": "with contact", "cold": "cold"}
 
 
-def performance_goals(files):
+SELF_PEERS = ("full-refit", "embree", "fcl-aabb")
+
+
+def self_scenes(files):
+    file = files["self"]
     rows = []
-    for goal in files["performance"].rows("goals"):
+    for scene in file.scenes():
+        about, run = file.row("scenes", scene=scene), file.run(scene, "ffd-lazy")
+        for other in file.rows("runs"):
+            exact = not other["detector"].startswith("fcl-")
+            if other["scene"] == scene and exact and other.get("self_wrong") != [0, 0]:
+                raise TextError(f"{file.place}: {other['detector']} is wrong in {scene}; the text "
+                                "says that it is right in all")
+        fcl = [f"`{name}` {wrong(file.run(scene, name)['self_wrong'])}"
+               for name in ("fcl-aabb", "fcl-obbrss")
+               if any((row["scene"], row["detector"]) == (scene, name) for row in file.rows("runs"))
+               and file.run(scene, name)["self_wrong"] != [0, 0]]
+        rows.append([scene, count(about["triangles"]), *map(count, about["true_self"]),
+                     three_digits(run["self_ms"]),
+                     *(three_digits(file.run(scene, peer)["self_ms"]) for peer in SELF_PEERS),
+                     ratio(*run["self_speedup"]), ", ".join(fcl) or "-"])
+    return table(["scene", "triangles:", "true pairs, no vertex shared:", "one:", "two:",
+                  "ffd-lazy, ms a frame:", *(peer + ":" for peer in SELF_PEERS),
+                  "ffd-lazy over embree:", "missed + spurious"], rows)
+
+
+def self_goals(files):
+    return goals_of(files["self"])
+
+
+def performance_goals(files):
+    return goals_of(files["performance"])
+
+
+def goals_of(file):
+    rows = []
+    for goal in file.rows("goals"):
         unit = {"us": " us"}.get(goal.get("unit"), "x")
         wanted = (f">= {three_digits(goal['at_least'])}" if "at_least" in goal else
                   f"<= {three_digits(goal['at_most'])}") + unit
@@ -241,8 +275,7 @@ def single_historic_times(files):
 
 def hard_wrong(files):
     file = files["hard"]
-    families = file.row("sums")["families"]
-    rows = [[row["detector"], row["level"], f"{row['families_right']} of {families}",
+    rows = [[row["detector"], row["level"], f"{row['families_right']} of {row['families']}",
              f"{row['right']} of {row['cases'] + row['refused_cases']}", count(row["missed"]),
              count(row["spurious"]),
              str(row["refused"]) + (f" ({row['errors']} errors)" if row["errors"] else "")]
@@ -332,7 +365,7 @@ def drawn_accuracy(files):
 
 TABLES = {"headline": headline, "default": default_summary, "performance": performance_peers,
           "goals": performance_goals, "drawn": drawn_headline, "drawn-times": drawn_speed,
-          "drawn-decides": drawn_decides,
+          "drawn-decides": drawn_decides, "self": self_scenes, "self-goals": self_goals,
           "drawn-accuracy": drawn_accuracy, "single-lazy": single_lazy,
           "single-lazy-times": single_lazy_times, "single-historic": single_historic,
           "single-historic-times": single_historic_times, "hard": hard_wrong,
@@ -456,7 +489,7 @@ def figures(files):
         "drawn-times.minutes": lambda: minutes_of(files["drawn-times"]),
         "hard.families": lambda: str(hard.row("sums")["families"]),
         "hard.cases": lambda: count(hard.row("sums")["cases"]),
-        "hard.detectors": lambda: str(len(hard.rows("detectors"))),
+        "hard.detectors": lambda: str(len({row["detector"] for row in hard.rows("detectors")})),
         "hard.known_defects": lambda: count(hard.row("sums")["known_defects"]),
         "hard.known_refusals": lambda: count(hard.row("sums")["known_refusals"]),
         "hard.readings": lambda: count(hard.row("sums")["readings"]),

@@ -93,21 +93,82 @@ TYPED_TEST(TriangleBatches, AreNeverWrongOnGridsOfTouchingAndDegenerateTriangles
     }
 }
 
-// Nearly in one plane: a sign is noise, and is not believed.
-TYPED_TEST(TriangleBatches, BelieveNoSignInOneTiltedPlane) {
-  const Tally tally = this->judge(647, 600, [](TriangleSource& random) -> DoublePair {
-    const Vec3 u = random.point(Vec3::Zero(), 1.0), v = random.point(Vec3::Zero(), 1.0);
-    const auto in_plane = [&](double from) -> TrianglePoints {
-      const auto corner = [&] {
-        const Vec3 at = random.point(Vec3(from, 0, 0), 0.5);
-        return Vec3(at.x() * u + at.y() * v);
-      };
-      return {corner(), corner(), corner()};
+// Two triangles nearly in one plane, the second `apart` beside the first.
+DoublePair pair_in_a_plane(TriangleSource& random, double apart) {
+  const Vec3 u = random.point(Vec3::Zero(), 1.0), v = random.point(Vec3::Zero(), 1.0);
+  const auto in_plane = [&](double from) -> TrianglePoints {
+    const auto corner = [&] {
+      const Vec3 at = random.point(Vec3(from, 0, 0), 0.5);
+      return Vec3(at.x() * u + at.y() * v);
     };
-    return {in_plane(0.0), in_plane(0.6)};
-  });
-  EXPECT_GT(2 * tally.unknown, tally.pairs) << "there is noise";
+    return {corner(), corner(), corner()};
+  };
+  return {in_plane(0.0), in_plane(apart)};
+}
+
+// A sign is noise, and is not believed. Those that are apart in a view along an axis are told.
+TYPED_TEST(TriangleBatches, BelieveNoSignInOneTiltedPlane) {
+  const Tally tally =
+      this->judge(647, 600, [](TriangleSource& random) { return pair_in_a_plane(random, 0.6); });
+  EXPECT_GT(10 * tally.unknown, tally.pairs) << "there is noise";
   EXPECT_LT(2 * tally.met, tally.pairs);
+  const Tally apart =
+      this->judge(648, 600, [](TriangleSource& random) { return pair_in_a_plane(random, 1.5); });
+  EXPECT_LT(100 * apart.unknown, apart.pairs);
+}
+
+// As on a flat part of a surface: across an edge, and across a corner of a grid, where no edge of
+// either parts the two.
+TYPED_TEST(TriangleBatches, DecideNeighboursInOnePlane) {
+  const auto in_plane = [](TriangleSource& random) { return pair_in_a_plane(random, 0.0).first; };
+  const auto across_edge = [&](TriangleSource& random) -> DoublePair {
+    const TrianglePoints t = in_plane(random);
+    return {t, {t[0], t[1], Vec3(t[0] + t[1] - t[2])}};
+  };
+  const auto across_corner = [&](TriangleSource& random) -> DoublePair {
+    const TrianglePoints t = in_plane(random);
+    return {t, {t[0], Vec3(2 * t[0] - t[1]), Vec3(2 * t[0] - t[2])}};
+  };
+  for (const Tally& tally :
+       {this->judge(649, 600, across_edge, 2), this->judge(650, 600, across_corner, 1)}) {
+    EXPECT_EQ(tally.met, 0);
+    EXPECT_LT(100 * tally.unknown, tally.pairs);
+  }
+  const Tally over = this->judge(
+      656, 600, [](TriangleSource& random) { return pair_in_a_plane(random, 0.0); }, 2);
+  EXPECT_GT(4 * over.unknown, over.pairs) << "on one side of the edge";
+}
+
+TYPED_TEST(TriangleBatches, AreNeverWrongOnNeighbours) {
+  for (const std::uint32_t shared : {1u, 2u}) {
+    const Tally tally = this->judge(651, 1200, generic_pair, shared);
+    EXPECT_LT(1000 * tally.unknown, tally.pairs);
+    EXPECT_GT(this->judge(652, 1200, near_degenerate_pair, shared).unknown, 0);
+    for (int limit : {1, 2, 4})
+      for (double scale : this->ranges.grids)
+        this->judge(
+            653, 300,
+            [&](TriangleSource& random) {
+              return moved({random.grid_triangle(limit), random.grid_triangle(limit)}, scale,
+                           Vec3::Zero());
+            },
+            shared);
+    for (double scale : this->ranges.scales)
+      for (double offset : this->ranges.offsets)
+        this->judge(
+            654, 24,
+            [&](TriangleSource& random) {
+              return moved(pair_in_a_plane(random, 0.3), scale, Vec3(offset, -offset, 0.0));
+            },
+            shared);
+    for (int exponent : this->ranges.underflow)
+      this->judge(
+          655, 300,
+          [&](TriangleSource& random) {
+            return moved(pair_in_a_plane(random, 0.3), std::ldexp(1.0, exponent), Vec3::Zero());
+          },
+          shared);
+  }
 }
 
 TYPED_TEST(TriangleBatches, AreNeverWrongOnTrianglesThatAreNearlyParallel) {

@@ -88,13 +88,16 @@ class TriangleBatches : public ::testing::Test {
     }
   }
 
-  // What a verdict says about `pairs`, against the truth; "" or what is wrong.
+  // What a verdict says about `pairs`, whose first corners are shared, against the truth; "" or
+  // what is wrong.
   static std::string wrong(const BatchVerdict& verdict, const std::vector<Pair>& pairs,
-                           Tally& tally) {
+                           std::uint32_t shared, Tally& tally) {
+    SharedCorners first;
+    first.count = shared;
     if ((verdict.meet | verdict.unknown) >> pairs.size() != 0) return "lanes beyond the last";
     if ((verdict.meet & verdict.unknown) != 0) return "certain and unknown at once";
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const bool truth = triangles_intersect(pairs[i].first, pairs[i].second);
+      const bool truth = meet_beyond_shared(first, pairs[i].first, pairs[i].second);
       const bool meet = verdict.meet >> i & 1, unknown = verdict.unknown >> i & 1;
       ++tally.pairs, tally.met += truth, tally.unknown += unknown;
       if (!unknown && meet != truth) return truth ? "a contact denied" : "a contact invented";
@@ -105,21 +108,26 @@ class TriangleBatches : public ::testing::Test {
   // `rounds` batches of 1 to 8 random pairs, on every instruction set, which must agree bit for
   // bit. Lanes beyond the last hold what earlier batches left there, or no numbers at all.
   template <typename MakePair>
-  static Tally judge(std::uint64_t seed, int rounds, const MakePair& make) {
+  static Tally judge(std::uint64_t seed, int rounds, const MakePair& make,
+                     std::uint32_t shared = 0) {
     TriangleSource random(seed);
     Tally tally;
     Batch batch{};
+    batch.shared = shared;
     const Real nan = std::numeric_limits<Real>::quiet_NaN();
     using Point = Vec3Of<Real>;
     for (std::size_t lane = 0; lane < kBatchWidth; ++lane)
       set_lane(batch, lane, {{Point::Constant(nan), Point::Zero(), Point::Ones()}, {}});
     for (int round = 0; round < rounds; ++round) {
       std::vector<Pair> pairs(static_cast<std::size_t>(1 + round % 8));
-      for (std::size_t i = 0; i < pairs.size(); ++i)
-        set_lane(batch, i, pairs[i] = rounded(DoublePair(make(random))));
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i] = rounded(DoublePair(make(random)));
+        for (std::uint32_t c = 0; c < shared; ++c) pairs[i].second[c] = pairs[i].first[c];
+        set_lane(batch, i, pairs[i]);
+      }
       batch.count = pairs.size();
       const BatchVerdict first = tested(lazy_kernels(), batch);
-      const std::string text = wrong(first, pairs, tally);
+      const std::string text = wrong(first, pairs, shared, tally);
       EXPECT_EQ(text, "") << "seed " << seed << " round " << round;
       for (const std::string& isa : lazy_isas()) {
         const BatchVerdict verdict = tested(lazy_kernels(isa), batch);

@@ -154,7 +154,7 @@ TEST(RecordingDamage, WrongHeaderIsNamed) {
   std::string text = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   expect_refused(text, "not a recording");
   expect_refused("", "not a recording");
-  expect_refused(bare_with(kVersionAt, 2), "version 2 is not known");
+  expect_refused(bare_with(kVersionAt, 3), "version 3 is not known");
   std::string longer = bytes_of(bare_recording()) + "x";
   expect_refused(longer, "was written with " + std::to_string(longer.size() - 1));
 }
@@ -188,7 +188,7 @@ TEST(RecordingDamage, BareRecordingNamesWhatIsWrong) {
   expect_refused(bare_with(kVertexCountAt + 8, infinity_bits),
                  "not a finite number in the vertices");
   expect_refused(bare_with(kTriangleCountAt + 8, 0x300000000), "index-out-of-range");
-  expect_refused(bare_with(kLatticeFlagAt, 2), "neither 0 nor 1");
+  expect_refused(bare_with(kLatticeFlagAt, 2), "the lattice flag is not in 0 to 1");
   expect_refused(bare_with(kShapeNumberAt, 1), "shape number 1 of 1");
   expect_refused(bare_with(kFrameCountAt + 16, nan_bits), "not a finite number in the nodes");
   expect_refused(bare_with(kNameLengthAt + 8, 0xff), "not valid UTF-8");

@@ -103,6 +103,25 @@ TEST(Recording, ShapesThatDifferInTheLatticeAloneStayTwo) {
   EXPECT_NE(out.bodies[0].shape, out.bodies[1].shape);
 }
 
+TEST(Recording, KeepsLevelsAndWeldedMeshes) {
+  // Two triangles along an open seam.
+  TriangleMesh mesh;
+  mesh.vertices = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
+                   Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
+  mesh.triangles = {{0, 1, 2}, {3, 5, 4}};
+  const auto open = make_bare_shape(mesh);
+  Recording recording = bare_recording();
+  recording.bodies = {{"open", open}, {"welded", welded(*open)}};
+  recording.frames = {{mesh.vertices, mesh.vertices}};
+  recording.levels = {Level::kBody, Level::kSelfEdge};
+  const Recording read = recording_of(bytes_of(recording));
+  EXPECT_EQ(read.levels, recording.levels);
+  ASSERT_EQ(read.bodies.size(), 2u);
+  EXPECT_NE(read.bodies[0].shape, read.bodies[1].shape);
+  EXPECT_TRUE(read.bodies[0].shape->welded.empty());
+  EXPECT_EQ(read.bodies[1].shape->welded, (std::vector<Triangle>{{0, 1, 2}, {1, 5, 2}}));
+}
+
 TEST(Recording, WithoutFramesIsKept) {
   Recording in = bare_recording();
   in.frames.clear();

@@ -49,6 +49,19 @@ TEST(ContactSet, VertexInsideImpliesNoSurfaceContact) {
   EXPECT_THAT(set.bodies, IsEmpty());
 }
 
+TEST(ContactSet, PairsOfOneBodyAreOrientedAndImplyTheBodyAlone) {
+  ContactSet set;
+  set.self = {{3, 9, 2}, {1, 4, 5}, {3, 2, 9}};
+  set.self_bodies = {7, 3};
+  set.canonicalize();
+  EXPECT_THAT(set.self, ElementsAre(SelfPair{1, 4, 5}, SelfPair{3, 2, 9}));
+  EXPECT_THAT(set.self_bodies, ElementsAre(1, 3, 7));
+  EXPECT_THAT(set.bodies, IsEmpty());
+  set.clear();
+  EXPECT_THAT(set.self, IsEmpty());
+  EXPECT_THAT(set.self_bodies, IsEmpty());
+}
+
 TEST(ContactSet, CanonicalizeTwiceChangesNothing) {
   ContactSet set;
   set.triangles = {{1, 0, 2, 3}, {0, 1, 3, 1}};

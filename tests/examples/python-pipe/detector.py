@@ -86,6 +86,65 @@ def triangles_meet(p, q):
     )
 
 
+def is_proper(a, b, c):
+    return cross(sub(b, a), sub(c, a)) != NOTHING
+
+
+def same_direction(c, e, f):
+    """On one ray from c; not where one of them is c."""
+    return cross(sub(e, c), sub(f, c)) == NOTHING and dot(sub(e, c), sub(f, c)) > 0
+
+
+def more_than_corner(c, p, q):
+    """Triangles (c, *p) and (c, *q): do they share more than c?"""
+    if is_proper(c, *p) and is_proper(c, *q):
+        normal_p, normal_q = (cross(sub(t[0], c), sub(t[1], c)) for t in (p, q))
+        return segment_meets_triangle(*p, (c, *q), normal_q) or segment_meets_triangle(
+            *q, (c, *p), normal_p
+        )
+    segment, other = (q, p) if is_proper(c, *p) else (p, q)
+    normal = cross(sub(other[0], c), sub(other[1], c))
+    for end in segment:  # two arms from c
+        if end == c:
+            continue
+        if normal == NOTHING:
+            if any(same_direction(c, end, f) for f in other):
+                return True
+        elif dot(normal, sub(end, c)) == 0 and (
+            in_triangle(end, 1, (c, *other), normal) or segments_meet(c, end, *other)
+        ):
+            return True
+    return False
+
+
+def more_than_edge(a, b, p, q):
+    """Triangles (a, b, p) and (a, b, q): do they share more than the segment a b?"""
+    along, normal = sub(b, a), cross(sub(b, a), sub(p, a))
+    if is_proper(a, b, p) and is_proper(a, b, q):
+        to_q = sub(q, a)
+        return dot(normal, to_q) == 0 and dot(normal, cross(along, to_q)) > 0
+    if is_proper(a, b, p) or is_proper(a, b, q):
+        return False  # a triangle meets the line of its edge in the edge alone
+    if along == NOTHING:
+        return same_direction(a, p, q)
+    places = [dot(sub(point, a), along) for point in (p, q)]
+    return max(places) < 0 or min(places) > dot(along, along)
+
+
+def neighbours_meet(p, q, points):
+    """Two triangles of one body (three vertex numbers each; points: where these are), in more than
+    what both name."""
+    shared = sorted(set(p) & set(q))
+    if not shared:
+        return triangles_meet([points[v] for v in p], [points[v] for v in q])
+    corners = [points[v] for v in shared]
+    # A triangle that names a vertex twice is a segment.
+    p, q = ([points[v] for v in t if v not in shared] + corners for t in (p, q))
+    if len(shared) == 1:
+        return more_than_corner(corners[0], tuple(p[:2]), tuple(q[:2]))
+    return more_than_edge(*corners, p[0], q[0])
+
+
 def in_integers(points):
     """The same points times one power of two, which moves no contact."""
     ratios = [[x.as_integer_ratio() for x in point] for point in points]
@@ -161,12 +220,25 @@ class Detector:
             if triangles_meet(points[:3], points[3:]):
                 yield a, b, i, j
 
+    def meeting_itself(self, body):
+        triangles, boxes = self.bodies[body].triangles, self.boxes[body]
+        for i, j in candidates(boxes, boxes) if boxes else ():
+            p, q = triangles[i], triangles[j]
+            if i < j and set(p) != set(q):
+                names = sorted({*p, *q})
+                points = in_integers([self.bodies[body].points[v] for v in names])
+                if neighbours_meet(p, q, dict(zip(names, points))):
+                    yield body, body, i, j
+
     def pairs_of_bodies(self):
         count = len(self.bodies)
         return [(a, b) for a in range(count) for b in range(a + 1, count)]
 
     def triangles(self):
         return [pair for a, b in self.pairs_of_bodies() for pair in self.meeting(a, b)]
+
+    def self_triangles(self):
+        return [pair for body in range(len(self.bodies)) for pair in self.meeting_itself(body)]
 
     def touching_bodies(self):
         return [(a, b) for a, b in self.pairs_of_bodies() if any(True for _ in self.meeting(a, b))]
@@ -179,7 +251,11 @@ HELLO = {
     "protocol": "contactcheck-pipe/1",
     "id": "python-sweep",
     "summary": "example: boxes swept along x, triangles tested in integers, in Python",
-    "semantics": {"levels": ["body", "triangle"], "questions": ["triangles", "body"], "exact": True},
+    "semantics": {
+        "levels": ["body", "triangle", "self", "self-vertex", "self-edge", "self-body"],
+        "questions": ["triangles", "body", "self"],
+        "exact": True,
+    },
     "needs": ["vertices"],
 }
 
@@ -221,11 +297,12 @@ def skip_lattice(body):
 
 
 def answer(detector, question):
-    pairs = detector.triangles() if question == "triangles" else detector.touching_bodies()
+    find = {"triangles": detector.triangles, "self": detector.self_triangles}
+    pairs = find.get(question, detector.touching_bodies)()
     numbers = array.array("I", [number for pair in pairs for number in pair])
     if sys.byteorder == "big":
         numbers.byteswap()
-    return {"triangles" if question == "triangles" else "bodies": len(pairs)}, numbers.tobytes()
+    return {"triangles" if question in find else "bodies": len(pairs)}, numbers.tobytes()
 
 
 def milliseconds(start):

@@ -57,8 +57,11 @@ std::vector<BodyPair> bodies_of(const std::vector<ElementPair>& pairs) {
 
 TEST(Embree, ClaimsExactClosedSurfacesInDouble) {
   const Semantics semantics = make_detector(kEmbree)->semantics();
-  EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody, Level::kTriangle));
-  EXPECT_THAT(semantics.questions, ElementsAre(Question::kTriangles, Question::kBody));
+  EXPECT_THAT(semantics.levels,
+              ElementsAre(Level::kBody, Level::kTriangle, Level::kSelf, Level::kSelfVertex,
+                          Level::kSelfEdge, Level::kSelfBody));
+  EXPECT_THAT(semantics.questions,
+              ElementsAre(Question::kTriangles, Question::kBody, Question::kSelf));
   EXPECT_TRUE(semantics.exact);
   EXPECT_TRUE(semantics.closed);
   EXPECT_FALSE(semantics.solid);

@@ -211,10 +211,10 @@ INSTANTIATE_TEST_SUITE_P(
                               {"1099511627776 bytes but was written with 0"}),
                     recording("OtherVersion",
                               bytes("x.ccr", std::string("\x89"
-                                                         "CCR\r\n\x1a\n\2\0\0\0\0\0\0\0",
+                                                         "CCR\r\n\x1a\n\3\0\0\0\0\0\0\0",
                                                          16) +
                                                  std::string(64, '\0')),
-                              {"version 2 is not known"})),
+                              {"version 3 is not known, only versions 1 and 2"})),
     file_case);
 
 TEST(CutRecording, IsRefusedWhereverItIsCut) {

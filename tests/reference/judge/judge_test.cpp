@@ -234,7 +234,8 @@ TEST(QuestionOf, WithoutOneAboutTheLevelIsTheFirstThatMayNotEndEarly) {
   for (const Level level : {Level::kVertex, Level::kNear, Level::kCell})
     EXPECT_EQ(question_of(level, semantics), Question::kContacts);
   semantics.questions = {Question::kBody};
-  for (const Level level : kLevels) EXPECT_EQ(question_of(level, semantics), Question::kBody);
+  for (const Level level : kLevels)
+    EXPECT_EQ(question_of(level, semantics), is_self(level) ? Question::kSelf : Question::kBody);
 }
 
 TEST(JudgedLevels, HoldWhatIsInformativeToo) {

@@ -59,6 +59,20 @@ TEST(Shapes, TorusIsASolidWithOneHandle) {
   EXPECT_LT(volume(torus), exact);
 }
 
+TEST(Shapes, SheetIsFlatAndOpen) {
+  const TriangleMesh sheet = make_sheet(2.0, 3);
+  EXPECT_EQ(sheet.triangles.size(), 18u);
+  EXPECT_EQ(bounding_box(sheet.vertices).lo, Vec3(-0.5, 0, -1));
+  EXPECT_EQ(bounding_box(sheet.vertices).hi, Vec3(0.5, 0, 1));
+  const MeshTopology topology = analyse_topology(sheet);
+  EXPECT_FALSE(topology.solid);
+  EXPECT_EQ(topology.defects.size(), topology.count(MeshDefectKind::kBoundaryEdge));
+  for (const Triangle& t : sheet.triangles) {
+    const Vec3 &a = sheet.vertices[t[0]], &b = sheet.vertices[t[1]], &c = sheet.vertices[t[2]];
+    EXPECT_GT((b - a).cross(c - a).y(), 0.0);
+  }
+}
+
 TEST(Circle, AgreesWithLibmAndIsExactAtTheQuarters) {
   for (std::size_t n = 1; n <= 200; ++n) {
     for (std::size_t k = 0; k < n; ++k) {

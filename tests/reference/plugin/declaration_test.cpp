@@ -79,6 +79,10 @@ TEST(Declaration, OfSemanticsThatDoNotFitTogetherIsRefused) {
               HasSubstr("does not answer the question triangles"));
   EXPECT_THAT(sentence_about(R"({"levels": ["cell"], "questions": ["body"]})"),
               HasSubstr("does not answer the question cells"));
+  EXPECT_THAT(sentence_about(R"({"levels": ["self"], "questions": ["body"]})"),
+              HasSubstr("and the question self go together"));
+  EXPECT_THAT(sentence_about(R"({"levels": ["body"], "questions": ["body", "self"]})"),
+              HasSubstr("and the question self go together"));
   EXPECT_THAT(sentence_about(R"({"levels": ["body"], "questions": ["body", "contacts"]})"),
               HasSubstr("kind of depth go together"));
   EXPECT_THAT(

@@ -32,7 +32,7 @@ TEST_P(LibraryAtLoad, IsRefusedWithOneSentence) {
 INSTANTIATE_TEST_SUITE_P(
     All, LibraryAtLoad,
     testing::Values(
-        Fault{"version", {"version 99", "this program speaks version 1"}},
+        Fault{"version", {"version 99", "this program speaks versions 1 to 3"}},
         Fault{"size", {"contactcheck_body a size of", "here it has"}},
         Fault{"no-table", {"cannot be used: it gave no table from contactcheck_plugin_entry()"}},
         Fault{"no-function", {"lacks one of its functions"}}, Fault{"no-id", {"has no id"}},

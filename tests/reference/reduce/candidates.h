@@ -20,6 +20,7 @@ inline reduce::CaseCandidate two_boxes(int divisions = 2) {
 inline reduce::CaseCandidate two_triangles(const std::vector<double>& coordinates) {
   reduce::CaseCandidate out;
   out.names = {"first", "second"};
+  out.meshes.resize(2);
   for (TriangleMesh& mesh : out.meshes) {
     mesh.vertices.resize(3, Vec3::Zero());
     mesh.triangles = {{0, 1, 2}};

@@ -64,6 +64,37 @@ TEST(FamilyText, ReadsBackAsTheSameBodiesBitForBit) {
   }
 }
 
+// One mesh stays one, in the file and in the test that is printed.
+TEST(MinimalCase, OfOneBodyHasOneMesh) {
+  MinimalCase minimal = minimal_case(false);
+  minimal.finding = {"self-vertex", "missed"};
+  minimal.levels = {Level::kSelfVertex};
+  minimal.candidate.names = {"hand"};
+  minimal.candidate.meshes = {
+      {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.25, 0.25, 0), Vec3(1, 1, 1)},
+       {{0, 1, 2}, {0, 3, 4}}}};
+  const test::Scratch scratch;
+  const scene::Scene scene =
+      scene::load_scene(scratch.write("min-test.json", family_text(minimal)));
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(scene.bodies[0].shape->mesh.triangles, minimal.candidate.meshes[0].triangles);
+  EXPECT_THAT(scene.levels, ElementsAre(Level::kSelfVertex));
+
+  ProbeVerdict verdict;
+  verdict.levels[Level::kSelfVertex] = {1, 0, 0, 1, 0};
+  judge::Disagreement& d = verdict.disagreements.emplace_back();
+  d.level = "self-vertex";
+  d.kind = "missed";
+  d.pair = {0, 0, 0, 1};
+  const CaseAnswers answers = answers_of(minimal, verdict);
+  EXPECT_EQ(answers.exact,
+            "triangle 0 of hand and triangle 1 of hand share more than their common corner");
+  const std::string test = printed_test(minimal, answers, TestLanguage::kPython);
+  EXPECT_THAT(test, HasSubstr("    vertices = [\n"));
+  EXPECT_THAT(test, HasSubstr("    assert your_detector(vertices, triangles, 0, 1)\n"));
+  EXPECT_THAT(test, HasSubstr("does it report triangles 0 and 1?"));
+}
+
 TEST(FamilyText, SaysWhereItIsFrom) {
   EXPECT_THAT(
       family_text(minimal_case(false)),

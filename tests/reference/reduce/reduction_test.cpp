@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/types/shared_corners.h"
 #include "reference/judge/judged_scene.h"
 #include "reference/oracle/oracle.h"
 #include "tests/reference/reduce/candidates.h"
@@ -215,6 +216,29 @@ TEST(GeneralPosition, IsLostWhereACornerLiesInTheOtherPlane) {
   std::vector<double> flat = crossing;
   flat[6] = 6.0, flat[8] = 0.0;  // the first becomes a segment
   EXPECT_FALSE(in_general_position(two_triangles(flat), {0, 0}));
+}
+
+// What two triangles of one mesh share is what they are about.
+TEST(Reduction, OneMeshKeepsTheVerticesThatItsTrianglesShare) {
+  CaseCandidate box = two_boxes();
+  box.names.resize(1);
+  box.meshes.resize(1);
+  const auto share_one = [](const CaseCandidate& c) {
+    const std::vector<Triangle>& triangles = c.meshes[0].triangles;
+    for (const Triangle& p : triangles)
+      for (const Triangle& q : triangles)
+        if (shared_corners(p, q).count == 1) return true;
+    return false;
+  };
+  TrianglePair pair = {0, 0};
+  while (shared_corners(box.meshes[0].triangles[0], box.meshes[0].triangles[pair[1]]).count != 1)
+    ++pair[1];
+  const auto reduction = reduce(box, pair, share_one, 10000);
+  ASSERT_TRUE(reduction);
+  EXPECT_TRUE(reduction->complete);
+  ASSERT_EQ(reduction->result.meshes.size(), 1u);
+  EXPECT_EQ(reduction->result.triangles(), 2u);
+  EXPECT_EQ(reduction->result.vertices(), 5u);
 }
 
 }  // namespace

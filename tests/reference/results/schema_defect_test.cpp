@@ -55,7 +55,7 @@ TEST(SchemaDefect, NamesPlaceAndValue) {
 TEST(SchemaDefect, NamesOfMembersAreCheckedToo) {
   EXPECT_EQ(defect_with("/runs/0/speedup/spheres", Json::object()),
             "a key of runs[0].speedup is \"spheres\"; it must be one of triangles, body, cells, "
-            "contacts");
+            "contacts, self");
 }
 
 TEST(SchemaDefect, WhatAConditionAsksFor) {

@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
                ": the document has none of the keys duration, time_step; exactly one is needed."},
         Defect{"UnknownLevel", R"(["body"])", R"(["body", "edge"])",
                ": levels[1] is \"edge\"; it must be one of body, containment, cell, box, triangle, "
-               "vertex, near."},
+               "vertex, near, self, self-vertex, self-edge, self-body."},
         Defect{"RepeatedLevel", R"(["body"])", R"(["body", "body"])",
                ": levels[1] is \"body\"; it must be named once only."},
         Defect{"NoLevel", R"(["body"])", "[]",
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Defect{"UnknownShape", R"("shape": "box")", R"("shape": "cone")",
                ": bodies[0].mesh.shape is \"cone\"; it must be one of box, sphere, torus, letter, "
-               "teapot."},
+               "sheet, teapot."},
         Defect{"TwoSources", R"("shape": "box")", R"("shape": "box", "file": "a.obj")",
                ": bodies[0].mesh has both \"file\" and \"shape\"; exactly one of dataset, file, "
                "shape is allowed."},
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                "needed."},
         Defect{"KeyOfAnotherShape", R"("shape": "box")", R"("shape": "box", "tube": 0.5)",
                ": bodies[0].mesh.tube is not a known key; allowed here: shape, triangles, "
-               "subdivide, size, scale, center, divisions, sides."},
+               "subdivide, size, scale, center, weld, divisions, sides."},
         Defect{"NegativeSize", R"("size": 1)", R"("size": -1)",
                ": bodies[1].mesh.size is -1; it must be a number above 0 and at most 1e+06."},
         Defect{"SizeAndScale", R"("size": 1)", R"("size": 1, "scale": 2)",

@@ -162,13 +162,34 @@ TEST_F(MeshScene, NamesTheLinkThatLeadsNowhere) {
                 "\" cannot be followed to a file: Too many levels of symbolic links");
 }
 
+TEST_F(MeshScene, OneMeshComesToMeetItself) {
+  for (const char* motion : {"fold", "twist"})
+    for (const char* mesh : {"ball", "rod", "plate", "leaning"}) {
+      SCOPED_TRACE(std::string(motion) + " " + mesh);
+      const Scene out = scene(request({mesh}, motion));
+      EXPECT_TRUE(out.judges(Level::kSelf));
+      EXPECT_FALSE(out.judges(Level::kTriangle));
+      oracle::Oracle oracle(out.bodies);
+      oracle::WantedTruth wanted;
+      wanted.self = true;
+      const auto pairs_at = [&](std::size_t frame) {
+        const test::FrameData data = test::make_frame(out.bodies, out.nodes_of_frame(frame));
+        return oracle.judge(data.frame(frame), wanted).surface.self.size();
+      };
+      EXPECT_EQ(pairs_at(0), 0u);
+      EXPECT_GT(pairs_at(out.frames - 1), 0u);
+    }
+}
+
 TEST_F(MeshScene, RefusesWhatCannotBeOne) {
   const auto sentence = [&](const MeshSceneRequest& request) {
     return sentence_of([&] { scene(request); });
   };
   EXPECT_THAT(sentence(request({"ball"})), HasSubstr("ball.obj\": one mesh meets nothing"));
   EXPECT_THAT(sentence(request({"ball", "box"}, "dance")),
-              HasSubstr("--motion: \"dance\" is not one of approach, press, twist, pass"));
+              HasSubstr("--motion: \"dance\" is not one of approach, press, twist, pass, fold"));
+  EXPECT_THAT(sentence(request({"ball", "box"}, "fold")),
+              HasSubstr("--motion fold is for one mesh; 2 are named"));
   EXPECT_THAT(sentence(request({"ball", "box", "box"}, "pass")), HasSubstr("at most 2"));
   EXPECT_THAT(sentence(request(std::vector<std::string>(8, "box"))), HasSubstr("at most 7"));
   EXPECT_THAT(sentence(request({"ball", "gone"})), HasSubstr("gone.obj\" does not exist"));

@@ -14,6 +14,9 @@ const kWords: Record<string, string> = {
   box: "cell",
   near: "vertex",
   vertex: "vertex",
+  self: "triangle",
+  "self-vertex": "triangle",
+  "self-edge": "triangle",
 };
 
 function element(body: number, number: number, what: string, names: Names): string {

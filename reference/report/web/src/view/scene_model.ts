@@ -14,7 +14,8 @@ type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
 
 /** What the numbers of a pair count; fixtures/README.md, "Contacts". */
 function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
-  if (kind === "true" || level === "triangle" || (level === "cell" && kind === "missed"))
+  const ofTriangles = ["triangle", "self", "self-vertex", "self-edge"].includes(level);
+  if (kind === "true" || ofTriangles || (level === "cell" && kind === "missed"))
     return ["triangle", "triangle"];
   if (level === "cell" || level === "box") return ["cell", "cell"];
   if (level === "near") return ["vertex", "triangle"];

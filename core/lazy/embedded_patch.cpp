@@ -1,0 +1,469 @@
+#include "core/lazy/embedded_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/broad/aabb_tree.h"
+#include "core/broad/adjacent_pairs.h"
+#include "core/deform/mapping.h"
+#include "core/narrow/adjacent_triangles.h"
+#include "core/narrow/triangle_triangle.h"
+#include "core/types/check.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Rounding of what is computed at rest: far more than it can be.
+constexpr double kUp = 1 + 1e-6, kDown = 1 - 1e-6;
+constexpr std::uint32_t kMostCells = 8;  // of a patch; more are not worth a look
+constexpr PatchRest kNothing = {{}, {}, {1, 1, 1}, {0, 0, 0}, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+
+struct TriangleRest {
+  double stretch = 1.0, ratio = 1.0, gap = 0.0, edge = 0.0, altitude = 0.0;
+};
+
+// 1 / sin(angle / 2) of the angle with this cosine.
+double inverse_half_sine(double cosine) {
+  const double square = 0.5 * (1.0 - std::min(1.0, cosine + 1e-12));
+  return square > 0.0 ? 1.0 / std::sqrt(square) : kInfinity;
+}
+
+TriangleRest lone_triangle(const TrianglePoints& p) {
+  TriangleRest out;
+  double smallest_cosine = 1.0, edges[3];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 u = p[(i + 1) % 3] - p[i], v = p[(i + 2) % 3] - p[i];
+    edges[i] = u.norm();
+    smallest_cosine = std::min(smallest_cosine, u.dot(v) / (u.norm() * v.norm()));
+    out.edge = std::max(out.edge, edges[i]);
+  }
+  const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  out.altitude = twice_area / out.edge;
+  const double square = 0.5 * (1.0 + smallest_cosine - 1e-12);  // of the cosine of half the angle
+  out.stretch =
+      square > 1e-6 && out.altitude > 1e-6 * out.edge ? 1.0 / std::sqrt(square) : kInfinity;
+  out.gap = out.edge;
+  return out;
+}
+
+// The largest cosine between directions of two wedges at one corner, each spanned by two edges. It
+// is attained at an edge of one of them: between inner directions there is a saddle.
+double largest_cosine(const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
+  double out = -1.0;
+  for (const Vec3& a : p)
+    for (const Vec3& b : q) out = std::max(out, a.dot(b));
+  const auto against_inside = [&out](const Vec3& ray, const std::array<Vec3, 2>& wedge) {
+    const Vec3 normal = wedge[0].cross(wedge[1]);
+    const double area = normal.squaredNorm();
+    if (!(area > 0.0)) return;
+    const Vec3 foot = ray - normal * (ray.dot(normal) / area);
+    const double along = foot.norm();
+    // A little beyond the wedge counts as inside: a larger cosine is safe.
+    if (wedge[0].cross(foot).dot(normal) >= -1e-9 * area &&
+        foot.cross(wedge[1]).dot(normal) >= -1e-9 * area)
+      out = std::max(out, along);
+  };
+  for (const Vec3& a : p) against_inside(a, q);
+  for (const Vec3& b : q) against_inside(b, p);
+  return out;
+}
+
+double ratio_at_corner(const TrianglePoints& p, const TrianglePoints& q,
+                       const SharedCorners& shared) {
+  const Vec3& corner = p[shared.p[0]];
+  const auto rays = [&](const TrianglePoints& t, const std::array<std::uint8_t, 3>& order) {
+    return std::array<Vec3, 2>{(t[order[1]] - corner).normalized(),
+                               (t[order[2]] - corner).normalized()};
+  };
+  return inverse_half_sine(largest_cosine(rays(p, shared.p), rays(q, shared.q)));
+}
+
+// Folded at the edge, a distance shrinks to no less than sin(angle / 2) of that in the unfolded
+// plane. There the straight path may pass an end of the edge; by way of that end it is longer by
+// 1 / sin(half of the two angles there).
+double ratio_at_edge(const TrianglePoints& p, const TrianglePoints& q,
+                     const SharedCorners& shared) {
+  const Vec3 &a = p[shared.p[0]], &b = p[shared.p[1]], &c = p[shared.p[2]], &d = q[shared.q[2]];
+  const Vec3 along = (b - a).normalized();
+  const auto across = [&](const Vec3& x) {
+    const Vec3 from_a = x - a;
+    return (from_a - along * from_a.dot(along)).normalized();
+  };
+  double out = inverse_half_sine(across(c).dot(across(d)));
+  for (const bool at_a : {true, false}) {
+    const Vec3& end = at_a ? a : b;
+    const Vec3 direction = at_a ? along : Vec3(-along);
+    const auto angle = [&](const Vec3& x) {
+      const Vec3 u = (x - end).normalized();
+      return std::array{u.dot(direction), u.cross(direction).norm()};  // cosine, sine
+    };
+    const auto [cos_c, sin_c] = angle(c);
+    const auto [cos_d, sin_d] = angle(d);
+    const double sine = sin_c * cos_d + cos_c * sin_d, cosine = cos_c * cos_d - sin_c * sin_d;
+    if (sine <= 1e-12) out *= inverse_half_sine(cosine);
+  }
+  return out;
+}
+
+double segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
+  const Vec3 u = p1 - p0, v = q1 - q0, w = p0 - q0;
+  const double a = u.dot(u), b = u.dot(v), c = v.dot(v), d = u.dot(w), e = v.dot(w);
+  const double denominator = a * c - b * b;
+  double s =
+      denominator > 1e-12 * a * c ? std::clamp((b * e - c * d) / denominator, 0.0, 1.0) : 0.0;
+  double t = c > 0.0 ? (b * s + e) / c : 0.0;
+  if (t < 0.0 || t > 1.0) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = a > 0.0 ? std::clamp((b * t - d) / a, 0.0, 1.0) : 0.0;
+  }
+  return (w + s * u - t * v).norm();
+}
+
+double point_distance(const Vec3& p, const TrianglePoints& t) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double area = normal.squaredNorm();
+  if (!(area > 0.0)) return kInfinity;  // its edges are looked at
+  for (int k = 0; k < 3; ++k)
+    if ((t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) < 0.0) return kInfinity;
+  return std::abs((p - t[0]).dot(normal)) / std::sqrt(area);
+}
+
+// Of triangles that share no point; in doubles.
+double triangle_distance(const TrianglePoints& p, const TrianglePoints& q) {
+  double out = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    out = std::min({out, point_distance(p[i], q), point_distance(q[i], p)});
+    for (int j = 0; j < 3; ++j)
+      out = std::min(out, segment_distance(p[i], p[(i + 1) % 3], q[j], q[(j + 1) % 3]));
+  }
+  return out;
+}
+
+// At most the distance of what they hold.
+double box_distance(const Aabb& a, const Aabb& b) {
+  const Vec3 apart = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(Vec3::Zero());
+  return apart.norm() * kDown;
+}
+
+std::vector<TriangleRest> triangles_at_rest(const BodyShape& shape) {
+  const std::vector<Vec3>& v = shape.mesh.vertices;
+  const auto points = [&](std::uint32_t t) -> TrianglePoints {
+    const Triangle& c = shape.mesh.triangles[t];
+    return {v[c[0]], v[c[1]], v[c[2]]};
+  };
+  std::vector<TriangleRest> out;
+  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
+    out.push_back(lone_triangle(points(t)));
+  for (const AdjacentPair& pair : adjacent_pairs(shape.linked())) {
+    const TrianglePoints p = points(pair.a), q = points(pair.b);
+    const double ratio = pair.shared.count == 1 ? ratio_at_corner(p, q, pair.shared)
+                                                : ratio_at_edge(p, q, pair.shared);
+    const bool touching = meet_beyond_shared(pair.shared, p, q);
+    for (const std::uint32_t t : {pair.a, pair.b})
+      out[t].ratio = touching || std::isnan(ratio) ? kInfinity : std::max(out[t].ratio, ratio);
+  }
+  // Boxes grown by an edge each: pairs nearer than the longer edge of either meet.
+  std::vector<Aabb> bounds(out.size());
+  TriangleMesh boxes;
+  for (std::uint32_t t = 0; t < out.size(); ++t) {
+    for (const Vec3& p : points(t)) bounds[t].extend(p);
+    const auto first = static_cast<std::uint32_t>(boxes.vertices.size());
+    boxes.vertices.push_back((bounds[t].lo.array() - out[t].edge).matrix());
+    boxes.vertices.push_back((bounds[t].hi.array() + out[t].edge).matrix());
+    boxes.triangles.push_back({first, first + 1, first + 1});
+  }
+  const auto tree = std::make_shared<TriangleTree>(make_triangle_tree(boxes, 4));
+  AabbTree volumes(tree);
+  volumes.refit(boxes.vertices);
+  std::vector<NodePair> stack;
+  std::uint64_t visited = 0;
+  traverse_self(volumes, stack, visited, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    const TriangleTree::Node a = tree->nodes[leaf_a], b = tree->nodes[leaf_b];
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+      for (std::uint32_t j = leaf_a == leaf_b ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        const std::uint32_t s = tree->ids[i], t = tree->ids[j];
+        // Nearly parallel edges are as far apart as two of their points: too far by as much.
+        const double rounding = 1e-5 * std::max(out[s].edge, out[t].edge);
+        const double least = box_distance(bounds[s], bounds[t]) - rounding;
+        if (least >= std::max(out[s].gap, out[t].gap)) continue;
+        const SharedCorners shared = shared_corners(shape.linked()[s], shape.linked()[t]);
+        if (shared.count > 0 && !shared.duplicates) continue;
+        const TrianglePoints p = points(s), q = points(t);
+        const bool meet = bounds[s].overlaps(bounds[t]) && triangles_intersect(p, q);
+        const double distance = meet ? 0.0 : std::max(0.0, triangle_distance(p, q) - rounding);
+        for (const std::uint32_t own : {s, t})
+          out[own].gap = std::min(out[own].gap, std::isnan(distance) ? 0.0 : distance);
+      }
+    return false;
+  });
+  return out;
+}
+
+float at_least(double x) { return static_cast<float>(std::min(x * kUp, 1e30)); }
+float at_most(double x) { return static_cast<float>(x * kDown); }
+
+// Of a coordinate on a line, either cell would do: F is continuous.
+std::uint8_t cell_at(const std::vector<double>& lines, double x) {
+  const auto above = std::upper_bound(lines.begin(), lines.end(), x);
+  const auto index = std::clamp<std::ptrdiff_t>(above - lines.begin() - 1, 0,
+                                                static_cast<std::ptrdiff_t>(lines.size()) - 2);
+  return static_cast<std::uint8_t>(index);
+}
+
+PatchRest patch_of(const BodyShape& shape, std::uint32_t triangle, const TriangleRest& rest) {
+  PatchRest out;
+  Aabb box;
+  for (const std::uint32_t v : shape.mesh.triangles[triangle]) box.extend(shape.mesh.vertices[v]);
+  for (int k = 0; k < 3; ++k) {
+    out.lo[k] = box.lo[k];
+    out.hi[k] = box.hi[k];
+    out.first_cell[k] = cell_at(shape.lattice->lines[k], box.lo[k]);
+    out.last_cell[k] = cell_at(shape.lattice->lines[k], box.hi[k]);
+  }
+  out.stretch = at_least(rest.stretch);
+  out.ratio = at_least(rest.ratio);
+  out.edge = at_least(rest.edge);
+  out.gap = at_most(rest.gap);
+  out.altitude = at_most(rest.altitude);
+  return out;
+}
+
+class PatchBuilder {
+ public:
+  PatchBuilder(const BodyShape& shape, const LatticeTree& tree, PatchTree& out)
+      : shape_(shape), tree_(tree), rest_(triangles_at_rest(shape)), out_(out) {}
+
+  PatchRest block(std::uint32_t index) {
+    PatchRest all;
+    for (std::uint32_t lane = 0; lane < tree_.blocks[index].children; ++lane) {
+      const TreeChild child = tree_.blocks[index].child[lane];
+      const PatchRest patch = child.leaf() ? leaf(child.index()) : block(child.index());
+      out_.children[index * kBlockWidth + lane] = patch;
+      all = lane == 0 ? patch : all.united(patch);
+    }
+    return all;
+  }
+
+ private:
+  PatchRest leaf(std::uint32_t index) {
+    const TreeLeaf& leaf = tree_.leaves[index];
+    PatchRest all;
+    for (std::uint32_t i = 0; i < leaf.triangles; ++i) {
+      const std::uint32_t t = tree_.leaf_triangles[leaf.first_triangle + i];
+      const PatchRest patch = patch_of(shape_, t, rest_[t]);
+      add_to_cells(patch);
+      all = i == 0 ? patch : all.united(patch);
+    }
+    return all;
+  }
+
+  // A triangle is in the cells that its box meets, where these are two by two by two at most.
+  void add_to_cells(const PatchRest& patch) {
+    const auto add = [&](PatchRest& to) { to = to.nothing() ? patch : to.united(patch); };
+    const auto& first = patch.first_cell;
+    const auto& last = patch.last_cell;
+    if (first == last) add(out_.in_cell[out_.flat(first[0], first[1], first[2])]);
+    std::array<std::uint32_t, 3> low{};
+    for (int k = 0; k < 3; ++k) {
+      if (last[k] > first[k] + 1) return;
+      low[k] = std::max<std::uint32_t>(last[k], 1) - 1;
+    }
+    for (std::uint32_t z = low[2]; z <= first[2]; ++z)
+      for (std::uint32_t y = low[1]; y <= first[1]; ++y)
+        for (std::uint32_t x = low[0]; x <= first[0]; ++x) add(out_.in_eight[out_.flat(x, y, z)]);
+  }
+
+  const BodyShape& shape_;
+  const LatticeTree& tree_;
+  std::vector<TriangleRest> rest_;
+  PatchTree& out_;
+};
+
+/// Entries of DF over part of a cell: middle and half-width, a column per axis at rest.
+struct Range {
+  Float4 lo[3], hi[3];
+  void add(int axis, const Float4& middle, const Float4& half, bool first) {
+    lo[axis] = first ? Float4(middle - half) : lo[axis].min(middle - half).eval();
+    hi[axis] = first ? Float4(middle + half) : hi[axis].max(middle + half).eval();
+  }
+};
+
+// The smallest eigenvalue of a symmetric positive semidefinite matrix, from below: Newton's method
+// from 0 on the characteristic polynomial, which is concave and increasing up to its first root.
+double smallest_eigenvalue(const Eigen::Matrix3d& m) {
+  const double trace = m.trace();
+  const double minors = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) + m(0, 0) * m(2, 2) -
+                        m(0, 2) * m(0, 2) + m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2);
+  const double determinant = m.determinant();
+  if (!(determinant > 0.0) || !(minors > 0.0)) return 0.0;
+  double x = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const double value = ((x - trace) * x + minors) * x - determinant;
+    const double slope = (3.0 * x - 2.0 * trace) * x + minors;
+    if (!(slope > 0.0)) return 0.0;
+    x -= value / slope;
+  }
+  return std::max(0.0, x * (1 - 1e-6) - 1e-12 * trace);
+}
+
+constexpr std::uint8_t kUnknown = 0, kEmbedded = 1, kNotTold = 2;
+
+// The conditions of the claim for one frame.
+bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& patch) {
+  const auto& lines = state.shape->lattice->lines;
+  if (!(patch.gap > 0.0f)) return false;
+
+  // DF over the part of each cell that Q holds. Terms are those of y = 2 x - 1 in the cell.
+  Range range;
+  double finest = kInfinity;  // the shortest side of these cells, along axes in which Q extends
+  float bend = 0.0f;          // m
+  std::size_t cells = 0, kept = 0;
+  bool long_row = false;  // more than two cells along an axis
+  std::array<bool, 3> flat{};
+  for (int k = 0; k < 3; ++k) {
+    long_row = long_row || patch.last_cell[k] > patch.first_cell[k] + 1;
+    flat[k] = patch.lo[k] == patch.hi[k];
+  }
+  for (std::uint32_t z = patch.first_cell[2]; z <= patch.last_cell[2]; ++z)
+    for (std::uint32_t y = patch.first_cell[1]; y <= patch.last_cell[1]; ++y)
+      for (std::uint32_t x = patch.first_cell[0]; x <= patch.last_cell[0]; ++x) {
+        const std::int32_t cell = patches.kept[patches.flat(x, y, z)];
+        ++cells;
+        if (cell < 0 && long_row) return false;
+        if (cell < 0) continue;
+        const CellTerms& f = state.cells[static_cast<std::size_t>(cell)];
+        const std::uint32_t at[3] = {x, y, z};
+        float c[3], e[3], inverse[3];
+        for (int k = 0; k < 3; ++k) {
+          const double low = lines[k][at[k]], side = lines[k][at[k] + 1] - low;
+          if (!flat[k]) finest = std::min(finest, side);
+          const double from = std::max(-1.0, 2.0 * (patch.lo[k] - low) / side - 1.0),
+                       to = std::min(1.0, 2.0 * (patch.hi[k] - low) / side - 1.0);
+          c[k] = static_cast<float>(0.5 * (from + to));
+          e[k] = static_cast<float>(std::max(0.0, 0.5 * (to - from))) + 1e-6f;
+          inverse[k] = static_cast<float>(2.0 / side);
+        }
+        float mixed_norm[3];  // of the derivatives along k and the next axis
+        for (int k = 0; k < 3; ++k) {
+          const int i = (k + 1) % 3, j = (k + 2) % 3, all = 7;
+          const Float4 &own = f.term[1 << k], &with_i = f.term[1 << k | 1 << i],
+                       &with_j = f.term[1 << k | 1 << j], &mixed = f.term[all];
+          const Float4 middle = own + with_i * c[i] + with_j * c[j] + mixed * (c[i] * c[j]);
+          const Float4 half = (with_i + mixed * c[j]).abs() * e[i] +
+                              (with_j + mixed * c[i]).abs() * e[j] + mixed.abs() * (e[i] * e[j]);
+          range.add(k, middle * inverse[k], half * inverse[k], kept == 0);
+          const Float4 second = (with_i + mixed * c[j]).abs() + mixed.abs() * e[j];
+          mixed_norm[k] =
+              flat[k] || flat[i] ? 0.0f : second.matrix().norm() * inverse[k] * inverse[i];
+        }
+        // The largest row sum of a symmetric matrix bounds its norm.
+        for (int k = 0; k < 3; ++k) bend = std::max(bend, mixed_norm[k] + mixed_norm[(k + 2) % 3]);
+        ++kept;
+      }
+
+  if (kept == 0) return false;
+
+  // What the terms are off by: near nodes and sums of eight of them in floats.
+  const double off = 64.0 * 0x1p-24 * state.reach * 2.0 / finest;
+  Eigen::Matrix3d a, half;
+  for (int k = 0; k < 3; ++k)
+    for (int r = 0; r < 3; ++r) {
+      a(r, k) = 0.5 * (double{range.lo[k][r]} + double{range.hi[k][r]});
+      half(r, k) = 0.5 * (double{range.hi[k][r]} - double{range.lo[k][r]}) + off;
+    }
+  // What Q has no extent in takes no part; in the product below it is as large as all others.
+  Eigen::Matrix3d extended = a;
+  for (int k = 0; k < 3; ++k)
+    if (flat[k]) extended.col(k).setZero(), half.col(k).setZero();
+  Eigen::Matrix3d product = extended.transpose() * extended;
+  const double all = product.trace();
+  for (int k = 0; k < 3; ++k)
+    if (flat[k]) product(k, k) = all;
+  // Of all matrices with such entries.
+  const double d =
+      kUp * std::sqrt(std::min(half.squaredNorm(),
+                               half.rowwise().sum().maxCoeff() * half.colwise().sum().maxCoeff()));
+  const double s = std::sqrt(smallest_eigenvalue(product)) * kDown;
+  // A mapped vertex, and a vertex at rest, in the body's frame.
+  const double unit = state.precision == Precision::kSingle ? 0x1p-24 : 0x1p-53;
+  const double error = 2.0 * mapping_error_bound(state.largest) * state.scale +
+                       64.0 * unit * state.reach +
+                       8.0 * 0x1p-53 * patches.largest * (a.norm() + d) + 1e-37;
+  const double h = patch.edge, off_slope = 2.0 * error / patch.altitude;
+  // What the terms are off by is in both ends of a cell.
+  const double m = cells == 1 ? kUp * (double{bend} + 16.0 * off / finest) : kInfinity;
+  const double neighbours = std::min(patch.ratio * patch.stretch * (d + off_slope),
+                                     d + patch.ratio * patch.stretch * (m * h + off_slope));
+  if (!(s > neighbours * kUp)) return false;
+  const double r = cells <= 2 || kept == cells ? 1.0 : 1.4142136;
+  const double interpolation = std::min(d * h * 0.57735027, m * h * h / 6.0) + error;
+  return (s - r * d) * patch.gap > 2.0 * interpolation * kUp;
+}
+
+}  // namespace
+
+PatchRest PatchRest::united(const PatchRest& other) const {
+  PatchRest out = *this;
+  for (int k = 0; k < 3; ++k) {
+    out.lo[k] = std::min(lo[k], other.lo[k]);
+    out.hi[k] = std::max(hi[k], other.hi[k]);
+    out.first_cell[k] = std::min(first_cell[k], other.first_cell[k]);
+    out.last_cell[k] = std::max(last_cell[k], other.last_cell[k]);
+  }
+  out.stretch = std::max(stretch, other.stretch);
+  out.ratio = std::max(ratio, other.ratio);
+  out.edge = std::max(edge, other.edge);
+  out.gap = std::min(gap, other.gap);
+  out.altitude = std::min(altitude, other.altitude);
+  return out;
+}
+
+PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree) {
+  PatchTree out;
+  const Lattice& lattice = *shape.lattice;
+  for (int k = 0; k < 3; ++k)
+    out.cells[k] = static_cast<std::uint32_t>(lattice.lines[k].size() - 1);
+  const std::size_t cells = std::size_t{out.cells[0]} * out.cells[1] * out.cells[2];
+  out.kept.assign(cells, -1);
+  for (std::size_t c = 0; c < lattice.cells.size(); ++c) {
+    const GridIndex& at = lattice.cells[c];
+    out.kept[out.flat(at[0], at[1], at[2])] = static_cast<std::int32_t>(c);
+  }
+  out.in_cell.assign(cells, kNothing);
+  out.in_eight.assign(cells, kNothing);
+  for (const Vec3& v : shape.mesh.vertices)
+    out.largest = std::max(out.largest, v.cwiseAbs().maxCoeff());
+  out.children.resize(tree.blocks.size() * kBlockWidth);
+  PatchBuilder(shape, tree, out).block(0);
+  return out;
+}
+
+bool stays_embedded(LazyState& state, const PatchTree& patches, const PatchRest& a,
+                    const PatchRest& b) {
+  std::array<std::uint32_t, 3> first{};
+  std::uint32_t cells = 1, longest = 1;
+  for (int k = 0; k < 3; ++k) {
+    first[k] = std::min(a.first_cell[k], b.first_cell[k]);
+    const std::uint32_t count = std::max(a.last_cell[k], b.last_cell[k]) - first[k] + 1;
+    cells *= count;
+    longest = std::max(longest, count);
+  }
+  if (cells > kMostCells) return false;
+  if (longest > 2) return holds(state, patches, a.united(b));
+  const std::size_t index = patches.flat(first[0], first[1], first[2]);
+  if (state.embedded.empty()) state.embedded.assign(2 * patches.in_cell.size(), kUnknown);
+  for (const bool eight : {false, true}) {
+    if (!eight && cells > 1) continue;
+    std::uint8_t& known = state.embedded[2 * index + eight];
+    if (known == kUnknown)
+      known = holds(state, patches, eight ? patches.in_eight[index] : patches.in_cell[index])
+                  ? kEmbedded
+                  : kNotTold;
+    if (known == kEmbedded) return true;
+  }
+  return holds(state, patches, a.united(b));
+}
+
+}  // namespace contactcheck

@@ -1,0 +1,99 @@
+// Patches of a surface that its lattice keeps from meeting themselves, told without a look at their
+// vertices.
+//
+// Claim: no two triangles of a patch share more than the vertices that both name.
+//
+// Terms. At rest the surface is a set of triangles in space. F is the trilinear map of the lattice,
+// G what is judged: linear on each triangle between the mapped vertices. Q is the box of the patch
+// at rest; the cells that Q meets are all kept, or at most two along each axis. A is any linear
+// map, s its smallest singular value. In each of these cells that is kept, within Q: |DF - A| <= d
+// (operator norm), and DF changes by at most m per length.
+//
+// Assumptions on the rest shape, by triangle (PatchRest, largest or smallest over the patch):
+//   * stretch c: for a linear map of the triangle that stretches each edge by at most 1, the
+//     stretch of any direction is at most c. With t the largest angle, c = 1 / cos(t / 2): every
+//     direction lies between those of two edges, at an angle of at most t.
+//   * ratio k: for points x, y of it and of a neighbour (that shares a vertex), a path over the two
+//     triangles has length at most k |x - y|.
+//   * gap g: at least so far (or at least the longest edge h) are all triangles that share no
+//     vertex with it.
+//   * altitude a, the smallest; longest edge h.
+// Every cell that a triangle meets is kept. Mapped vertices are off by at most e each.
+//
+// Paths. For points x, y of Q in kept cells X, Y: |(F - A)(x) - (F - A)(y)| <= r d |x - y|, where
+// r = 1 if all cells of Q are kept, or it meets no more than two, else r = sqrt(2).
+//   1. Where X and Y are one cell or share a face, the segment x y lies in them.
+//   2. Else they share an edge or corner. Let u + v be the part of y - x along the axes that
+//      separate them, u up to the separating planes and v from there on: u . v >= 0, so
+//      |u| + |v| <= sqrt(2) |u + v|. The path that is straight from x to the shared edge (or
+//      corner), meets it at the fraction |u| / (|u| + |v|), and is straight from there to y, lies
+//      in X, Y and Q, and has length at most sqrt(2) |x - y|.
+//
+// Neighbours. Let x and y be different points of two neighbours.
+//   1. The edges of a triangle lie in kept cells: G - A stretches them by d, and any direction in
+//      the triangle by L = c (d + 2 e / a).
+//   2. Along the path over the two, |(G - A)(x) - (G - A)(y)| <= L k |x - y|.
+//   3. G(x) and G(y) differ where s > k L.
+//   4. Q in one cell: in the direction of an edge, DG is the mean of DF over that edge, and so off
+//      DF at any point by at most m h; D(G - F) is at most c (m h + 2 e / a) in any direction. G(x)
+//      and G(y) differ also where s > d + k c (m h + 2 e / a).
+// Others. Let x and y be points of two triangles that share no vertex: |x - y| >= g.
+//   1. |F(x) - F(y)| >= (s - r d) |x - y|.
+//   2. For a point p of a triangle with corners v and barycentric coordinates w, the sum of
+//      w (F(v) - F(p) - A (v - p)) is G(p) - F(p). So |G - F| <= d h / sqrt(3) + e, since the sum
+//      of w |v - p|^2 is at most h^2 / 3.
+//   3. Q in one cell: with DF(p) for A, |G - F| <= m h^2 / 6 + e.
+//   4. G(x) and G(y) differ where (s - r d) g > 2 |G - F|.
+//
+// Where a triangle has no area, meets another at rest, or is a duplicate, c or k is infinite or g
+// is 0, and nothing is claimed.
+//
+// The same is asked first of every cell, and of every two by two by two, with all triangles in it:
+// once a frame, since many patches lie in one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/deform/body.h"
+#include "core/lazy/lattice_tree.h"
+#include "core/lazy/lazy_state.h"
+
+namespace contactcheck {
+
+/// What is known at rest of the triangles below a child of a block, or below two.
+struct PatchRest {
+  std::array<double, 3> lo{}, hi{};                       ///< box of the triangles, exact
+  std::array<std::uint8_t, 3> first_cell{}, last_cell{};  ///< grid positions of the cells it meets
+  float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;        ///< c, k, h: at least
+  float gap = 0.0f, altitude = 0.0f;                      ///< g, a: at most
+
+  PatchRest united(const PatchRest& other) const;
+  bool nothing() const { return first_cell[0] > last_cell[0]; }
+};
+
+struct PatchTree {
+  std::vector<PatchRest> children;  ///< [block * kBlockWidth + lane]
+  /// Per grid cell, x fastest: of the triangles within it; and of those within the two by two by
+  /// two cells that begin with it. Without a triangle: first_cell above last_cell.
+  std::vector<PatchRest> in_cell, in_eight;
+  std::array<std::uint32_t, 3> cells{};  ///< of the grid
+  double largest = 0.0;                  ///< |coordinate| of a vertex at rest
+  std::vector<std::int32_t> kept;        ///< per grid cell: the kept cell, or -1
+
+  /// Of a grid cell.
+  std::size_t flat(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    return (std::size_t{z} * cells[1] + y) * cells[0] + x;
+  }
+};
+
+/// @pre the shape has a lattice, and the tree is its
+PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree);
+
+/// True only if the claim holds for the frame, of one patch or of two together.
+/// @pre find_cells() of this frame; one thread
+bool stays_embedded(LazyState& state, const PatchTree& patches, const PatchRest& a,
+                    const PatchRest& b);
+
+}  // namespace contactcheck

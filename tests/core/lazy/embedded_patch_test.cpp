@@ -1,0 +1,182 @@
+// What is claimed of patches, against a test of every two of their triangles; and that enough is
+// claimed to be of use.
+
+#include "core/lazy/embedded_patch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/narrow/adjacent_triangles.h"
+#include "tests/core/lazy/bounds_cases.h"
+
+namespace contactcheck::test {
+namespace {
+
+struct Patch {
+  PatchRest rest;
+  std::vector<std::uint32_t> triangles;
+};
+
+std::vector<Patch> patches_of(const OneBody& body, const PatchTree& tree) {
+  std::vector<Patch> out;
+  for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
+    for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c)
+      out.push_back({tree.children[b * kBlockWidth + c],
+                     triangles_under(body.tree(), body.tree().blocks[b].child[c])});
+  return out;
+}
+
+bool meet(const OneBody& body, std::uint32_t s, std::uint32_t t) {
+  const std::vector<Triangle>& triangles = body.shape().mesh.triangles;
+  const auto points = [&](std::uint32_t i) -> TrianglePoints {
+    const Triangle& c = triangles[i];
+    return {body.vertices()[c[0]], body.vertices()[c[1]], body.vertices()[c[2]]};
+  };
+  const std::vector<Triangle>& linked = body.shape().linked();
+  return meet_beyond_shared(shared_corners(linked[s], linked[t]), points(s), points(t));
+}
+
+struct Tally {
+  int claimed = 0, refused = 0, meeting = 0;
+};
+
+/// Every patch, and every pair of near ones, in this frame.
+void check(OneBody& body, const PatchTree& tree, const std::vector<Patch>& patches, Tally& tally) {
+  const auto look_at = [&](const PatchRest& rest, std::vector<std::uint32_t> triangles) {
+    if (triangles.size() > 200) return;
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    bool any = false;
+    for (std::size_t i = 0; i < triangles.size() && !any; ++i)
+      for (std::size_t j = 0; j < i && !any; ++j) any = meet(body, triangles[i], triangles[j]);
+    const bool claimed = stays_embedded(body.state(), tree, rest, rest);
+    EXPECT_FALSE(claimed && any) << "a patch of " << triangles.size() << " triangles meets itself";
+    (claimed ? tally.claimed : tally.refused) += 1;
+    tally.meeting += any;
+  };
+  for (const Patch& p : patches) look_at(p.rest, p.triangles);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    for (std::size_t j = i + 1; j < std::min(patches.size(), i + 12); ++j) {
+      std::vector<std::uint32_t> both = patches[i].triangles;
+      both.insert(both.end(), patches[j].triangles.begin(), patches[j].triangles.end());
+      look_at(patches[i].rest.united(patches[j].rest), std::move(both));
+    }
+}
+
+TEST(EmbeddedPatch, IsNeverClaimedOfTrianglesThatMeet) {
+  TriangleSource random(5);
+  for (const NamedShape& named : shapes()) {
+    if (!named.shape->lattice) continue;
+    SCOPED_TRACE(named.name);
+    OneBody body(named.shape, false);
+    const PatchTree tree = make_patch_tree(*named.shape, body.tree());
+    const std::vector<Patch> patches = patches_of(body, tree);
+    Tally tally;
+    for (const double strength : {0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 1.0})
+      for (int repeat = 0; repeat < 3; ++repeat) {
+        body.begin(deformed_nodes(*named.shape, {strength, 1.0, Vec3(3, -2, 1)}, random));
+        check(body, tree, patches, tally);
+      }
+    RecordProperty(named.name, tally.claimed);
+    EXPECT_GT(tally.refused, 0);
+  }
+}
+
+// Turned inside out, mirrored, flattened, and far out: what no distance in space tells.
+TEST(EmbeddedPatch, IsNeverClaimedOfCellsThatAreInvertedOrFlat) {
+  for (const NamedShape& named : shapes()) {
+    if (!named.shape->lattice) continue;
+    SCOPED_TRACE(named.name);
+    OneBody body(named.shape, false);
+    const PatchTree tree = make_patch_tree(*named.shape, body.tree());
+    const std::vector<Patch> patches = patches_of(body, tree);
+    for (const Vec3& factor : {Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(-1, 1, 1), Vec3(1, 1, 1e-9),
+                               Vec3(1e-200, 1e-200, 1e-200), Vec3(1e100, 1e100, 1e100)}) {
+      std::vector<Vec3> nodes = rest_nodes_at(*named.shape, Vec3::Zero());
+      for (Vec3& n : nodes) n = n.cwiseProduct(factor);
+      body.begin(nodes);
+      Tally tally;
+      check(body, tree, patches, tally);
+    }
+    // Every second layer is folded over its neighbour.
+    std::vector<Vec3> nodes = rest_nodes_at(*named.shape, Vec3::Zero());
+    const Lattice& lattice = *named.shape->lattice;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::uint32_t layer = lattice.nodes[n][0];
+      nodes[n].x() = lattice.lines[0][layer % 2];
+    }
+    body.begin(nodes);
+    Tally tally;
+    check(body, tree, patches, tally);
+  }
+}
+
+TEST(EmbeddedPatch, IsClaimedWhereNothingOrLittleIsBent) {
+  const ShapePtr ball = make_shape(sphere_mesh(Vec3::Zero(), 1.0, 5), {6, 6, 6});
+  OneBody body(ball, false);
+  const PatchTree tree = make_patch_tree(*ball, body.tree());
+  for (const double bend : {0.0, 0.1}) {
+    std::vector<Vec3> nodes = rest_nodes_at(*ball, Vec3::Zero());
+    // Turned by an angle of tangent 3/4, stretched, and bent.
+    for (Vec3& n : nodes)
+      n = Vec3(0.8 * n.x() - 0.6 * n.y(), 0.6 * n.x() + 0.8 * n.y(), 1.5 * n.z()) +
+          bend * Vec3(n.y() * n.y(), 0, n.x() * n.y());
+    body.begin(nodes);
+    int claimed = 0, all = 0;
+    for (std::uint32_t b = 0; b < body.tree().blocks.size(); ++b)
+      for (std::uint32_t c = 0; c < body.tree().blocks[b].children; ++c) {
+        if (!body.tree().blocks[b].child[c].leaf()) continue;
+        {
+          const PatchRest& rest = tree.children[b * kBlockWidth + c];
+          claimed += stays_embedded(body.state(), tree, rest, rest);
+        }
+        ++all;
+      }
+    EXPECT_GT(claimed, all * 8 / 10) << "bent by " << bend;
+  }
+}
+
+// What the lattice does across a flat patch is nothing to it.
+TEST(EmbeddedPatch, OfAFlatSheetIsClaimedWhereItsCellsAreFlat) {
+  TriangleMesh mesh = sheet(20);
+  for (Vec3& v : mesh.vertices) v.z() = 0.0;
+  const ShapePtr flat = make_shape(mesh, {2, 2, 1});
+  OneBody body(flat, false);
+  const PatchTree tree = make_patch_tree(*flat, body.tree());
+  const std::vector<Patch> patches = patches_of(body, tree);
+  for (const double thickness : {1.0, 0.0, -1.0}) {
+    std::vector<Vec3> nodes = rest_nodes_at(*flat, Vec3::Zero());
+    for (Vec3& n : nodes) n.z() *= thickness;
+    body.begin(nodes);
+    Tally tally;
+    check(body, tree, patches, tally);
+    EXPECT_GT(tally.claimed, 0);
+    EXPECT_EQ(tally.refused, 0) << "thickness times " << thickness;
+  }
+  // Its own directions do count: drawn together along one of them, all triangles lie on one
+  // another.
+  std::vector<Vec3> nodes = rest_nodes_at(*flat, Vec3::Zero());
+  for (Vec3& n : nodes) n.x() = 0.0;
+  body.begin(nodes);
+  for (const Patch& patch : patches)
+    EXPECT_FALSE(stays_embedded(body.state(), tree, patch.rest, patch.rest));
+}
+
+TEST(EmbeddedPatch, OfTrianglesThatTouchAtRestNothingIsClaimed) {
+  TriangleMesh mesh = sheet(5);
+  const TriangleMesh other = sheet(5);  // at the same place, and not welded
+  const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Triangle& t : other.triangles)
+    mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  const ShapePtr shape = make_shape(mesh, {3, 3, 1});
+  OneBody body(shape, false);
+  const PatchTree tree = make_patch_tree(*shape, body.tree());
+  body.begin(rest_nodes_at(*shape, Vec3::Zero()));
+  for (const Patch& patch : patches_of(body, tree))
+    EXPECT_FALSE(stays_embedded(body.state(), tree, patch.rest, patch.rest));
+}
+
+}  // namespace
+}  // namespace contactcheck::test

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
+#include "core/types/shared_corners.h"
+#include "reference/judge/judge.h"
+#include "reference/oracle/rational_clipping.h"
 #include "reference/oracle/rational_geometry.h"
 
 namespace contactcheck {
@@ -53,7 +58,7 @@ TEST(HardCorpus, RationalArithmeticGivesTheTruthOfPairs) {
     const HardFamily& family = hard_family(id);
     std::size_t triangles = 0;
     for (const Body& body : family.scene.bodies) triangles += body.shape->mesh.triangles.size();
-    if (triangles > 2) continue;
+    if (triangles > 2 || family.scene.bodies.size() != 2) continue;
     for (std::size_t v = 0; v < family.truth.size(); ++v, ++cases) {
       const bool meet =
           oracle::rational::triangles_intersect(corners(family, v, 0, 0), corners(family, v, 1, 0));
@@ -65,6 +70,42 @@ TEST(HardCorpus, RationalArithmeticGivesTheTruthOfPairs) {
   EXPECT_GT(cases, 250u);
   EXPECT_GT(meeting, 80u);
   EXPECT_GT(cases - meeting, 80u);
+}
+
+// Of families about one body, by the definition: every two triangles that share up to two vertices,
+// and what they have in common beyond the segment between these.
+TEST(HardCorpus, RationalArithmeticGivesTheTruthOfBodiesThatTouchThemselves) {
+  constexpr std::size_t kFew = 60;  // triangles
+  std::size_t tested = 0;
+  std::map<Level, std::size_t> meeting;
+  for (const std::string& id : family_ids()) {
+    const HardFamily& family = hard_family(id);
+    const BodyShape& shape = *family.scene.bodies[0].shape;
+    const std::size_t triangles = shape.mesh.triangles.size();
+    if (family.scene.bodies.size() != 1 || triangles > kFew) continue;
+    for (std::size_t v = 0; v < family.truth.size(); ++v) {
+      std::vector<SelfPair> found;
+      for (std::uint32_t a = 0; a < triangles; ++a)
+        for (std::uint32_t b = a + 1; b < triangles; ++b) {
+          const std::optional<Level> level = judge::self_level(shape, a, b);
+          if (!level || !family.scene.judges(*level)) continue;
+          ++tested;
+          const auto p = corners(family, v, 0, a), q = corners(family, v, 0, b);
+          const SharedCorners shared = shared_corners(shape.linked()[a], shape.linked()[b]);
+          const bool meet = shared.count == 0
+                                ? oracle::rational::triangles_intersect_by_clipping(p, q)
+                                : oracle::rational::share_more_than(
+                                      p[shared.p[0]], p[shared.p[shared.count - 1]], p, q);
+          if (!meet) continue;
+          found.push_back({0, a, b});
+          ++meeting[*level];
+        }
+      EXPECT_EQ(found, family.truth[v].self) << id << " at " << family.truth[v].value;
+    }
+  }
+  EXPECT_GT(tested, 5000u);
+  for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
+    EXPECT_GT(meeting[level], 30u) << name_of(level);
 }
 
 // A vertex stands where the family put it, to the bit, where its lattice is one of nodes.

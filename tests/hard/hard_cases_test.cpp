@@ -9,6 +9,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/adapters/register.h"
+#include "reference/judge/judge.h"
 #include "tests/hard/corpus.h"
 #include "tests/hard/exact_detectors.h"
 
@@ -63,6 +64,14 @@ class HardCase : public ::testing::Test {
     EXPECT_EQ(answer(detector, family, value_, Question::kTriangles).triangles, truth.triangles);
     if (detector.semantics().answers(Question::kBody)) {
       EXPECT_EQ(answer(detector, family, value_, Question::kBody).bodies.size(), truth.bodies);
+    }
+    if (detector.semantics().answers(Question::kSelf)) {
+      const std::vector<Body>& bodies = family.scene.bodies;
+      std::vector<SelfPair> self = answer(detector, family, value_, Question::kSelf).self;
+      std::erase_if(self, [&](const SelfPair& pair) {
+        return !family.scene.judges(*judge::self_level(*bodies[pair.body].shape, pair.a, pair.b));
+      });
+      EXPECT_EQ(self, truth.self);
     }
   }
 

@@ -107,6 +107,16 @@ struct TuneArguments {
   std::string command_line;  ///< for the record
 };
 
+struct CheckArguments {
+  std::vector<std::filesystem::path> frames;  ///< files of a simulation; at least one
+  std::vector<std::string> allow;             ///< contact, self, depth=METRES
+  bool weld = false, quiet = false, json_lines = false;
+  std::filesystem::path out = "out";
+  std::string command_line;  ///< for the record
+};
+
+/// Which frames have contacts that are not allowed; 1 when one has.
+int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog);
 int run_command(const RunArguments& arguments, const DetectorCatalog& catalog);
 /// Runs the suite `paper` (or the targets) in closed loop too and lays it beside the paper's
 /// tables.

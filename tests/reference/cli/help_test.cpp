@@ -76,7 +76,7 @@ TEST(List, GivesOnlyWhatIsAskedFor) {
 // "" is the program itself.
 constexpr const char* kCommands[] = {"",       "run",   "reproduce", "reduce", "export", "list",
                                      "report", "truth", "defects",   "diff",   "gate",   "accept",
-                                     "ab",     "tune",  "merge",     "init"};
+                                     "ab",     "tune",  "merge",     "init",   "check"};
 
 Outcome help_of(const std::string& command) {
   std::vector<std::string> arguments = {"--help"};

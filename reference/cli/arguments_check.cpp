@@ -1,0 +1,33 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "reference/cli/arguments.h"
+#include "reference/cli/commands.h"
+
+namespace contactcheck::cli {
+
+void add_check(CommandLine& line) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* check =
+      line.app.add_subcommand("check", "Says which frames of a simulation have contacts");
+  check
+      ->add_option("frames", arguments->frames,
+                   "numbered meshes; a mesh and its PC2 or MDD file; a recording")
+      ->required();
+  check->add_option("--allow", arguments->allow, "contact, self or depth=METRES; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("WHAT");
+  check->add_flag("--weld", arguments->weld, "vertices at one place in the first frame are one");
+  check->add_option("--out", arguments->out, "folder of the page (default out)")->type_name("DIR");
+  check->add_flag("--json-lines", arguments->json_lines, "events on standard output");
+  check->add_flag("--quiet", arguments->quiet, "no progress bar");
+  check->footer(
+      "Exit code 1 when a frame has a contact that is not allowed.\n"
+      "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
+  choose(*check, line, [arguments, &line] {
+    arguments->command_line = line.words;
+    return check_command(*arguments, line.catalog);
+  });
+}
+
+}  // namespace contactcheck::cli

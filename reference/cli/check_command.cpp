@@ -1,0 +1,412 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "core/deform/recording.h"
+#include "core/types/check.h"
+#include "reference/cli/command_checks.h"
+#include "reference/cli/commands.h"
+#include "reference/cli/event_lines.h"
+#include "reference/cli/progress_display.h"
+#include "reference/cli/run_and_report.h"
+#include "reference/judge/judge.h"
+#include "reference/judge/judged_scene.h"
+#include "reference/oracle/oracle.h"
+#include "reference/oracle/surface_geometry.h"
+#include "reference/process/exit_codes.h"
+#include "reference/scene/frame_files.h"
+#include "reference/scene/frame_positions.h"
+#include "reference/text/file_text.h"
+
+namespace contactcheck::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kDetector = "full-refit";
+constexpr std::size_t kMostShown = 10;  // frames, on a terminal
+constexpr std::array kSelfLevels = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
+
+struct Allowed {
+  bool contact = false, self = false;
+  std::optional<double> depth;  ///< metres, of contacts between bodies
+};
+
+Allowed allowed_by(const std::vector<std::string>& words) {
+  Allowed out;
+  for (const std::string& word : words) {
+    char* end = nullptr;
+    if (word == "contact") {
+      out.contact = true;
+    } else if (word == "self") {
+      out.self = true;
+    } else if (word.starts_with("depth=") && word.size() > 6) {
+      const double depth = std::strtod(word.c_str() + 6, &end);
+      if (*end != '\0' || !(depth >= 0.0 && depth <= 1e9))
+        throw InputError("--allow " + text::in_quotes(word) + ": a depth is metres from 0 to 1e9");
+      out.depth = depth;
+    } else {
+      throw InputError("--allow " + text::in_quotes(word) +
+                       " is not one of contact, self, depth=METRES");
+    }
+  }
+  return out;
+}
+
+/// What is not allowed in one frame.
+struct BadFrame {
+  struct Pair {
+    BodyPair bodies;
+    std::size_t triangles = 0;
+    std::optional<std::array<std::uint32_t, 2>> first;  ///< none: one body is inside the other
+    std::optional<double> depth;  ///< metres, of the deepest vertex; none: neither is a solid
+  };
+  struct Self {
+    std::uint32_t body = 0;
+    std::map<Level, std::size_t> pairs;
+    std::array<std::uint32_t, 2> first{};
+  };
+  std::size_t frame = 0;
+  std::vector<Pair> pairs;
+  std::vector<Self> selfs;
+};
+
+/// Finds with full-refit, and confirms what it finds by the oracle.
+class FrameChecker {
+ public:
+  FrameChecker(const scene::Scene& scene, const Allowed& allowed, const DetectorCatalog& catalog)
+      : scene_(scene),
+        allowed_(allowed),
+        positions_(scene),
+        detector_(catalog.make(catalog.parse(kDetector))),
+        oracle_(scene.bodies),
+        geometry_(scene.bodies) {
+    std::vector<Question> questions;
+    if (!allowed.contact) questions.push_back(Question::kTriangles);
+    if (!allowed.self) questions.push_back(Question::kSelf);
+    detector_->expect(questions);
+    detector_->prepare(scene.bodies);
+  }
+
+  std::optional<BadFrame> check(std::size_t f) {
+    const scene::FramePosition& position = positions_[f];
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
+      if (const auto torn = torn_weld(*scene_.bodies[b].shape, position.vertices[b]))
+        throw InputError("frame " + std::to_string(f) + ": vertices " + std::to_string((*torn)[0]) +
+                         " and " + std::to_string((*torn)[1]) + " of body " +
+                         text::in_quotes(scene_.bodies[b].name) +
+                         " are welded and come apart; without --weld they may");
+    const Frame frame = judge::make_frame(f, static_cast<double>(f) * scene_.time_step,
+                                          position.nodes, position.vertices);
+    ContactSet found;
+    detector_->update(frame);
+    if (!allowed_.contact) detector_->query(Question::kTriangles, found);
+    if (!allowed_.self) detector_->query(Question::kSelf, found);
+    found.canonicalize();
+    const bool may_hold = !allowed_.contact && one_may_hold_another(position);
+    if (found.triangles.empty() && found.self.empty() && !may_hold) return std::nullopt;
+    return confirmed(f, frame, found);
+  }
+
+ private:
+  // Surfaces that do not meet, one of them inside a solid: no pair of triangles tells.
+  bool one_may_hold_another(const scene::FramePosition& position) const {
+    std::vector<Aabb> boxes;
+    for (const std::vector<Vec3>& vertices : position.vertices)
+      boxes.push_back(bounding_box(vertices));
+    for (std::size_t a = 0; a < boxes.size(); ++a)
+      for (std::size_t b = 0; b < boxes.size(); ++b)
+        if (a != b && scene_.bodies[a].shape->topology.solid &&
+            (boxes[a].lo.array() <= boxes[b].lo.array()).all() &&
+            (boxes[b].hi.array() <= boxes[a].hi.array()).all())
+          return true;
+    return false;
+  }
+
+  std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
+    oracle::WantedTruth wanted;
+    wanted.containment = wanted.vertices = !allowed_.contact;
+    wanted.triangles = !allowed_.contact;
+    wanted.self = !allowed_.self;
+    const oracle::Truth truth = oracle_.judge(frame, wanted);
+    if (truth.surface.triangles != found.triangles || truth.surface.self != found.self)
+      throw std::runtime_error("frame " + std::to_string(f) + ": " + kDetector +
+                               " and the oracle disagree; that is an error of contactcheck");
+    BadFrame out;
+    out.frame = f;
+    add_pairs(frame, truth, out);
+    for (const std::uint32_t body : truth.surface.self_bodies) {
+      BadFrame::Self& self = out.selfs.emplace_back();
+      self.body = body;
+      for (const Level level : kSelfLevels)
+        for (const SelfPair& pair : judge::self_pairs(level, scene_.bodies, truth.surface.self)) {
+          if (pair.body != body) continue;
+          if (self.pairs.empty()) self.first = {pair.a, pair.b};
+          ++self.pairs[level];
+        }
+    }
+    if (out.pairs.empty() && out.selfs.empty()) return std::nullopt;
+    return out;
+  }
+
+  void add_pairs(const Frame& frame, const oracle::Truth& truth, BadFrame& out) {
+    geometry_.set_frame(frame);
+    std::map<BodyPair, BadFrame::Pair> pairs;
+    for (const BodyPair& bodies : truth.surface.bodies) pairs[bodies].bodies = bodies;
+    for (const BodyPair& bodies : truth.containment) pairs[bodies].bodies = bodies;
+    for (const ElementPair& p : truth.surface.triangles) {
+      BadFrame::Pair& pair = pairs.at({p.body_a, p.body_b});
+      if (!pair.first) pair.first = {p.a, p.b};
+      ++pair.triangles;
+    }
+    for (auto& [bodies, pair] : pairs)
+      if (scene_.bodies[bodies.a].shape->topology.solid ||
+          scene_.bodies[bodies.b].shape->topology.solid)
+        pair.depth = 0.0;
+    for (const VertexInBody& v : truth.surface.vertices) {
+      const auto pair = pairs.find({std::min(v.body, v.in), std::max(v.body, v.in)});
+      if (pair != pairs.end())
+        pair->second.depth =
+            std::max(pair->second.depth.value_or(0.0), geometry_.vertex_to_surface(v).depth);
+    }
+    for (const auto& [bodies, pair] : pairs)
+      if (!allowed_.depth || !pair.depth || *pair.depth > *allowed_.depth)
+        out.pairs.push_back(pair);
+  }
+
+  const scene::Scene& scene_;
+  Allowed allowed_;
+  scene::FramePositions positions_;
+  std::unique_ptr<Detector> detector_;
+  oracle::Oracle oracle_;
+  oracle::SurfaceGeometry geometry_;
+};
+
+/// What is said of the frames, to a person or to a program.
+class CheckReport {
+ public:
+  CheckReport(const scene::Scene& scene, std::vector<std::string> labels, bool json_lines)
+      : scene_(scene), labels_(std::move(labels)), json_(json_lines) {}
+
+  void start(const CheckArguments& arguments) const {
+    Json bodies = Json::array();
+    std::string text;
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const TriangleMesh& mesh = scene_.bodies[b].shape->mesh;
+      bodies.push_back({{"name", scene_.bodies[b].name},
+                        {"vertices", mesh.vertices.size()},
+                        {"triangles", mesh.triangles.size()}});
+      text += scene_.bodies[b].name + ": " + std::to_string(mesh.triangles.size()) +
+              " triangles, " + scene_.origins[b].source +
+              (scene_.origins[b].notes.empty() ? "" : "; " + scene_.origins[b].notes) + "\n";
+    }
+    if (json_) {
+      print({{"event", "start"},
+             {"schema", "contactcheck-events/1"},
+             {"version", CONTACTCHECK_VERSION},
+             {"out", arguments.out.string()},
+             {"frames", scene_.frames},
+             {"bodies", bodies}});
+    } else {
+      std::printf("%s%zu frames\n", text.c_str(), scene_.frames);
+    }
+  }
+
+  void frame(const BadFrame& bad) {
+    ++bad_;
+    if (!first_) first_ = bad.frame;
+    for (const BadFrame::Pair& pair : bad.pairs)
+      if (pair.depth && (!deepest_ || *pair.depth > *deepest_->second.depth))
+        deepest_ = {bad.frame, pair};
+    if (json_) return print(json_of(bad));
+    if (bad_ > kMostShown) return;
+    std::printf("\n%s\n", place(bad.frame).c_str());
+    for (const BadFrame::Pair& pair : bad.pairs) std::printf("  %s\n", sentence(pair).c_str());
+    for (const BadFrame::Self& self : bad.selfs) std::printf("  %s\n", sentence(self).c_str());
+    std::fflush(stdout);
+  }
+
+  std::size_t bad_frames() const { return bad_; }
+  std::optional<std::size_t> first() const { return first_; }
+
+  void end(const CheckArguments& arguments, int exit_code, const std::string& page) const {
+    if (json_)
+      return print({{"event", "end"},
+                    {"out", arguments.out.string()},
+                    {"bad_frames", bad_},
+                    {"first", first_ ? Json(*first_) : Json(nullptr)},
+                    {"exit_code", exit_code}});
+    if (bad_ > kMostShown) std::printf("\n... and %zu more frames\n", bad_ - kMostShown);
+    if (bad_ == 0) {
+      std::printf("no frame has a contact that is not allowed\n");
+      return;
+    }
+    std::printf("\n%zu of %zu frames have a contact that is not allowed, the first is %s\n", bad_,
+                scene_.frames, place(*first_).c_str());
+    if (deepest_ && *deepest_->second.depth > 0.0)
+      std::printf("deepest: %s, %s\n", place(deepest_->first).c_str(),
+                  sentence(deepest_->second).c_str());
+    std::printf("%s shows it\n", page.c_str());
+  }
+
+ private:
+  static void print(const Json& event) { EventLines(true).print(event.dump()); }
+
+  std::string place(std::size_t frame) const {
+    return "frame " + std::to_string(frame) +
+           (frame < labels_.size() ? " (" + labels_[frame] + ")" : "");
+  }
+  const std::string& name(std::uint32_t body) const { return scene_.bodies[body].name; }
+
+  static std::string pairs_text(std::size_t pairs, const std::array<std::uint32_t, 2>& first) {
+    return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") + " of triangles, first " +
+           std::to_string(first[0]) + " and " + std::to_string(first[1]);
+  }
+
+  std::string sentence(const BadFrame::Pair& pair) const {
+    std::string out = name(pair.bodies.a) + " and " + name(pair.bodies.b) + ": ";
+    out += pair.first ? pairs_text(pair.triangles, *pair.first) : "one is inside the other";
+    if (pair.depth) out += fmt::format(", {:.3g} mm deep", 1e3 * *pair.depth);
+    return out;
+  }
+
+  std::string sentence(const BadFrame::Self& self) const {
+    std::size_t all = 0;
+    std::string classes;
+    for (const auto& [level, count] : self.pairs) {
+      all += count;
+      classes += (classes.empty() ? "" : ", ") + std::to_string(count) +
+                 (level == Level::kSelf         ? " without a shared vertex"
+                  : level == Level::kSelfVertex ? " that share a corner"
+                                                : " that share an edge");
+    }
+    return name(self.body) + " with itself: " + pairs_text(all, self.first) + " (" + classes + ")";
+  }
+
+  Json json_of(const BadFrame& bad) const {
+    Json contacts = Json::array(), selfs = Json::array();
+    for (const BadFrame::Pair& pair : bad.pairs)
+      contacts.push_back({{"bodies", {name(pair.bodies.a), name(pair.bodies.b)}},
+                          {"triangle_pairs", pair.triangles},
+                          {"first", pair.first ? Json(*pair.first) : Json(nullptr)},
+                          {"depth", pair.depth ? Json(*pair.depth) : Json(nullptr)}});
+    for (const BadFrame::Self& self : bad.selfs) {
+      Json one = {{"body", name(self.body)}};
+      for (const Level level : kSelfLevels)
+        one[name_of(level)] = self.pairs.contains(level) ? self.pairs.at(level) : 0;
+      one["first"] = self.first;
+      selfs.push_back(std::move(one));
+    }
+    return {{"event", "frame"},
+            {"frame", bad.frame},
+            {"file", bad.frame < labels_.size() ? Json(labels_[bad.frame]) : Json(nullptr)},
+            {"contacts", std::move(contacts)},
+            {"self", std::move(selfs)}};
+  }
+
+  const scene::Scene& scene_;
+  std::vector<std::string> labels_;
+  bool json_;
+  std::size_t bad_ = 0;
+  std::optional<std::size_t> first_;
+  std::optional<std::pair<std::size_t, BadFrame::Pair>> deepest_;
+};
+
+// The levels that are left to be judged.
+std::vector<Level> levels_of(const Allowed& allowed) {
+  std::vector<Level> levels;
+  for (const Level level : {Level::kBody, Level::kContainment, Level::kTriangle})
+    if (!allowed.contact) levels.push_back(level);
+  for (const Level level : kLevels)
+    if (is_self(level) && !allowed.self) levels.push_back(level);
+  return levels;
+}
+
+/// The page about one frame: a run of its own, on a recording of it. Returns its path; a build
+/// without npm has no page, but a report.
+fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene, std::size_t frame,
+                    const DetectorCatalog& catalog) {
+  Recording recording;
+  recording.scene = "frame-" + std::to_string(frame);
+  recording.bodies = scene.bodies;
+  recording.time_step = scene.time_step;
+  recording.levels = scene.levels;
+  recording.frames = {scene.nodes_of_frame(frame)};
+  const fs::path file = arguments.out / (recording.scene + ".ccr");
+  write_recording(file, recording);
+  RunArguments run;
+  run.targets = {file.string()};
+  run.detectors = {kDetector};
+  run.timing = false;
+  run.quiet = true;
+  run.out = arguments.out;
+  run.command_line = arguments.command_line;
+  suite::SuiteOutcome outcome;
+  run_and_report(run, catalog, &outcome);
+  const fs::path page = arguments.out / "report.html";
+  return fs::exists(page) ? page : arguments.out / "report.md";
+}
+
+}  // namespace
+
+int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog) {
+  const Allowed allowed = allowed_by(arguments.allow);
+  const std::vector<Level> levels = levels_of(allowed);
+  if (levels.empty())
+    throw InputError("--allow contact and --allow self leave nothing to be checked");
+  check_out(arguments.out);
+  std::vector<std::string> labels;
+  scene::Scene scene;
+  if (arguments.frames.size() == 1 && arguments.frames[0].extension() == ".ccr") {
+    scene = scene::load_any_scene(arguments.frames[0]);
+  } else {
+    scene::FrameFiles files = scene::frame_files(arguments.frames, "check", levels);
+    scene = scene::load_scene_text(files.scene);
+    labels = std::move(files.labels);
+  }
+  scene.levels = levels;
+  if (arguments.weld)
+    for (Body& body : scene.bodies) body.shape = welded(*body.shape);
+
+  CheckReport report(scene, std::move(labels), arguments.json_lines);
+  report.start(arguments);
+  FrameChecker checker(scene, allowed, catalog);
+  ProgressDisplay display(arguments.quiet || isatty(STDERR_FILENO) == 0, true);
+  EventLines events(arguments.json_lines);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t f = 0; f < scene.frames; ++f) {
+    suite::SuiteProgress progress{0,
+                                  1,
+                                  scene.id,
+                                  kDetector,
+                                  static_cast<std::uint32_t>(f),
+                                  scene.frames,
+                                  static_cast<double>(f) / static_cast<double>(scene.frames)};
+    const double elapsed =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::optional<double> left = seconds_left(elapsed, 0.0, progress.share);
+    display.show(progress, left);
+    if (events.wanted()) events.progress(progress, left);
+    if (const std::optional<BadFrame> bad = checker.check(f)) {
+      display.finish();
+      report.frame(*bad);
+    }
+  }
+  display.finish();
+  fs::path page;
+  if (report.first()) page = write_page(arguments, scene, *report.first(), catalog);
+  const int code = report.bad_frames() > 0 ? 1 : 0;
+  report.end(arguments, code, page.string());
+  return code;
+}
+
+}  // namespace contactcheck::cli

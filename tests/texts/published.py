@@ -152,7 +152,8 @@ def goal_rows(results, fields):
 
 def family_rows(results, fields):
     """One row a detector, and one more for each class of contacts of a body with itself: sums over
-    families of hard cases; `rounded`: by levels_rounded, too."""
+    families of hard cases. `rounded`: by levels_rounded, too; `between`: of contacts between bodies
+    alone."""
     cases = {scene["id"]: len(scene["family"]["values"])
              for scene in results["scenes"] if "family" in scene}
     own = {scene["id"]: next((level for level in scene["truth"] if level.startswith("self")), "")
@@ -160,6 +161,8 @@ def family_rows(results, fields):
     rows = {}
     for run in results["runs"]:
         if run["scene"] not in cases or run["status"] == "absent":
+            continue
+        if "between" in fields and own[run["scene"]]:
             continue
         row = rows.setdefault((own[run["scene"]], run["detector"]), {
             "detector": run["detector"], "level": "-", "families": 0, "families_right": 0, "cases": 0,
@@ -279,7 +282,7 @@ FILES = {
                     "runs": (*COUNTS, "missed_bodies", "spurious_bodies", "spurious_distance")},
     "single-historic": {"scenes": ("true_pairs",),
                         "runs": (*COUNTS, "rounded")},
-    "single-hard": {"sums": (), "detectors": ("rounded",)},
+    "single-hard": {"detectors": ("rounded", "between")},
     "single-lazy-times": {"runs": ("ms", "passes")},
     "single-historic-times": {"runs": ("ms", "passes")},
     "paper-64": {"scenes": ("steps",), "runs": ("memory_bytes",)},

@@ -494,7 +494,8 @@ def figures(files):
         "hard.known_refusals": lambda: count(hard.row("sums")["known_refusals"]),
         "hard.readings": lambda: count(hard.row("sums")["readings"]),
         "pile.spurious_distance": spurious_distance,
-        "single-hard.families": lambda: str(hard_single.row("sums")["families"]),
+        "single-hard.families": lambda: str(hard_single.same(
+            [row["families"] for row in hard_single.rows("detectors")], "families")),
         "single-hard.refused": lambda: str(hard_single.same(
             [row["refused"] for row in hard_single.rows("detectors")], "refused families")),
         "single-hard.cases": lambda: str(of_fed("cases")),

@@ -440,30 +440,49 @@ PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree) {
   return out;
 }
 
-bool stays_embedded(LazyState& state, const PatchTree& patches, const PatchRest& a,
-                    const PatchRest& b) {
-  std::array<std::uint32_t, 3> first{};
+namespace {
+
+// One patch, or two together: by the cells it meets where these are few, else by itself.
+bool told(LazyState& state, const PatchTree& patches, const PatchRest& patch) {
   std::uint32_t cells = 1, longest = 1;
   for (int k = 0; k < 3; ++k) {
-    first[k] = std::min(a.first_cell[k], b.first_cell[k]);
-    const std::uint32_t count = std::max(a.last_cell[k], b.last_cell[k]) - first[k] + 1;
+    const std::uint32_t count = patch.last_cell[k] - patch.first_cell[k] + 1u;
     cells *= count;
     longest = std::max(longest, count);
   }
   if (cells > kMostCells) return false;
-  if (longest > 2) return holds(state, patches, a.united(b));
+  if (longest > 2) return holds(state, patches, patch);
+  const auto& first = patch.first_cell;
   const std::size_t index = patches.flat(first[0], first[1], first[2]);
-  if (state.embedded.empty()) state.embedded.assign(2 * patches.in_cell.size(), kUnknown);
   for (const bool eight : {false, true}) {
     if (!eight && cells > 1) continue;
-    std::uint8_t& known = state.embedded[2 * index + eight];
+    std::uint8_t& known = state.embedded_cells[2 * index + eight];
     if (known == kUnknown)
       known = holds(state, patches, eight ? patches.in_eight[index] : patches.in_cell[index])
                   ? kEmbedded
                   : kNotTold;
     if (known == kEmbedded) return true;
   }
-  return holds(state, patches, a.united(b));
+  return holds(state, patches, patch);
+}
+
+bool told_alone(LazyState& state, const PatchTree& patches, std::uint32_t child) {
+  std::uint8_t& known = state.embedded_children[child];
+  if (known == kUnknown)
+    known = told(state, patches, patches.children[child]) ? kEmbedded : kNotTold;
+  return known == kEmbedded;
+}
+
+}  // namespace
+
+bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b) {
+  if (state.embedded_cells.empty()) {
+    state.embedded_cells.assign(2 * patches.in_cell.size(), kUnknown);
+    state.embedded_children.assign(patches.children.size(), kUnknown);
+  }
+  // Of what is not told of one of them, no more is told of both.
+  if (!told_alone(state, patches, a) || (a != b && !told_alone(state, patches, b))) return false;
+  return a == b || told(state, patches, patches.children[a].united(patches.children[b]));
 }
 
 }  // namespace contactcheck

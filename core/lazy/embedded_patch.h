@@ -49,7 +49,8 @@
 // is 0, and nothing is claimed.
 //
 // The same is asked first of every cell, and of every two by two by two, with all triangles in it:
-// once a frame, since many patches lie in one.
+// once a frame, since many patches lie in one. Two patches together are asked about only where the
+// claim holds for each.
 #pragma once
 
 #include <array>
@@ -91,9 +92,8 @@ struct PatchTree {
 /// @pre the shape has a lattice, and the tree is its
 PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree);
 
-/// True only if the claim holds for the frame, of one patch or of two together.
-/// @pre find_cells() of this frame; one thread
-bool stays_embedded(LazyState& state, const PatchTree& patches, const PatchRest& a,
-                    const PatchRest& b);
+/// True only if the claim holds for the frame, of the patch below one child or of those below two
+/// together. `a`, `b`: indices of PatchTree::children. @pre find_cells() of this frame; one thread
+bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b);
 
 }  // namespace contactcheck

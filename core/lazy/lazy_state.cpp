@@ -268,7 +268,7 @@ void find_cells(LazyState& state) {
   for (std::size_t c = 0; c < cells.size(); ++c)
     set_terms(cells[c], state.near_nodes, state.cells[c]);
   state.cells_known = true;
-  state.embedded.clear();
+  state.embedded_cells.clear();
 }
 
 void count_made(const LazyState& state, LazyCounters& counters) {

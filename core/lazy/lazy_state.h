@@ -170,7 +170,8 @@ struct LazyState {
   const LatticeTree* tree = nullptr;
   Precision precision = Precision::kDouble;
   const PatchTree* patches = nullptr;  ///< where known: what cannot meet itself
-  std::vector<std::uint8_t> embedded;  ///< of this frame, by region of `patches`; empty: not asked
+  /// What is known in this frame of regions and children of `patches`; empty: not asked.
+  std::vector<std::uint8_t> embedded_cells, embedded_children;
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices

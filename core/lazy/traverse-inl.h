@@ -105,15 +105,15 @@ class PairTraversal {
     cross(0, children(bodies_.a), 0, children(bodies_.b));
   }
 
-  const PatchRest& patch(std::uint32_t block, std::uint32_t lane) const {
-    return patches_->children[block * kBlockWidth + lane];
+  bool stay_embedded(std::uint32_t block_a, std::uint32_t lane_a, std::uint32_t block_b,
+                     std::uint32_t lane_b) const {
+    return patches_ != nullptr &&
+           stays_embedded(bodies_.a, *patches_, block_a * kBlockWidth + lane_a,
+                          block_b * kBlockWidth + lane_b);
   }
 
   HWY_INLINE void meet(const SlotPair& slots) {
-    if (patches_ != nullptr &&
-        stays_embedded(bodies_.a, *patches_, patch(slots.block_a, slots.lane_a),
-                       patch(slots.block_b, slots.lane_b)))
-      return;
+    if (stay_embedded(slots.block_a, slots.lane_a, slots.block_b, slots.lane_b)) return;
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
     const TreeChild b = child_b(slots.block_b, slots.lane_b);
     if (a.leaf() && b.leaf()) {
@@ -156,8 +156,7 @@ class PairTraversal {
     const BlockBounds& all = bounds(bodies_.a, block, scratch_.arena);
     for (std::uint32_t i = 0; i < children.children; ++i) {
       const TreeChild child = children.child[i];
-      if (patches_ != nullptr &&
-          stays_embedded(bodies_.a, *patches_, patch(block, i), patch(block, i))) {
+      if (stay_embedded(block, i, block, i)) {
         // nothing below it meets
       } else if (child.leaf()) {
         scratch_.open.leaves.push_back({child.index(), child.index()});

@@ -24,10 +24,7 @@ void add_check(CommandLine& line) {
   check->footer(
       "Exit code 1 when a frame has a contact that is not allowed.\n"
       "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
-  choose(*check, line, [arguments, &line] {
-    arguments->command_line = line.words;
-    return check_command(*arguments, line.catalog);
-  });
+  choose(*check, line, [arguments, &line] { return check_command(*arguments, line.catalog); });
 }
 
 }  // namespace contactcheck::cli

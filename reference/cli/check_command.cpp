@@ -25,6 +25,7 @@
 #include "reference/scene/frame_files.h"
 #include "reference/scene/frame_positions.h"
 #include "reference/text/file_text.h"
+#include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -194,8 +195,8 @@ class FrameChecker {
 /// What is said of the frames, to a person or to a program.
 class CheckReport {
  public:
-  CheckReport(const scene::Scene& scene, std::vector<std::string> labels, bool json_lines)
-      : scene_(scene), labels_(std::move(labels)), json_(json_lines) {}
+  CheckReport(const scene::Scene& scene, const scene::FrameFiles& files, bool json_lines)
+      : scene_(scene), labels_(files.labels), shown_(files.shown), json_(json_lines) {}
 
   void start(const CheckArguments& arguments) const {
     Json bodies = Json::array();
@@ -205,8 +206,8 @@ class CheckReport {
       bodies.push_back({{"name", scene_.bodies[b].name},
                         {"vertices", mesh.vertices.size()},
                         {"triangles", mesh.triangles.size()}});
-      text += scene_.bodies[b].name + ": " + std::to_string(mesh.triangles.size()) +
-              " triangles, " + scene_.origins[b].source +
+      text += scene_.bodies[b].name + ": " + std::to_string(mesh.triangles.size()) + " triangles" +
+              (b < shown_.size() ? ", " + shown_[b] : "") +
               (scene_.origins[b].notes.empty() ? "" : "; " + scene_.origins[b].notes) + "\n";
     }
     if (json_) {
@@ -314,7 +315,7 @@ class CheckReport {
   }
 
   const scene::Scene& scene_;
-  std::vector<std::string> labels_;
+  std::vector<std::string> labels_, shown_;
   bool json_;
   std::size_t bad_ = 0;
   std::optional<std::size_t> first_;
@@ -333,8 +334,8 @@ std::vector<Level> levels_of(const Allowed& allowed) {
 
 /// The page about one frame: a run of its own, on a recording of it. Returns its path; a build
 /// without npm has no page, but a report.
-fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene, std::size_t frame,
-                    const DetectorCatalog& catalog) {
+fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
+                    const std::string& files, std::size_t frame, const DetectorCatalog& catalog) {
   Recording recording;
   recording.scene = "frame-" + std::to_string(frame);
   recording.bodies = scene.bodies;
@@ -349,7 +350,9 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene, 
   run.timing = false;
   run.quiet = true;
   run.out = arguments.out;
-  run.command_line = arguments.command_line;
+  run.command_line = "contactcheck check" + files + (arguments.weld ? " --weld" : "");
+  for (const std::string& word : arguments.allow)
+    run.command_line += " --allow " + text::in_shell(word);
   suite::SuiteOutcome outcome;
   run_and_report(run, catalog, &outcome);
   const fs::path page = arguments.out / "report.html";
@@ -364,20 +367,19 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   if (levels.empty())
     throw InputError("--allow contact and --allow self leave nothing to be checked");
   check_out(arguments.out);
-  std::vector<std::string> labels;
+  scene::FrameFiles files;
   scene::Scene scene;
   if (arguments.frames.size() == 1 && arguments.frames[0].extension() == ".ccr") {
     scene = scene::load_any_scene(arguments.frames[0]);
   } else {
-    scene::FrameFiles files = scene::frame_files(arguments.frames, "check", levels);
+    files = scene::frame_files(arguments.frames, "check", levels);
     scene = scene::load_scene_text(files.scene);
-    labels = std::move(files.labels);
   }
   scene.levels = levels;
   if (arguments.weld)
     for (Body& body : scene.bodies) body.shape = welded(*body.shape);
 
-  CheckReport report(scene, std::move(labels), arguments.json_lines);
+  CheckReport report(scene, files, arguments.json_lines);
   report.start(arguments);
   FrameChecker checker(scene, allowed, catalog);
   ProgressDisplay display(arguments.quiet || isatty(STDERR_FILENO) == 0, true);
@@ -403,7 +405,12 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   }
   display.finish();
   fs::path page;
-  if (report.first()) page = write_page(arguments, scene, *report.first(), catalog);
+  if (report.first()) {
+    std::string words =
+        files.shown.empty() ? " " + text::in_shell(arguments.frames[0].string()) : "";
+    for (const std::string& word : files.shown) words += " " + word;
+    page = write_page(arguments, scene, words, *report.first(), catalog);
+  }
   const int code = report.bad_frames() > 0 ? 1 : 0;
   report.end(arguments, code, page.string());
   return code;

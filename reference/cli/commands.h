@@ -112,7 +112,6 @@ struct CheckArguments {
   std::vector<std::string> allow;             ///< contact, self, depth=METRES
   bool weld = false, quiet = false, json_lines = false;
   std::filesystem::path out = "out";
-  std::string command_line;  ///< for the record
 };
 
 /// Which frames have contacts that are not allowed; 1 when one has.

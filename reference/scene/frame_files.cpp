@@ -10,6 +10,7 @@
 #include "core/deform/name_check.h"
 #include "core/types/check.h"
 #include "reference/text/file_text.h"
+#include "reference/text/shell_word.h"
 
 namespace contactcheck::scene {
 namespace {
@@ -58,6 +59,14 @@ struct BodyFiles {
 
 std::string shown(const Numbered& pattern) {
   return text::in_quotes(pattern.before + "%d" + pattern.after);
+}
+
+std::string shown_files(const BodyFiles& body) {
+  const auto word = [](const std::string& part) {
+    return part.empty() ? "" : text::in_shell(part);
+  };
+  if (body.pattern) return word(body.pattern->before) + "*" + word(body.pattern->after);
+  return word(body.mesh.string()) + (body.cache.empty() ? "" : " " + word(body.cache.string()));
 }
 
 Json recording_of(BodyFiles& body, std::vector<std::string>& files) {
@@ -170,6 +179,7 @@ FrameFiles frame_files(const std::vector<fs::path>& files, const std::string& id
       if (out.labels.empty()) out.labels = std::move(names);
     }
     recorded = recorded || json.contains("recording");
+    out.shown.push_back(shown_files(body));
     bodies.push_back(std::move(json));
   }
   for (const Level level : levels) level_names.push_back(name_of(level));

@@ -12,6 +12,7 @@ namespace contactcheck::scene {
 struct FrameFiles {
   SceneText scene;                  ///< of recorded frames (fixtures/README.md)
   std::vector<std::string> labels;  ///< by frame: the file of the first body that has numbered ones
+  std::vector<std::string> shown;   ///< by body: its files, as in a shell: "cloth_*.obj"
 };
 
 /// Mesh files whose names differ in one number alone are the frames of one body, from the lowest

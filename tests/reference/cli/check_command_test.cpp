@@ -57,6 +57,7 @@ class Check : public testing::Test {
 TEST_F(Check, NamesTheFrameTheTrianglesAndTheDepth) {
   const Outcome outcome = check_both();
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, ContainsRegex("moving_'?\\*\\.obj\n"));
   EXPECT_THAT(outcome.out, HasSubstr("5 frames\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\nframe 3 (moving_11.obj)\n  moving and rest: "));
   EXPECT_THAT(outcome.out, HasSubstr(" pairs of triangles, first "));

@@ -85,16 +85,17 @@ TEST_P(FixtureScene, LoadsAndMovesFinitely) {
   }
 }
 
-TEST_P(FixtureScene, DeformsEveryBodyInALatticeOfThePapersSize) {
+TEST_P(FixtureScene, DeformsEveryBodyInItsLattice) {
   if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
-  if (GetParam().id.starts_with("self-")) GTEST_SKIP() << "has the lattice that its fold needs";
   const Scene scene = load_scene(GetParam().file);
   const std::vector<std::vector<Vec3>> start = scene.nodes_of_frame(0),
                                        middle = scene.nodes_of_frame(scene.frames / 2);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     ASSERT_TRUE(scene.bodies[b].shape->lattice.has_value());
-    EXPECT_GE(scene.bodies[b].shape->lattice->cells.size(), 90u);
-    EXPECT_LE(scene.bodies[b].shape->lattice->cells.size(), 230u);
+    // Of the paper's size, but where a body folds: there as its fold needs it.
+    const bool self = scene.id.starts_with("self-");
+    EXPECT_GE(scene.bodies[b].shape->lattice->cells.size(), self ? 2u : 90u);
+    EXPECT_LE(scene.bodies[b].shape->lattice->cells.size(), self ? 420u : 230u);
     // A rigid motion keeps the distance of two nodes; these change by centimetres.
     double largest = 0.0;
     for (std::size_t n = 1; n < start[b].size(); ++n) {

@@ -15,11 +15,8 @@ struct AdjacentPair {
   SharedCorners shared;
 };
 
-/// More than this are refused: a vertex of n triangles has n (n - 1) / 2 pairs.
-inline constexpr std::size_t kMostAdjacentPairs = 40'000'000;
-
 /// Each pair once, a < b, ascending; without duplicates (triangles that name the same vertices).
-/// @throws RefusedInput for more than kMostAdjacentPairs
+/// @throws RefusedInput as refuse_many_adjacent_pairs() does
 std::vector<AdjacentPair> adjacent_pairs(std::span<const Triangle> triangles);
 
 }  // namespace contactcheck

@@ -10,6 +10,7 @@
 #include "core/detect/triangle_record.h"
 #include "core/types/check.h"
 #include "core/types/local_origin.h"
+#include "core/types/mesh_topology.h"
 
 namespace contactcheck {
 namespace {
@@ -65,7 +66,10 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
     state.precision = config_.precision;
     state.from_vertices = refitted;
   }
-  for (std::size_t b = 0; expects_self_ && b < bodies.size(); ++b) know_patches(b);
+  for (std::size_t b = 0; expects_self_ && b < bodies.size(); ++b) {
+    refuse_many_adjacent_pairs(bodies[b].shape->linked());
+    know_patches(b);
+  }
   mapped_.assign(bodies.size(), {});
   single_mapped_.assign(bodies.size(), {});
 }

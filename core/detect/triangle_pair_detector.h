@@ -2,6 +2,7 @@
 // of two triangles.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,7 @@
 #include "core/narrow/adjacent_triangles.h"
 #include "core/narrow/triangle_triangle.h"
 #include "core/types/check.h"
+#include "core/types/mesh_topology.h"
 
 namespace contactcheck {
 
@@ -84,9 +86,18 @@ class TrianglePairDetector : public Detector {
   const Semantics& semantics() const override { return semantics_; }
   bool needs_vertices() const override { return true; }
 
+  void expect(const std::vector<Question>& questions) override {
+    expects_self_ =
+        std::find(questions.begin(), questions.end(), Question::kSelf) != questions.end();
+  }
+
+  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected
   void prepare(const std::vector<Body>& bodies) override {
     shapes_.clear();
-    for (const Body& body : bodies) shapes_.push_back(body.shape.get());
+    for (const Body& body : bodies) {
+      if (expects_self_) refuse_many_adjacent_pairs(body.shape->linked());
+      shapes_.push_back(body.shape.get());
+    }
     broad_.prepare(bodies);
   }
 
@@ -196,6 +207,7 @@ class TrianglePairDetector : public Detector {
   Broad broad_;
   Narrow narrow_;
   Semantics semantics_;
+  bool expects_self_ = false;
   std::vector<const BodyShape*> shapes_;
   FedVertices<Real> vertices_;
 };

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/types/check.h"
+
 namespace contactcheck {
 namespace {
 
@@ -80,6 +82,20 @@ void check_triangles(const TriangleMesh& mesh, MeshTopology& out) {
   }
 }
 
+void check_duplicates(const TriangleMesh& mesh, MeshTopology& out) {
+  std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+  sorted.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triangle corners = mesh.triangles[t];
+    std::sort(corners.begin(), corners.end());
+    if (!has_repeated_index(corners)) sorted.push_back({corners, t});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i].first == sorted[i - 1].first)
+      out.defects.push_back({MeshDefectKind::kDuplicateTriangle, sorted[i].second});
+}
+
 void check_edges(const TriangleMesh& mesh, MeshTopology& out) {
   const std::vector<HalfEdge> edges = sorted_half_edges(mesh);
   for (std::size_t i = 0; i < edges.size();) {
@@ -136,6 +152,8 @@ const char* name_of(MeshDefectKind kind) {
       return "repeated-index";
     case MeshDefectKind::kZeroAreaTriangle:
       return "zero-area-triangle";
+    case MeshDefectKind::kDuplicateTriangle:
+      return "duplicate-triangle";
     case MeshDefectKind::kNonManifoldEdge:
       return "non-manifold-edge";
     case MeshDefectKind::kBoundaryEdge:
@@ -161,6 +179,7 @@ MeshTopology analyse_topology(const TriangleMesh& mesh) {
   check_vertices_and_indices(mesh, out);
   if (out.fatal) return out;
   check_triangles(mesh, out);
+  check_duplicates(mesh, out);
   check_edges(mesh, out);
   std::stable_sort(out.defects.begin(), out.defects.end(),
                    [](const MeshDefect& a, const MeshDefect& b) {
@@ -189,6 +208,24 @@ std::string describe(const MeshTopology& topology) {
     i += n;
   }
   return text;
+}
+
+void refuse_many_adjacent_pairs(std::span<const Triangle> triangles) {
+  std::uint32_t vertices = 0;
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) vertices = std::max(vertices, v + 1);
+  std::vector<std::uint64_t> valence(vertices, 0);
+  for (const Triangle& t : triangles)
+    for (const std::uint32_t v : t) ++valence[v];
+  std::uint64_t pairs = 0;
+  for (const std::uint64_t n : valence)
+    if (n > 0) pairs += n * (n - 1) / 2;
+  if (pairs <= kMostAdjacentPairs) return;
+  const auto most = std::max_element(valence.begin(), valence.end());
+  throw RefusedInput("its triangles share a vertex in " + std::to_string(pairs) +
+                     " pairs (vertex " + std::to_string(most - valence.begin()) + " is in " +
+                     std::to_string(*most) + " triangles); self-contact is judged of at most " +
+                     std::to_string(kMostAdjacentPairs));
 }
 
 }  // namespace contactcheck

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ enum class MeshDefectKind {
   kIndexOutOfRange,         ///< index: triangle
   kRepeatedIndex,           ///< index: triangle that names one vertex twice
   kZeroAreaTriangle,        ///< index: triangle with collinear corners (cross product 0 in double)
+  kDuplicateTriangle,       ///< index: triangle that names the vertices of one before it
   kNonManifoldEdge,         ///< index: first triangle of an edge with more than two triangles
   kBoundaryEdge,            ///< index: triangle of an edge with one triangle
   kInconsistentOrientation  ///< index: triangle that runs a shared edge the same way as its
@@ -50,5 +52,12 @@ MeshTopology analyse_topology(const TriangleMesh& mesh);
 /// "3 boundary-edge (first: triangle 17), 1 zero-area-triangle (triangle 4)"; empty without
 /// defects.
 std::string describe(const MeshTopology& topology);
+
+/// More pairs of triangles that share a vertex are never judged: a vertex of n triangles has
+/// n (n - 1) / 2. A pair that shares two vertices counts twice.
+inline constexpr std::uint64_t kMostAdjacentPairs = 40'000'000;
+
+/// @throws RefusedInput for more than kMostAdjacentPairs, with their count and the vertex with most
+void refuse_many_adjacent_pairs(std::span<const Triangle> triangles);
 
 }  // namespace contactcheck

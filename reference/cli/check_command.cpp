@@ -42,6 +42,10 @@ struct Allowed {
   std::optional<double> depth;  ///< metres, of contacts between bodies
 };
 
+std::string counted(std::size_t n, const std::string& one) {
+  return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
+}
+
 Allowed allowed_by(const std::vector<std::string>& words) {
   Allowed out;
   for (const std::string& word : words) {
@@ -218,7 +222,7 @@ class CheckReport {
              {"frames", scene_.frames},
              {"bodies", bodies}});
     } else {
-      std::printf("%s%zu frames\n", text.c_str(), scene_.frames);
+      std::printf("%s%s\n", text.c_str(), counted(scene_.frames, "frame").c_str());
     }
   }
 
@@ -246,13 +250,15 @@ class CheckReport {
                     {"bad_frames", bad_},
                     {"first", first_ ? Json(*first_) : Json(nullptr)},
                     {"exit_code", exit_code}});
-    if (bad_ > kMostShown) std::printf("\n... and %zu more frames\n", bad_ - kMostShown);
+    if (bad_ > kMostShown)
+      std::printf("\n... and %s\n", counted(bad_ - kMostShown, "more frame").c_str());
     if (bad_ == 0) {
       std::printf("no frame has a contact that is not allowed\n");
       return;
     }
-    std::printf("\n%zu of %zu frames have a contact that is not allowed, the first is %s\n", bad_,
-                scene_.frames, place(*first_).c_str());
+    std::printf("\n%zu of %s %s a contact that is not allowed, the first is %s\n", bad_,
+                counted(scene_.frames, "frame").c_str(), bad_ == 1 ? "has" : "have",
+                place(*first_).c_str());
     if (deepest_ && *deepest_->second.depth > 0.0)
       std::printf("deepest: %s, %s\n", place(deepest_->first).c_str(),
                   sentence(deepest_->second).c_str());
@@ -269,8 +275,8 @@ class CheckReport {
   const std::string& name(std::uint32_t body) const { return scene_.bodies[body].name; }
 
   static std::string pairs_text(std::size_t pairs, const std::array<std::uint32_t, 2>& first) {
-    return std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") + " of triangles, first " +
-           std::to_string(first[0]) + " and " + std::to_string(first[1]);
+    return counted(pairs, "pair") + " of triangles, first " + std::to_string(first[0]) + " and " +
+           std::to_string(first[1]);
   }
 
   std::string sentence(const BadFrame::Pair& pair) const {
@@ -378,6 +384,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   scene.levels = levels;
   if (arguments.weld)
     for (Body& body : scene.bodies) body.shape = welded(*body.shape);
+  scene::refuse_crowded_vertices(scene);
 
   CheckReport report(scene, files, arguments.json_lines);
   report.start(arguments);

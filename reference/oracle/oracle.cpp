@@ -141,6 +141,7 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
   const auto judge_self = [&](std::uint32_t body) {
     const SurfaceTree& tree = trees[body];
     const std::vector<Triangle>& linked = shapes[body]->linked();
+    refuse_many_adjacent_pairs(linked);
     any_own_box_pair(tree, [&](std::uint32_t i, std::uint32_t j) {
       const SharedCorners shared = shared_corners(linked[i], linked[j]);
       if (shared.duplicates) return false;

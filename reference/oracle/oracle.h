@@ -46,6 +46,7 @@ class Oracle {
   Oracle& operator=(const Oracle&) = delete;
 
   /// @pre frame has vertices for every body, all finite
+  /// @throws RefusedInput for self-contact of a mesh as refuse_many_adjacent_pairs() does
   Truth judge(const Frame& frame, const WantedTruth& wanted);
   /// Distance between two surfaces (triangle against triangle), of the vertices of `frame`.
   DistanceInterval distance(const Frame& frame, BodyPair pair);

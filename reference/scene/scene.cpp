@@ -4,6 +4,7 @@
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
+#include "core/types/mesh_topology.h"
 #include "reference/scene/drawn_scene.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/random_pairs.h"
@@ -86,7 +87,20 @@ Scene load_recording(const std::filesystem::path& file) {
   return scene;
 }
 
-Scene load_any_scene(const SceneSource& source, std::size_t frames) {
+void refuse_crowded_vertices(const Scene& scene) {
+  if (std::none_of(scene.levels.begin(), scene.levels.end(), is_self)) return;
+  for (const Body& body : scene.bodies) {
+    try {
+      refuse_many_adjacent_pairs(body.shape->linked());
+    } catch (const RefusedInput& e) {
+      throw InputError("self-contact of body " + text::in_quotes(body.name) + ": " + e.what());
+    }
+  }
+}
+
+namespace {
+
+Scene load_source(const SceneSource& source, std::size_t frames) {
   if (const auto* pairs = std::get_if<PairSpec>(&source)) return make_pairs_scene(*pairs);
   if (const auto* text = std::get_if<SceneText>(&source)) return load_scene_text(*text, frames);
   if (const auto* drawn = std::get_if<DrawnSpec>(&source)) return draw_scene(*drawn).scene;
@@ -100,6 +114,14 @@ Scene load_any_scene(const SceneSource& source, std::size_t frames) {
     scene.recorded.resize(frames);
     scene.frames = frames;
   }
+  return scene;
+}
+
+}  // namespace
+
+Scene load_any_scene(const SceneSource& source, std::size_t frames) {
+  Scene scene = load_source(source, frames);
+  refuse_crowded_vertices(scene);
   return scene;
 }
 

@@ -148,13 +148,17 @@ Scene make_pairs_scene(const PairSpec& spec);
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
 
+/// Self-contact that would take too long to judge (refuse_many_adjacent_pairs).
+/// @throws InputError naming the first such body of a scene with levels of self-contact
+void refuse_crowded_vertices(const Scene& scene);
+
 /// The file of a scene, a family or a recording (.ccr), the text of a scene, random pairs, or a
 /// scene that is to be drawn.
 using SceneSource = std::variant<std::filesystem::path, SceneText, PairSpec, DrawnSpec>;
 
 /// `frames` above 0 replaces the number of frames, except that of random pairs; of a recording it
 /// takes the first.
-/// @throws InputError, also where a recording has fewer
+/// @throws InputError, also where a recording has fewer, and as refuse_crowded_vertices() does
 Scene load_any_scene(const SceneSource& source, std::size_t frames = 0);
 
 /// The same source, whatever the working directory is.

@@ -104,6 +104,17 @@ TEST(MeshTopology, CollinearCornersAreZeroAreaAndStayUsable) {
   EXPECT_FALSE(topology.fatal);
 }
 
+TEST(MeshTopology, DuplicatesAreNamedInAnyOrderOfTheirCorners) {
+  TriangleMesh mesh = test::unit_box_mesh(1);
+  const Triangle first = mesh.triangles[4];
+  mesh.triangles.push_back({first[1], first[2], first[0]});
+  mesh.triangles.push_back({first[1], first[0], first[2]});
+  const MeshTopology topology = analyse_topology(mesh);
+  EXPECT_THAT(indices(topology, MeshDefectKind::kDuplicateTriangle), ElementsAre(12u, 13u));
+  EXPECT_THAT(describe(topology), testing::StartsWith("2 duplicate-triangle (first: triangle 12)"));
+  EXPECT_FALSE(topology.fatal);
+}
+
 TEST(MeshTopology, AreaIsSeenAtEveryScale) {
   for (double scale : {0x1p-1000, 0x1p-600, 1.0, 0x1p600, 0x1p1000}) {
     TriangleMesh mesh = test::sphere_mesh(Vec3::Zero(), 1.0, 1);
@@ -148,9 +159,10 @@ TEST(MeshTopology, FatalIsExactlyWhatNoDetectorCanBeGiven) {
   for (MeshDefectKind kind :
        {MeshDefectKind::kEmpty, MeshDefectKind::kNonFiniteVertex, MeshDefectKind::kIndexOutOfRange})
     EXPECT_TRUE(is_fatal(kind)) << name_of(kind);
-  for (MeshDefectKind kind : {MeshDefectKind::kRepeatedIndex, MeshDefectKind::kZeroAreaTriangle,
-                              MeshDefectKind::kNonManifoldEdge, MeshDefectKind::kBoundaryEdge,
-                              MeshDefectKind::kInconsistentOrientation})
+  for (MeshDefectKind kind :
+       {MeshDefectKind::kRepeatedIndex, MeshDefectKind::kZeroAreaTriangle,
+        MeshDefectKind::kDuplicateTriangle, MeshDefectKind::kNonManifoldEdge,
+        MeshDefectKind::kBoundaryEdge, MeshDefectKind::kInconsistentOrientation})
     EXPECT_FALSE(is_fatal(kind)) << name_of(kind);
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/reference/cli/program.h"
 #include "tests/reference/scene/scratch.h"
+#include "tests/support/cache_bytes.h"
 #include "tests/support/files.h"
 #include "tests/support/mesh_text.h"
 #include "tests/support/shapes.h"
@@ -63,7 +64,7 @@ TEST_F(Check, NamesTheFrameTheTrianglesAndTheDepth) {
   EXPECT_THAT(outcome.out, HasSubstr(" pairs of triangles, first "));
   EXPECT_THAT(outcome.out, HasSubstr(", 100 mm deep\n"));
   EXPECT_THAT(outcome.out,
-              HasSubstr("1 of 5 frames have a contact that is not allowed, the first is frame 3"));
+              HasSubstr("1 of 5 frames has a contact that is not allowed, the first is frame 3"));
   EXPECT_THAT(outcome.out, ContainsRegex("report\\.(html|md) shows it\n"));
   EXPECT_TRUE(std::filesystem::exists(in("out/report.md")));
   EXPECT_TRUE(std::filesystem::exists(in("out/frame-3.ccr")));
@@ -126,6 +127,38 @@ TEST_F(Check, WeldsSeamsWhereAskedTo) {
   EXPECT_EQ(apart.exit_code, 2);
   EXPECT_THAT(apart.err, HasSubstr("frame 1: vertices 1 and 3 of body \"torn\" are welded and come "
                                    "apart"));
+}
+
+TEST_F(Check, ReadsPointCaches) {
+  const TriangleMesh ball = test::sphere_mesh({3, 0.5, 0.5}, 0.5, 3);
+  std::vector<std::vector<Vec3>> samples(3, ball.vertices);
+  for (Vec3& vertex : samples[1]) vertex.x() -= 1.75;
+  scratch_.write("ball.obj", test::obj_text(ball));
+  scratch_.write("ball.pc2", test::pc2_bytes(samples));
+  scratch_.write("ball.mdd", test::mdd_bytes(samples));
+  for (const std::string cache : {"ball.pc2", "ball.mdd"}) {
+    const Outcome outcome = check({in("ball.obj"), in(cache), in("rest.obj")});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("3 frames\n\nframe 1\n  ball and rest: ")) << cache;
+    EXPECT_THAT(outcome.out, HasSubstr("1 of 3 frames has a contact")) << cache;
+  }
+}
+
+// A vertex of n triangles has n (n - 1) / 2 pairs of neighbours: never a stall.
+TEST_F(Check, RefusesAVertexOfTooManyTriangles) {
+  TriangleMesh fan;
+  fan.vertices.assign(10'002, Vec3::Zero());
+  for (std::uint32_t i = 1; i < fan.vertices.size(); ++i) fan.vertices[i] = {1.0, 1e-4 * i, 0.0};
+  for (std::uint32_t i = 0; i < 10'000; ++i) fan.triangles.push_back({0, i + 1, i + 2});
+  scratch_.write("fan.obj", test::obj_text(fan));
+  const Outcome outcome = check({in("fan.obj")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("self-contact of body \"fan\": its triangles share a vertex "
+                                     "in 50004999 pairs (vertex 0 is in 10000 triangles)"));
+  EXPECT_THAT(contactcheck_program(
+                  {"check", in("fan.obj"), in("rest.obj"), "--allow", "self", "--out", in("out")})
+                  .exit_code,
+              1);
 }
 
 TEST_F(Check, SpeaksToPrograms) {

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Checks what `contactcheck export` wrote: which triangles of different bodies touch, and that no
-others do. Exact; only this script has to be trusted.   python3 check.py [FOLDER...]   (its own)
+others do; of a scene that asks for it, which triangles of one body meet in more than the vertices
+they share. Exact; only this script has to be trusted.   python3 check.py [FOLDER...]   (its own)
 Exit code 0: every proof holds; 1: one line names the first that does not.
 scene.json             bodies, frames, counts, and the CRC-32 of every file below
 bodies/B/frame_N.ply   the deformed surface of a body: doubles, metres; what was judged, to the bit
 bodies/B/order.json    a permutation of the body's triangles; a range is a stretch of it
+bodies/B/welded.json   of a welded body: its triangles, one vertex for all that are at one place
 truth/frame_N.json     "contacts": [body, body, triangle, triangle, weights, weights], all pairs of
     triangles that share a point, with one: the corners of either times their weights (hexadecimal
     integers, not negative) over the sum of the weights. "body_pairs": the bodies of contacts.
@@ -16,8 +18,15 @@ truth/frame_N.json     "contacts": [body, body, triangle, triangle, weights, wei
       a, b    split the first or second range i .. j at i + (j - i) // 2; lower half first
       x, y, z the boxes of the two ranges are apart along this axis: no pair of them touches
       t, s    one triangle and one triangle, that touch ("contacts") or do not ("gaps")
-Not certified: containment, vertices inside, cells, margins, lengths and depths, nor that the
-vertices are what the scene's lattices make of its meshes.
+    With "self", every body follows with itself: pairs within the lower half of a range, within the
+    upper half, and between both; one triangle has none. Two that share vertices may share these:
+      t       they share another point
+      s       they share one corner: the plane goes through it, and only with equality there, or in
+              the other one, which is then strictly on its side
+      e       nothing else: they share an edge, or are segments (share_hull_alone)
+      d       they have the same vertices: not asked
+Not certified: containment, vertices inside, cells, margins, lengths and depths, which vertices are
+welded, nor that the vertices are what the scene's lattices make of its meshes.
 """
 import json, math, pathlib, struct, sys, zlib  # noqa: E401
 from fractions import Fraction
@@ -46,8 +55,9 @@ def read(folder, index, name):
 
 
 class Body:  # in one frame after the other; the extents of its boxes are doubles, only compared
-    def __init__(self, entry, order):
+    def __init__(self, entry, order, welded=None):
         self.entry, self.order, self.faces = entry, json.loads(order), None
+        self.welded = welded and json.loads(welded)
         require(self.order and sorted(self.order) == list(range(entry["triangles"])),
                 f"{entry['folder']}/order.json is no permutation of the triangles")
 
@@ -64,6 +74,10 @@ class Body:  # in one frame after the other; the extents of its boxes are double
         self.triangles = list(struct.iter_unpack("<B3i", self.faces))
         require(all(t[0] == 3 and min(t[1:]) >= 0 and max(t[1:]) < vertices
                     for t in self.triangles), f"{name}: faces that are no triangles")
+        self.linked = self.welded or [list(t[1:]) for t in self.triangles]
+        require(len(self.linked) == len(self.triangles) and all(
+            self.vertices[v] == self.vertices[w] for own, linked in zip(self.triangles, self.linked)
+            for v, w in zip(own[1:], linked)), f"{name}: welded vertices are not at one place")
         places = [self.corners(t) for t in self.order]
         self.low = [[min(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
         self.high = [[max(a[k], b[k], c[k]) for a, b, c in places] for k in range(3)]
@@ -109,14 +123,101 @@ def separates(p, q, plane):
             all(dot(normal, corner) > offset * unit for corner in q))
 
 
-def replay(decisions, bodies, listed):
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def rational(triangle):
+    return [[Fraction(x) for x in corner] for corner in triangle]
+
+
+def is_further_point(p, q, weights_p, weights_q, shared):
+    """A common point that is not on the hull of the first corners, one or two."""
+    if not is_common_point(p, q, weights_p, weights_q):
+        return False
+    p, weights = rational(p), [int(w, 16) for w in weights_p]
+    at = [Fraction(dot(weights, x), sum(weights)) for x in zip(*p)]
+    edge, to = minus(p[shared - 1], p[0]), minus(at, p[0])
+    return any(to) and (not any(edge) or any(cross(edge, to)) or
+                        not 0 <= dot(to, edge) <= dot(edge, edge))
+
+
+def separates_at_corner(p, q, plane):
+    p, q, unit = whole_corners(p, q)
+    (*normal, offset), _ = whole([
+        Fraction(*(int(part, 16) for part in n.split("/"))) if isinstance(n, str) else Fraction(n)
+        for n in plane])
+    of_p, of_q = ([dot(normal, corner) - offset * unit for corner in t] for t in (p, q))
+    return (len(normal) == 3 and of_p[0] == of_q[0] == 0 and max(of_p) <= 0 <= min(of_q) and
+            (max(of_p[1:]) < 0 or min(of_q[1:]) > 0))
+
+
+def share_hull_alone(p, q, shared):
+    """Of triangles whose first two corners are the same, or the first if both are segments."""
+    p, q = rational(p), rational(q)
+    normals = [cross(minus(t[1], t[0]), minus(t[2], t[0])) for t in (p, q)]
+    proper = [any(n) for n in normals]
+    if shared == 2 and all(proper):  # off one plane, or on two sides of the edge
+        return dot(normals[0], minus(q[2], q[0])) != 0 or dot(*normals) < 0
+    if any(proper):  # a proper triangle meets the line of its edge in the edge alone
+        return shared == 2
+    u, v = (minus(t[2] if t[1] == t[0] else t[1], t[0]) for t in (p, q))
+    if any(cross(u, v)) or not any(u) or not any(v):  # on two lines, or a point, which is shared
+        return True
+    s, t = ([dot(minus(x, p[0]), u) for x in triangle] for triangle in (p, q))
+    hull = sorted([s[0], s[shared - 1]])
+    return hull[0] <= max(min(s), min(t)) and min(max(s), max(t)) <= hull[1]
+
+
+def prove_neighbours(step, body, pair, listed, where):
+    """What is said of two triangles of one body; False if they share no vertex."""
+    *_, s, t = pair
+    one, other = body.linked[s], body.linked[t]
+    common = [v for n, v in enumerate(one) if v in other and v not in one[:n]]
+    if not common:
+        return False
+    if set(one) == set(other):
+        require(step == "d", f"{where} have the same vertices, and \"{step}\" was decided")
+        return True
+    orders = []
+    for linked in (one, other):
+        first = [linked.index(v) for v in common]
+        orders.append(first + [n for n in range(3) if n not in first])
+    p, q = ([body.corners(t)[n] for n in order] for t, order in zip((s, t), orders))
+    if step == "e":
+        require(share_hull_alone(p, q, len(common)), f"{where} share more than their vertices")
+        return True
+    kind = {"t": "contacts", "s": "gaps"}.get(step)
+    proof = kind and listed[kind].pop(pair, None)
+    require(proof, f"{where}: \"{step}\" was decided, but nothing is listed")
+    if step == "s":
+        require(len(common) == 1 and separates_at_corner(p, q, *proof),
+                f"{where}: the plane does not separate them")
+    else:
+        weights = [[w[n] for n in order] for w, order in zip(proof, orders)]
+        require(is_further_point(p, q, *weights, len(common)),
+                f"{where}: the witness is no further point of both")
+    return True
+
+
+def replay(decisions, bodies, listed, own):
     """Follows the decisions. Pairs that they call contacts or gaps are checked and unlisted."""
     at = 0
-    for a, b in combinations(range(len(bodies)), 2):
+    pairs = [*combinations(range(len(bodies)), 2), *((a, a) for a in range(len(bodies)) if own)]
+    for a, b in pairs:
         one, other = bodies[a], bodies[b]
         todo = [(0, len(one.order), 0, len(other.order))]
         while todo:
             i, j, k, l = todo.pop()
+            if a == b and i == k:
+                half = i + (j - i) // 2
+                if j - i > 1:
+                    todo += [(i, half, half, j), (half, j, half, j), (i, half, i, half)]
+                continue
             step, at = decisions[at:at + 1], at + 1
             where = f"decision {at} (\"{step}\": {i} .. {j} of body {a}, {k} .. {l} of body {b})"
             require(step, f"{where}: the decisions end before all pairs are covered")
@@ -129,8 +230,14 @@ def replay(decisions, bodies, listed):
                 other_low, other_high = other.extent("xyz".index(step), k, l)
                 require(high < other_low or other_high < low, f"{where}: the boxes are not apart")
             else:
-                require(step in "ts" and j - i == l - k == 1, f"{where}: cannot be decided so")
+                require(step in "tsed" and j - i == l - k == 1, f"{where}: cannot be decided so")
                 s, t = one.order[i], other.order[k]
+                if a == b:
+                    s, t = sorted((s, t))
+                    named = f"triangles {s} and {t} of body {a}"
+                    if prove_neighbours(step, one, (a, b, s, t), listed, named):
+                        continue
+                require(step in "ts", f"{where}: cannot be decided so")
                 where = f"triangle {s} of body {a} and triangle {t} of body {b}"
                 kind, holds, fault = (
                     ("contacts", is_common_point, "the witness is no point of both") if step == "t"
@@ -145,23 +252,29 @@ def chain_hash(previous, frame, body_pairs, contacts):
     """The contact_hash of results.json: 64-bit FNV-1a over sets that have no cells or vertices."""
     data = struct.pack("<QQQ", previous, frame, len(body_pairs))
     data += b"".join(struct.pack("<2I", *p) for p in body_pairs)
-    data += struct.pack("<QQ", 0, len(contacts))
+    between = [c for c in contacts if c[0] != c[1]]
+    own = [(c[0], *c[2:4]) for c in contacts if c[0] == c[1]]
+    data += struct.pack("<QQ", 0, len(between))
+    data += b"".join(struct.pack("<4I", *c[:4]) for c in between) + bytes(8)
+    data += b"".join(struct.pack("<3I", *c) for c in own)
+    data += b"".join(struct.pack("<I", body) for body in sorted({c[0] for c in own}))
     state = 0xcbf29ce484222325
-    for byte in data + b"".join(struct.pack("<4I", *c[:4]) for c in contacts) + bytes(8):
+    for byte in data:
         state = (state ^ byte) * 0x100000001b3 & 0xffffffffffffffff
     return state
 
 
-def check_frame(entry, truth, bodies):
+def check_frame(entry, truth, bodies, own):
     listed = {kind: {tuple(x[:4]): x[4:] for x in truth[kind]} for kind in ("contacts", "gaps")}
     for kind, pairs in listed.items():
         require(sorted(pairs) == [tuple(x[:4]) for x in truth[kind]],
                 f"{kind} are not in order, each once")
-    require(truth["body_pairs"] == sorted(map(list, {pair[:2] for pair in listed["contacts"]})),
+    require(truth["body_pairs"] == sorted([*pair] for pair in {x[:2] for x in listed["contacts"]}
+                                          if pair[0] != pair[1]),
             "body_pairs are not those of the contacts")
     for key in ("body_pairs", "contacts", "gaps"):
         require(len(truth[key]) == entry[key], f"scene.json has another number of {key}")
-    replay(truth["decisions"], bodies, listed)
+    replay(truth["decisions"], bodies, listed, own)
     for kind, rest in listed.items():
         require(not rest, f"{kind} list {next(iter(rest), ())}, which nothing decided to be one")
 
@@ -173,14 +286,16 @@ def check_export(folder):
     frames, every = index["frames"], index["every"]
     require([f["frame"] for f in frames] == list(range(0, index["scene_frames"], every)),
             f"scene.json: not every frame out of {every} is there")
-    bodies = [Body(b, read(folder, index, b["folder"] + "/order.json")) for b in index["bodies"]]
+    bodies = [Body(b, read(folder, index, b["folder"] + "/order.json"),
+                   b.get("welded") and read(folder, index, b["folder"] + "/welded.json"))
+              for b in index["bodies"]]
     for entry in frames:
         try:
             for body in bodies:
                 name = f"{body.entry['folder']}/frame_{entry['frame']:04}.ply"
                 body.load(name, read(folder, index, name))
             truth = json.loads(read(folder, index, f"truth/frame_{entry['frame']:04}.json"))
-            check_frame(entry, truth, bodies)
+            check_frame(entry, truth, bodies, index.get("self", False))
         except Wrong as wrong:
             raise Wrong(f"frame {entry['frame']}: {wrong}") from None
         chained = chain_hash(chained, truth["frame"], truth["body_pairs"], truth["contacts"])

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -149,6 +150,10 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     checksums[name] = crc32_of(bytes);
   };
 
+  const bool own = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
+  oracle::WantedTruth wanted;
+  wanted.self = own;
+
   make_folder("truth");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
@@ -157,7 +162,10 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     bodies.push_back({{"name", body.name},
                       {"folder", body_folder},
                       {"vertices", body.shape->mesh.vertices.size()},
-                      {"triangles", body.shape->mesh.triangles.size()}});
+                      {"triangles", body.shape->mesh.triangles.size()},
+                      {"welded", !body.shape->welded.empty()}});
+    if (!body.shape->welded.empty())
+      write(body_folder + "/welded.json", Json(body.shape->welded).dump() + "\n");
     write(body_folder + "/order.json", Json(certifier.order(b)).dump() + "\n");
   }
   write_file_atomically(folder / "check.py", kCheckScript);
@@ -174,8 +182,9 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
       require_finite(scene, f, b, "vertex", vertices.back());
     }
     const Frame frame = make_frame(f, scene.time_of(f), nodes, vertices);
-    const ContactSet truth = oracle.judge(frame, {}).surface;
-    const oracle::certify::FrameCertificate certificate = certifier.certify(frame, truth.triangles);
+    const ContactSet truth = oracle.judge(frame, wanted).surface;
+    const oracle::certify::FrameCertificate certificate =
+        certifier.certify(frame, truth.triangles, own ? &truth.self : nullptr);
     for (std::size_t b = 0; b < vertices.size(); ++b)
       write(bodies[b].at("folder").get<std::string>() + "/" + frame_name(f) + ".ply",
             ply_bytes(vertices[b], scene.bodies[b].shape->mesh.triangles,
@@ -200,6 +209,7 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
                       {"title", scene.title},
                       {"scene_frames", scene.frames},
                       {"every", every},
+                      {"self", own},
                       {"contact_hash", results::hex(summary.contact_hash)},
                       {"bodies", bodies},
                       {"frames", frames},

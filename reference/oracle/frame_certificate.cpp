@@ -91,17 +91,28 @@ std::optional<TrianglePoint> foot_on_face(const Piece& piece, const RationalPoin
   return point_at(piece, weights);
 }
 
-// Every offer tells whether the triangles are known to meet: then nothing is nearer.
+/// On the hull of the first `count` corners, one or two?
+bool on_first_corners(const RationalTriangle& t, std::uint32_t count, const RationalPoint& x) {
+  const RationalPoint edge = t[count - 1] - t[0], to = x - t[0];
+  const mpq_class along = dot(to, edge), length = dot(edge, edge);
+  if (length == 0) return x == t[0];
+  return cross(to, edge) == RationalPoint{} && along >= 0 && along <= length;
+}
+
+// Every offer tells whether the triangles are known to meet: then nothing is nearer. With `shared`
+// corners, the first of both: whether they are known to meet elsewhere; nothing else is of
+// interest.
 class Search {
  public:
-  Search(const RationalTriangle& p, const RationalTriangle& q) : p_(p), q_(q) {}
+  Search(const RationalTriangle& p, const RationalTriangle& q, std::uint32_t shared = 0)
+      : p_(p), q_(q), shared_(shared) {}
 
-  NearestPoints run() {
+  std::optional<NearestPoints> run() {
     // Crossings first: most triangles that meet have one.
     if (!offer_crossings(p_, q_) && !offer_crossings(q_, p_) && !offer_feet(p_, q_) &&
         !offer_feet(q_, p_) && !offer_edges() && !offer_corners(p_, q_))
       offer_corners(q_, p_);
-    return std::move(*best_);
+    return std::move(best_);
   }
 
  private:
@@ -109,6 +120,7 @@ class Search {
     const RationalPoint apart = b.at - a.at;
     mpq_class squared = oracle::rational::dot(apart, apart);
     if (best_ && best_->squared_distance <= squared) return false;
+    if (shared_ > 0 && (squared != 0 || on_first_corners(p_.corners, shared_, a.at))) return false;
     if (&first != &p_) std::swap(a, b);
     best_ = NearestPoints{std::move(a), std::move(b), std::move(squared)};
     return best_->squared_distance == 0;
@@ -168,15 +180,18 @@ class Search {
   }
 
   const Piece p_, q_;
+  const std::uint32_t shared_;
   std::optional<NearestPoints> best_;
 };
 
 // Degenerate triangles are the segment or the point that they are. @pre all coordinates finite
 NearestPoints nearest_points(const RationalTriangle& p, const RationalTriangle& q) {
-  return Search(p, q).run();
+  return *Search(p, q).run();
 }
 
 using oracle::TriangleCorners;
+
+bool is_proper(const TriangleCorners& t) { return Piece(to_rational(t)).proper(); }
 
 constexpr int kHex = 16;
 
@@ -294,6 +309,109 @@ std::optional<Plane> separating_plane(const TriangleCorners& p, const TriangleCo
   return plane_at(nearest);
 }
 
+// What two triangles share is the hull of its extreme points, which lie on edges of one of them: in
+// the other's face, on its edges or at its corners. The search offers all of these.
+std::optional<Witness> further_point(const TriangleCorners& p, const TriangleCorners& q,
+                                     std::uint32_t shared) {
+  const auto found = Search(to_rational(p), to_rational(q), shared).run();
+  if (!found) return std::nullopt;
+  return Witness{integer_weights(found->on_p.weights), integer_weights(found->on_q.weights)};
+}
+
+bool share_hull_alone(const TriangleCorners& p, const TriangleCorners& q, std::uint32_t shared) {
+  const RationalTriangle a = to_rational(p), b = to_rational(q);
+  const Piece on_p(a), on_q(b);
+  if (on_p.proper() && on_q.proper()) {
+    // Off one plane, or in it on two sides of the edge.
+    return dot(on_p.normal, b[2] - b[0]) != 0 || dot(on_p.normal, on_q.normal) < 0;
+  }
+  // A proper triangle meets the line of its edge in the edge alone.
+  if (on_p.proper() || on_q.proper()) return true;
+  const auto direction = [](const RationalTriangle& t) {
+    return t[1] != t[0] ? t[1] - t[0] : t[2] - t[0];
+  };
+  const RationalPoint u = direction(a), v = direction(b);
+  if (u == RationalPoint{} || v == RationalPoint{}) return true;  // a point, which is shared
+  if (cross(u, v) != RationalPoint{}) return true;                // two lines
+  std::array<mpq_class, 3> s, t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    s[k] = dot(a[k] - a[0], u);
+    t[k] = dot(b[k] - a[0], u);
+  }
+  const auto [shared_low, shared_high] = std::minmax(s[0], s[shared - 1]);
+  const mpq_class low =
+      std::max(*std::min_element(s.begin(), s.end()), *std::min_element(t.begin(), t.end()));
+  const mpq_class high =
+      std::min(*std::max_element(s.begin(), s.end()), *std::max_element(t.begin(), t.end()));
+  return low >= shared_low && high <= shared_high;
+}
+
+namespace {
+
+// Normals n of planes that have two of the vectors on them, or one and that lie within the plane of
+// two: among them are all extreme ones of the n with n * p <= 0 <= n * q for all vectors p and q,
+// so that the sum of those lies within, off every vector that some n is off.
+template <typename Vector, typename Cross, typename Dot, typename Wrong>
+Vector sum_of_normals(const std::array<Vector, 2>& p, const std::array<Vector, 2>& q,
+                      const Cross& product, const Dot& times, const Wrong& wrong) {
+  const std::array<Vector, 4> all = {p[0], p[1], q[0], q[1]};
+  std::vector<Vector> normals;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) normals.push_back(product(all[i], all[j]));
+  const std::size_t across = normals.size();
+  for (std::size_t n = 0; n < across; ++n)
+    for (const Vector& v : all) normals.push_back(product(v, normals[n]));
+  Vector sum = product(all[0], all[0]);
+  for (const Vector& n : normals)
+    for (const int sign : {1, -1}) {
+      bool weak = true;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto side = times(n, all[i]);
+        weak = weak && !wrong(side, (i < 2) == (sign > 0));
+      }
+      if (!weak) continue;
+      for (int k = 0; k < 3; ++k) sum[k] += sign * n[k];
+    }
+  return sum;
+}
+
+// p on its closed side and q on the other, one of them off the plane but for the first corner.
+bool parts_at_corner(const RationalPoint& n, const RationalTriangle& p, const RationalTriangle& q) {
+  const mpq_class p1 = dot(n, p[1] - p[0]), p2 = dot(n, p[2] - p[0]), q1 = dot(n, q[1] - q[0]),
+                  q2 = dot(n, q[2] - q[0]);
+  return p1 <= 0 && p2 <= 0 && q1 >= 0 && q2 >= 0 && ((p1 < 0 && p2 < 0) || (q1 > 0 && q2 > 0));
+}
+
+}  // namespace
+
+std::optional<Plane> plane_through_corner(const TriangleCorners& p, const TriangleCorners& q) {
+  const RationalTriangle a = to_rational(p), b = to_rational(q);
+  const auto unit = [&](const Vec3& corner) {
+    const Vec3 to = corner - p[0];
+    const double size = to.cwiseAbs().maxCoeff();
+    return size > 0.0 ? Vec3((to / size).normalized()) : Vec3(Vec3::Zero());
+  };
+  const std::array<Vec3, 2> near_p = {unit(p[1]), unit(p[2])}, near_q = {unit(q[1]), unit(q[2])};
+  const Vec3 guess = sum_of_normals(
+      near_p, near_q,
+      [](const Vec3& u, const Vec3& v) {
+        const Vec3 n = u.cross(v);
+        return Vec3(n.norm() > 1e-12 ? n.normalized() : Vec3(Vec3::Zero()));
+      },
+      [](const Vec3& u, const Vec3& v) { return u.dot(v); },
+      [](double side, bool negative) { return (negative ? side : -side) > 1e-9; });
+  if (guess.allFinite() && parts_at_corner(to_rational(guess), a, b))
+    return Plane{{guess.x(), guess.y(), guess.z()}, rational_text(dot(to_rational(guess), a[0]))};
+  const RationalPoint exact = sum_of_normals(
+      std::array{a[1] - a[0], a[2] - a[0]}, std::array{b[1] - b[0], b[2] - b[0]},
+      [](const RationalPoint& u, const RationalPoint& v) { return cross(u, v); },
+      [](const RationalPoint& u, const RationalPoint& v) { return dot(u, v); },
+      [](const mpq_class& side, bool negative) { return negative ? side > 0 : side < 0; });
+  if (!parts_at_corner(exact, a, b)) return std::nullopt;
+  return Plane{{rational_text(exact[0]), rational_text(exact[1]), rational_text(exact[2])},
+               rational_text(dot(exact, a[0]))};
+}
+
 RangeTree::RangeTree(const TriangleMesh& rest)
     : triangles_(rest.triangles), boxes_(2 * rest.triangles.size() - 1) {
   const oracle::SurfaceTree tree(rest);
@@ -335,12 +453,23 @@ class PairCertifier {
 
   void certify(BodyPair pair) {
     pair_ = pair;
-    cover(tree_a().all(), tree_b().all());
+    if (pair.a == pair.b) {
+      cover_own(tree_a().all());
+    } else {
+      cover(tree_a().all(), tree_b().all());
+    }
   }
 
  private:
   const RangeTree& tree_a() const { return trees_[pair_.a]; }
   const RangeTree& tree_b() const { return trees_[pair_.b]; }
+
+  void cover_own(const Range& range) {
+    if (range.size() == 1) return;
+    cover_own(range.lower_half());
+    cover_own(range.upper_half());
+    cover(range.lower_half(), range.upper_half());
+  }
 
   void cover(const Range& a, const Range& b) {
     const Aabb &box_a = tree_a().box(a), &box_b = tree_b().box(b);
@@ -361,7 +490,50 @@ class PairCertifier {
     }
   }
 
-  void decide(const ElementPair& triangles) {
+  void decide(ElementPair triangles) {
+    SharedCorners shared;
+    if (pair_.a == pair_.b) {
+      if (triangles.a > triangles.b) std::swap(triangles.a, triangles.b);
+      const std::vector<Triangle>& linked = bodies_[pair_.a].shape->linked();
+      shared = shared_corners(linked[triangles.a], linked[triangles.b]);
+    }
+    if (shared.duplicates) {
+      out_.decisions += 'd';
+    } else if (shared.count > 0) {
+      decide_neighbours(triangles, shared);
+    } else {
+      decide_strangers(triangles);
+    }
+  }
+
+  void decide_neighbours(const ElementPair& triangles, const SharedCorners& shared) {
+    const auto arranged = [](const TriangleCorners& t, const std::array<std::uint8_t, 3>& order) {
+      return TriangleCorners{t[order[0]], t[order[1]], t[order[2]]};
+    };
+    const TriangleCorners p = arranged(corners(pair_.a, triangles.a), shared.p),
+                          q = arranged(corners(pair_.b, triangles.b), shared.q);
+    if (std::binary_search(touching_.begin(), touching_.end(), triangles)) {
+      const auto found = further_point(p, q, shared.count);
+      if (!found) refuse(triangles, "meet in more than they share");
+      Witness witness;
+      for (std::size_t k = 0; k < 3; ++k) {
+        witness.p[shared.p[k]] = found->p[k];
+        witness.q[shared.q[k]] = found->q[k];
+      }
+      out_.decisions += 't';
+      out_.contacts.push_back({triangles, std::move(witness)});
+    } else if (shared.count == 2 || (!is_proper(p) && !is_proper(q))) {
+      if (!share_hull_alone(p, q, shared.count)) refuse(triangles, "share their vertices alone");
+      out_.decisions += 'e';
+    } else {
+      auto plane = plane_through_corner(p, q);
+      if (!plane) refuse(triangles, "share their corner alone");
+      out_.decisions += 's';
+      out_.gaps.push_back({triangles, std::move(*plane)});
+    }
+  }
+
+  void decide_strangers(const ElementPair& triangles) {
     const TriangleCorners p = corners(pair_.a, triangles.a), q = corners(pair_.b, triangles.b);
     if (std::binary_search(touching_.begin(), touching_.end(), triangles)) {
       auto witness = common_point(p, q);
@@ -409,13 +581,19 @@ Certifier::Certifier(const std::vector<Body>& bodies) : bodies_(bodies) {
   for (const Body& body : bodies) trees_.emplace_back(body.shape->mesh);
 }
 
-FrameCertificate Certifier::certify(const Frame& frame, const std::vector<ElementPair>& touching) {
+FrameCertificate Certifier::certify(const Frame& frame, const std::vector<ElementPair>& between,
+                                    const std::vector<SelfPair>* own) {
+  std::vector<ElementPair> touching = between;
+  if (own != nullptr)
+    for (const SelfPair& pair : *own) touching.push_back({pair.body, pair.body, pair.a, pair.b});
+  std::sort(touching.begin(), touching.end());
   for (std::size_t b = 0; b < trees_.size(); ++b) trees_[b].refit(frame.bodies[b].vertices);
   FrameCertificate out;
   PairCertifier certifier(frame, bodies_, trees_, touching, out);
   const auto count = static_cast<std::uint32_t>(bodies_.size());
   for (std::uint32_t a = 0; a < count; ++a)
     for (std::uint32_t b = a + 1; b < count; ++b) certifier.certify({a, b});
+  for (std::uint32_t a = 0; own != nullptr && a < count; ++a) certifier.certify({a, a});
   // Every contact was told as one, so that equal numbers mean equal sets.
   if (out.contacts.size() != touching.size())
     throw std::runtime_error("the oracle reports " + std::to_string(touching.size()) +

@@ -1,5 +1,5 @@
 // The certified truth of one frame: every pair of triangles of two bodies is proven to touch or to
-// be disjoint.
+// be disjoint; every pair of one body, to meet in more than the vertices it shares, or not to.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
 #include "core/types/mesh.h"
+#include "core/types/shared_corners.h"
 #include "core/types/vec3.h"
 #include "reference/oracle/exact_predicates.h"
 
@@ -48,6 +49,20 @@ std::optional<Witness> common_point(const oracle::TriangleCorners& p,
 /// Nothing when they share one; exactly one of the two functions answers.
 std::optional<Plane> separating_plane(const oracle::TriangleCorners& p,
                                       const oracle::TriangleCorners& q);
+
+/// Of two triangles of one mesh, the corners they share first in both: a common point off the hull
+/// of these. Nothing when there is none. @pre 1 or 2 are shared, and stand at the same places
+std::optional<Witness> further_point(const oracle::TriangleCorners& p,
+                                     const oracle::TriangleCorners& q, std::uint32_t shared);
+/// Of two triangles that share one corner, the first of both, and not both segments: a plane
+/// through it with p on one closed side and q on the other, and all corners of one of them, but the
+/// shared one, off it. Then that corner is all they share. Nothing when they share more.
+std::optional<Plane> plane_through_corner(const oracle::TriangleCorners& p,
+                                          const oracle::TriangleCorners& q);
+/// Of two that share an edge, or that are both segments: do they share its hull alone? A matter of
+/// few products, which a checker does itself.
+bool share_hull_alone(const oracle::TriangleCorners& p, const oracle::TriangleCorners& q,
+                      std::uint32_t shared);
 
 // Boxes over ranges of one body's triangles: what the proof that no pair was forgotten speaks of.
 //
@@ -103,9 +118,17 @@ struct FrameCertificate {
   /// treated first, with all below it), 'x', 'y' or 'z' says that the boxes of the two ranges are
   /// disjoint along that axis, and for one triangle on either side 't' that they touch and 's' that
   /// a plane separates them.
+  ///
+  /// Where contacts of bodies with themselves are certified, too, every body follows with itself:
+  /// all of it is the pairs within its lower half, those within its upper half and those between
+  /// the two, without a letter; one triangle alone has none. Of two triangles that share vertices
+  /// 't' says that they share more, 's' that a plane through the one shared corner separates them,
+  /// 'e' that they share an edge, or are segments, and no more than that (share_hull_alone), 'd'
+  /// that they name the same vertices.
   std::string decisions;
-  std::vector<CertifiedContact> contacts;  ///< one for every 't', canonical
-  std::vector<CertifiedGap> gaps;          ///< one for every 's', canonical
+  /// One for every 't', canonical; of one body with body_a = body_b, a < b.
+  std::vector<CertifiedContact> contacts;
+  std::vector<CertifiedGap> gaps;  ///< one for every 's', likewise
 };
 
 class Certifier {
@@ -113,10 +136,12 @@ class Certifier {
   /// @pre every body has triangles
   explicit Certifier(const std::vector<Body>& bodies);
 
-  /// Proofs of what the oracle has found: `touching` are all pairs of triangles that share a point.
+  /// Proofs of what the oracle has found: `touching` are all pairs of triangles that share a point,
+  /// and, if `own` is given, those are all of one body that meet in more than they share.
   /// @pre frame has vertices for every body, all finite; `touching` is canonical
   /// @throws std::runtime_error naming the pair where a verdict is wrong, so that no proof exists
-  FrameCertificate certify(const Frame& frame, const std::vector<ElementPair>& touching);
+  FrameCertificate certify(const Frame& frame, const std::vector<ElementPair>& touching,
+                           const std::vector<SelfPair>* own = nullptr);
 
   /// Place -> triangle, per body: the order that `decisions` refers to.
   const std::vector<std::uint32_t>& order(std::size_t body) const { return trees_[body].order(); }

@@ -28,15 +28,49 @@ SCENE = {
         {"name": "lid", "mesh": {"shape": "box", "divisions": 1, "center": [0, 10, 0]}}]}
 CONTACT_FRAME = "truth/frame_0001.json"
 
+# Triangles by the vertices they share with the first: two (on its side of the edge, and beyond), one
+# (through it, and away from it), all, one that welding alone makes one, one of a segment, two of it.
+NEIGHBOURS = """
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0.3 0.5 0
+v 0.3 0.3 -1
+v 0.3 0.3 1
+v -1 -1 0.2
+v -1 -0.5 0
+v 1 1 0
+v 0 0 0
+v -1 1 -0.2
+v -0.5 1 0
+f 1 2 3
+f 1 2 4
+f 3 5 6
+f 1 7 8
+f 2 3 9
+f 2 3 1
+f 10 11 12
+f 1 7 7
+f 1 7 1
+"""
+SELF_SCENE = {
+    "id": "neighbours", "frames": 2, "duration": 1,
+    "levels": ["self", "self-vertex", "self-edge", "self-body"],
+    "bodies": [{"name": "all", "mesh": {"file": "neighbours.obj", "weld": True}}]}
 
-class CheckExport(unittest.TestCase):
+
+class Exported(unittest.TestCase):
+    scene = SCENE
+
     @classmethod
     def setUpClass(cls):
         scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(scratch.cleanup)
         cls.exported = pathlib.Path(scratch.name)
-        (cls.exported / "tiny.json").write_text(json.dumps(SCENE))
-        cls.contactcheck("export", cls.exported / "tiny.json", "--out", cls.exported)
+        (cls.exported / "neighbours.obj").write_text(NEIGHBOURS)
+        cls.file = cls.exported / f"{cls.scene['id']}.json"
+        cls.file.write_text(json.dumps(cls.scene))
+        cls.contactcheck("export", cls.file, "--out", cls.exported)
 
     def setUp(self):
         """Every test breaks a copy of its own."""
@@ -44,7 +78,7 @@ class CheckExport(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.scratch = pathlib.Path(scratch.name) / "export"
         shutil.copytree(self.exported, self.scratch)
-        self.folder = self.scratch / "tiny"
+        self.folder = self.scratch / self.scene["id"]
 
     @staticmethod
     def contactcheck(*words):
@@ -83,6 +117,16 @@ class CheckExport(unittest.TestCase):
         change(truth)
         self.write(name, json.dumps(truth).encode())
 
+    def expect_hash_of_results(self, *detectors):
+        named = [word for name in detectors for word in ("--detector", name)]
+        self.contactcheck("run", self.file, "--no-timing", "--quiet", *named,
+                          "--out", self.scratch / "out")
+        results = json.loads((self.scratch / "out/results.json").read_bytes())
+        hashes = {run["contact_hash"] for run in results["runs"]}
+        self.assertEqual(hashes, {self.index()["contact_hash"]})
+
+
+class CheckExport(Exported):
     def test_help_is_the_head_of_the_script(self):
         help_text = subprocess.run([sys.executable, "-B", self.folder / "check.py", "--help"],
                                    capture_output=True, text=True, check=True).stdout
@@ -96,11 +140,7 @@ class CheckExport(unittest.TestCase):
         self.assertTrue(all(f["gaps"] > 0 for f in self.index()["frames"][1:]))
 
     def test_hash_is_that_of_results(self):
-        self.contactcheck("run", self.scratch / "tiny.json", "--no-timing", "--quiet", "--detector",
-                          "fcl-aabb", "--detector", "ffd-lazy", "--out", self.scratch / "out")
-        results = json.loads((self.scratch / "out/results.json").read_bytes())
-        hashes = {run["contact_hash"] for run in results["runs"]}
-        self.assertEqual(hashes, {self.index()["contact_hash"]})
+        self.expect_hash_of_results("fcl-aabb", "ffd-lazy")
 
     def moved_vertex(self):
         name = "bodies/1-right/frame_0001.ply"
@@ -327,6 +367,83 @@ class CheckExport(unittest.TestCase):
     def test_refuses_an_unfinished_export(self):
         (self.folder / "scene.json").unlink()
         self.refused("scene.json is missing")
+
+
+class CheckSelfExport(Exported):
+    scene = SELF_SCENE
+    first = "truth/frame_0000.json"
+
+    def truth(self):
+        return json.loads((self.folder / self.first).read_bytes())
+
+    def decide(self, was, becomes):
+        """Replaces the first decision of a kind."""
+        def change(truth):
+            self.assertIn(was, truth["decisions"])
+            truth["decisions"] = truth["decisions"].replace(was, becomes, 1)
+        self.change_truth(change, self.first)
+
+    def without(self, kind, pair):
+        def drop(truth):
+            truth[kind] = [entry for entry in truth[kind] if entry[2:4] != pair]
+        self.change_truth(drop, self.first)
+        self.change_index(lambda index: index["frames"][0].update(
+            {kind: index["frames"][0][kind] - 1}))
+
+    def test_accepts_an_export(self):
+        done = self.check()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("neighbours: 2 frames proven: ", done.stdout)
+        truth = self.truth()
+        self.assertEqual(truth["body_pairs"], [])
+        pairs = [entry[2:4] for entry in truth["contacts"]]
+        for pair in ([0, 1], [0, 2], [1, 2]):  # by two, one and no shared vertices
+            self.assertIn(pair, pairs)
+        self.assertTrue({"t", "s", "e", "d"} <= set(truth["decisions"]), truth["decisions"])
+
+    def test_hash_is_that_of_results(self):
+        self.expect_hash_of_results("full-refit", "ffd-lazy")
+
+    def test_refuses_a_witness_on_what_is_shared(self):
+        for pair, shared in (([0, 1], 0), ([0, 2], 2)):
+            def change(truth):
+                entry = next(e for e in truth["contacts"] if e[2:4] == pair)
+                faces = {0: [0, 1, 2], 1: [0, 1, 3], 2: [2, 4, 5]}
+                for weights, t in zip(entry[4:], pair):
+                    weights[:] = ["1" if v == shared else "0" for v in faces[t]]
+            self.setUp()
+            self.change_truth(change, self.first)
+            self.refused(f"triangles {pair[0]} and {pair[1]} of body 0: the witness is no further")
+
+    def test_refuses_a_contact_said_to_be_none(self):
+        self.decide("t", "e")
+        self.refused("share more than their vertices")
+
+    def test_refuses_a_dropped_contact(self):
+        self.without("contacts", [0, 1])
+        self.refused("triangles 0 and 1 of body 0: \"t\" was decided, but nothing is listed")
+
+    def test_refuses_a_plane_past_the_corner(self):
+        def change(truth):
+            *_, plane = truth["gaps"][0]
+            plane[3] = "1/1000"
+        self.change_truth(change, self.first)
+        self.refused("the plane does not separate them")
+
+    def test_refuses_neighbours_called_duplicates(self):
+        self.decide("e", "d")
+        self.refused('"d" was decided, but nothing is listed')
+
+    def test_refuses_a_weld_of_vertices_apart(self):
+        name = "bodies/0-all/welded.json"
+        welded = json.loads((self.folder / name).read_bytes())
+        welded[6][0] = 1
+        self.write(name, json.dumps(welded).encode())
+        self.refused("welded vertices are not at one place")
+
+    def test_refuses_bodies_without_themselves(self):
+        self.change_index(lambda index: index.update(self=False))
+        self.refused("frame 0: the decisions go on when all pairs are covered")
 
 
 if __name__ == "__main__":

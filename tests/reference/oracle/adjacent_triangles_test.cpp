@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "reference/oracle/exact_tests.h"
+#include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/rational_clipping.h"
 #include "tests/support/random_triangles.h"
 #include "tests/support/range_ends.h"
@@ -35,6 +36,18 @@ bool by_definition(const Neighbours& n) {
   return oracle::rational::share_more_than(n.p[0], n.p[n.shared - 1], n.p, n.q);
 }
 
+/// By the proofs that an export has: there is one of either kind alone.
+bool by_proof(const Neighbours& n) {
+  const bool segments =
+      oracle::collinear(n.p[0], n.p[1], n.p[2]) && oracle::collinear(n.q[0], n.q[1], n.q[2]);
+  const bool alone = n.shared == 2 || segments
+                         ? oracle::certify::share_hull_alone(n.p, n.q, n.shared)
+                         : oracle::certify::plane_through_corner(n.p, n.q).has_value();
+  const bool further = oracle::certify::further_point(n.p, n.q, n.shared).has_value();
+  EXPECT_NE(alone, further);
+  return further;
+}
+
 /// The same two triangles: exchanged, and the other corners of either in the other order.
 Neighbours relabelled(Neighbours n, int how) {
   if ((how & 1) != 0) std::swap(n.p, n.q);
@@ -51,6 +64,7 @@ bool agreed(const Neighbours& n) {
   const bool truth = by_definition(n);
   EXPECT_EQ(by_oracle(n), truth);
   EXPECT_EQ(by_core(n), truth);
+  EXPECT_EQ(by_proof(n), truth);
   for (int how = 1; how < 8; ++how) {
     EXPECT_EQ(by_core(relabelled(n, how)), truth) << "relabelled " << how;
     EXPECT_EQ(by_oracle(relabelled(n, how)), truth) << "relabelled " << how;

@@ -103,7 +103,7 @@ void BodyPairDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics().answers(question), "only claimed questions are asked");
   if (question == Question::kSelf) {
     if (!moved_all_) move_others();
-    for (std::uint32_t b = 0; b < shapes_.size(); ++b) collide_self(b, out.self);
+    for (std::uint32_t b = 0; b < shapes_.size(); ++b) collide_self(b, out);
     return;
   }
   for (const BodyPair& pair : pairs_) collide(pair, question, out);

@@ -62,7 +62,7 @@ class BodyPairDetector : public Detector {
   /// The candidate pairs of the frame, ascending, one after the other.
   virtual void collide(BodyPair pair, Question question, ContactSet& out) = 0;
   /// A body with itself, after move() of it. Of those that answer the question `self`.
-  virtual void collide_self(std::uint32_t, std::vector<SelfPair>&) {}
+  virtual void collide_self(std::uint32_t, ContactSet&) {}
 
   const std::vector<BodyPair>& candidate_pairs() const { return pairs_; }
   /// What the last update has given to move().

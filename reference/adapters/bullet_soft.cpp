@@ -11,7 +11,8 @@
 //              bodies are in contact when the convex hulls of two of their clusters are nearer than
 //              the sum of the margins (strictly) or overlap, by GJK and EPA. Hulls of concave or
 //              curved pieces hold space that the surface does not: contact is reported across a
-//              gap, and for a thin shell within another. Judged at `body`.
+//              gap, and for a thin shell within another. Judged at `body`. A body's own clusters
+//              are compared where they share no vertex: judged at `self-body`.
 //
 // Seen in Bullet 3.24 (Debian 12, single precision), November 2026, in all soft bodies:
 // - Nodes and faces enter their trees one by one, by a descent to the nearer child: vertices in the
@@ -26,8 +27,8 @@
 //   says so of a slightly different float than ours: it subtracts the node from the corners first.
 // - What two threads would share: a random seed in BulletSoftBody/btSoftBody.h (for repulsion
 //   forces, which are not used) and a counter in btSoftBodyInternals.h (of cluster pairs skipped
-//   within one body, which are not asked for). Projections, trees and btGjkEpaSolver2 keep their
-//   state on the stack.
+//   within one body, which nothing reads). Projections, trees and btGjkEpaSolver2 keep their state
+//   on the stack.
 // with VF_SS:
 // - A contact needs (distance)^2 < (sum of the margins)^2, in floats: a margin of 0 finds nothing.
 // - Contacts are added to m_scontacts of the body whose node it is, nodes of both bodies against
@@ -47,8 +48,12 @@
 //   are dropped. A sphere of 45,000 vertices has 18 of 64.
 // - It compares every node with every other for a table of connected clusters that only collisions
 //   within a body read: seconds for 45,000 nodes.
+// - CL_SELF is without effect, and ends collisions with others too: defaultCollisionHandler() looks
+//   for CL_SS alone among the flags of SVSmask, which has held CL_SELF since it was widened for
+//   VF_DD. So the collider that it would call is called here.
 // There is no early-out in either.
 #include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyInternals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -421,6 +426,20 @@ void append_cluster(btSoftBody& body, std::vector<std::uint32_t>& members) {
   body.m_clusters.push_back(cluster);
 }
 
+/// As generateClusters() does: clusters that share a node are never compared.
+void connect_clusters(btSoftBody& body) {
+  const int count = body.m_clusters.size();
+  body.m_clusterConnectivity.resize(count * count, false);
+  std::vector<std::vector<int>> of_node(static_cast<std::size_t>(body.m_nodes.size()));
+  for (int c = 0; c < count; ++c)
+    for (int n = 0; n < body.m_clusters[c]->m_nodes.size(); ++n)
+      of_node[static_cast<std::size_t>(body.m_clusters[c]->m_nodes[n] - &body.m_nodes[0])]
+          .push_back(c);
+  for (const std::vector<int>& clusters : of_node)
+    for (const int c : clusters)
+      for (const int d : clusters) body.m_clusterConnectivity[c + count * d] = true;
+}
+
 /// Divides the nodes, at their places now, into at most k clusters. A body with more nodes than
 /// generateClusters() can divide takes the centres of the clusters of a sample. @pre k >= 1
 void make_clusters(btSoftBody& body, int k) {
@@ -434,6 +453,7 @@ void make_clusters(btSoftBody& body, int k) {
     if (!nodes.empty()) append_cluster(body, nodes);
   body.initializeClusters();
   body.updateClusters();
+  connect_clusters(body);
 }
 
 /// Bullet's frames and boxes of the clusters around the nodes' places now. The boxes are grown by
@@ -455,8 +475,8 @@ void refit_clusters(btSoftBody& body) {
 
 Semantics cl_semantics() {
   Semantics semantics;
-  semantics.levels = {Level::kBody};
-  semantics.questions = {Question::kBody};
+  semantics.levels = {Level::kBody, Level::kSelfBody};
+  semantics.questions = {Question::kBody, Question::kSelf};
   semantics.closed = false;
   semantics.precision = Precision::kSingle;
   semantics.no_early_end = true;
@@ -485,11 +505,22 @@ class ClusterDetector final : public BulletSoftDetector {
   void prepare_body(SoftBody& body) override { make_clusters(body.bullet(), clusters_); }
   void refit(SoftBody& body) override { refit_clusters(body.bullet()); }
   void collide_bodies(std::uint32_t a, std::uint32_t b, Question, ContactSet& out) override {
+    if (make_joints(a, b)) out.bodies.push_back({a, b});
+  }
+  void collide_self(std::uint32_t body, ContactSet& out) override {
+    if (make_joints(body, body)) out.self_bodies.push_back(body);
+  }
+  bool make_joints(std::uint32_t a, std::uint32_t b) {
     btSoftBody& first = bodies()[a]->bullet();
-    first.defaultCollisionHandler(&bodies()[b]->bullet());
-    if (first.m_joints.size() > 0) out.bodies.push_back({a, b});
+    if (a == b) {
+      btSoftColliders::CollideCL_SS().ProcessSoftSoft(&first, &first);
+    } else {
+      first.defaultCollisionHandler(&bodies()[b]->bullet());
+    }
+    const bool any = first.m_joints.size() > 0;
     for (int j = 0; j < first.m_joints.size(); ++j) btAlignedFree(first.m_joints[j]);
     first.m_joints.resize(0);
+    return any;
   }
 
   int clusters_;

@@ -294,7 +294,7 @@ class EmbreeDetector final : public BodyPairDetector {
   }
 
   // Neighbours come from the mesh; rtcCollide names the others, each pair in both orders.
-  void collide_self(std::uint32_t body, std::vector<SelfPair>& out) override {
+  void collide_self(std::uint32_t body, ContactSet& out) override {
     const BodyShape& mesh = shape(body);
     const std::span<const Vec3> positions = vertices(body);
     linked_ = mesh.linked().data();
@@ -302,7 +302,7 @@ class EmbreeDetector final : public BodyPairDetector {
     call_collide({body, body}, &EmbreeDetector::collect_strangers);
     require_ok(device_.get(), "rtcCollide");
     exact_.begin(mesh, positions, mesh, positions);
-    const auto meets = [&](std::uint32_t i, std::uint32_t j) { out.push_back({body, i, j}); };
+    const auto meets = [&](std::uint32_t i, std::uint32_t j) { out.self.push_back({body, i, j}); };
     for (const auto& [i, j] : candidates_) exact_.add({i, j, {}}, meets);
     if (!neighbours_[body]) neighbours_[body] = adjacent_pairs(mesh.linked());
     for (const AdjacentPair& pair : *neighbours_[body]) exact_.add(pair, meets);

@@ -201,12 +201,12 @@ class FclDetector final : public BodyPairDetector {
     }
   }
 
-  void collide_self(std::uint32_t body, std::vector<SelfPair>& out) override {
+  void collide_self(std::uint32_t body, ContactSet& out) override {
     result_.clear();
     collide_with_itself(bodies_[body]->model(), shape(body).linked(), result_);
     for (std::size_t i = 0; i < result_.numContacts(); ++i) {
       const fcl::Contactd& contact = result_.getContact(i);
-      out.push_back(
+      out.self.push_back(
           {body, static_cast<std::uint32_t>(contact.b1), static_cast<std::uint32_t>(contact.b2)});
     }
   }

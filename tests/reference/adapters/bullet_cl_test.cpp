@@ -20,9 +20,9 @@ World tips_apart(double gap) {
 
 TEST(BulletCl, ClaimsBodiesByHulls) {
   const Semantics semantics = make_detector("bullet-cl:margin=0.25,scale=1")->semantics();
-  EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody));
+  EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody, Level::kSelfBody));
   EXPECT_THAT(semantics.informative, IsEmpty());
-  EXPECT_THAT(semantics.questions, ElementsAre(Question::kBody));
+  EXPECT_THAT(semantics.questions, ElementsAre(Question::kBody, Question::kSelf));
   EXPECT_EQ(semantics.depth, DepthKind::kNone);
   EXPECT_EQ(semantics.margin, 0.5);
   EXPECT_THAT(semantics.means, ::testing::HasSubstr("convex hulls"));
@@ -81,6 +81,23 @@ TEST(BulletCl, DisconnectedAndDegenerateMeshIsDivided) {
   EXPECT_THAT(bodies_in_contact("bullet-cl", World({mesh, probe})), ElementsAre(BodyPair{0, 1}));
 }
 
+// Bullet's own flag for it, CL_SELF, would end all collisions of the body.
+TEST(BulletCl, ComparesABodysClustersThatShareNoVertex) {
+  TriangleMesh balls = sphere_mesh(Vec3(0, 0, 0), 1, 3);
+  const auto first = static_cast<std::uint32_t>(balls.vertices.size());
+  const TriangleMesh second = sphere_mesh(Vec3(2.1, 0, 0), 1, 3);
+  balls.vertices.insert(balls.vertices.end(), second.vertices.begin(), second.vertices.end());
+  for (const auto& [i, j, k] : second.triangles)
+    balls.triangles.push_back({first + i, first + j, first + k});
+  World world({balls, sphere_mesh(Vec3(0, 1.5, 0), 1, 3)});
+  const auto detector = prepared("bullet-cl", world);
+  EXPECT_THAT(ask(*detector, Question::kSelf).self_bodies, IsEmpty());
+  for (std::size_t v = first; v < world.vertices[0].size(); ++v) world.vertices[0][v].x() -= 0.3;
+  detector->update(world.frame());
+  EXPECT_THAT(ask(*detector, Question::kSelf).self_bodies, ElementsAre(0u));
+  EXPECT_THAT(ask(*detector, Question::kBody).bodies, ElementsAre(BodyPair{0, 1}));
+}
+
 /// A thin triangle through the middle of another.
 TriangleMesh needle_through(const TriangleMesh& mesh, std::size_t triangle) {
   const auto [i, j, k] = mesh.triangles[triangle];
@@ -105,6 +122,7 @@ TEST(BulletCl, HundredThousandVerticesAreDividedWithoutGaps) {
   meshes.push_back(sphere_mesh(Vec3(0, 0, 0), 0.1, 2));  // the clusters follow the surface
   const auto detector = prepared("bullet-cl:margin=0.0001", World(meshes));
   EXPECT_EQ(ask(*detector, Question::kBody).bodies, expected);
+  EXPECT_THAT(ask(*detector, Question::kSelf).self_bodies, IsEmpty());  // neighbours share some
   EXPECT_THAT(detector->notes(), SizeIs(1));
   EXPECT_THAT(prepared("bullet-cl", tips_apart(1))->notes(), IsEmpty());
 }

@@ -228,7 +228,10 @@ class CheckReport {
 
   void frame(const BadFrame& bad) {
     ++bad_;
-    if (!first_) first_ = bad.frame;
+    if (!first_) {
+      first_ = bad.frame;
+      first_words_ = bad.pairs.empty() ? sentence(bad.selfs.front()) : sentence(bad.pairs.front());
+    }
     for (const BadFrame::Pair& pair : bad.pairs)
       if (pair.depth && (!deepest_ || *pair.depth > *deepest_->second.depth))
         deepest_ = {bad.frame, pair};
@@ -241,6 +244,8 @@ class CheckReport {
   }
 
   std::size_t bad_frames() const { return bad_; }
+  /// For the page. @pre bad_frames() > 0
+  results::Finding finding() const { return {count_text(), place(*first_) + ", " + first_words_}; }
   std::optional<std::size_t> first() const { return first_; }
 
   void end(const CheckArguments& arguments, int exit_code, const std::string& page) const {
@@ -256,9 +261,7 @@ class CheckReport {
       std::printf("no frame has a contact that is not allowed\n");
       return;
     }
-    std::printf("\n%zu of %s %s a contact that is not allowed, the first is %s\n", bad_,
-                counted(scene_.frames, "frame").c_str(), bad_ == 1 ? "has" : "have",
-                place(*first_).c_str());
+    std::printf("\n%s, the first is %s\n", count_text().c_str(), place(*first_).c_str());
     if (deepest_ && *deepest_->second.depth > 0.0)
       std::printf("deepest: %s, %s\n", place(deepest_->first).c_str(),
                   sentence(deepest_->second).c_str());
@@ -268,6 +271,10 @@ class CheckReport {
  private:
   static void print(const Json& event) { EventLines(true).print(event.dump()); }
 
+  std::string count_text() const {
+    return std::to_string(bad_) + " of " + counted(scene_.frames, "frame") +
+           (bad_ == 1 ? " has" : " have") + " a contact that is not allowed";
+  }
   std::string place(std::size_t frame) const {
     return "frame " + std::to_string(frame) +
            (frame < labels_.size() ? " (" + labels_[frame] + ")" : "");
@@ -325,6 +332,7 @@ class CheckReport {
   bool json_;
   std::size_t bad_ = 0;
   std::optional<std::size_t> first_;
+  std::string first_words_;
   std::optional<std::pair<std::size_t, BadFrame::Pair>> deepest_;
 };
 
@@ -341,7 +349,8 @@ std::vector<Level> levels_of(const Allowed& allowed) {
 /// The page about one frame: a run of its own, on a recording of it. Returns its path; a build
 /// without npm has no page, but a report.
 fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
-                    const std::string& files, std::size_t frame, const DetectorCatalog& catalog) {
+                    const std::string& files, std::size_t frame, results::Finding finding,
+                    const DetectorCatalog& catalog) {
   Recording recording;
   recording.scene = "frame-" + std::to_string(frame);
   recording.bodies = scene.bodies;
@@ -355,6 +364,7 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   run.detectors = {kDetector};
   run.timing = false;
   run.quiet = true;
+  run.finding = std::move(finding);
   run.out = arguments.out;
   run.command_line = "contactcheck check" + files + (arguments.weld ? " --weld" : "");
   for (const std::string& word : arguments.allow)
@@ -382,6 +392,10 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     scene = scene::load_scene_text(files.scene);
   }
   scene.levels = levels;
+  if (scene.bodies.size() == 1)
+    std::erase_if(scene.levels, [](Level level) { return !is_self(level); });
+  if (scene.levels.empty())
+    throw InputError("--allow self leaves nothing to be checked of one body");
   if (arguments.weld)
     for (Body& body : scene.bodies) body.shape = welded(*body.shape);
   scene::refuse_crowded_vertices(scene);
@@ -416,7 +430,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     std::string words =
         files.shown.empty() ? " " + text::in_shell(arguments.frames[0].string()) : "";
     for (const std::string& word : files.shown) words += " " + word;
-    page = write_page(arguments, scene, words, *report.first(), catalog);
+    page = write_page(arguments, scene, words, *report.first(), report.finding(), catalog);
   }
   const int code = report.bad_frames() > 0 ? 1 : 0;
   report.end(arguments, code, page.string());

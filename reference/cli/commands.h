@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/detect/registry.h"
+#include "reference/results/results.h"
 #include "reference/scene/mesh_scene.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/suite/job.h"
@@ -42,7 +43,8 @@ struct RunArguments {
   bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
   double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
-  std::string command_line;  ///< for the record
+  std::string command_line;                 ///< for the record
+  std::optional<results::Finding> finding;  ///< what is run for
 };
 
 struct ExportArguments {

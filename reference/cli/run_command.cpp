@@ -397,6 +397,7 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
   request.command = arguments.command_line;
+  request.finding = arguments.finding;
   request.known_defects = results::read_known_defects(hard_cases_folder());
   return request;
 }

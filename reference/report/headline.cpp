@@ -372,7 +372,8 @@ Headline headline_of(const Results& results) {
   const std::vector<Verdict> verdicts = verdicts_of(index);
   const std::vector<Winner> winners = winners_of(index, verdicts);
   Headline out;
-  out.title = title_of(results, verdicts);
+  out.title = results.finding ? results.finding->title : title_of(results, verdicts);
+  if (results.finding) out.findings.push_back({"First", results.finding->first + "."});
   for (const Winner& winner : winners) out.fastest.push_back(winner.detector);
   add_exact(verdicts, out.findings);
   add_fastest(index, winners, out.findings);

@@ -14,7 +14,9 @@ struct HeadlineFinding {
 };
 
 struct Headline {
-  std::string title;  ///< "3 of 5 detectors have no missed and no spurious contacts in 2 scenes"
+  /// What was found (Results::finding); without it "3 of 5 detectors have no missed and no spurious
+  /// contacts in 2 scenes".
+  std::string title;
   std::vector<HeadlineFinding> findings;
   /// The detectors that were right and fastest in some scene, most scenes first.
   std::vector<std::string> fastest;

@@ -337,6 +337,11 @@ struct Shard {
   Texts files;
 };
 
+/// What a command found before it ran what follows (check): the head of its page.
+struct Finding {
+  std::string title, first;  ///< "4 of 8 frames have ...", "frame 4: left and right: 33 pairs ..."
+};
+
 struct Results {
   std::string version, command;
   Machine machine;
@@ -351,6 +356,7 @@ struct Results {
   std::optional<std::vector<std::string>> resumed;
   std::optional<Shard> shard;
   std::vector<std::string> merged;
+  std::optional<Finding> finding;
 
   /// That the detector, with or without options, is of; null: one of the program's own.
   const Plugin* plugin_of(const std::string& detector) const;

@@ -513,6 +513,12 @@ void fields(Io& io, Shard& s) {
 }
 
 template <typename Io>
+void fields(Io& io, Finding& f) {
+  io("title", f.title);
+  io("first", f.first);
+}
+
+template <typename Io>
 void fields(Io& io, Results& r) {
   io("version", r.version);
   io("command", r.command);
@@ -528,6 +534,7 @@ void fields(Io& io, Results& r) {
   io.unless_empty("resumed", r.resumed);
   io.unless_empty("shard", r.shard);
   io.unless_empty("merged", r.merged);
+  io.unless_empty("finding", r.finding);
 }
 
 // --- values, lists and maps

@@ -106,10 +106,10 @@ std::string without_separators(std::string stem) {
   return stem;
 }
 
-// Files with one name in several folders are told apart by these.
+// Files with one name in several folders are told apart by these; "frame" tells nothing.
 std::string name_for(const BodyFiles& body, const std::vector<BodyFiles>& all, const Json& bodies) {
   const auto same_stem = [&](const BodyFiles& other) { return other.stem == body.stem; };
-  const bool alone = std::count_if(all.begin(), all.end(), same_stem) == 1;
+  const bool alone = body.stem != "frame" && std::count_if(all.begin(), all.end(), same_stem) == 1;
   std::string stem = alone || body.folder.empty() ? body.stem : body.folder;
   if (!name_fault(stem).empty()) stem = "body";
   const auto taken = [&](const std::string& name) {

@@ -21,6 +21,7 @@ results::Results record_of(const SuiteRequest& request) {
   results::Results record;
   record.version = CONTACTCHECK_VERSION;
   record.command = request.command;
+  record.finding = request.finding;
   record.machine = describe_machine();
   for (const auto& library : adapters::library_versions()) record.libraries.push_back(library);
   record.plugins = request.plugins;

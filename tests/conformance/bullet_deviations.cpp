@@ -59,6 +59,17 @@ std::vector<KnownDeviation> bullet_cl() {
        {{"a-millimetre-wide", 1}, {"a-micrometre-wide", 1}},
        seen("prior-art.md 3.4 B3"),
        "contact is being nearer than the two margins, which are wider than these bodies"},
+      {clusters,
+       "self-body spurious",
+       {{"a-millimetre-wide", 4}, {"a-micrometre-wide", 4}},
+       seen("prior-art.md 3.4 B3"),
+       "contact is being nearer than the two margins, which are wider than these bodies"},
+      {clusters,
+       "answer differs",
+       {{"rebuilt-structure", 1}},
+       seen("prior-art.md 3.4 B6"),
+       "clusters are made of the shape at rest: of another one there are others, and their hulls "
+       "hold other space"},
   };
 }
 

@@ -161,6 +161,25 @@ TEST_F(Check, RefusesAVertexOfTooManyTriangles) {
               1);
 }
 
+TEST_F(Check, PutsWhatItFoundAtTheHeadOfThePage) {
+  std::filesystem::create_directory(in("sheet"));
+  const std::string sheet = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv .2 .2 -1\nv .2 .2 1\n";
+  const std::string faces = "f 1 2 3\nf 4 5 6\n";
+  scratch_.write("sheet/frame_1.obj", sheet + "v 2 2 1\n" + faces);
+  scratch_.write("sheet/frame_2.obj", sheet + "v .2 .2 0\n" + faces);
+  const Words files = {in("sheet/frame_1.obj"), in("sheet/frame_2.obj")};
+  const Outcome outcome = check(files, {"--allow", "contact"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  const json results = json::parse(test::text_of(in("out/results.json")));
+  EXPECT_EQ(results.at("finding").at("title"), "2 of 2 frames have a contact that is not allowed");
+  EXPECT_EQ(results.at("finding").at("first"),
+            "frame 0 (frame_1.obj), sheet with itself: 1 pair of triangles, first 0 and 1 (1 "
+            "without a shared vertex)");
+  for (const json& run : results.at("runs")) EXPECT_FALSE(run.at("levels").contains("triangle"));
+  EXPECT_THAT(check(files, {"--allow", "self"}).err,
+              HasSubstr("--allow self leaves nothing to be checked of one body"));
+}
+
 TEST_F(Check, SpeaksToPrograms) {
   const Outcome outcome = check_both({"--json-lines"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;

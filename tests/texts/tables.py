@@ -178,18 +178,18 @@ def self_scenes(files):
     for scene in file.scenes():
         about, run = file.row("scenes", scene=scene), file.run(scene, "ffd-lazy")
         for other in file.rows("runs"):
-            exact = not other["detector"].startswith("fcl-")
+            exact = not other["detector"].startswith(("fcl-", "bullet-"))
             if other["scene"] == scene and exact and other.get("self_wrong") != [0, 0]:
                 raise TextError(f"{file.place}: {other['detector']} is wrong in {scene}; the text "
                                 "says that it is right in all")
-        fcl = [f"`{name}` {wrong(file.run(scene, name)['self_wrong'])}"
-               for name in ("fcl-aabb", "fcl-obbrss")
-               if any((row["scene"], row["detector"]) == (scene, name) for row in file.rows("runs"))
-               and file.run(scene, name)["self_wrong"] != [0, 0]]
+        errors = [f"`{row['detector']}` {wrong(row['self_wrong'])}" +
+                  (" bodies" if row["detector"] == "bullet-cl" else "")
+                  for row in file.rows("runs")
+                  if row["scene"] == scene and row["self_wrong"] != [0, 0]]
         rows.append([scene, count(about["triangles"]), *map(count, about["true_self"]),
                      three_digits(run["self_ms"]),
                      *(three_digits(file.run(scene, peer)["self_ms"]) for peer in SELF_PEERS),
-                     ratio(*run["self_speedup"]), ", ".join(fcl) or "-"])
+                     ratio(*run["self_speedup"]), ", ".join(errors) or "-"])
     return table(["scene", "triangles:", "true pairs, no vertex shared:", "one:", "two:",
                   "ffd-lazy, ms a frame:", *(peer + ":" for peer in SELF_PEERS),
                   "ffd-lazy over embree:", "missed + spurious"], rows)

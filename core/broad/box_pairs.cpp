@@ -18,8 +18,8 @@ void BoxPairFinderOf<T>::find(const Boxes& boxes, const BoxPairSettings& setting
                               std::vector<Pair>& out) {
   visited_ = 0;
   hash_boxes(boxes, settings);
-  pairs_in_buckets(boxes, static_cast<T>(settings.cell_size), out);
-  pairs_of_oversize(boxes, out);
+  pairs_in_buckets(boxes, settings, out);
+  pairs_of_oversize(boxes, settings.own, out);
 }
 
 template <typename T>
@@ -45,7 +45,9 @@ void BoxPairFinderOf<T>::hash_boxes(const Boxes& boxes, const BoxPairSettings& s
 }
 
 template <typename T>
-void BoxPairFinderOf<T>::pairs_in_buckets(const Boxes& boxes, T cell_size, std::vector<Pair>& out) {
+void BoxPairFinderOf<T>::pairs_in_buckets(const Boxes& boxes, const BoxPairSettings& settings,
+                                          std::vector<Pair>& out) {
+  const T cell_size = static_cast<T>(settings.cell_size);
   for (std::size_t b = 0; b < hash_.bucket_count(); ++b) {
     const auto entries = hash_.bucket_at(b);
     if (!entries.empty()) visited_ += entries.size() * (entries.size() - 1) / 2;
@@ -54,7 +56,8 @@ void BoxPairFinderOf<T>::pairs_in_buckets(const Boxes& boxes, T cell_size, std::
       for (std::size_t j = i + 1; j < entries.size(); ++j) {
         if (entries[i].key != entries[j].key) continue;
         const OwnedBoxOf<T>& second = boxes[entries[j].id];
-        if (first.body == second.body || !first.box.overlaps(second.box)) continue;
+        if ((first.body == second.body) != settings.own || !first.box.overlaps(second.box))
+          continue;
         // floor is monotone: the key of the intersection's lower corner lies in both boxes' ranges.
         const Vec3Of<T> corner = first.box.lo.cwiseMax(second.box.lo);
         if (grid_key<T>(corner, cell_size) == entries[i].key)
@@ -66,12 +69,13 @@ void BoxPairFinderOf<T>::pairs_in_buckets(const Boxes& boxes, T cell_size, std::
 }
 
 template <typename T>
-void BoxPairFinderOf<T>::pairs_of_oversize(const Boxes& boxes, std::vector<Pair>& out) {
+void BoxPairFinderOf<T>::pairs_of_oversize(const Boxes& boxes, bool own, std::vector<Pair>& out) {
   visited_ += oversize_.size() * boxes.size();
   for (std::uint32_t big : oversize_) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
       if (is_oversize_[i] && i <= big) continue;  // two oversize boxes meet once
-      if (boxes[i].body == boxes[big].body || !boxes[i].box.overlaps(boxes[big].box)) continue;
+      if ((boxes[i].body == boxes[big].body) != own || !boxes[i].box.overlaps(boxes[big].box))
+        continue;
       out.emplace_back(std::min(i, big), std::max(i, big));
     }
   }

@@ -1,4 +1,5 @@
-// All overlapping pairs of axis-aligned boxes of different bodies, through the spatial hash.
+// All overlapping pairs of axis-aligned boxes of different bodies, or of one body each, through the
+// spatial hash.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@ struct BoxPairSettings {
   double cell_size = 1.0;               ///< metres, of the hash grid
   std::uint32_t table_size = 0;         ///< see SpatialHash
   double largest_buckets_per_box = 64;  ///< a box that meets more goes to the oversize list
+  bool own = false;                     ///< pairs of one body, in place of those of two
 };
 
 /// In double or in single precision, whose grid keys are those of floats. Complete and without
@@ -34,7 +36,7 @@ class BoxPairFinderOf {
   using Boxes = std::vector<OwnedBoxOf<T>>;
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices into `boxes`, first < second
 
-  /// Appends every closed overlap of boxes of different bodies.
+  /// Appends every closed overlap of boxes of different bodies, or (settings.own) of one body.
   void find(const Boxes& boxes, const BoxPairSettings& settings, std::vector<Pair>& out);
   /// Comparisons of the last find(): of two entries of a bucket, and of an oversize box with each
   /// box.
@@ -42,8 +44,9 @@ class BoxPairFinderOf {
 
  private:
   void hash_boxes(const Boxes& boxes, const BoxPairSettings& settings);
-  void pairs_in_buckets(const Boxes& boxes, T cell_size, std::vector<Pair>& out);
-  void pairs_of_oversize(const Boxes& boxes, std::vector<Pair>& out);
+  void pairs_in_buckets(const Boxes& boxes, const BoxPairSettings& settings,
+                        std::vector<Pair>& out);
+  void pairs_of_oversize(const Boxes& boxes, bool own, std::vector<Pair>& out);
 
   SpatialHash hash_;
   std::vector<std::uint32_t> oversize_;

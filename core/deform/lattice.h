@@ -36,6 +36,15 @@ struct Lattice {
   Aabb cell_box(std::uint32_t cell) const;
 };
 
+/// Neighbours, and a cell itself.
+inline bool share_node(const Lattice& lattice, std::uint32_t a, std::uint32_t b) {
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t p = lattice.cells[a][k], q = lattice.cells[b][k];
+    if (p > q + 1 || q > p + 1) return false;
+  }
+  return true;
+}
+
 /// Number of cells wanted per axis.
 struct Resolution {
   std::uint32_t x = 1, y = 1, z = 1;

@@ -21,7 +21,7 @@ Semantics semantics_of(const FfdConfig& config) {
     s.exact = config.bounds == BoundsReading::kSafe && config.sphere_radius >= 1.0 &&
               std::is_same_v<T, double>;
   } else {
-    s.levels = {Level::kBody, Level::kCell};
+    s.levels = {Level::kBody, Level::kCell, Level::kSelfCell};
     s.questions = {Question::kCells, Question::kBody};
     s.whole_cells = config.volume == CellVolume::kLatticeCell;
     // What node tests on FFD-AABBs literally claim; a lattice cell is no FFD-AABB, and an owner's
@@ -31,6 +31,7 @@ Semantics semantics_of(const FfdConfig& config) {
       s.questions.push_back(Question::kContacts);
       s.depth = DepthKind::kConvexPair;
     }
+    s.questions.push_back(Question::kSelf);
   }
   if constexpr (std::is_same_v<T, float>) {
     s.precision = Precision::kSingle;
@@ -146,8 +147,8 @@ void FfdDetectorOf<T>::update(const Frame& frame) {
 }
 
 template <typename T>
-void FfdDetectorOf<T>::find_candidates() {
-  run_spheres(models_, states_, config_.bounds, config_.sphere_levels, survivors_);
+void FfdDetectorOf<T>::find_candidates(bool own) {
+  run_spheres(models_, states_, config_.bounds, config_.sphere_levels, own, survivors_);
   const T cell = grid_cell<T>(hash_cell_size_);
   if (safe()) {
     box_hash_.run(models_, states_, config_, survivors_, cell, cells_);
@@ -183,6 +184,7 @@ void FfdDetectorOf<T>::test_elements(bool first_only, std::vector<ElementPair>& 
 template <typename T>
 void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
+  if (question == Question::kSelf) return find_self_cells(out.self_cells);
   find_candidates();
   const bool boolean = question == Question::kBody;
   std::vector<ElementPair>& elements =
@@ -196,6 +198,20 @@ void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
   std::vector<ElementPair> found;
   test_elements(true, found);
   for (const ElementPair& p : found) out.bodies.push_back({p.body_a, p.body_b});
+}
+
+// A body against itself, as two bodies are tested. Cells that share a node always meet there.
+template <typename T>
+void FfdDetectorOf<T>::find_self_cells(std::vector<SelfPair>& out) {
+  find_candidates(true);
+  const auto apart = [&](std::uint32_t body, std::uint32_t a, std::uint32_t b) {
+    return !share_node(*models_[body].shape->lattice, a, b);
+  };
+  std::erase_if(cells_, [&](const ElementPair& p) { return !apart(p.body_a, p.a, p.b); });
+  std::vector<ElementPair> found;
+  test_elements(false, found);
+  for (const ElementPair& p : found)
+    if (apart(p.body_a, p.a, p.b)) out.push_back({p.body_a, p.a, p.b});
 }
 
 // Which cells still take part after `levels` sphere levels.
@@ -221,7 +237,7 @@ template <typename T>
 void FfdDetectorOf<T>::trace_spheres(StageTrace& out) {
   for (int level = 1; level <= config_.sphere_levels; ++level) {
     SphereSurvivors s;
-    run_spheres(models_, states_, config_.bounds, level, s);
+    run_spheres(models_, states_, config_.bounds, level, false, s);
     StageRecord record;
     record.name = "sphere" + std::to_string(level);
     record.unit = level == 1 ? "body pairs" : "sphere pairs";

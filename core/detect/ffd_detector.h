@@ -99,7 +99,8 @@ class FfdDetectorOf : public Detector {
 
  private:
   bool safe() const { return config_.bounds == BoundsReading::kSafe; }
-  void find_candidates();
+  void find_candidates(bool own = false);
+  void find_self_cells(std::vector<SelfPair>& out);
   void test_elements(bool first_only, std::vector<ElementPair>& out);
   std::vector<ElementPair> cells_of_hits() const;
   std::vector<std::vector<char>> covered_cells(int levels, const SphereSurvivors& s) const;

@@ -155,7 +155,7 @@ void ProbeHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& st
       if (!active_[body][probe]) continue;
       hash_.for_each(keys_[body][probe], [&](std::uint32_t id) {
         const BoxId box = boxes_[id];
-        if (box.body != body && survivors.active(body, box.body))
+        if (survivors.active(body, box.body))  // of its own body where that is asked for alone
           out.push_back({body, probe, box.body, box.cell});
       });
     }
@@ -245,6 +245,7 @@ void BoxHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& stat
   BoxPairSettings settings;
   settings.cell_size = cell_size;
   settings.table_size = config.table_size;
+  settings.own = survivors.body_pairs.front().a == survivors.body_pairs.front().b;
   finder_.find(boxes_, settings, pairs_);
   for (const auto& [i, j] : pairs_) {
     const OwnedBoxOf<T>&a = boxes_[i], &b = boxes_[j];

@@ -11,12 +11,12 @@ bool collide(const SphereOf<T>& a, const SphereOf<T>& b, BoundsReading bounds) {
 }
 
 template <typename T>
-void test_top(const FfdStates<T>& states, BoundsReading bounds, bool spheres,
+void test_top(const FfdStates<T>& states, BoundsReading bounds, bool spheres, bool own,
               SphereSurvivors& out) {
   out.sphere_pairs.clear();
   out.tested = 0;
   for (std::uint32_t a = 0; a < states.size(); ++a)
-    for (std::uint32_t b = a + 1; b < states.size(); ++b) {
+    for (std::uint32_t b = own ? a : a + 1; b < (own ? a + 1 : states.size()); ++b) {
       ++out.tested;
       if (!spheres || collide(states[a].spheres[0][0], states[b].spheres[0][0], bounds))
         out.sphere_pairs.push_back({{a, b}, 0, 0});
@@ -36,7 +36,9 @@ void test_children(const FfdModels<T>& models, const FfdStates<T>& states, Bound
     const SphereOf<T>* const spheres_a = states[p.bodies.a].spheres[level].data();
     const SphereOf<T>* const spheres_b = states[p.bodies.b].spheres[level].data();
     for (std::uint32_t a = above_a.child_begin; a < above_a.child_end; ++a)
-      for (std::uint32_t b = above_b.child_begin; b < above_b.child_end; ++b) {
+      // Of a sphere with itself every pair of children once.
+      for (std::uint32_t b = &above_a == &above_b ? a : above_b.child_begin; b < above_b.child_end;
+           ++b) {
         ++out.tested;
         if (collide(spheres_a[a], spheres_b[b], bounds))
           out.sphere_pairs.push_back({p.bodies, a, b});
@@ -64,16 +66,16 @@ void mark_active(const FfdModels<T>& models, int level, SphereSurvivors& out) {
 
 template <typename T>
 void run_spheres(const FfdModels<T>& models, const FfdStates<T>& states, BoundsReading bounds,
-                 int levels, SphereSurvivors& out) {
+                 int levels, bool own, SphereSurvivors& out) {
   out.bodies = models.size();
-  test_top(states, bounds, levels > 0, out);
+  test_top(states, bounds, levels > 0, own, out);
   for (int level = 1; level < levels; ++level) test_children(models, states, bounds, level, out);
   mark_active(models, levels > 1 ? levels - 1 : 0, out);
 }
 
 template void run_spheres(const FfdModels<double>&, const FfdStates<double>&, BoundsReading, int,
-                          SphereSurvivors&);
+                          bool, SphereSurvivors&);
 template void run_spheres(const FfdModels<float>&, const FfdStates<float>&, BoundsReading, int,
-                          SphereSurvivors&);
+                          bool, SphereSurvivors&);
 
 }  // namespace contactcheck

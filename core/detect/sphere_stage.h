@@ -19,7 +19,7 @@ struct SpherePair {
 struct SphereSurvivors {
   std::size_t bodies = 0;
   std::vector<BodyPair> body_pairs;  ///< candidates, canonical order
-  std::vector<char> pair_active;     ///< [a * bodies + b], both orders
+  std::vector<char> pair_active;  ///< [a * bodies + b], both orders; [a, a] for a body with itself
   /// Per body: spheres of the finest level tested so far that collide with another body's;
   /// meaningful from level 2 on.
   std::vector<std::vector<char>> sphere_active;
@@ -30,9 +30,10 @@ struct SphereSurvivors {
   bool active(std::uint32_t a, std::uint32_t b) const { return pair_active[a * bodies + b] != 0; }
 };
 
-/// Sphere levels 1 .. `levels` (0: every pair of bodies is a candidate).
+/// Sphere levels 1 .. `levels` (0: every pair of bodies is a candidate). `own`: of every body with
+/// itself, in place of pairs of two; a sphere collides with itself.
 template <typename T>
 void run_spheres(const FfdModels<T>& models, const FfdStates<T>& states, BoundsReading bounds,
-                 int levels, SphereSurvivors& out);
+                 int levels, bool own, SphereSurvivors& out);
 
 }  // namespace contactcheck

@@ -79,6 +79,7 @@ void ContactSet::clear() {
   vertices.clear();
   near.clear();
   self.clear();
+  self_cells.clear();
   self_bodies.clear();
   piece_contacts.clear();
   vertex_contacts.clear();
@@ -87,10 +88,12 @@ void ContactSet::clear() {
 void ContactSet::canonicalize() {
   contactcheck::canonicalize(cells);
   contactcheck::canonicalize(triangles);
-  for (SelfPair& p : self) orient(p);
-  sort_unique(self);
-  for (const SelfPair& p : self)
-    if (self_bodies.empty() || self_bodies.back() != p.body) self_bodies.push_back(p.body);
+  for (std::vector<SelfPair>* pairs : {&self, &self_cells}) {
+    for (SelfPair& p : *pairs) orient(p);
+    sort_unique(*pairs);
+    for (const SelfPair& p : *pairs)
+      if (self_bodies.empty() || self_bodies.back() != p.body) self_bodies.push_back(p.body);
+  }
   sort_unique(self_bodies);
   for (BodyPair& p : bodies) orient(p);
   sort_unique(vertices);
@@ -122,8 +125,9 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   for (const NearPair& p : contacts.near) {
     for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
   }
-  for (const SelfPair& p : contacts.self)
-    for (std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);
+  for (const std::vector<SelfPair>* pairs : {&contacts.self, &contacts.self_cells})
+    for (const SelfPair& p : *pairs)
+      for (std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);
   for (const std::uint32_t body : contacts.self_bodies) hash.value(body);
   return hash.digest();
 }

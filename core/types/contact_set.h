@@ -71,6 +71,7 @@ struct ContactSet {
   std::vector<NearPair> near;
   /// For the question `self`; one list for the three classes, which the mesh tells apart.
   std::vector<SelfPair> self;
+  std::vector<SelfPair> self_cells;  ///< cells, for the same question (level self-cell)
   std::vector<std::uint32_t> self_bodies;
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
   /// allowed.

@@ -28,6 +28,8 @@ const char* name_of(Level level) {
       return "self-edge";
     case Level::kSelfBody:
       return "self-body";
+    case Level::kSelfCell:
+      return "self-cell";
   }
   return "unknown";
 }

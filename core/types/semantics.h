@@ -22,19 +22,20 @@ enum class Level {
   kSelf,        ///< pairs of triangles that share no vertex, and meet
   kSelfVertex,  ///< pairs that share one vertex, and meet in more
   kSelfEdge,    ///< pairs that share two vertices, and meet in more than the segment between them
-  kSelfBody     ///< bodies with any of the three
+  kSelfBody,    ///< bodies with any of the three
+  kSelfCell     ///< as kCell, of cells of one lattice that share no node
 };
 
 /// In the order of tables and files.
 inline constexpr std::array kLevels = {Level::kBody,     Level::kContainment, Level::kCell,
                                        Level::kBox,      Level::kTriangle,    Level::kVertex,
                                        Level::kNear,     Level::kSelf,        Level::kSelfVertex,
-                                       Level::kSelfEdge, Level::kSelfBody};
+                                       Level::kSelfEdge, Level::kSelfBody,    Level::kSelfCell};
 /// The first of these that a detector claims is its finest.
 inline constexpr std::array kFineToCoarse = {
-    Level::kTriangle, Level::kNear, Level::kVertex,     Level::kCell,
-    Level::kBox,      Level::kSelf, Level::kSelfVertex, Level::kSelfEdge,
-    Level::kSelfBody, Level::kBody, Level::kContainment};
+    Level::kTriangle, Level::kNear,     Level::kVertex,     Level::kCell,
+    Level::kBox,      Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,
+    Level::kSelfCell, Level::kSelfBody, Level::kBody,       Level::kContainment};
 /// Is it about a body and itself?
 constexpr bool is_self(Level level) { return level >= Level::kSelf; }
 

@@ -341,8 +341,8 @@ std::vector<Level> levels_of(const Allowed& allowed) {
   std::vector<Level> levels;
   for (const Level level : {Level::kBody, Level::kContainment, Level::kTriangle})
     if (!allowed.contact) levels.push_back(level);
-  for (const Level level : kLevels)
-    if (is_self(level) && !allowed.self) levels.push_back(level);
+  for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge, Level::kSelfBody})
+    if (!allowed.self) levels.push_back(level);
   return levels;
 }
 

@@ -28,7 +28,8 @@ long heap_growth(std::uint64_t before) {
 std::uint64_t list_bytes(const ContactSet& c) {
   const auto bytes = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   return bytes(c.bodies) + bytes(c.cells) + bytes(c.triangles) + bytes(c.vertices) + bytes(c.near) +
-         bytes(c.self) + bytes(c.self_bodies) + bytes(c.piece_contacts) + bytes(c.vertex_contacts);
+         bytes(c.self) + bytes(c.self_cells) + bytes(c.self_bodies) + bytes(c.piece_contacts) +
+         bytes(c.vertex_contacts);
 }
 
 }  // namespace
@@ -173,6 +174,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
       if (judges(Level::kNear)) contacts.near = other.near;
       if (judges(Level::kSelf)) {
         contacts.self = other.self;
+        contacts.self_cells = other.self_cells;
         contacts.self_bodies = other.self_bodies;
       }
       if (question == Question::kContacts) {

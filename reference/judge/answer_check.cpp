@@ -37,14 +37,13 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
     check_element(kind, pair.body_b, pair.b, of_b, hint);
   };
   const auto triangles_of = [&](std::uint32_t body) { return shape(body).mesh.triangles.size(); };
+  const auto cells_of = [&](std::uint32_t body) {
+    return shape(body).lattice ? shape(body).lattice->cells.size() : std::size_t{0};
+  };
   const auto check_triangles = [&](const ElementPair& pair) {
     check_elements("triangle", pair, triangles_of);
   };
-  const auto check_cells = [&](const ElementPair& pair) {
-    check_elements("cell", pair, [&](std::uint32_t body) {
-      return shape(body).lattice ? shape(body).lattice->cells.size() : 0;
-    });
-  };
+  const auto check_cells = [&](const ElementPair& pair) { check_elements("cell", pair, cells_of); };
   const auto check_vertex = [&](const VertexInBody& v) {
     check_pair(v.body, v.in);
     check_element("vertex", v.body, v.vertex, shape(v.body).mesh.vertices.size());
@@ -61,14 +60,16 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
   };
 
   for (const std::uint32_t body : contacts.self_bodies) check_body(body);
-  for (const SelfPair& p : contacts.self) {
+  const auto check_own = [&](const char* kind, const SelfPair& p, const auto& count_of) {
     check_body(p.body);
-    for (const std::uint32_t triangle : {p.a, p.b})
-      check_element("triangle", p.body, triangle, triangles_of(p.body));
+    for (const std::uint32_t element : {p.a, p.b})
+      check_element(kind, p.body, element, count_of(p.body));
     if (p.a == p.b)
-      fail("names triangle " + std::to_string(p.a) + " of body \"" + scene.bodies[p.body].name +
-           "\" in contact with itself");
-  }
+      fail("names " + std::string(kind) + " " + std::to_string(p.a) + " of body \"" +
+           scene.bodies[p.body].name + "\" in contact with itself");
+  };
+  for (const SelfPair& p : contacts.self) check_own("triangle", p, triangles_of);
+  for (const SelfPair& p : contacts.self_cells) check_own("cell", p, cells_of);
   for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
   for (const ElementPair& p : contacts.triangles) check_triangles(p);
   for (const ElementPair& p : contacts.cells) check_cells(p);

@@ -16,6 +16,7 @@ enum List : std::size_t {
   kNear,
   kSelfBodies,
   kSelf,
+  kSelfCells,
   kPieces,
   kVertexContacts
 };
@@ -27,6 +28,7 @@ constexpr const char* kRecords[kAnswerLists] = {"pairs of bodies",
                                                 "near pairs",
                                                 "bodies in contact with themselves",
                                                 "pairs of one body's triangles",
+                                                "pairs of one body's cells",
                                                 "contacts of pieces",
                                                 "contacts of vertices"};
 
@@ -45,6 +47,7 @@ bool is_compared(std::size_t list, const Asked& asked) {
       return asked.vertices;
     case kSelfBodies:
     case kSelf:
+    case kSelfCells:
       return asked.question == Question::kSelf;
     default:
       return asked.question == Question::kContacts;
@@ -94,6 +97,8 @@ std::uint64_t hash_of(const ContactSet& contacts, std::size_t list) {
       return hash_of(contacts.self_bodies);
     case kSelf:
       return hash_of(contacts.self);
+    case kSelfCells:
+      return hash_of(contacts.self_cells);
     default:
       return 0;
   }
@@ -116,9 +121,9 @@ std::string count_difference(std::size_t list, std::uint64_t answered, std::uint
 }
 
 AnswerSizes sizes_of(const ContactSet& c) {
-  return {c.bodies.size(),   c.cells.size(),          c.triangles.size(),
-          c.vertices.size(), c.near.size(),           c.self_bodies.size(),
-          c.self.size(),     c.piece_contacts.size(), c.vertex_contacts.size()};
+  return {c.bodies.size(),         c.cells.size(),          c.triangles.size(), c.vertices.size(),
+          c.near.size(),           c.self_bodies.size(),    c.self.size(),      c.self_cells.size(),
+          c.piece_contacts.size(), c.vertex_contacts.size()};
 }
 
 }  // namespace

@@ -97,12 +97,22 @@ bool covers(const std::vector<Body>& bodies, const StageTrace& trace, const Stag
   return false;
 }
 
+// Do two triangles of a body lie in cells of which all of the one are apart from all of the other?
+// Then their contact is one of cells apart, wherever it is.
+bool in_cells_apart(const BodyShape& shape, const SelfPair& triangles) {
+  for (const std::uint32_t a : shape.embedding.cells_of_triangle(triangles.a))
+    for (const std::uint32_t b : shape.embedding.cells_of_triangle(triangles.b))
+      if (share_node(*shape.lattice, a, b)) return false;
+  return true;
+}
+
 }  // namespace
 
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies) {
   const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
   if (needs_solid && !all_solid(bodies)) return "not judged: open";
-  const bool needs_lattice = level == Level::kCell || level == Level::kBox;
+  const bool needs_lattice =
+      level == Level::kCell || level == Level::kBox || level == Level::kSelfCell;
   if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
   return "";
 }
@@ -148,6 +158,14 @@ std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
   std::vector<SelfPair> out;
   for (const SelfPair& p : pairs)
     if (self_level(*bodies[p.body].shape, p.a, p.b) == level) out.push_back(p);
+  return out;
+}
+
+std::vector<SelfPair> pairs_of_cells_apart(const std::vector<Body>& bodies,
+                                           const std::vector<SelfPair>& pairs) {
+  std::vector<SelfPair> out;
+  for (const SelfPair& p : pairs)
+    if (in_cells_apart(*bodies[p.body].shape, p)) out.push_back(p);
   return out;
 }
 
@@ -224,6 +242,33 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
     case Level::kSelfBody:
       compare(truth.surface.self_bodies, reported.self_bodies);
       break;
+    case Level::kSelfCell: {
+      // As kCell: pairs of triangles, and pairs of cells. What can be found in neighbouring cells
+      // is not claimed, and no error where it is found.
+      std::vector<char> covering(reported.self_cells.size(), 0);
+      for (const SelfPair& p : truth.surface.self) {
+        const BodyShape& shape = *bodies[p.body].shape;
+        bool covered = false;
+        for (const std::uint32_t a : shape.embedding.cells_of_triangle(p.a))
+          for (const std::uint32_t b : shape.embedding.cells_of_triangle(p.b)) {
+            const SelfPair cells{p.body, std::min(a, b), std::max(a, b)};
+            const auto it =
+                std::lower_bound(reported.self_cells.begin(), reported.self_cells.end(), cells);
+            if (it == reported.self_cells.end() || *it != cells) continue;
+            covered = true;
+            covering[static_cast<std::size_t>(it - reported.self_cells.begin())] = 1;
+          }
+        if (!in_cells_apart(shape, p)) continue;
+        ++out.counts.truth;
+        if (!covered) out.missed.push_back({p.body, p.body, p.a, p.b});
+      }
+      for (std::size_t i = 0; i < covering.size(); ++i) {
+        const SelfPair& cells = reported.self_cells[i];
+        if (covering[i] == 0) out.spurious.push_back({cells.body, cells.body, cells.a, cells.b});
+      }
+      out.counts.reported = reported.self_cells.size();
+      break;
+    }
   }
   out.counts.missed = out.missed.size();
   out.counts.spurious = out.spurious.size();

@@ -59,6 +59,12 @@ std::optional<Level> self_level(const BodyShape& shape, std::uint32_t a, std::ui
 std::vector<SelfPair> self_pairs(Level level, const std::vector<Body>& bodies,
                                  const std::vector<SelfPair>& pairs);
 
+/// Those of `pairs` of which no cell of the one triangle shares a node with one of the other: the
+/// truth of self-cell.
+/// @pre their bodies have lattices
+std::vector<SelfPair> pairs_of_cells_apart(const std::vector<Body>& bodies,
+                                           const std::vector<SelfPair>& pairs);
+
 /// The question whose answer is judged at `level`: the one that is about it (`body`, `triangles`,
 /// `cells`, `self`) where the detector answers that. Else its first but `body`, which may end
 /// early; else `body`.

@@ -10,6 +10,8 @@ namespace {
 
 // Summed over frames; levels that the scene does not ask for are absent.
 std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedScene& judged) {
+  const bool cells = judged.scene->judges(Level::kSelfCell) &&
+                     obstacle_to_judging(Level::kSelfCell, judged.scene->bodies).empty();
   std::map<Level, std::uint64_t> sums;
   for (const oracle::Truth& t : judged.truth) {
     sums[Level::kBody] += t.surface.bodies.size();
@@ -20,6 +22,8 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
     for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
       sums[level] += self_pairs(level, judged.scene->bodies, t.surface.self).size();
     sums[Level::kSelfBody] += t.surface.self_bodies.size();
+    sums[Level::kSelfCell] +=
+        cells ? pairs_of_cells_apart(judged.scene->bodies, t.surface.self).size() : 0;
   }
   std::map<Level, std::variant<std::uint64_t, std::string>> out;
   for (const auto& [level, sum] : sums) {

@@ -58,7 +58,8 @@ enum {
   CONTACTCHECK_LEVEL_SELF = 1 << 7,        /* none: they share a point */
   CONTACTCHECK_LEVEL_SELF_VERTEX = 1 << 8, /* one: they share more than that corner */
   CONTACTCHECK_LEVEL_SELF_EDGE = 1 << 9,   /* two: they share more than the edge between */
-  CONTACTCHECK_LEVEL_SELF_BODY = 1 << 10   /* bodies with any of the three */
+  CONTACTCHECK_LEVEL_SELF_BODY = 1 << 10,  /* bodies with any of the three */
+  CONTACTCHECK_LEVEL_SELF_CELL = 1 << 11   /* cells that share no node, by the triangles in them */
 };
 
 /* What query() is asked. */

@@ -157,7 +157,8 @@ std::string semantics_fault(const Semantics& s) {
   if (s.claims(Level::kCell) && !s.answers(Question::kCells))
     return "it claims the level cell and does not answer the question cells";
   if (std::any_of(levels.begin(), levels.end(), is_self) != s.answers(Question::kSelf))
-    return "the levels self, self-vertex, self-edge, self-body and the question self go together, "
+    return "the levels self, self-vertex, self-edge, self-body, self-cell and the question self go "
+           "together, "
            "and it declares one of them";
   if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
     return "the question contacts and a kind of depth go together, and it declares one of them";
@@ -174,19 +175,24 @@ std::string semantics_fault(const Semantics& s) {
 }
 
 void read_self_answer(const std::string& from, ContactSet& answer) {
-  for (const ElementPair& p : answer.triangles) {
-    if (p.body_a != p.body_b)
-      throw InputError(from + " answers the question self with triangles of two bodies, " +
-                       std::to_string(p.body_a) + " and " + std::to_string(p.body_b));
-    answer.self.push_back({p.body_a, p.a, p.b});
-  }
+  const auto take = [&](const char* elements, std::vector<ElementPair>& pairs,
+                        std::vector<SelfPair>& out) {
+    for (const ElementPair& p : pairs) {
+      if (p.body_a != p.body_b)
+        throw InputError(from + " answers the question self with " + elements + " of two bodies, " +
+                         std::to_string(p.body_a) + " and " + std::to_string(p.body_b));
+      out.push_back({p.body_a, p.a, p.b});
+    }
+    pairs.clear();
+  };
+  take("triangles", answer.triangles, answer.self);
+  take("cells", answer.cells, answer.self_cells);
   for (const BodyPair& p : answer.bodies) {
     if (p.a != p.b)
       throw InputError(from + " answers the question self with a pair of bodies, " +
                        std::to_string(p.a) + " and " + std::to_string(p.b));
     answer.self_bodies.push_back(p.a);
   }
-  answer.triangles.clear();
   answer.bodies.clear();
 }
 

@@ -16,7 +16,7 @@ namespace contactcheck::plugin {
 inline constexpr Level kHeaderLevels[] = {Level::kBody,     Level::kContainment, Level::kCell,
                                           Level::kBox,      Level::kTriangle,    Level::kVertex,
                                           Level::kNear,     Level::kSelf,        Level::kSelfVertex,
-                                          Level::kSelfEdge, Level::kSelfBody};
+                                          Level::kSelfEdge, Level::kSelfBody,    Level::kSelfCell};
 inline constexpr Question kHeaderQuestions[] = {
     Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts, Question::kSelf};
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
@@ -41,7 +41,7 @@ nlohmann::ordered_json to_json(const Declaration& declaration);
 /// scales that cannot be used; "" when nothing is.
 std::string semantics_fault(const Semantics& semantics);
 
-/// A plug-in answers the question `self` by pairs of triangles and of bodies that name one body
+/// A plug-in answers the question `self` by pairs of triangles, cells and bodies that name one body
 /// twice; here they become what a Detector answers. @throws InputError for others
 void read_self_answer(const std::string& from, ContactSet& answer);
 

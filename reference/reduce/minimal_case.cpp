@@ -168,7 +168,8 @@ std::string pair_text(const MinimalCase& c, const judge::Disagreement& d) {
   };
   if (names_triangles(Finding{d.level, d.kind})) return of_both("triangle");
   if (d.level == name_of(Level::kBox)) return of_both("cell");
-  if (d.level == name_of(Level::kCell)) return of_both("cell");
+  if (d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell))
+    return of_both("cell");
   if (d.level == name_of(Level::kNear))
     return "vertex " + a + " of " + first + " and triangle " + b + " of " + second;
   return first == second ? first : first + " and " + second;
@@ -180,7 +181,8 @@ std::string truth_text(const std::string& level, bool contact) {
     return contact ? "are nearer than the margin" : "are not nearer than the margin";
   if (level == name_of(Level::kBox))
     return contact ? "have mapped boxes that overlap" : "have mapped boxes that do not overlap";
-  if (level == name_of(Level::kCell) && !contact) return "hold no pair of triangles that touch";
+  if ((level == name_of(Level::kCell) || level == name_of(Level::kSelfCell)) && !contact)
+    return "hold no pair of triangles that touch";
   if (level == name_of(Level::kSelfVertex) || level == name_of(Level::kSelfEdge)) {
     const std::string shared = level == name_of(Level::kSelfEdge) ? "edge" : "corner";
     return contact ? "share more than their common " + shared

@@ -187,7 +187,9 @@ std::optional<TrianglePair> triangles_of(const judge::Disagreement& d, const Sna
 
 std::optional<CellPair> cells_of(const judge::Disagreement& d) {
   const bool of_cells =
-      d.level == name_of(Level::kBox) || (d.level == name_of(Level::kCell) && d.kind == "spurious");
+      d.level == name_of(Level::kBox) ||
+      ((d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell)) &&
+       d.kind == "spurious");
   return of_cells ? std::optional<CellPair>({d.pair.a, d.pair.b}) : std::nullopt;
 }
 

@@ -82,7 +82,8 @@ std::string described(const Finding& finding) {
 
 bool names_triangles(const Finding& finding) {
   const std::optional<Level> level = level_from_name(finding.level);
-  return level == Level::kTriangle || (level == Level::kCell && finding.kind == "missed") ||
+  return level == Level::kTriangle ||
+         ((level == Level::kCell || level == Level::kSelfCell) && finding.kind == "missed") ||
          level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
 }
 

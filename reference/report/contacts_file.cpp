@@ -20,12 +20,15 @@ struct PairKind {
 // Of the differences at a level; what `missed` and `spurious` mean there is in fixtures/README.md,
 // "Contacts".
 PairKind pair_kind(const std::string& level, bool missed) {
-  if (level == "triangle") return {Element::kTriangle, Element::kTriangle};
-  if (level == "cell" && missed) return {Element::kTriangle, Element::kTriangle};
-  if (level == "cell" || level == "box") return {Element::kCell, Element::kCell};
+  if (level == "triangle" || level == "self" || level == "self-vertex" || level == "self-edge" ||
+      ((level == "cell" || level == "self-cell") && missed))
+    return {Element::kTriangle, Element::kTriangle};
+  if (level == "cell" || level == "box" || level == "self-cell")
+    return {Element::kCell, Element::kCell};
   if (level == "near") return {Element::kVertex, Element::kTriangle};
   if (level == "vertex") return {Element::kVertex, Element::kNone};
-  if (level == "body" || level == "containment") return {Element::kNone, Element::kNone};
+  if (level == "body" || level == "containment" || level == "self-body")
+    return {Element::kNone, Element::kNone};
   throw InputError("the level \"" + level + "\" is not known");
 }
 

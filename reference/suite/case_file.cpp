@@ -29,16 +29,18 @@ void add_points(Json& element, const std::string& key, const std::vector<Vec3>& 
   element[key + "_decimal"] = std::move(decimals);
 }
 
-// A missed contact at level `cell` is a pair of triangles; a spurious one is a pair of cells.
+// A missed contact of cells is a pair of triangles; a spurious one is a pair of cells.
 bool names_triangles(const judge::Disagreement& d) {
   const std::optional<Level> level = level_from_name(d.level);
-  return level == Level::kTriangle || (level == Level::kCell && d.kind == "missed") ||
+  return level == Level::kTriangle ||
+         ((level == Level::kCell || level == Level::kSelfCell) && d.kind == "missed") ||
          level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
 }
 
 bool names_cells(const judge::Disagreement& d) {
   return d.level == name_of(Level::kBox) ||
-         (d.level == name_of(Level::kCell) && d.kind == "spurious");
+         ((d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell)) &&
+          d.kind == "spurious");
 }
 
 // A vertex, of level `vertex` or `near`, is what stands first in its pair.

@@ -30,7 +30,7 @@ bool same_contacts(std::vector<Contact> a, std::vector<Contact> b) {
 bool same_sets(const ContactSet& a, const ContactSet& b) {
   return a.bodies == b.bodies && a.cells == b.cells && a.triangles == b.triangles &&
          a.vertices == b.vertices && a.near == b.near && a.self == b.self &&
-         a.self_bodies == b.self_bodies;
+         a.self_cells == b.self_cells && a.self_bodies == b.self_bodies;
 }
 
 std::vector<ElementPair> pieces_of(const ContactSet& set) {
@@ -54,7 +54,8 @@ ContactSet renamed(ContactSet set, std::uint32_t last) {
   for (ElementPair& p : set.triangles) rename_pair(p);
   for (VertexInBody& v : set.vertices) rename(v.body), rename(v.in);
   for (NearPair& p : set.near) rename(p.body), rename(p.other);
-  for (SelfPair& p : set.self) rename(p.body);
+  for (std::vector<SelfPair>* pairs : {&set.self, &set.self_cells})
+    for (SelfPair& p : *pairs) rename(p.body);
   for (std::uint32_t& body : set.self_bodies) rename(body);
   for (PieceContact& c : set.piece_contacts) rename_pair(c.pieces);
   for (VertexContact& c : set.vertex_contacts) rename(c.where.body), rename(c.where.in);
@@ -197,6 +198,7 @@ std::string text(const Answers& answers) {
     add("vertices", set.vertices.size());
     add("near pairs", set.near.size());
     add("pairs of one body's triangles", set.self.size());
+    add("pairs of one body's cells", set.self_cells.size());
     add("bodies that touch themselves", set.self_bodies.size());
     add("contacts of pieces", set.piece_contacts.size());
     add("contacts of vertices", set.vertex_contacts.size());

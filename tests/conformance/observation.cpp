@@ -55,6 +55,7 @@ ContactSet judged_answer(const Answers& answers, const Semantics& semantics) {
   if (body != answers.end()) set.bodies = body->second.bodies;
   if (const auto self = answers.find(Question::kSelf); self != answers.end()) {
     set.self = self->second.self;
+    set.self_cells = self->second.self_cells;
     set.self_bodies = self->second.self_bodies;
   }
   return set;

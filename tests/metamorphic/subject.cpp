@@ -45,6 +45,7 @@ ContactSet in_names_of_subject(ContactSet set, const Names& names) {
     p.a = names.triangle[p.body][p.a], p.b = names.triangle[p.body][p.b];
     body(p.body);
   }
+  for (SelfPair& p : set.self_cells) body(p.body);
   for (std::uint32_t& b : set.self_bodies) body(b);
   // Depths and normals are no part of what is compared, and which pieces they have the sets say.
   set.piece_contacts.clear();

@@ -12,23 +12,24 @@ namespace {
 
 using Pairs = std::vector<BoxPairFinder::Pair>;
 
-Pairs by_brute_force(const std::vector<OwnedBox>& boxes) {
+Pairs by_brute_force(const std::vector<OwnedBox>& boxes, bool own = false) {
   Pairs pairs;
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
     for (std::uint32_t j = i + 1; j < boxes.size(); ++j)
-      if (boxes[i].body != boxes[j].body && boxes[i].box.overlaps(boxes[j].box))
+      if ((boxes[i].body == boxes[j].body) == own && boxes[i].box.overlaps(boxes[j].box))
         pairs.emplace_back(i, j);
   return pairs;
 }
 
 // Sorted, but with repeats, should there be any.
 Pairs found(const std::vector<OwnedBox>& boxes, double cell_size, std::uint32_t table_size = 0,
-            double largest = 64) {
+            double largest = 64, bool own = false) {
   BoxPairFinder finder;
   BoxPairSettings settings;
   settings.cell_size = cell_size;
   settings.table_size = table_size;
   settings.largest_buckets_per_box = largest;
+  settings.own = own;
   Pairs pairs;
   finder.find(boxes, settings, pairs);
   std::sort(pairs.begin(), pairs.end());
@@ -99,6 +100,16 @@ TEST(BoxPairFinder, TouchingCornersAreAPairAndOneUlpApartIsNone) {
     EXPECT_EQ(found(boxes, 1.0).size(), 1u);
     boxes[1].box.lo.z() = std::nextafter(corner.z(), 1e308);
     EXPECT_TRUE(found(boxes, 1.0).empty());
+  }
+}
+
+TEST(BoxPairFinder, FindsThoseOfOneBodyWhereAskedTo) {
+  for (const Cloud& cloud : clouds()) {
+    const std::vector<OwnedBox> boxes = random_boxes(cloud);
+    const Pairs expected = by_brute_force(boxes, true);
+    EXPECT_FALSE(expected.empty());
+    for (const double largest : {1.0, 64.0})
+      EXPECT_EQ(found(boxes, 0.7 * cloud.scale, 0, largest, true), expected);
   }
 }
 

@@ -134,8 +134,8 @@ INSTANTIATE_TEST_SUITE_P(All, NodePlaneMembers,
 TEST_P(NodePlaneMembers, DeclareContactsOfConvexPiecesForTheLevelBoxAlone) {
   const Scene scene = test::approach({.seed = 801}, 1);
   const Semantics paper = prepared(GetParam(), scene)->semantics();
-  EXPECT_THAT(paper.questions,
-              ::testing::ElementsAre(Question::kCells, Question::kBody, Question::kContacts));
+  EXPECT_THAT(paper.questions, ::testing::ElementsAre(Question::kCells, Question::kBody,
+                                                      Question::kContacts, Question::kSelf));
   EXPECT_EQ(paper.depth, DepthKind::kConvexPair);
   EXPECT_TRUE(paper.claims(Level::kBox));
   for (const std::string& name :

@@ -85,6 +85,25 @@ TEST(Judge, CellPairOfOtherBodiesCoversNothing) {
               ElementsAre(1, 1, 0, 1, 1));
 }
 
+// Triangle 0 lies in cell 0, triangle 1 in both cells, triangle 2 in cell 1, which shares no node
+// with cell 0: of the pair (0, 2) alone the contact is one of cells apart.
+TEST(Judge, SelfCellClaimsContactsOfCellsApartAlone) {
+  const auto shape = std::make_shared<BodyShape>(*test::labelled_body("body").shape);
+  shape->lattice->cells = {{0, 0, 0}, {2, 0, 0}};
+  const auto judged_self = [&](std::vector<SelfPair> triangles, std::vector<SelfPair> cells) {
+    oracle::Truth truth;
+    truth.surface.self = std::move(triangles);
+    ContactSet answer;
+    answer.self_cells = std::move(cells);
+    return numbers(compare_at(Level::kSelfCell, {{"body", shape}}, {}, truth, answer, {}).counts);
+  };
+  const std::vector<SelfPair> all = {{0, 0, 1}, {0, 0, 2}, {0, 1, 2}};
+  EXPECT_THAT(judged_self(all, {{0, 0, 1}}), ElementsAre(1, 1, 1, 0, 0));
+  EXPECT_THAT(judged_self(all, {}), ElementsAre(1, 0, 0, 1, 0));
+  EXPECT_THAT(judged_self({{0, 0, 1}}, {{0, 0, 1}}), ElementsAre(0, 1, 0, 0, 0));
+  EXPECT_THAT(judged_self({}, {{0, 0, 1}}), ElementsAre(0, 1, 0, 0, 1));
+}
+
 TEST(Judge, BoxLevelComparesCellPairsWithOverlappingBoxes) {
   oracle::Truth truth;
   truth.boxes = {pair(0, 1), pair(1, 0)};

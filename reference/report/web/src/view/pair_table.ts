@@ -17,6 +17,7 @@ const kWords: Record<string, string> = {
   self: "triangle",
   "self-vertex": "triangle",
   "self-edge": "triangle",
+  "self-cell": "cell",
 };
 
 function element(body: number, number: number, what: string, names: Names): string {
@@ -25,7 +26,8 @@ function element(body: number, number: number, what: string, names: Names): stri
 
 /** "left triangle 12", "right triangle 7" */
 export function pairWords({pair, level, kind}: ListedPair, names: Names): [string, string] {
-  const first = level === "cell" && kind === "missed" ? "triangle" : (kWords[level] ?? "");
+  const ofCells = level === "cell" || level === "self-cell";
+  const first = ofCells && kind === "missed" ? "triangle" : (kWords[level] ?? "");
   const second = level === "near" ? "triangle" : first;
   return [element(pair[0], pair[1], first, names), element(pair[2], pair[3], second, names)];
 }

@@ -15,9 +15,10 @@ type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
 /** What the numbers of a pair count; fixtures/README.md, "Contacts". */
 function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
   const ofTriangles = ["triangle", "self", "self-vertex", "self-edge"].includes(level);
-  if (kind === "true" || ofTriangles || (level === "cell" && kind === "missed"))
+  const ofCells = level === "cell" || level === "self-cell";
+  if (kind === "true" || ofTriangles || (ofCells && kind === "missed"))
     return ["triangle", "triangle"];
-  if (level === "cell" || level === "box") return ["cell", "cell"];
+  if (ofCells || level === "box") return ["cell", "cell"];
   if (level === "near") return ["vertex", "triangle"];
   if (level === "vertex") return ["vertex", "nothing"]; // the body that holds it has no place of its own
   return ["body", "body"];

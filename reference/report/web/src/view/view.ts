@@ -256,7 +256,14 @@ class SceneViewer implements View {
         ? []
         : others("spurious", this.model.differences(this.detector, "spurious"));
     // A missed pair is drawn as that alone. Pairs of other levels are no pairs of triangles.
-    const trianglesMissed = level === "triangle" || level === "cell";
+    const trianglesMissed = [
+      "triangle",
+      "cell",
+      "self",
+      "self-vertex",
+      "self-edge",
+      "self-cell",
+    ].includes(level);
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
     return [

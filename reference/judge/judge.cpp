@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "core/types/check.h"
 #include "core/types/shared_corners.h"
@@ -245,27 +246,17 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
     case Level::kSelfCell: {
       // As kCell: pairs of triangles, and pairs of cells. What can be found in neighbouring cells
       // is not claimed, and no error where it is found.
-      std::vector<char> covering(reported.self_cells.size(), 0);
+      const std::vector<ElementPair> cells = as_pairs(reported.self_cells);
+      std::vector<char> covering(cells.size(), 0);
       for (const SelfPair& p : truth.surface.self) {
-        const BodyShape& shape = *bodies[p.body].shape;
-        bool covered = false;
-        for (const std::uint32_t a : shape.embedding.cells_of_triangle(p.a))
-          for (const std::uint32_t b : shape.embedding.cells_of_triangle(p.b)) {
-            const SelfPair cells{p.body, std::min(a, b), std::max(a, b)};
-            const auto it =
-                std::lower_bound(reported.self_cells.begin(), reported.self_cells.end(), cells);
-            if (it == reported.self_cells.end() || *it != cells) continue;
-            covered = true;
-            covering[static_cast<std::size_t>(it - reported.self_cells.begin())] = 1;
-          }
-        if (!in_cells_apart(shape, p)) continue;
+        const ElementPair pair{p.body, p.body, p.a, p.b};
+        const bool covered = covered_by_cells(bodies, cells, pair, &covering);
+        if (!in_cells_apart(*bodies[p.body].shape, p)) continue;
         ++out.counts.truth;
-        if (!covered) out.missed.push_back({p.body, p.body, p.a, p.b});
+        if (!covered) out.missed.push_back(pair);
       }
-      for (std::size_t i = 0; i < covering.size(); ++i) {
-        const SelfPair& cells = reported.self_cells[i];
-        if (covering[i] == 0) out.spurious.push_back({cells.body, cells.body, cells.a, cells.b});
-      }
+      for (std::size_t i = 0; i < covering.size(); ++i)
+        if (covering[i] == 0) out.spurious.push_back(cells[i]);
       out.counts.reported = reported.self_cells.size();
       break;
     }
@@ -349,7 +340,8 @@ bool covered_by_cells(const std::vector<Body>& bodies, const std::vector<Element
   const Embedding& second = bodies[triangles.body_b].shape->embedding;
   for (std::uint32_t a : first.cells_of_triangle(triangles.a)) {
     for (std::uint32_t b : second.cells_of_triangle(triangles.b)) {
-      const ElementPair pair{triangles.body_a, triangles.body_b, a, b};
+      ElementPair pair{triangles.body_a, triangles.body_b, a, b};
+      if (pair.body_a == pair.body_b && a > b) std::swap(pair.a, pair.b);  // as canonical
       const auto it = std::lower_bound(cells.begin(), cells.end(), pair);
       if (it == cells.end() || *it != pair) continue;
       covered = true;

@@ -42,6 +42,12 @@ std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh) {
   return checked_shape(std::move(mesh));
 }
 
+bool BodyShape::uses(std::uint32_t triangle, std::uint32_t vertex) const {
+  return std::ranges::any_of(mesh.triangles[triangle], [&](std::uint32_t v) {
+    return v == vertex || (!welded.empty() && mesh.vertices[v] == mesh.vertices[vertex]);
+  });
+}
+
 std::shared_ptr<const BodyShape> welded(const BodyShape& shape) {
   auto out = std::make_shared<BodyShape>(shape);
   const std::vector<Vec3>& vertices = shape.mesh.vertices;

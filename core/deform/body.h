@@ -26,6 +26,8 @@ struct BodyShape {
 
   /// The triangles by which two of them share vertices.
   const std::vector<Triangle>& linked() const { return welded.empty() ? mesh.triangles : welded; }
+  /// Does the triangle use the vertex, or one that is welded to it?
+  bool uses(std::uint32_t triangle, std::uint32_t vertex) const;
   std::size_t node_count() const { return lattice ? lattice->nodes.size() : mesh.vertices.size(); }
 };
 

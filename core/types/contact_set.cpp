@@ -34,6 +34,12 @@ BodyPair bodies_of(const NearPair& p) {
 }
 
 template <typename Pair>
+void add_bodies(const std::vector<Pair>& pairs, std::vector<std::uint32_t>& bodies) {
+  for (const Pair& p : pairs)
+    if (bodies.empty() || bodies.back() != p.body) bodies.push_back(p.body);
+}
+
+template <typename Pair>
 void add_implied_bodies(const std::vector<Pair>& pairs, std::vector<BodyPair>& bodies) {
   BodyPair last{~0u, ~0u};
   for (const Pair& p : pairs) {
@@ -80,6 +86,7 @@ void ContactSet::clear() {
   near.clear();
   self.clear();
   self_cells.clear();
+  self_near.clear();
   self_bodies.clear();
   piece_contacts.clear();
   vertex_contacts.clear();
@@ -91,9 +98,10 @@ void ContactSet::canonicalize() {
   for (std::vector<SelfPair>* pairs : {&self, &self_cells}) {
     for (SelfPair& p : *pairs) orient(p);
     sort_unique(*pairs);
-    for (const SelfPair& p : *pairs)
-      if (self_bodies.empty() || self_bodies.back() != p.body) self_bodies.push_back(p.body);
+    add_bodies(*pairs, self_bodies);
   }
+  sort_unique(self_near);
+  add_bodies(self_near, self_bodies);
   sort_unique(self_bodies);
   for (BodyPair& p : bodies) orient(p);
   sort_unique(vertices);
@@ -122,9 +130,9 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
     for (std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
   }
   // Only where there are some: sets without keep the hash that they had before there were such.
-  for (const NearPair& p : contacts.near) {
-    for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
-  }
+  for (const std::vector<NearPair>* pairs : {&contacts.near, &contacts.self_near})
+    for (const NearPair& p : *pairs)
+      for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
   for (const std::vector<SelfPair>* pairs : {&contacts.self, &contacts.self_cells})
     for (const SelfPair& p : *pairs)
       for (std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);

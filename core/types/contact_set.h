@@ -39,7 +39,8 @@ struct VertexInBody {
   auto operator<=>(const VertexInBody&) const = default;
 };
 
-/// A vertex of `body` nearer than a margin to a triangle of `other`.
+/// A vertex of `body` nearer than a margin to a triangle of `other`, which may be `body` itself
+/// (level self-near).
 struct NearPair {
   std::uint32_t body = 0, other = 0, vertex = 0, triangle = 0;
   auto operator<=>(const NearPair&) const = default;
@@ -72,6 +73,7 @@ struct ContactSet {
   /// For the question `self`; one list for the three classes, which the mesh tells apart.
   std::vector<SelfPair> self;
   std::vector<SelfPair> self_cells;  ///< cells, for the same question (level self-cell)
+  std::vector<NearPair> self_near;   ///< for the same question; other = body
   std::vector<std::uint32_t> self_bodies;
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
   /// allowed.
@@ -81,8 +83,8 @@ struct ContactSet {
   /// Keeps the capacity, so a reused set does not allocate.
   void clear();
   /// Orients every pair (lower body first), sorts, removes repeats. Element, cell and near pairs
-  /// imply their body pair, self pairs their body: it is added. Contacts are oriented (a normal
-  /// turns with its pair) and sorted by their pair or vertex; none is removed.
+  /// imply their body pair, those of one body that body: it is added. Contacts are oriented (a
+  /// normal turns with its pair) and sorted by their pair or vertex; none is removed.
   void canonicalize();
 };
 

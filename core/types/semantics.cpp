@@ -30,8 +30,41 @@ const char* name_of(Level level) {
       return "self-body";
     case Level::kSelfCell:
       return "self-cell";
+    case Level::kSelfNear:
+      return "self-near";
   }
   return "unknown";
+}
+
+bool any_self(const std::vector<Level>& levels) {
+  return std::any_of(levels.begin(), levels.end(), is_self);
+}
+
+NamedElements named_elements(Level level, bool missed) {
+  constexpr NamedElements kTriangles{Element::kTriangle, Element::kTriangle};
+  constexpr NamedElements kCells{Element::kCell, Element::kCell};
+  switch (level) {
+    case Level::kTriangle:
+    case Level::kSelf:
+    case Level::kSelfVertex:
+    case Level::kSelfEdge:
+      return kTriangles;
+    case Level::kCell:
+    case Level::kSelfCell:
+      return missed ? kTriangles : kCells;
+    case Level::kBox:
+      return kCells;
+    case Level::kVertex:
+      return {Element::kVertex, Element::kNone};
+    case Level::kNear:
+    case Level::kSelfNear:
+      return {Element::kVertex, Element::kTriangle};
+    case Level::kBody:
+    case Level::kContainment:
+    case Level::kSelfBody:
+      break;
+  }
+  return {};
 }
 
 const char* name_of(Question question) {

@@ -23,21 +23,34 @@ enum class Level {
   kSelfVertex,  ///< pairs that share one vertex, and meet in more
   kSelfEdge,    ///< pairs that share two vertices, and meet in more than the segment between them
   kSelfBody,    ///< bodies with any of the three
-  kSelfCell     ///< as kCell, of cells of one lattice that share no node
+  kSelfCell,    ///< as kCell, of cells of one lattice that share no node
+  kSelfNear     ///< as kNear, of triangles that use neither the vertex nor one welded to it
 };
 
 /// In the order of tables and files.
-inline constexpr std::array kLevels = {Level::kBody,     Level::kContainment, Level::kCell,
-                                       Level::kBox,      Level::kTriangle,    Level::kVertex,
-                                       Level::kNear,     Level::kSelf,        Level::kSelfVertex,
-                                       Level::kSelfEdge, Level::kSelfBody,    Level::kSelfCell};
+inline constexpr std::array kLevels = {
+    Level::kBody,     Level::kContainment, Level::kCell,    Level::kBox,        Level::kTriangle,
+    Level::kVertex,   Level::kNear,        Level::kSelf,    Level::kSelfVertex, Level::kSelfEdge,
+    Level::kSelfBody, Level::kSelfCell,    Level::kSelfNear};
 /// The first of these that a detector claims is its finest.
 inline constexpr std::array kFineToCoarse = {
-    Level::kTriangle, Level::kNear,     Level::kVertex,     Level::kCell,
-    Level::kBox,      Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,
-    Level::kSelfCell, Level::kSelfBody, Level::kBody,       Level::kContainment};
+    Level::kTriangle, Level::kNear,       Level::kVertex,     Level::kCell,     Level::kBox,
+    Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,   Level::kSelfNear, Level::kSelfCell,
+    Level::kSelfBody, Level::kBody,       Level::kContainment};
 /// Is it about a body and itself?
 constexpr bool is_self(Level level) { return level >= Level::kSelf; }
+/// Is one of them?
+bool any_self(const std::vector<Level>& levels);
+
+/// What a number of a pair counts; kNone: nothing, the pair is one of bodies.
+enum class Element { kTriangle, kCell, kVertex, kNone };
+struct NamedElements {
+  Element first = Element::kNone, second = Element::kNone;
+  bool operator==(const NamedElements&) const = default;
+};
+/// What a missed contact of the level names, or a spurious one: of cells a missed one is a pair of
+/// triangles.
+NamedElements named_elements(Level level, bool missed);
 
 /// What is asked of a detector when its time is taken.
 enum class Question {

@@ -5,7 +5,8 @@
 //              that is nearer than the sum of the two margins to a triangle of the other, strictly,
 //              both ways. It says nothing about inside and outside, and does not see edges that
 //              cross far from any vertex. Judged at `near` and `body`; its figures at `vertex` are
-//              informative.
+//              informative. A body with itself is compared by the path of deformable bodies
+//              (VF_DD), another test: judged at `self-near`.
 //   bullet-cl  Cluster contacts (CL_SS): each body is divided at rest into clusters of vertices;
 //   two
 //              bodies are in contact when the convex hulls of two of their clusters are nearer than
@@ -36,6 +37,16 @@
 // - A vertex exactly on a triangle has the normal 0 / 0.
 // - The normal points from the face to the node, on whichever side it is: the solver pushes a
 //   vertex that is inside further in.
+// with VF_DD, of a body with itself:
+// - A pair of faces is left out when they share a node, and with it every vertex of the one against
+//   the other: a vertex is compared with a face if any face of it shares no node with that face.
+// - Near is: the distance from the face's plane is at most the margins, and the barycentric
+//   coordinates of the projection exceed the triangle by at most margins / sqrt(area). That is no
+//   distance: too far for the corners of some triangles, and too near for those of others.
+// - Of a part of the tree nothing is compared with itself unless its cone of normals is wider than
+//   pi, and cones are halved as they are joined: folds are left out. There is no test of contours.
+// - Faces whose 4 area^2 is below SIMD_EPSILON in world units are invisible here, too.
+// - The tree with cones is made by initializeFaceTree() alone, which is O(n^2): it is copied here.
 // with CL_SS:
 // - The hulls themselves have no margin; a joint is made when their signed distance is less than
 //   the sum of the bodies' margins, whose default is 0.25 world units each.
@@ -158,10 +169,29 @@ class SoftBody {
     body_->m_fdbvt.optimizeTopDown(kLeavesToMergeBottomUp);
   }
 
+  /// What collide_self() needs beside, refitted with the trees from then on.
+  void build_own_tree() {
+    if (body_->m_fdbvnt != nullptr) return;
+    body_->m_fdbvnt = copied(body_->m_fdbvt.m_root);
+    body_->updateNormals();
+  }
+
   /// The same trees around new positions.
   void refit_trees() {
     body_->updateNodeTree(/*use_velocity=*/false, /*margin=*/true);
     body_->updateFaceTree(/*use_velocity=*/false, /*margin=*/true);
+    if (body_->m_fdbvnt != nullptr) body_->updateNormals();
+  }
+
+  /// By VF_DD, into m_faceNodeContacts. @pre build_trees()
+  void collide_self() {
+    build_own_tree();
+    const int collisions = std::exchange(body_->m_cfg.collisions, btSoftBody::fCollision::VF_DD);
+    body_->setSelfCollision(true);
+    body_->m_softSoftCollision = true;
+    body_->m_faceNodeContacts.resize(0);
+    body_->defaultCollisionHandler(body_.get());
+    body_->m_cfg.collisions = collisions;
   }
 
   btSoftBody& bullet() { return *body_; }
@@ -199,6 +229,15 @@ class SoftBody {
   /// halved. Bullet's default is 128: three times the set-up for queries that take as long; with
   /// 16, queries of 40,000 to 100,000 vertices took 1.3 to 2 times as long.
   static constexpr int kLeavesToMergeBottomUp = 64;
+
+  // btSoftBody frees it.
+  static btDbvntNode* copied(const btDbvtNode* node) {
+    if (node == nullptr) return nullptr;
+    auto* copy = new btDbvntNode(node);
+    if (node->isinternal())
+      for (const int child : {0, 1}) copy->childs[child] = copied(node->childs[child]);
+    return copy;
+  }
 
   double scale_;
   std::unique_ptr<btSoftBody> body_;
@@ -287,9 +326,9 @@ class BulletSoftDetector : public BodyPairDetector {
 
 Semantics vf_semantics() {
   Semantics semantics;
-  semantics.levels = {Level::kBody, Level::kNear};
+  semantics.levels = {Level::kBody, Level::kNear, Level::kSelfNear};
   semantics.informative = {Level::kVertex};
-  semantics.questions = {Question::kContacts, Question::kBody};
+  semantics.questions = {Question::kContacts, Question::kBody, Question::kSelf};
   semantics.closed = false;
   semantics.precision = Precision::kSingle;
   semantics.depth = DepthKind::kVertexSurface;
@@ -321,7 +360,10 @@ class VertexFaceDetector final : public BulletSoftDetector {
   }
 
  private:
-  void prepare_body(SoftBody& body) override { body.build_trees(); }
+  void prepare_body(SoftBody& body) override {
+    body.build_trees();
+    if (expects_self()) body.build_own_tree();
+  }
   void refit(SoftBody& body) override { body.refit_trees(); }
   void collide_bodies(std::uint32_t a, std::uint32_t b, Question question,
                       ContactSet& out) override {
@@ -334,6 +376,18 @@ class VertexFaceDetector final : public BulletSoftDetector {
       append_contacts(b, a, out);
     } else if (first.m_scontacts.size() + second.m_scontacts.size() > 0) {
       out.bodies.push_back({a, b});
+    }
+  }
+
+  void collide_self(std::uint32_t body, ContactSet& out) override {
+    SoftBody& soft = *bodies()[body];
+    soft.collide_self();
+    const auto& contacts = soft.bullet().m_faceNodeContacts;
+    for (int i = 0; i < contacts.size(); ++i) {
+      const NearPair pair{body, body, soft.vertex_of(*contacts[i].m_node),
+                          soft.triangle_of(*contacts[i].m_face)};
+      // Bullet knows nothing of welds.
+      if (!shape(body).uses(pair.triangle, pair.vertex)) out.self_near.push_back(pair);
     }
   }
 

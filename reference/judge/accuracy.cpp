@@ -28,8 +28,8 @@ long heap_growth(std::uint64_t before) {
 std::uint64_t list_bytes(const ContactSet& c) {
   const auto bytes = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   return bytes(c.bodies) + bytes(c.cells) + bytes(c.triangles) + bytes(c.vertices) + bytes(c.near) +
-         bytes(c.self) + bytes(c.self_cells) + bytes(c.self_bodies) + bytes(c.piece_contacts) +
-         bytes(c.vertex_contacts);
+         bytes(c.self) + bytes(c.self_cells) + bytes(c.self_near) + bytes(c.self_bodies) +
+         bytes(c.piece_contacts) + bytes(c.vertex_contacts);
 }
 
 }  // namespace
@@ -102,7 +102,6 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
 
   const std::vector<Level> levels =
       judged_levels(scene.bodies, semantics, scene.levels, &run.not_judged);
-  const bool judges_near = std::find(levels.begin(), levels.end(), Level::kNear) != levels.end();
   RoundedScene* rounded = nullptr;
   std::vector<Level> rounded_levels;
   if (semantics.precision == Precision::kSingle && detector.needs_vertices())
@@ -175,6 +174,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
       if (judges(Level::kSelf)) {
         contacts.self = other.self;
         contacts.self_cells = other.self_cells;
+        contacts.self_near = other.self_near;
         contacts.self_bodies = other.self_bodies;
       }
       if (question == Question::kContacts) {
@@ -190,8 +190,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
 
     // 3. The answer compared with the ground truth, at each level.
     progress.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
-    std::vector<NearPair> near;
-    if (judges_near) near = tools.oracle.near(frame, semantics.margin);
+    TrueNear near = true_near(tools.oracle, frame, levels, semantics.margin);
     for (const Level level : levels) {
       const LevelComparison comparison =
           compare_at(level, scene.bodies, semantics, truth, contacts, near);
@@ -209,8 +208,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
     // 5. The same answer compared with the truth for the rounded vertices.
     if (rounded != nullptr) {
       const oracle::Truth& rounded_truth = rounded->truth(f, tools.oracle);
-      if (judges_near)
-        near = tools.oracle.near(rounded->frame(f), semantics.margin * semantics.scale);
+      near = true_near(tools.oracle, rounded->frame(f), levels, semantics.margin * semantics.scale);
       for (const Level level : rounded_levels)
         rounded_totals.add(
             f, level, compare_at(level, scene.bodies, semantics, rounded_truth, contacts, near));

@@ -70,6 +70,11 @@ void check_answer(const scene::Scene& scene, std::size_t frame, const ContactSet
   };
   for (const SelfPair& p : contacts.self) check_own("triangle", p, triangles_of);
   for (const SelfPair& p : contacts.self_cells) check_own("cell", p, cells_of);
+  for (const NearPair& p : contacts.self_near) {
+    check_body(p.body);
+    check_element("vertex", p.body, p.vertex, shape(p.body).mesh.vertices.size());
+    check_element("triangle", p.body, p.triangle, triangles_of(p.body));
+  }
   for (const BodyPair& p : contacts.bodies) check_pair(p.a, p.b);
   for (const ElementPair& p : contacts.triangles) check_triangles(p);
   for (const ElementPair& p : contacts.cells) check_cells(p);

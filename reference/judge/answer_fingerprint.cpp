@@ -17,6 +17,7 @@ enum List : std::size_t {
   kSelfBodies,
   kSelf,
   kSelfCells,
+  kSelfNear,
   kPieces,
   kVertexContacts
 };
@@ -29,6 +30,7 @@ constexpr const char* kRecords[kAnswerLists] = {"pairs of bodies",
                                                 "bodies in contact with themselves",
                                                 "pairs of one body's triangles",
                                                 "pairs of one body's cells",
+                                                "near pairs of one body",
                                                 "contacts of pieces",
                                                 "contacts of vertices"};
 
@@ -48,6 +50,7 @@ bool is_compared(std::size_t list, const Asked& asked) {
     case kSelfBodies:
     case kSelf:
     case kSelfCells:
+    case kSelfNear:
       return asked.question == Question::kSelf;
     default:
       return asked.question == Question::kContacts;
@@ -99,6 +102,8 @@ std::uint64_t hash_of(const ContactSet& contacts, std::size_t list) {
       return hash_of(contacts.self);
     case kSelfCells:
       return hash_of(contacts.self_cells);
+    case kSelfNear:
+      return hash_of(contacts.self_near);
     default:
       return 0;
   }
@@ -121,9 +126,9 @@ std::string count_difference(std::size_t list, std::uint64_t answered, std::uint
 }
 
 AnswerSizes sizes_of(const ContactSet& c) {
-  return {c.bodies.size(),         c.cells.size(),          c.triangles.size(), c.vertices.size(),
-          c.near.size(),           c.self_bodies.size(),    c.self.size(),      c.self_cells.size(),
-          c.piece_contacts.size(), c.vertex_contacts.size()};
+  return {c.bodies.size(),    c.cells.size(),          c.triangles.size(),      c.vertices.size(),
+          c.near.size(),      c.self_bodies.size(),    c.self.size(),           c.self_cells.size(),
+          c.self_near.size(), c.piece_contacts.size(), c.vertex_contacts.size()};
 }
 
 }  // namespace

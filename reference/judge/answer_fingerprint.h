@@ -14,7 +14,7 @@
 namespace contactcheck::judge {
 
 /// The lists of a ContactSet, in its order.
-constexpr std::size_t kAnswerLists = 10;
+constexpr std::size_t kAnswerLists = 11;
 
 /// How many records each list of an answer has.
 using AnswerSizes = std::array<std::uint64_t, kAnswerLists>;

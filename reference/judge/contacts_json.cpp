@@ -13,21 +13,11 @@ constexpr const char* kSchema = "contactcheck-contacts/1";
 // Where a level counts whole bodies, or a vertex with a body, -1 stands for the element.
 constexpr int kNoElement = -1;
 
-struct Elements {
-  bool first = true, second = true;
-};
-
-Elements elements_of(Level level) {
-  const bool bodies =
-      level == Level::kBody || level == Level::kContainment || level == Level::kSelfBody;
-  return {!bodies, !bodies && level != Level::kVertex};
-}
-
-Json to_json(const ListedPairs& listed, Elements elements) {
+Json to_json(const ListedPairs& listed, NamedElements elements) {
   Json flat = Json::array();
-  const auto add = [&](std::uint32_t body, bool has_element, std::uint32_t element) {
+  const auto add = [&](std::uint32_t body, Element kind, std::uint32_t element) {
     flat.push_back(body);
-    flat.push_back(has_element ? Json(element) : Json(kNoElement));
+    flat.push_back(kind == Element::kNone ? Json(kNoElement) : Json(element));
   };
   for (const ElementPair& pair : listed.pairs) {
     add(pair.body_a, elements.first, pair.a);
@@ -51,7 +41,7 @@ std::string truth_contacts(const JudgedScene& judged) {
       triangles.push_back({p.body, p.body, p.a, p.b});
     if (triangles.empty()) continue;
     Json frame = {{"frame", f}};
-    frame.update(to_json(first_of(triangles), Elements{}));
+    frame.update(to_json(first_of(triangles), named_elements(Level::kTriangle, true)));
     frames.push_back(std::move(frame));
   }
   return frames.dump();
@@ -61,12 +51,11 @@ std::string detector_contacts(const results::Run& run,
                               const std::vector<FrameDifferences>& differences) {
   if (run.per_frame.truth.empty()) return "";
   const Level level = run.per_frame.level.value();
-  const Elements elements = elements_of(level);
   Json frames = Json::array();
   for (const FrameDifferences& d : differences)
     frames.push_back({{"frame", d.frame},
-                      {"missed", to_json(d.missed, elements)},
-                      {"spurious", to_json(d.spurious, elements)}});
+                      {"missed", to_json(d.missed, named_elements(level, true))},
+                      {"spurious", to_json(d.spurious, named_elements(level, false))}});
   const Json out = {
       {"detector", run.detector}, {"level", name_of(level)}, {"frames", std::move(frames)}};
   return out.dump();

@@ -109,6 +109,11 @@ bool in_cells_apart(const BodyShape& shape, const SelfPair& triangles) {
 
 }  // namespace
 
+NamedElements elements_of(const std::string& level, const std::string& kind) {
+  const std::optional<Level> known = level_from_name(level);
+  return known ? named_elements(*known, kind == "missed") : NamedElements{};
+}
+
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies) {
   const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
   if (needs_solid && !all_solid(bodies)) return "not judged: open";
@@ -137,7 +142,7 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
 }
 
 Semantics semantics_in(const std::vector<Level>& wanted, Semantics semantics) {
-  const bool self = std::any_of(wanted.begin(), wanted.end(), is_self);
+  const bool self = any_self(wanted);
   const bool others = !std::all_of(wanted.begin(), wanted.end(), is_self);
   std::erase_if(semantics.levels, [&](Level level) { return is_self(level) ? !self : !others; });
   if (self && !others && !semantics.answers(Question::kSelf)) return semantics;
@@ -182,9 +187,17 @@ Question question_of(Level level, const Semantics& semantics) {
   return Question::kBody;
 }
 
+TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
+                   double margin) {
+  TrueNear out;
+  if (contains(levels, Level::kNear)) out.near = oracle.near(frame, margin);
+  if (contains(levels, Level::kSelfNear)) out.self_near = oracle.self_near(frame, margin);
+  return out;
+}
+
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
                            const oracle::Truth& truth, const ContactSet& reported,
-                           const std::vector<NearPair>& near) {
+                           const TrueNear& near) {
   LevelComparison out;
   const auto compare = [&out](const auto& true_set, const auto& reported_set) {
     out = compare_sets(as_pairs(true_set), as_pairs(reported_set));
@@ -232,7 +245,10 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
       compare(truth.surface.vertices, reported.vertices);
       break;
     case Level::kNear:
-      compare(near, reported.near);
+      compare(near.near, reported.near);
+      break;
+    case Level::kSelfNear:
+      compare(near.self_near, reported.self_near);
       break;
     case Level::kSelf:
     case Level::kSelfVertex:
@@ -272,7 +288,7 @@ LevelTotals::LevelTotals(const Semantics& semantics, const std::vector<Level>& c
     : informative_(semantics.informative), listed_(listed) {
   for (const Level level : compared) {
     levels[level].informative = !semantics.claims(level);
-    if (level == Level::kNear) levels[level].margin = semantics.margin;
+    if (level == Level::kNear || level == Level::kSelfNear) levels[level].margin = semantics.margin;
   }
   if (compared.empty()) return;
   const auto finest = std::find_if(kFineToCoarse.begin(), kFineToCoarse.end(), [&](Level level) {

@@ -36,6 +36,8 @@ struct FrameDifferences {
 struct Disagreement : results::Disagreement {
   ElementPair pair;
 };
+/// What the pair of a disagreement names; nothing where `level` is none.
+NamedElements elements_of(const std::string& level, const std::string& kind);
 
 /// Why a level cannot be judged on these bodies ("not judged: open"), or "".
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
@@ -77,11 +79,19 @@ struct LevelComparison {
   std::vector<ElementPair> missed, spurious;
 };
 
-/// `near`: the true pairs nearer than the margin of the semantics, for the level `near`.
+/// Pairs nearer than a margin, of two bodies and of one.
+struct TrueNear {
+  std::vector<NearPair> near, self_near;
+};
+/// Of those of `levels` that ask for them. `margin`: in the coordinates of the frame.
+TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
+                   double margin);
+
+/// `near`: of the margin of the semantics, for the levels `near` and `self-near`.
 /// @pre all sets are canonical
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
                            const oracle::Truth& truth, const ContactSet& reported,
-                           const std::vector<NearPair>& near = {});
+                           const TrueNear& near = {});
 
 /// The comparisons of one detector's answers, summed over the frames of a scene.
 class LevelTotals {

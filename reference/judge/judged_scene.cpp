@@ -87,7 +87,7 @@ oracle::WantedTruth wanted_truth(const scene::Scene& scene) {
   wanted.containment = scene.judges(Level::kContainment);
   wanted.vertices = scene.judges(Level::kVertex);
   wanted.boxes = scene.judges(Level::kBox);
-  wanted.self = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
+  wanted.self = any_self(scene.levels);
   return wanted;
 }
 

@@ -150,7 +150,7 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     checksums[name] = crc32_of(bytes);
   };
 
-  const bool own = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
+  const bool own = any_self(scene.levels);
   oracle::WantedTruth wanted;
   wanted.self = own;
 

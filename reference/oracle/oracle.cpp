@@ -237,4 +237,20 @@ std::vector<NearPair> Oracle::near(const Frame& frame, double margin) {
   return out;
 }
 
+std::vector<NearPair> Oracle::self_near(const Frame& frame, double margin) {
+  const FloatingPointGuard guard;
+  impl_->check(frame);
+  CONTACTCHECK_INVARIANT(std::isfinite(margin) && margin >= 0, "a margin is finite, at least 0");
+  std::vector<NearPair> out;
+  if (margin == 0) return out;
+  for (std::uint32_t body = 0; body < impl_->size(); ++body) {
+    impl_->trees[body].refit(frame.bodies[body].vertices);
+    append_near_pairs({body, body}, frame.bodies[body].vertices, impl_->trees[body], margin, out);
+  }
+  std::erase_if(
+      out, [&](const NearPair& p) { return impl_->shapes[p.body]->uses(p.triangle, p.vertex); });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 }  // namespace contactcheck::oracle

@@ -57,6 +57,9 @@ class Oracle {
   /// Vertices without a triangle count too; a degenerate triangle is the segment or point that it
   /// is. A margin of 0 gives nothing.
   std::vector<NearPair> near(const Frame& frame, double margin);
+  /// The same of every body with itself: of triangles that do not use the vertex or one welded to
+  /// it (BodyShape::uses).
+  std::vector<NearPair> self_near(const Frame& frame, double margin);
 
  private:
   struct Impl;

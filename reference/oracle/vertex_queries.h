@@ -24,7 +24,7 @@ bool strictly_inside(const SurfaceTree& surface, const Vec3& point);
 bool boxes_within(double margin, const Aabb& a, const Aabb& b);
 
 /// Appends every pair of a vertex of `pair.a` and a triangle of `pair.b` at a distance strictly
-/// below `margin`; exact, in any order, each once.
+/// below `margin`; exact, in any order, each once. With itself a body has all its triangles.
 /// @pre margin finite; the tree is fitted to the vertices of `pair.b`
 void append_near_pairs(BodyPair pair, std::span<const Vec3> vertices, const SurfaceTree& surface,
                        double margin, std::vector<NearPair>& out);

@@ -59,7 +59,9 @@ enum {
   CONTACTCHECK_LEVEL_SELF_VERTEX = 1 << 8, /* one: they share more than that corner */
   CONTACTCHECK_LEVEL_SELF_EDGE = 1 << 9,   /* two: they share more than the edge between */
   CONTACTCHECK_LEVEL_SELF_BODY = 1 << 10,  /* bodies with any of the three */
-  CONTACTCHECK_LEVEL_SELF_CELL = 1 << 11   /* cells that share no node, by the triangles in them */
+  CONTACTCHECK_LEVEL_SELF_CELL = 1 << 11,  /* cells that share no node, by the triangles in them */
+  CONTACTCHECK_LEVEL_SELF_NEAR = 1 << 12   /* a vertex nearer than the margin to a triangle that
+                                              uses neither it nor one that is welded to it */
 };
 
 /* What query() is asked. */
@@ -187,10 +189,10 @@ typedef struct contactcheck_vertex_contact {
 /* Where query() puts its answer: each function appends `count` items, as often as wanted, in any
  * order; repeats are allowed. Pass `host` on. A pair of elements implies its pair of bodies.
  * Questions: TRIANGLES wants triangles; BODY bodies; CELLS cells; CONTACTS piece_contacts or
- * vertex_contacts, by the kind of depth; SELF triangles whose two bodies are the same (or bodies, a
- * body with itself), those of all classes that are claimed, two triangles with the same three
- * vertices left out. Vertices and near pairs go with the detector's first
- * question that is not BODY or SELF (with BODY where it answers nothing else). */
+ * vertex_contacts, by the kind of depth; SELF triangles whose two bodies are the same (or cells,
+ * near pairs, or bodies, a body with itself), those of all classes that are claimed, two triangles
+ * with the same three vertices left out. Vertices and near pairs of two bodies go with the
+ * detector's first question that is not BODY or SELF (with BODY where it answers nothing else). */
 typedef struct contactcheck_answer {
   void* host;
   void (*bodies)(void* host, const contactcheck_body_pair* items, size_t count);

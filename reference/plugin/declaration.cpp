@@ -157,15 +157,16 @@ std::string semantics_fault(const Semantics& s) {
   if (s.claims(Level::kCell) && !s.answers(Question::kCells))
     return "it claims the level cell and does not answer the question cells";
   if (std::any_of(levels.begin(), levels.end(), is_self) != s.answers(Question::kSelf))
-    return "the levels self, self-vertex, self-edge, self-body, self-cell and the question self go "
-           "together, "
-           "and it declares one of them";
+    return "the levels self, self-vertex, self-edge, self-body, self-cell, self-near and the "
+           "question self go together, and it declares one of them";
   if (s.answers(Question::kContacts) != (s.depth != DepthKind::kNone))
     return "the question contacts and a kind of depth go together, and it declares one of them";
 
   if (!std::isfinite(s.margin) || s.margin < 0.0) return "its margin is no number from 0 on";
-  if (s.claims(Level::kNear) && s.margin == 0.0)
-    return "it claims the level near with a margin of 0: nothing is nearer than that";
+  for (const Level level : {Level::kNear, Level::kSelfNear})
+    if (s.claims(level) && s.margin == 0.0)
+      return "it claims the level " + std::string(name_of(level)) +
+             " with a margin of 0: nothing is nearer than that";
   if (!std::isfinite(s.scale) || s.scale <= 0.0) return "its scale is no number above 0";
   if (s.precision == Precision::kDouble && s.scale != 1.0)
     return "it has a scale and no single precision";
@@ -175,22 +176,27 @@ std::string semantics_fault(const Semantics& s) {
 }
 
 void read_self_answer(const std::string& from, ContactSet& answer) {
-  const auto take = [&](const char* elements, std::vector<ElementPair>& pairs,
+  const auto require_one = [&](const std::string& what, std::uint32_t a, std::uint32_t b) {
+    if (a != b)
+      throw InputError(from + " answers the question self with " + what + ", " + std::to_string(a) +
+                       " and " + std::to_string(b));
+  };
+  const auto take = [&](const std::string& elements, std::vector<ElementPair>& pairs,
                         std::vector<SelfPair>& out) {
     for (const ElementPair& p : pairs) {
-      if (p.body_a != p.body_b)
-        throw InputError(from + " answers the question self with " + elements + " of two bodies, " +
-                         std::to_string(p.body_a) + " and " + std::to_string(p.body_b));
+      require_one(elements + " of two bodies", p.body_a, p.body_b);
       out.push_back({p.body_a, p.a, p.b});
     }
     pairs.clear();
   };
   take("triangles", answer.triangles, answer.self);
   take("cells", answer.cells, answer.self_cells);
+  for (const NearPair& p : answer.near)
+    require_one("a vertex and a triangle of two bodies", p.body, p.other);
+  answer.self_near = std::move(answer.near);
+  answer.near.clear();
   for (const BodyPair& p : answer.bodies) {
-    if (p.a != p.b)
-      throw InputError(from + " answers the question self with a pair of bodies, " +
-                       std::to_string(p.a) + " and " + std::to_string(p.b));
+    require_one("a pair of bodies", p.a, p.b);
     answer.self_bodies.push_back(p.a);
   }
   answer.bodies.clear();

@@ -13,10 +13,10 @@
 namespace contactcheck::plugin {
 
 // What contactcheck_plugin.h numbers from 0 on, in the order of its numbers; all values there are.
-inline constexpr Level kHeaderLevels[] = {Level::kBody,     Level::kContainment, Level::kCell,
-                                          Level::kBox,      Level::kTriangle,    Level::kVertex,
-                                          Level::kNear,     Level::kSelf,        Level::kSelfVertex,
-                                          Level::kSelfEdge, Level::kSelfBody,    Level::kSelfCell};
+inline constexpr Level kHeaderLevels[] = {
+    Level::kBody,     Level::kContainment, Level::kCell,    Level::kBox,        Level::kTriangle,
+    Level::kVertex,   Level::kNear,        Level::kSelf,    Level::kSelfVertex, Level::kSelfEdge,
+    Level::kSelfBody, Level::kSelfCell,    Level::kSelfNear};
 inline constexpr Question kHeaderQuestions[] = {
     Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts, Question::kSelf};
 inline constexpr Precision kHeaderPrecisions[] = {Precision::kDouble, Precision::kSingle};
@@ -41,8 +41,9 @@ nlohmann::ordered_json to_json(const Declaration& declaration);
 /// scales that cannot be used; "" when nothing is.
 std::string semantics_fault(const Semantics& semantics);
 
-/// A plug-in answers the question `self` by pairs of triangles, cells and bodies that name one body
-/// twice; here they become what a Detector answers. @throws InputError for others
+/// A plug-in answers the question `self` by pairs of triangles, cells and bodies, and by near
+/// pairs, that name one body twice; here they become what a Detector answers. @throws InputError
+/// for others
 void read_self_answer(const std::string& from, ContactSet& answer);
 
 /// What is claimed may not depend on the bodies: a margin and a scale alone may be other after

@@ -206,7 +206,9 @@ Defect find_defect(Probe& probe, const std::string& detector, bool is_case,
     defect.task.pair = triangles_of(shown, whole);
     defect.task.cells = cells_of(shown);
   }
-  if (names_triangles(defect.finding) && defect.task.pair)
+  const Finding& finding = defect.finding;
+  if (judge::elements_of(finding.level, finding.kind).first == Element::kTriangle &&
+      defect.task.pair)
     defect.finding.general =
         in_general_position(candidate_of(defect.task.snapshot), *defect.task.pair);
   // Of more than two bodies the others may have had a part in it.

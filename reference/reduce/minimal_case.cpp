@@ -166,18 +166,17 @@ std::string pair_text(const MinimalCase& c, const judge::Disagreement& d) {
   const auto of_both = [&](const std::string& element) {
     return element + " " + a + " of " + first + " and " + element + " " + b + " of " + second;
   };
-  if (names_triangles(Finding{d.level, d.kind})) return of_both("triangle");
-  if (d.level == name_of(Level::kBox)) return of_both("cell");
-  if (d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell))
-    return of_both("cell");
-  if (d.level == name_of(Level::kNear))
+  const auto [kind, other] = judge::elements_of(d.level, d.kind);
+  if (kind == Element::kTriangle) return of_both("triangle");
+  if (kind == Element::kCell) return of_both("cell");
+  if (other == Element::kTriangle)
     return "vertex " + a + " of " + first + " and triangle " + b + " of " + second;
   return first == second ? first : first + " and " + second;
 }
 
 /// What is true of a pair, in the level's words.
 std::string truth_text(const std::string& level, bool contact) {
-  if (level == name_of(Level::kNear))
+  if (level == name_of(Level::kNear) || level == name_of(Level::kSelfNear))
     return contact ? "are nearer than the margin" : "are not nearer than the margin";
   if (level == name_of(Level::kBox))
     return contact ? "have mapped boxes that overlap" : "have mapped boxes that do not overlap";
@@ -272,7 +271,8 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
                  " at level " + d.level + " of " + std::to_string(counts.truth) +
                  " true: " + std::to_string(counts.missed) + " missed, " +
                  std::to_string(counts.spurious) + " spurious";
-  if (names_triangles(c.finding)) out.triangles = {d.pair.a, d.pair.b};
+  if (judge::elements_of(d.level, d.kind).first == Element::kTriangle)
+    out.triangles = {d.pair.a, d.pair.b};
   return out;
 }
 

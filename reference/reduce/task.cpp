@@ -144,7 +144,7 @@ ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
                    ? "value " + scene.family->values[frame] + " (" + frame_text(frame) + ")"
                    : frame_text(frame);
   task.snapshot = {scene.bodies, scene.nodes_of_frame(frame)};
-  task.self = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
+  task.self = any_self(scene.levels);
   return task;
 }
 
@@ -177,8 +177,9 @@ Recording recording_of(const text::JsonField& root, const fs::path& file) {
 }  // namespace
 
 std::optional<TrianglePair> triangles_of(const judge::Disagreement& d, const Snapshot& snapshot) {
-  if (names_triangles({d.level, d.kind})) return TrianglePair{d.pair.a, d.pair.b};
-  if (d.level != name_of(Level::kNear)) return std::nullopt;
+  const auto [first, second] = judge::elements_of(d.level, d.kind);
+  if (first == Element::kTriangle) return TrianglePair{d.pair.a, d.pair.b};
+  if (second != Element::kTriangle) return std::nullopt;
   const auto of_vertex = triangle_with(snapshot.bodies[d.pair.body_a].shape->mesh, d.pair.a);
   if (!of_vertex) return std::nullopt;
   return d.pair.body_a < d.pair.body_b ? TrianglePair{*of_vertex, d.pair.b}
@@ -186,11 +187,8 @@ std::optional<TrianglePair> triangles_of(const judge::Disagreement& d, const Sna
 }
 
 std::optional<CellPair> cells_of(const judge::Disagreement& d) {
-  const bool of_cells =
-      d.level == name_of(Level::kBox) ||
-      ((d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell)) &&
-       d.kind == "spurious");
-  return of_cells ? std::optional<CellPair>({d.pair.a, d.pair.b}) : std::nullopt;
+  if (judge::elements_of(d.level, d.kind).first != Element::kCell) return std::nullopt;
+  return CellPair{d.pair.a, d.pair.b};
 }
 
 bool is_case_file(const fs::path& file) {

@@ -80,13 +80,6 @@ std::string described(const Finding& finding) {
                                 : finding.kind + " at level " + finding.level;
 }
 
-bool names_triangles(const Finding& finding) {
-  const std::optional<Level> level = level_from_name(finding.level);
-  return level == Level::kTriangle ||
-         ((level == Level::kCell || level == Level::kSelfCell) && finding.kind == "missed") ||
-         level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
-}
-
 std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,
                                   const std::string& kind) {
   if (verdict.status == results::Status::kError && level.empty() && matches(kind, kError))

@@ -44,9 +44,6 @@ struct Finding {
 /// "missed at level triangle", "error: signal 11 (Segmentation fault)"
 std::string described(const Finding& finding);
 
-/// True when the pair of its disagreement is one of triangles.
-bool names_triangles(const Finding& finding);
-
 /// What is wrong in `verdict` at that level and of that kind (where these are not empty), the
 /// finest level first; none where the detector agrees with the truth.
 std::optional<Finding> finding_of(const ProbeVerdict& verdict, const std::string& level,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/types/check.h"
@@ -13,23 +14,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "contactcheck-contacts/1";
 
-struct PairKind {
-  Element first, second;
-};
-
-// Of the differences at a level; what `missed` and `spurious` mean there is in fixtures/README.md,
-// "Contacts".
-PairKind pair_kind(const std::string& level, bool missed) {
-  if (level == "triangle" || level == "self" || level == "self-vertex" || level == "self-edge" ||
-      ((level == "cell" || level == "self-cell") && missed))
-    return {Element::kTriangle, Element::kTriangle};
-  if (level == "cell" || level == "box" || level == "self-cell")
-    return {Element::kCell, Element::kCell};
-  if (level == "near") return {Element::kVertex, Element::kTriangle};
-  if (level == "vertex") return {Element::kVertex, Element::kNone};
-  if (level == "body" || level == "containment" || level == "self-body")
-    return {Element::kNone, Element::kNone};
-  throw InputError("the level \"" + level + "\" is not known");
+// `missed` and `spurious` at a level are explained in fixtures/README.md, "Contacts".
+NamedElements elements_at(const std::string& level, bool missed) {
+  const std::optional<Level> known = level_from_name(level);
+  if (!known) throw InputError("the level \"" + level + "\" is not known");
+  return named_elements(*known, missed);
 }
 
 std::int64_t element_count(const BodyShape& shape, Element kind) {
@@ -78,7 +67,7 @@ void check_contacts(const Json& contacts, const Recording& recording) {
 void visit_elements(
     const Json& contacts,
     const std::function<void(std::int64_t body, std::int64_t element, Element kind)>& visit) {
-  const auto visit_pairs = [&](const Json& listed, PairKind kind) {
+  const auto visit_pairs = [&](const Json& listed, NamedElements kind) {
     listed.at("count").get<std::uint64_t>();
     const auto pairs = listed.at("pairs").get<std::vector<std::int64_t>>();
     if (pairs.size() % 4 != 0)
@@ -89,12 +78,12 @@ void visit_elements(
       visit(pairs[i + 2], pairs[i + 3], kind.second);
     }
   };
-  for (const Json& frame : contacts.at("truth")) visit_pairs(frame, pair_kind("triangle", true));
+  for (const Json& frame : contacts.at("truth")) visit_pairs(frame, elements_at("triangle", true));
   for (const Json& detector : contacts.at("detectors")) {
     const auto level = detector.at("level").get<std::string>();
     for (const Json& frame : detector.at("frames")) {
-      visit_pairs(frame.at("missed"), pair_kind(level, true));
-      visit_pairs(frame.at("spurious"), pair_kind(level, false));
+      visit_pairs(frame.at("missed"), elements_at(level, true));
+      visit_pairs(frame.at("spurious"), elements_at(level, false));
     }
   }
 }

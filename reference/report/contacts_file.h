@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/deform/recording.h"
+#include "core/types/semantics.h"
 
 namespace contactcheck::report {
 
@@ -16,9 +17,6 @@ namespace contactcheck::report {
 /// cell or vertex that the recording does not have
 nlohmann::ordered_json read_contacts(const std::string& text, const std::string& name,
                                      const Recording& recording);
-
-/// What a number of a pair counts; kNone: nothing, the pair is one of bodies.
-enum class Element { kTriangle, kCell, kVertex, kNone };
 
 /// Calls with both elements of every listed pair, true ones first.
 /// @throws Json::exception or InputError where a field is missing, of another type or unknown

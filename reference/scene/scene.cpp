@@ -88,7 +88,7 @@ Scene load_recording(const std::filesystem::path& file) {
 }
 
 void refuse_crowded_vertices(const Scene& scene) {
-  if (std::none_of(scene.levels.begin(), scene.levels.end(), is_self)) return;
+  if (!any_self(scene.levels)) return;
   for (const Body& body : scene.bodies) {
     try {
       refuse_many_adjacent_pairs(body.shape->linked());

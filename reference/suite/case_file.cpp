@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,45 +28,24 @@ void add_points(Json& element, const std::string& key, const std::vector<Vec3>& 
   element[key + "_decimal"] = std::move(decimals);
 }
 
-// A missed contact of cells is a pair of triangles; a spurious one is a pair of cells.
-bool names_triangles(const judge::Disagreement& d) {
-  const std::optional<Level> level = level_from_name(d.level);
-  return level == Level::kTriangle ||
-         ((level == Level::kCell || level == Level::kSelfCell) && d.kind == "missed") ||
-         level == Level::kSelf || level == Level::kSelfVertex || level == Level::kSelfEdge;
-}
-
-bool names_cells(const judge::Disagreement& d) {
-  return d.level == name_of(Level::kBox) ||
-         ((d.level == name_of(Level::kCell) || d.level == name_of(Level::kSelfCell)) &&
-          d.kind == "spurious");
-}
-
-// A vertex, of level `vertex` or `near`, is what stands first in its pair.
-bool names_vertex(const judge::Disagreement& d) {
-  return d.level == name_of(Level::kVertex) || d.level == name_of(Level::kNear);
-}
-
-Json first_of_vertex_pair(const judge::JudgedScene& judged, const judge::Disagreement& d) {
-  const Vec3& place = judged.positions[d.frame].vertices[d.pair.body_a][d.pair.a];
-  return {{"body", judged.scene->bodies[d.pair.body_a].name},
-          {"vertex", d.pair.a},
-          {"position", point(place)},
-          {"position_decimal", decimal(place)}};
-}
-
-Json element(const judge::JudgedScene& judged, const judge::Disagreement& d, std::uint32_t body,
-             std::uint32_t id) {
+// What a disagreement is about; the vertex of a near pair stands first.
+Json element(const judge::JudgedScene& judged, const judge::Disagreement& d, Element kind,
+             std::uint32_t body, std::uint32_t id) {
   const BodyShape& shape = *judged.scene->bodies[body].shape;
   const scene::FramePosition& positions = judged.positions[d.frame];
   Json out = {{"body", judged.scene->bodies[body].name}};
-  if (names_triangles(d) || d.level == name_of(Level::kNear)) {
+  if (kind == Element::kVertex) {
+    const Vec3& place = positions.vertices[body][id];
+    out["vertex"] = id;
+    out["position"] = point(place);
+    out["position_decimal"] = decimal(place);
+  } else if (kind == Element::kTriangle) {
     out["triangle"] = id;
     std::vector<Vec3> corners;
     for (const std::uint32_t v : shape.mesh.triangles[id])
       corners.push_back(positions.vertices[body][v]);
     add_points(out, "vertices", corners);
-  } else if (names_cells(d)) {
+  } else if (kind == Element::kCell) {
     out["cell"] = id;
     const Corners corners = corners_of(*shape.lattice, id, positions.nodes[body]);
     add_points(out, "nodes", {corners.begin(), corners.end()});
@@ -85,16 +63,15 @@ std::string hex_float(double value) {
 
 void write_case(const std::filesystem::path& file, const judge::JudgedScene& judged,
                 const judge::Disagreement& d, const std::string& recording) {
-  const Json first = names_vertex(d) ? first_of_vertex_pair(judged, d)
-                                     : element(judged, d, d.pair.body_a, d.pair.a);
+  const auto [first, second] = judge::elements_of(d.level, d.kind);
   Json out = {{"scene", d.scene},
               {"frame", d.frame},
               {"detector", d.detector},
               {"level", d.level},
               {"kind", d.kind}};
   if (!recording.empty()) out["recording"] = recording;
-  out["first"] = first;
-  out["second"] = element(judged, d, d.pair.body_b, d.pair.b);
+  out["first"] = element(judged, d, first, d.pair.body_a, d.pair.a);
+  out["second"] = element(judged, d, second, d.pair.body_b, d.pair.b);
   write_file_atomically(file, out.dump(1) + "\n");
 }
 

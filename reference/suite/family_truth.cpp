@@ -19,7 +19,7 @@ CaseTruth case_truth(const scene::Scene& scene, std::size_t frame, oracle::Oracl
   const auto vertices = scene::map_bodies(scene, scene.recorded[frame]);
   oracle::WantedTruth wanted;
   wanted.containment = scene.judges(Level::kContainment);
-  wanted.self = std::any_of(scene.levels.begin(), scene.levels.end(), is_self);
+  wanted.self = any_self(scene.levels);
   oracle::Truth truth =
       oracle.judge(judge::make_frame(frame, 0.0, scene.recorded[frame], vertices), wanted);
   CaseTruth out;

@@ -34,8 +34,7 @@ void record_scene(const WorkerState& worker) {
   recording.bodies = scene.bodies;
   recording.time_step = scene.time_step;
   // Of contact with itself nobody would ask a recording that does not say so.
-  if (std::any_of(scene.levels.begin(), scene.levels.end(), is_self))
-    recording.levels = scene.levels;
+  if (any_self(scene.levels)) recording.levels = scene.levels;
   for (std::size_t f = 0; f < scene.frames; ++f)
     recording.frames.push_back(worker.judged.positions[f].nodes);
   write_recording(worker.job.recording_file, recording);

@@ -30,7 +30,8 @@ bool same_contacts(std::vector<Contact> a, std::vector<Contact> b) {
 bool same_sets(const ContactSet& a, const ContactSet& b) {
   return a.bodies == b.bodies && a.cells == b.cells && a.triangles == b.triangles &&
          a.vertices == b.vertices && a.near == b.near && a.self == b.self &&
-         a.self_cells == b.self_cells && a.self_bodies == b.self_bodies;
+         a.self_cells == b.self_cells && a.self_near == b.self_near &&
+         a.self_bodies == b.self_bodies;
 }
 
 std::vector<ElementPair> pieces_of(const ContactSet& set) {
@@ -53,7 +54,8 @@ ContactSet renamed(ContactSet set, std::uint32_t last) {
   for (ElementPair& p : set.cells) rename_pair(p);
   for (ElementPair& p : set.triangles) rename_pair(p);
   for (VertexInBody& v : set.vertices) rename(v.body), rename(v.in);
-  for (NearPair& p : set.near) rename(p.body), rename(p.other);
+  for (std::vector<NearPair>* pairs : {&set.near, &set.self_near})
+    for (NearPair& p : *pairs) rename(p.body), rename(p.other);
   for (std::vector<SelfPair>* pairs : {&set.self, &set.self_cells})
     for (SelfPair& p : *pairs) rename(p.body);
   for (std::uint32_t& body : set.self_bodies) rename(body);
@@ -99,9 +101,12 @@ class IdCheck {
     if (!pair(v.body, v.in)) return;
     bad_ += v.vertex >= bodies_[v.body].shape->mesh.vertices.size() ? 1 : 0;
   }
-  void self(const SelfPair& p) {
-    const bool good = p.body < bodies_.size() && p.a < triangles_of(p.body) &&
-                      p.b < triangles_of(p.body) && p.a != p.b;
+  void self(const SelfPair& p) { own(p, &IdCheck::triangles_of); }
+  void self_cells(const SelfPair& p) { own(p, &IdCheck::cells_of); }
+  void self_near(const NearPair& p) {
+    const bool good = p.body < bodies_.size() && p.other == p.body &&
+                      p.vertex < bodies_[p.body].shape->mesh.vertices.size() &&
+                      p.triangle < triangles_of(p.body);
     bad_ += good ? 0 : 1;
   }
   void near(const NearPair& p) {
@@ -111,6 +116,11 @@ class IdCheck {
   std::uint64_t bad() const { return bad_; }
 
  private:
+  void own(const SelfPair& p, std::size_t (IdCheck::*count_of)(std::uint32_t) const) {
+    const bool good = p.body < bodies_.size() && p.a < (this->*count_of)(p.body) &&
+                      p.b < (this->*count_of)(p.body) && p.a != p.b;
+    bad_ += good ? 0 : 1;
+  }
   std::size_t triangles_of(std::uint32_t body) const {
     return bodies_[body].shape->mesh.triangles.size();
   }
@@ -199,6 +209,7 @@ std::string text(const Answers& answers) {
     add("near pairs", set.near.size());
     add("pairs of one body's triangles", set.self.size());
     add("pairs of one body's cells", set.self_cells.size());
+    add("near pairs of one body", set.self_near.size());
     add("bodies that touch themselves", set.self_bodies.size());
     add("contacts of pieces", set.piece_contacts.size());
     add("contacts of vertices", set.vertex_contacts.size());
@@ -214,6 +225,8 @@ std::uint64_t invalid_ids(const ContactSet& set, const std::vector<Body>& bodies
   for (const VertexInBody& v : set.vertices) check.vertex(v);
   for (const NearPair& p : set.near) check.near(p);
   for (const SelfPair& p : set.self) check.self(p);
+  for (const SelfPair& p : set.self_cells) check.self_cells(p);
+  for (const NearPair& p : set.self_near) check.self_near(p);
   for (const ElementPair& p : pieces_of(set))
     holds(set.cells, p) ? check.cells(p) : check.triangles(p);
   for (const VertexInBody& v : vertices_of(set)) check.vertex(v);

@@ -27,7 +27,7 @@ oracle::WantedTruth wanted_truth(const std::vector<Level>& levels, const Semanti
   wanted.containment = has(Level::kContainment) || semantics.solid;
   wanted.vertices = has(Level::kVertex);
   wanted.boxes = has(Level::kBox);
-  wanted.self = std::any_of(levels.begin(), levels.end(), is_self);
+  wanted.self = any_self(levels);
   return wanted;
 }
 
@@ -56,6 +56,7 @@ ContactSet judged_answer(const Answers& answers, const Semantics& semantics) {
   if (const auto self = answers.find(Question::kSelf); self != answers.end()) {
     set.self = self->second.self;
     set.self_cells = self->second.self_cells;
+    set.self_near = self->second.self_near;
     set.self_bodies = self->second.self_bodies;
   }
   return set;
@@ -99,10 +100,9 @@ class Observer {
   void judge(std::size_t f, const ContactSet& answer) {
     const FrameData fed = as_fed(scene_.frames[f], semantics_);
     const Frame frame = fed.frame(f);
-    std::vector<NearPair> near;
     // The margin as fed: semantics give it in metres.
-    if (semantics_.claims(Level::kNear))
-      near = oracle_.near(frame, semantics_.margin * semantics_.scale);
+    const judge::TrueNear near =
+        judge::true_near(oracle_, frame, levels_, semantics_.margin * semantics_.scale);
     const oracle::Truth truth = oracle_.judge(frame, wanted_);
     for (const Level level : levels_)
       totals_.add(f, level,

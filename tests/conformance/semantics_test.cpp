@@ -52,7 +52,7 @@ TEST_P(Declared, LevelsAndQuestionsFitTogether) {
 TEST_P(Declared, MarginAndScaleAreUsable) {
   EXPECT_TRUE(std::isfinite(semantics_.margin));
   EXPECT_GE(semantics_.margin, 0.0);
-  if (semantics_.claims(Level::kNear)) {
+  if (semantics_.claims(Level::kNear) || semantics_.claims(Level::kSelfNear)) {
     EXPECT_GT(semantics_.margin, 0.0) << "nothing is nearer than 0";
   }
   // A margin without the level `near` changes what contact is.

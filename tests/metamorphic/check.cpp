@@ -57,12 +57,14 @@ std::string difference(const ContactSet& expected, const ContactSet& found) {
          difference("near", expected.near, found.near) +
          difference("self", expected.self, found.self) +
          difference("self-cell", expected.self_cells, found.self_cells) +
+         difference("self-near", expected.self_near, found.self_near) +
          difference("bodies with themselves", expected.self_bodies, found.self_bodies);
 }
 
 std::size_t elements(const ContactSet& set) {
   return set.bodies.size() + set.cells.size() + set.triangles.size() + set.vertices.size() +
-         set.near.size() + set.self.size() + set.self_cells.size() + set.self_bodies.size();
+         set.near.size() + set.self.size() + set.self_cells.size() + set.self_near.size() +
+         set.self_bodies.size();
 }
 
 std::vector<ContactSet> truth_of(const Subject& subject) {

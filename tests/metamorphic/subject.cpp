@@ -37,10 +37,11 @@ ContactSet in_names_of_subject(ContactSet set, const Names& names) {
     v.vertex = names.vertex[v.body][v.vertex];
     body(v.body), body(v.in);
   }
-  for (NearPair& p : set.near) {
-    p.vertex = names.vertex[p.body][p.vertex], p.triangle = names.triangle[p.other][p.triangle];
-    body(p.body), body(p.other);
-  }
+  for (std::vector<NearPair>* pairs : {&set.near, &set.self_near})
+    for (NearPair& p : *pairs) {
+      p.vertex = names.vertex[p.body][p.vertex], p.triangle = names.triangle[p.other][p.triangle];
+      body(p.body), body(p.other);
+    }
   for (SelfPair& p : set.self) {
     p.a = names.triangle[p.body][p.a], p.b = names.triangle[p.body][p.b];
     body(p.body);

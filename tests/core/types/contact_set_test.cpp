@@ -53,15 +53,18 @@ TEST(ContactSet, PairsOfOneBodyAreOrientedAndImplyTheBodyAlone) {
   ContactSet set;
   set.self = {{3, 9, 2}, {1, 4, 5}, {3, 2, 9}};
   set.self_cells = {{8, 1, 0}, {8, 0, 1}};
+  set.self_near = {{9, 9, 4, 1}, {9, 9, 1, 4}, {9, 9, 4, 1}};
   set.self_bodies = {7, 3};
   set.canonicalize();
   EXPECT_THAT(set.self, ElementsAre(SelfPair{1, 4, 5}, SelfPair{3, 2, 9}));
   EXPECT_THAT(set.self_cells, ElementsAre(SelfPair{8, 0, 1}));
-  EXPECT_THAT(set.self_bodies, ElementsAre(1, 3, 7, 8));
+  EXPECT_THAT(set.self_near, ElementsAre(NearPair{9, 9, 1, 4}, NearPair{9, 9, 4, 1}));
+  EXPECT_THAT(set.self_bodies, ElementsAre(1, 3, 7, 8, 9));
   EXPECT_THAT(set.bodies, IsEmpty());
   set.clear();
   EXPECT_THAT(set.self, IsEmpty());
   EXPECT_THAT(set.self_cells, IsEmpty());
+  EXPECT_THAT(set.self_near, IsEmpty());
   EXPECT_THAT(set.self_bodies, IsEmpty());
 }
 

@@ -9,9 +9,10 @@ namespace {
 
 TEST(Level, NamesAreTheDesignsAndReadBack) {
   for (const Level level : kLevels) EXPECT_EQ(level_from_name(name_of(level)), level);
-  EXPECT_EQ(level_names(), (std::vector<std::string>{
-                               "body", "containment", "cell", "box", "triangle", "vertex", "near",
-                               "self", "self-vertex", "self-edge", "self-body", "self-cell"}));
+  EXPECT_EQ(level_names(),
+            (std::vector<std::string>{"body", "containment", "cell", "box", "triangle", "vertex",
+                                      "near", "self", "self-vertex", "self-edge", "self-body",
+                                      "self-cell", "self-near"}));
   EXPECT_EQ(level_from_name("Body"), std::nullopt);
   EXPECT_EQ(level_from_name(""), std::nullopt);
 }

@@ -82,9 +82,10 @@ World tip_above_plate(double height) {
 TEST(BulletVf, ClaimsStrictNearnessWithinTheSumOfTheMargins) {
   const Semantics semantics =
       prepared("bullet-vf:margin=0.002", overlapping_spheres())->semantics();
-  EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody, Level::kNear));
+  EXPECT_THAT(semantics.levels, ElementsAre(Level::kBody, Level::kNear, Level::kSelfNear));
   EXPECT_THAT(semantics.informative, ElementsAre(Level::kVertex));
-  EXPECT_THAT(semantics.questions, ElementsAre(Question::kContacts, Question::kBody));
+  EXPECT_THAT(semantics.questions,
+              ElementsAre(Question::kContacts, Question::kBody, Question::kSelf));
   EXPECT_EQ(semantics.precision, Precision::kSingle);
   EXPECT_EQ(semantics.depth, DepthKind::kVertexSurface);
   EXPECT_FALSE(semantics.closed);
@@ -282,6 +283,53 @@ TEST(BulletVf, VerticesThatCoincideAtRestAreHeld) {
   const TriangleMesh plate = triangle_mesh(Vec3(0, 0, 3), Vec3(9, 0, 3), Vec3(0, 9, 3));
   const auto detector = prepared("bullet-vf", World({mesh, plate}));
   EXPECT_THAT(ask(*detector, Question::kContacts).near, SizeIs(6000));
+}
+
+TriangleMesh together(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [i, j, k] : other.triangles)
+    mesh.triangles.push_back({first + i, first + j, first + k});
+  return mesh;
+}
+
+// Two balls of one mesh, a vertex of each before the other's, moved apart and together again.
+TEST(BulletVf, BallsOfOneBodyAreNearAsTheirVerticesAre) {
+  const TriangleMesh ball = sphere_mesh(Vec3(0, 0, 0), 1, 3);
+  const auto first = static_cast<std::uint32_t>(ball.vertices.size());
+  World world({together(ball, sphere_mesh(Vec3(2.001, 0, 0), 1, 3))});
+  for (const bool expected : {false, true}) {
+    const auto detector = make_detector("bullet-vf");
+    if (expected) detector->expect({Question::kSelf});
+    detector->prepare(world.bodies);
+    for (const double away : {0.0, 0.01, -0.01}) {
+      for (std::uint32_t v = first; v < 2 * first; ++v) world.vertices[0][v].x() += away;
+      detector->update(world.frame());
+      const ContactSet found = ask(*detector, Question::kSelf);
+      EXPECT_EQ(found.self_near.size(), away > 0.0 ? 0u : 8u) << away;  // four faces at each tip
+      for (const NearPair& p : found.self_near) {
+        EXPECT_EQ(world.vertices[0][p.vertex].y(), 0.0);
+        EXPECT_NE(p.vertex < first, world.triangles(0)[p.triangle][0] < first);
+      }
+      EXPECT_THAT(found.near, IsEmpty());
+      EXPECT_THAT(ask(*detector, Question::kContacts).self_near, IsEmpty());
+    }
+  }
+}
+
+// The known limit: all normals lie in a narrow cone, or in two that face one another.
+TEST(BulletVf, SheetsOverOneAnotherAreLeftOut) {
+  const auto sheet = [](double z, bool turned) {
+    TriangleMesh mesh = {{Vec3(0, 0, z), Vec3(4, 0, z), Vec3(0, 4, z), Vec3(4, 4, z)},
+                         {{0, 1, 2}, {2, 1, 3}}};
+    for (Triangle& t : mesh.triangles)
+      if (turned) std::swap(t[0], t[1]);
+    return mesh;
+  };
+  for (const bool turned : {false, true}) {
+    const World world({together(sheet(0, false), sheet(0.001, turned))});
+    EXPECT_THAT(ask(*prepared("bullet-vf", world), Question::kSelf).self_near, IsEmpty());
+  }
 }
 
 TEST(BulletVf, SwappedBodiesGiveTheSamePairs) {

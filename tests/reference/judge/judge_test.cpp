@@ -191,6 +191,26 @@ TEST(Judge, KeepsTheFirstDisagreementOfEachKindAndLevel) {
   EXPECT_EQ(d[2].pair, pair(0, 0));
 }
 
+TEST(Judge, SelfNearComparesWithThePairsOfOneBody) {
+  Semantics semantics;
+  semantics.margin = 0.25;
+  LevelTotals totals(semantics, {Level::kSelfNear});
+  ContactSet answer;
+  answer.near = {{0, 1, 5, 2}};
+  answer.self_near = {{0, 0, 7, 2}, {1, 1, 7, 4}};
+  answer.canonicalize();
+  EXPECT_THAT(answer.self_bodies, ElementsAre(0, 1));
+  test::add_frame(totals, semantics, 0, oracle::Truth{}, answer,
+                  {.near = {{0, 1, 5, 2}}, .self_near = {{0, 0, 7, 2}, {0, 0, 8, 2}}});
+  EXPECT_THAT(numbers(totals.levels.at(Level::kSelfNear)), ElementsAre(2, 2, 1, 1, 1));
+  EXPECT_EQ(totals.levels.at(Level::kSelfNear).margin, 0.25);
+  EXPECT_EQ(totals.per_frame.level, Level::kSelfNear);
+  ASSERT_EQ(totals.disagreements.size(), 2u);
+  EXPECT_EQ(totals.disagreements[0].pair, (ElementPair{0, 0, 8, 2}));
+  EXPECT_EQ(elements_of("self-near", "missed"),
+            (NamedElements{Element::kVertex, Element::kTriangle}));
+}
+
 TEST(Judge, MissedAtCellLevelNamesTrianglesAndSpuriousNamesCells) {
   LevelTotals totals({}, {Level::kCell});
   test::add_frame(totals, {}, 0, test::truth_of({pair(3, 3)}), cells_of({pair(0, 1)}));
@@ -207,7 +227,7 @@ TEST(Judge, NearLevelComparesWithThePairsBelowTheMargin) {
   answer.near = {{0, 1, 5, 2}, {1, 0, 5, 2}};
   answer.canonicalize();
   test::add_frame(totals, {}, 0, oracle::Truth{}, answer,
-                  {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}});
+                  {.near = {{0, 1, 5, 2}, {0, 1, 5, 3}, {1, 2, 5, 2}}, .self_near = {}});
   EXPECT_THAT(numbers(totals.levels.at(Level::kNear)), ElementsAre(3, 2, 1, 2, 1));
   EXPECT_EQ(totals.per_frame.level, Level::kNear);
   ASSERT_EQ(totals.disagreements.size(), 2u);

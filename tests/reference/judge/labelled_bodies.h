@@ -36,7 +36,7 @@ inline oracle::Truth truth_of(std::vector<ElementPair> triangles) {
 /// Compares the answer to one frame of labelled_bodies() at every level of `totals`.
 inline void add_frame(judge::LevelTotals& totals, const Semantics& semantics, std::size_t frame,
                       const oracle::Truth& truth, const ContactSet& answer,
-                      const std::vector<NearPair>& near = {}) {
+                      const judge::TrueNear& near = {}) {
   const std::vector<Body> bodies = labelled_bodies();
   for (const Level level : kFineToCoarse)
     if (totals.levels.count(level))

@@ -77,14 +77,17 @@ struct BruteForce {
   std::size_t equal = 0;  // pairs at the margin exactly
 };
 
-BruteForce brute_force(const std::vector<Body>& bodies, const FrameData& data, double margin) {
+// `own`: of each body with itself; else of each with the others.
+BruteForce brute_force(const std::vector<Body>& bodies, const FrameData& data, double margin,
+                       bool own = false) {
   const mpq_class squared_margin = mpq_class(margin) * mpq_class(margin);
   BruteForce out;
   for (std::uint32_t b = 0; b < bodies.size(); ++b)
     for (std::uint32_t o = 0; o < bodies.size(); ++o)
-      for (std::uint32_t v = 0; b != o && v < data.vertices[b].size(); ++v)
+      for (std::uint32_t v = 0; (b == o) == own && v < data.vertices[b].size(); ++v)
         for (std::uint32_t t = 0; t < bodies[o].shape->mesh.triangles.size(); ++t) {
           const Triangle& i = bodies[o].shape->mesh.triangles[t];
+          if (own && (v == i[0] || v == i[1] || v == i[2])) continue;
           const std::vector<Vec3>& p = data.vertices[o];
           const mpq_class squared =
               RationalDistance(data.vertices[b][v], {p[i[0]], p[i[1]], p[i[2]]}).squared();
@@ -129,6 +132,39 @@ TEST(RationalDistanceOfTheTest, AgreesWithTheSimplexMethod) {
     EXPECT_EQ(RationalDistance(v, t).squared(), oracle::rational::squared_distance(t, {v, v, v}))
         << hex_points(t) << hex_points({&v, 1});
   }
+}
+
+TEST(NearAgainstRational, RandomMeshesWithThemselves) {
+  const std::vector<Body> bodies = small_bodies();
+  oracle::Oracle oracle(bodies);
+  TriangleSource source(804);
+  std::size_t found = 0;
+  for (const double margin : {0.05, 0.2, 0.4})
+    for (int i = 0; i < 2; ++i) {
+      const FrameData data = random_frame(bodies, source);
+      const std::vector<NearPair> near = oracle.self_near(data.frame(), margin);
+      EXPECT_EQ(near, brute_force(bodies, data, margin, true).near) << "margin " << margin;
+      found += near.size();
+    }
+  EXPECT_GT(found, 500u);
+  EXPECT_LT(found, 8000u);
+}
+
+// Two triangles with corners of their own at one place: welded, a vertex of the one is no neighbour
+// of the other, but its own. One vertex of no triangle lies there, too, and is welded like others.
+TEST(SelfNear, AVertexIsNotNearWhatItIsWeldedTo) {
+  const TriangleMesh seam{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-0.0, 0, 0),
+                           Vec3(0, -1, 0), Vec3(-1, 0, 0), Vec3(0, 0, 0)},
+                          {{0, 1, 2}, {3, 4, 5}}};
+  const Body open = bare_body("seam", seam);
+  const Body joined{"welded", welded(*open.shape)};
+  const FrameData data = frame_of({seam.vertices});
+  EXPECT_THAT(oracle::Oracle({open}).self_near(data.frame(), 0.1),
+              ElementsAre(NearPair{0, 0, 0, 1}, NearPair{0, 0, 3, 0}, NearPair{0, 0, 6, 0},
+                          NearPair{0, 0, 6, 1}));
+  EXPECT_THAT(oracle::Oracle({joined}).self_near(data.frame(), 0.1), IsEmpty());
+  EXPECT_THAT(oracle::Oracle({joined}).self_near(data.frame(), 1.1), testing::Not(IsEmpty()));
+  EXPECT_THAT(oracle::Oracle({open}).self_near(data.frame(), 0.0), IsEmpty());
 }
 
 TEST(NearAgainstRational, RandomMeshesAllPairs) {

@@ -94,6 +94,8 @@ TEST(Declaration, OfSemanticsThatDoNotFitTogetherIsRefused) {
 TEST(Declaration, OfNumbersThatCannotBeUsedIsRefused) {
   EXPECT_THAT(sentence_about(R"({"levels": ["near"], "questions": ["body"]})"),
               HasSubstr("margin of 0"));
+  EXPECT_THAT(sentence_about(R"({"levels": ["self-near"], "questions": ["self"]})"),
+              HasSubstr("the level self-near with a margin of 0"));
   EXPECT_THAT(sentence_about(R"({"levels": ["body"], "questions": ["body"], "margin": -1})"),
               HasSubstr("margin"));
   EXPECT_THAT(sentence_about(R"({"levels": ["body"], "questions": ["body"], "scale": 0})"),
@@ -123,6 +125,17 @@ TEST(Declaration, OfBadOptionsIsRefused) {
               HasSubstr("options[0].choices[0]"));
   const std::string a = R"({"name": "a", "default": "1", "min": 0, "max": 1})";
   EXPECT_THAT(sentence(a + ", " + a), HasSubstr("options[1] is an option that is there already"));
+}
+
+TEST(SelfAnswer, NearPairsAreThoseOfOneBody) {
+  ContactSet answer;
+  answer.near = {{2, 2, 5, 1}};
+  read_self_answer("it", answer);
+  EXPECT_EQ(answer.self_near, (std::vector<NearPair>{{2, 2, 5, 1}}));
+  EXPECT_TRUE(answer.near.empty());
+  answer.near = {{2, 0, 5, 1}};
+  EXPECT_THAT(test::sentence_of([&] { read_self_answer("it", answer); }),
+              HasSubstr("with a vertex and a triangle of two bodies, 2 and 0"));
 }
 
 TEST(Declaration, TextsAreOneLine) {

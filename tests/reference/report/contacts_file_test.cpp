@@ -55,7 +55,7 @@ TEST(ContactsFile, WithEveryLevelIsRead) {
     std::string missed = "0, 0, 1, 0";
     if (level == Level::kBody || level == Level::kContainment || level == Level::kSelfBody)
       missed = "0, -1, 1, -1";
-    if (level == Level::kNear) missed = "0, 2, 1, 0";
+    if (level == Level::kNear || level == Level::kSelfNear) missed = "0, 2, 1, 0";
     if (level == Level::kVertex) missed = "0, 2, 1, -1";
     if (level == Level::kBox) missed = "";  // these bodies have no cells
     EXPECT_EQ(fault(contacts("", differences(name_of(level), missed, ""))), "") << name_of(level);

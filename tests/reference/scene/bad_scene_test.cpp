@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
                ": the document has none of the keys duration, time_step; exactly one is needed."},
         Defect{"UnknownLevel", R"(["body"])", R"(["body", "edge"])",
                ": levels[1] is \"edge\"; it must be one of body, containment, cell, box, triangle, "
-               "vertex, near, self, self-vertex, self-edge, self-body, self-cell."},
+               "vertex, near, self, self-vertex, self-edge, self-body, self-cell, self-near."},
         Defect{"RepeatedLevel", R"(["body"])", R"(["body", "body"])",
                ": levels[1] is \"body\"; it must be named once only."},
         Defect{"NoLevel", R"(["body"])", "[]",

@@ -1,5 +1,6 @@
 // The missed and spurious pairs of a detector: one click leads to a pair.
 import {h} from "../dom";
+import {elementsOf} from "./scene_model";
 import type {Kind, ListedPair, SceneHeader} from "./types";
 
 const kPage = 100;
@@ -8,27 +9,13 @@ export const kSymbol: Record<Kind, string> = {missed: "✕", spurious: "□"};
 
 type Names = (body: number) => string;
 
-const kWords: Record<string, string> = {
-  triangle: "triangle",
-  cell: "cell",
-  box: "cell",
-  near: "vertex",
-  vertex: "vertex",
-  self: "triangle",
-  "self-vertex": "triangle",
-  "self-edge": "triangle",
-  "self-cell": "cell",
-};
-
 function element(body: number, number: number, what: string, names: Names): string {
   return number < 0 ? names(body) : `${names(body)} ${what} ${number}`;
 }
 
 /** "left triangle 12", "right triangle 7" */
 export function pairWords({pair, level, kind}: ListedPair, names: Names): [string, string] {
-  const ofCells = level === "cell" || level === "self-cell";
-  const first = ofCells && kind === "missed" ? "triangle" : (kWords[level] ?? "");
-  const second = level === "near" ? "triangle" : first;
+  const [first, second] = elementsOf(level, kind);
   return [element(pair[0], pair[1], first, names), element(pair[2], pair[3], second, names)];
 }
 

@@ -10,16 +10,16 @@ export interface PairGeometry {
   points: number[][];
 }
 
-type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
+export type Element = "triangle" | "cell" | "vertex" | "body" | "nothing";
 
 /** What the numbers of a pair count; fixtures/README.md, "Contacts". */
-function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
+export function elementsOf(level: string, kind: Kind | "true"): [Element, Element] {
   const ofTriangles = ["triangle", "self", "self-vertex", "self-edge"].includes(level);
   const ofCells = level === "cell" || level === "self-cell";
   if (kind === "true" || ofTriangles || (ofCells && kind === "missed"))
     return ["triangle", "triangle"];
   if (ofCells || level === "box") return ["cell", "cell"];
-  if (level === "near") return ["vertex", "triangle"];
+  if (level === "near" || level === "self-near") return ["vertex", "triangle"];
   if (level === "vertex") return ["vertex", "nothing"]; // the body that holds it has no place of its own
   return ["body", "body"];
 }

@@ -11,7 +11,14 @@ import {FrameBar} from "./frame_bar";
 import {makeMarks, type MarkKind} from "./marks";
 import {PairTable, pairWords} from "./pair_table";
 import {mostInteresting, Panel} from "./panel";
-import {centroid, listedPairs, type PairGeometry, reach, SceneModel} from "./scene_model";
+import {
+  centroid,
+  elementsOf,
+  listedPairs,
+  type PairGeometry,
+  reach,
+  SceneModel,
+} from "./scene_model";
 import {kOverview, makeStage, type Stage} from "./stage";
 import {Vector3} from "three";
 import type {Kind, ListedPair, Pair, View, ViewState, ViewTarget} from "./types";
@@ -256,14 +263,7 @@ class SceneViewer implements View {
         ? []
         : others("spurious", this.model.differences(this.detector, "spurious"));
     // A missed pair is drawn as that alone. Pairs of other levels are no pairs of triangles.
-    const trianglesMissed = [
-      "triangle",
-      "cell",
-      "self",
-      "self-vertex",
-      "self-edge",
-      "self-cell",
-    ].includes(level);
+    const trianglesMissed = elementsOf(level, "missed")[0] === "triangle";
     const truth = this.model.truth().filter((pair) => !trianglesMissed || !keys.has(String(pair)));
     const {shown} = this.panel;
     return [

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "core/detect/seen_pairs.h"
+#include "core/narrow/adjacent_triangles.h"
 #include "core/narrow/triangle_triangle.h"
 
 namespace contactcheck {
@@ -154,14 +155,20 @@ bool TriangleStageOf<T>::test_pair(const FfdModels<T>& models, const ElementPair
   collect(models, cells.body_b, cells.b, a.whole, near_b_);
   const auto row_a = models[cells.body_a].triangles.row(cells.a);
   const auto row_b = models[cells.body_b].triangles.row(cells.b);
+  const bool own = cells.body_a == cells.body_b, within = own && cells.a == cells.b;
+  const std::vector<Triangle>& linked = models[cells.body_a].shape->linked();
   bool any = false;
   for (std::uint32_t i : near_a_) {
     const TrianglePointsOf<T> p =
         points_of(models[cells.body_a], vertices_[cells.body_a], row_a[i]);
     for (std::uint32_t j : near_b_) {
       if (!a.triangles[i].overlaps(b.triangles[j])) continue;
-      if (!triangles_intersect(p,
-                               points_of(models[cells.body_b], vertices_[cells.body_b], row_b[j])))
+      // A triangle may be in several cells.
+      if ((within && j <= i) || (own && row_a[i] == row_b[j])) continue;
+      const TrianglePointsOf<T> q =
+          points_of(models[cells.body_b], vertices_[cells.body_b], row_b[j]);
+      if (own ? !meet_beyond_shared(shared_corners(linked[row_a[i]], linked[row_b[j]]), p, q)
+              : !triangles_intersect(p, q))
         continue;
       out.push_back({cells.body_a, cells.body_b, row_a[i], row_b[j]});
       if (first_only) return true;
@@ -179,6 +186,13 @@ void TriangleStageOf<T>::run(const FfdModels<T>& models, const std::vector<Eleme
     if (first_only && seen.seen(c.body_a, c.body_b)) continue;
     if (test_pair(models, c, first_only, out)) seen.mark(c.body_a, c.body_b);
   }
+}
+
+template <typename T>
+void TriangleStageOf<T>::run_within_cells(const FfdModels<T>& models, std::uint32_t body,
+                                          std::vector<ElementPair>& out) {
+  for (std::uint32_t cell = 0; cell + 1 < models[body].piece_begin.size(); ++cell)
+    test_pair(models, {body, body, cell, cell}, false, out);
 }
 
 template class TriangleStageOf<double>;

@@ -57,10 +57,14 @@ class TriangleStageOf {
   void begin_frame(const FfdModels<T>& models,
                    const std::vector<std::span<const Vec3Of<T>>>& vertices);
 
-  /// Appends every intersecting pair of triangles of each candidate pair of cells; a pair that
-  /// is in several cells may be appended several times.
+  /// Appends every intersecting pair of triangles of each candidate pair of cells, of one body
+  /// those that meet beyond what they share (meet_beyond_shared); a pair that is in several cells
+  /// may be appended several times.
   void run(const FfdModels<T>& models, const std::vector<ElementPair>& candidates, bool first_only,
            std::vector<ElementPair>& out);
+  /// The same of each cell of the body with itself.
+  void run_within_cells(const FfdModels<T>& models, std::uint32_t body,
+                        std::vector<ElementPair>& out);
 
  private:
   // Boxes of a cell's triangles, made when a candidate first names the cell.

@@ -16,8 +16,9 @@ template <typename T>
 Semantics semantics_of(const FfdConfig& config) {
   Semantics s;
   if (config.element == ElementTest::kTriangle) {
-    s.levels = {Level::kBody, Level::kTriangle};
-    s.questions = {Question::kTriangles, Question::kBody};
+    s.levels = {Level::kBody,       Level::kTriangle, Level::kSelf,
+                Level::kSelfVertex, Level::kSelfEdge, Level::kSelfBody};
+    s.questions = {Question::kTriangles, Question::kBody, Question::kSelf};
     s.exact = config.bounds == BoundsReading::kSafe && config.sphere_radius >= 1.0 &&
               std::is_same_v<T, double>;
   } else {
@@ -108,11 +109,18 @@ FfdDetectorOf<T>::FfdDetectorOf(const FfdConfig& config)
     : config_(config), semantics_(semantics_of<T>(config)) {}
 
 template <typename T>
+void FfdDetectorOf<T>::expect(const std::vector<Question>& questions) {
+  expects_self_ = std::find(questions.begin(), questions.end(), Question::kSelf) != questions.end();
+}
+
+template <typename T>
 void FfdDetectorOf<T>::prepare(const std::vector<Body>& bodies) {
   models_.clear();
   double edges = 0.0;
   for (const Body& body : bodies) {
     try {
+      if (expects_self_ && config_.element == ElementTest::kTriangle)
+        refuse_many_adjacent_pairs(body.shape->linked());
       models_.push_back(model_of<T>(*body.shape, config_));
     } catch (const RefusedInput& e) {
       throw RefusedInput("body \"" + body.name + "\": " + e.what());
@@ -184,7 +192,7 @@ void FfdDetectorOf<T>::test_elements(bool first_only, std::vector<ElementPair>& 
 template <typename T>
 void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics_.answers(question), "only claimed questions are asked");
-  if (question == Question::kSelf) return find_self_cells(out.self_cells);
+  if (question == Question::kSelf) return find_self(out);
   find_candidates();
   const bool boolean = question == Question::kBody;
   std::vector<ElementPair>& elements =
@@ -200,18 +208,22 @@ void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
   for (const ElementPair& p : found) out.bodies.push_back({p.body_a, p.body_b});
 }
 
-// A body against itself, as two bodies are tested. Cells that share a node always meet there.
+// A body against itself, as two bodies are tested.
 template <typename T>
-void FfdDetectorOf<T>::find_self_cells(std::vector<SelfPair>& out) {
+void FfdDetectorOf<T>::find_self(ContactSet& out) {
   find_candidates(true);
-  const auto apart = [&](std::uint32_t body, std::uint32_t a, std::uint32_t b) {
-    return !share_node(*models_[body].shape->lattice, a, b);
+  const bool triangles = config_.element == ElementTest::kTriangle;
+  // Cells that share a node always meet there.
+  const auto skipped = [&](const ElementPair& p) {
+    return !triangles && share_node(*models_[p.body_a].shape->lattice, p.a, p.b);
   };
-  std::erase_if(cells_, [&](const ElementPair& p) { return !apart(p.body_a, p.a, p.b); });
+  std::erase_if(cells_, skipped);
   std::vector<ElementPair> found;
   test_elements(false, found);
+  for (std::uint32_t body = 0; triangles && body < models_.size(); ++body)
+    triangle_.run_within_cells(models_, body, found);
   for (const ElementPair& p : found)
-    if (apart(p.body_a, p.a, p.b)) out.push_back({p.body_a, p.a, p.b});
+    if (!skipped(p)) (triangles ? out.self : out.self_cells).push_back({p.body_a, p.a, p.b});
 }
 
 // Which cells still take part after `levels` sphere levels.

@@ -86,8 +86,10 @@ class FfdDetectorOf : public Detector {
   bool needs_vertices() const override {
     return config_.element == ElementTest::kTriangle && std::is_same_v<T, double>;
   }
-  /// @throws RefusedInput when a body has no lattice; update() in single precision, when a node
-  /// lies too far out for it (round_to_local)
+  void expect(const std::vector<Question>& questions) override;
+  /// @throws RefusedInput when a body has no lattice, or where self-contact of triangles is
+  /// expected as refuse_many_adjacent_pairs() does; update() in single precision, when a node lies
+  /// too far out for it (round_to_local)
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;
@@ -100,7 +102,7 @@ class FfdDetectorOf : public Detector {
  private:
   bool safe() const { return config_.bounds == BoundsReading::kSafe; }
   void find_candidates(bool own = false);
-  void find_self_cells(std::vector<SelfPair>& out);
+  void find_self(ContactSet& out);
   void test_elements(bool first_only, std::vector<ElementPair>& out);
   std::vector<ElementPair> cells_of_hits() const;
   std::vector<std::vector<char>> covered_cells(int levels, const SphereSurvivors& s) const;
@@ -109,6 +111,7 @@ class FfdDetectorOf : public Detector {
 
   FfdConfig config_;
   Semantics semantics_;
+  bool expects_self_ = false;
   double hash_cell_size_ = 1.0;
   FrameNumbers<T> numbers_;
   FfdModels<T> models_;

@@ -1,9 +1,11 @@
-// The cells of a body against each other: as those of two bodies in one place, without neighbours.
+// A body against itself. Its cells: as those of two bodies in one place, without neighbours. Its
+// triangles: those of all pairs.
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "core/deform/lattice.h"
+#include "core/narrow/adjacent_triangles.h"
 #include "tests/core/detect/scenes.h"
 
 namespace contactcheck {
@@ -63,6 +65,42 @@ TEST(SelfCells, AskedBetweenOtherQuestionsChangeNoAnswer) {
       EXPECT_EQ(test::answer(*detector, frame, Question::kCells).cells, before.cells);
     }
   }
+}
+
+std::vector<SelfPair> brute_force(const BodyShape& shape, std::span<const Vec3> vertices) {
+  const std::vector<Triangle>& triangles = shape.mesh.triangles;
+  const auto points = [&](std::size_t t) {
+    return TrianglePoints{vertices[triangles[t][0]], vertices[triangles[t][1]],
+                          vertices[triangles[t][2]]};
+  };
+  std::vector<SelfPair> out;
+  for (std::uint32_t a = 0; a < triangles.size(); ++a)
+    for (std::uint32_t b = a + 1; b < triangles.size(); ++b)
+      if (meet_beyond_shared(shared_corners(triangles[a], triangles[b]), points(a), points(b)))
+        out.push_back({0, a, b});
+  return out;
+}
+
+TEST(SelfTriangles, AreThoseOfAllPairs) {
+  std::size_t found = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Scene one = copies_of_first(test::approach({seed, 1.2}, 3), 1);
+    std::vector<std::vector<SelfPair>> truth;
+    for (const FrameData& frame : one.frames)
+      truth.push_back(brute_force(*one.bodies[0].shape, frame.vertices[0]));
+    for (const std::string& id : test::family()) {
+      const auto safe = test::prepared(id + "+tri", one),
+                 paper = test::prepared(id + "+tri:bounds=paper", one);
+      for (std::size_t f = 0; f < one.frames.size(); ++f) {
+        EXPECT_EQ(test::answer(*safe, one.frames[f], Question::kSelf).self, truth[f])
+            << id << ", seed " << seed << ", frame " << f;
+        const ContactSet some = test::answer(*paper, one.frames[f], Question::kSelf);
+        EXPECT_TRUE(std::ranges::includes(truth[f], some.self)) << id;
+        found += truth[f].size();
+      }
+    }
+  }
+  EXPECT_GT(found, 100u);
 }
 
 }  // namespace

@@ -63,5 +63,18 @@ TEST(BodyDeathTest, WrongNumberOfNodesBreaksAPromise) {
   EXPECT_DEATH(map_body(*shape, nodes, out), "one position per node");
 }
 
+TEST(Body, TriangleUsesItsVerticesAndThoseWeldedToThem) {
+  const std::shared_ptr<const BodyShape> open =
+      make_bare_shape({{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-0.0, 0, 0),
+                        Vec3(0, -1, 0), Vec3(-1, 0, 0)},
+                       {{0, 1, 2}, {3, 4, 5}}});
+  for (const auto& [shape, by_weld] : {std::pair(open, false), std::pair(welded(*open), true)}) {
+    EXPECT_TRUE(shape->uses(0, 0) && shape->uses(0, 2) && shape->uses(1, 3));
+    EXPECT_FALSE(shape->uses(0, 4) || shape->uses(1, 1));
+    EXPECT_EQ(shape->uses(0, 3), by_weld);
+    EXPECT_EQ(shape->uses(1, 0), by_weld);
+  }
+}
+
 }  // namespace
 }  // namespace contactcheck

@@ -160,13 +160,36 @@ TEST(EmbeddedPatch, OfAFlatSheetIsClaimedWhereItsCellsAreFlat) {
     EXPECT_FALSE(stays_embedded(body.state(), tree, patch.child, patch.child));
 }
 
-TEST(EmbeddedPatch, OfTrianglesThatTouchAtRestNothingIsClaimed) {
-  TriangleMesh mesh = sheet(5);
-  const TriangleMesh other = sheet(5);  // at the same place, and not welded
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
   const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const Triangle& t : other.triangles)
     mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+}
+
+// The lattice folds nothing, but triangles are chords of what it bends: two sheets that it keeps
+// apart meet, whose triangles are not the same.
+TEST(EmbeddedPatch, IsNotClaimedOfSheetsNearerThanTheirTrianglesAreOffTheBentSurface) {
+  TriangleMesh mesh;
+  for (const auto& [n, height] : {std::pair(4, 0.0), std::pair(5, 1e-4), std::pair(1, 0.5)}) {
+    TriangleMesh one = sheet(n);
+    for (Vec3& v : one.vertices) v.z() = height;
+    append(mesh, one);
+  }
+  const ShapePtr shape = make_shape(mesh, {1, 1, 1});
+  OneBody body(shape, false);
+  const PatchTree tree = make_patch_tree(*shape, body.tree());
+  std::vector<Vec3> nodes = rest_nodes_at(*shape, Vec3::Zero());
+  for (Vec3& n : nodes) n.z() += 0.05 * n.x() * n.y();
+  body.begin(nodes);
+  Tally tally;
+  check(body, tree, patches_of(body), tally);
+  EXPECT_GT(tally.meeting, 0);
+}
+
+TEST(EmbeddedPatch, OfTrianglesThatTouchAtRestNothingIsClaimed) {
+  TriangleMesh mesh = sheet(5);
+  append(mesh, sheet(5));  // at the same place, and not welded
   const ShapePtr shape = make_shape(mesh, {3, 3, 1});
   OneBody body(shape, false);
   const PatchTree tree = make_patch_tree(*shape, body.tree());

@@ -11,7 +11,7 @@ Its verdict is kept (tests/faults/verdicts.json, product_verdicts.json). The ver
 the patch, a file that it changes or the judge has changed. The unchanged program is judged first: it
 must pass.
 
-    run_mutant.py tests/faults/mutants/hash-truncates.patch    judge one mutant
+    run_mutant.py tests/faults/mutants/hash-truncates.patch    judge one mutant (--write keeps it)
     run_mutant.py --stale --write      judge mutants with stale verdicts and keep the new ones
     run_mutant.py --stale --minutes 6  stop after 6 minutes
     run_mutant.py --all                judge all mutants
@@ -217,8 +217,6 @@ def parsed():
     options = parser.parse_args()
     if bool(options.patch) == bool(options.mode):
         parser.error("give patches, or one of --stale, --all, --list and --check")
-    if options.patch and options.write:
-        parser.error("--write keeps verdicts of --stale and --all alone")
     if options.jobs < 1 or options.at_least < 0 or (options.minutes or 0) < 0:
         parser.error("--jobs is at least 1, --at-least and --minutes at least 0")
     return options

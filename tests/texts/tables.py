@@ -170,6 +170,9 @@ GOAL_PARTS = {"playback": "all", "contact_frames": "with contact", "cold": "cold
 
 
 SELF_PEERS = ("full-refit", "embree", "fcl-aabb")
+# What is wrong, where it is no pair of triangles.
+SELF_COUNTED = {"bullet-cl": " bodies", "bullet-vf": " near pairs", "ffd-aabb": " by cells",
+                "ffd-aabb-sphere2": " by cells"}
 
 
 def self_scenes(files):
@@ -183,10 +186,9 @@ def self_scenes(files):
                 raise TextError(f"{file.place}: {other['detector']} is wrong in {scene}; the text "
                                 "says that it is right in all")
         errors = [f"`{row['detector']}` {wrong(row['self_wrong'])}" +
-                  (" bodies" if row["detector"] == "bullet-cl" else "")
+                  SELF_COUNTED.get(row["detector"], "")
                   for row in file.rows("runs")
-                  if row["scene"] == scene and row["self_wrong"] != [0, 0] and
-                  not row["detector"].startswith("ffd-aabb")]  # of cells: below
+                  if row["scene"] == scene and row["self_wrong"] != [0, 0]]
         rows.append([scene, count(about["triangles"]), *map(count, about["true_self"]),
                      three_digits(run["self_ms"]),
                      *(three_digits(file.run(scene, peer)["self_ms"]) for peer in SELF_PEERS),
@@ -475,6 +477,8 @@ def figures(files):
         "performance.coincident.pairs": lambda: count(
             performance.run("coincident", "fcl-obbrss")["truth"]),
         "performance.coincident.fcl-obbrss.missed": lambda: count(missed_in_coincident()),
+        "self.machine": lambda: machine(files["self"]),
+        "self.took": lambda: took(files["self"]),
         "drawn.scenes": lambda: count(drawn["scenes"]),
         "drawn.with_contact": lambda: count(drawn["with_contact"]),
         "drawn.true_pairs": pairs_of_drawn,

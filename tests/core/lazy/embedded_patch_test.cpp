@@ -187,6 +187,23 @@ TEST(EmbeddedPatch, IsNotClaimedOfSheetsNearerThanTheirTrianglesAreOffTheBentSur
   EXPECT_GT(tally.meeting, 0);
 }
 
+// A hinge, nearly closed at rest, of which one wing is a chord of what is bent: it closes.
+TEST(EmbeddedPatch, IsNotClaimedOfAHingeThatTheBendingCloses) {
+  constexpr double kBend = 0x1p-4;
+  const TriangleMesh hinge = {
+      {Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0.5, 0.5, kBend / 4)},
+      {{0, 1, 2}, {1, 0, 3}}};
+  const ShapePtr shape = make_shape_on_lines(hinge, {{{0, 1}, {0, 1}, {0, 1}}});
+  OneBody body(shape, false);
+  const PatchTree tree = make_patch_tree(*shape, body.tree());
+  std::vector<Vec3> nodes = rest_nodes_at(*shape, Vec3::Zero());
+  for (Vec3& n : nodes) n.z() += kBend * n.x() * n.y();
+  body.begin(nodes);
+  Tally tally;
+  check(body, tree, patches_of(body), tally);
+  EXPECT_GT(tally.meeting, 0);
+}
+
 TEST(EmbeddedPatch, OfTrianglesThatTouchAtRestNothingIsClaimed) {
   TriangleMesh mesh = sheet(5);
   append(mesh, sheet(5));  // at the same place, and not welded

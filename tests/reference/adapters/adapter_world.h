@@ -146,4 +146,13 @@ inline ContactSet ask(const std::string& name, const World& world, Question ques
   return ask(*prepared(name, world), question);
 }
 
+/// Both in one mesh, the vertices of the first before those of the other.
+inline TriangleMesh together(TriangleMesh mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const auto& [i, j, k] : other.triangles)
+    mesh.triangles.push_back({first + i, first + j, first + k});
+  return mesh;
+}
+
 }  // namespace contactcheck::test

@@ -83,13 +83,10 @@ TEST(BulletCl, DisconnectedAndDegenerateMeshIsDivided) {
 
 // Bullet's own flag for it, CL_SELF, would end all collisions of the body.
 TEST(BulletCl, ComparesABodysClustersThatShareNoVertex) {
-  TriangleMesh balls = sphere_mesh(Vec3(0, 0, 0), 1, 3);
-  const auto first = static_cast<std::uint32_t>(balls.vertices.size());
-  const TriangleMesh second = sphere_mesh(Vec3(2.1, 0, 0), 1, 3);
-  balls.vertices.insert(balls.vertices.end(), second.vertices.begin(), second.vertices.end());
-  for (const auto& [i, j, k] : second.triangles)
-    balls.triangles.push_back({first + i, first + j, first + k});
-  World world({balls, sphere_mesh(Vec3(0, 1.5, 0), 1, 3)});
+  const TriangleMesh ball = sphere_mesh(Vec3(0, 0, 0), 1, 3);
+  const std::size_t first = ball.vertices.size();
+  World world(
+      {together(ball, sphere_mesh(Vec3(2.1, 0, 0), 1, 3)), sphere_mesh(Vec3(0, 1.5, 0), 1, 3)});
   const auto detector = prepared("bullet-cl", world);
   EXPECT_THAT(ask(*detector, Question::kSelf).self_bodies, IsEmpty());
   for (std::size_t v = first; v < world.vertices[0].size(); ++v) world.vertices[0][v].x() -= 0.3;

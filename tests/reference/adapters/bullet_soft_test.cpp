@@ -285,14 +285,6 @@ TEST(BulletVf, VerticesThatCoincideAtRestAreHeld) {
   EXPECT_THAT(ask(*detector, Question::kContacts).near, SizeIs(6000));
 }
 
-TriangleMesh together(TriangleMesh mesh, const TriangleMesh& other) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const auto& [i, j, k] : other.triangles)
-    mesh.triangles.push_back({first + i, first + j, first + k});
-  return mesh;
-}
-
 // Two balls of one mesh, a vertex of each before the other's, moved apart and together again.
 TEST(BulletVf, BallsOfOneBodyAreNearAsTheirVerticesAre) {
   const TriangleMesh ball = sphere_mesh(Vec3(0, 0, 0), 1, 3);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "core/broad/aabb_tree.h"
 #include "core/broad/adjacent_pairs.h"
@@ -164,40 +166,50 @@ std::vector<TriangleRest> triangles_at_rest(const BodyShape& shape) {
     for (const std::uint32_t t : {pair.a, pair.b})
       out[t].ratio = touching || std::isnan(ratio) ? kInfinity : std::max(out[t].ratio, ratio);
   }
-  // Boxes grown by an edge each: pairs nearer than the longer edge of either meet.
-  std::vector<Aabb> bounds(out.size());
-  TriangleMesh boxes;
-  for (std::uint32_t t = 0; t < out.size(); ++t) {
-    for (const Vec3& p : points(t)) bounds[t].extend(p);
-    const auto first = static_cast<std::uint32_t>(boxes.vertices.size());
-    boxes.vertices.push_back((bounds[t].lo.array() - out[t].edge).matrix());
-    boxes.vertices.push_back((bounds[t].hi.array() + out[t].edge).matrix());
-    boxes.triangles.push_back({first, first + 1, first + 1});
-  }
-  const auto tree = std::make_shared<TriangleTree>(make_triangle_tree(boxes, 4));
-  AabbTree volumes(tree);
-  volumes.refit(boxes.vertices);
-  std::vector<NodePair> stack;
-  std::uint64_t visited = 0;
-  traverse_self(volumes, stack, visited, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    const TriangleTree::Node a = tree->nodes[leaf_a], b = tree->nodes[leaf_b];
-    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
-      for (std::uint32_t j = leaf_a == leaf_b ? i + 1 : b.first; j < b.first + b.count; ++j) {
-        const std::uint32_t s = tree->ids[i], t = tree->ids[j];
-        // Nearly parallel edges are as far apart as two of their points: too far by as much.
-        const double rounding = 1e-5 * std::max(out[s].edge, out[t].edge);
-        const double least = box_distance(bounds[s], bounds[t]) - rounding;
-        if (least >= std::max(out[s].gap, out[t].gap)) continue;
+  // Of every triangle the nearest that it shares nothing with, no farther than its longest edge.
+  AabbTree boxes(std::make_shared<TriangleTree>(make_triangle_tree(shape.mesh, 4)));
+  boxes.refit(v);
+  const TriangleTree& tree = boxes.tree();
+  // Nearly parallel edges are as far apart as two of their points: too far by as much.
+  constexpr double kRounding = 1e-5;
+  double longest = 0.0;
+  for (const TriangleRest& rest : out) longest = std::max(longest, rest.edge);
+  std::vector<std::pair<double, std::uint32_t>> stack;  // distance of the box, node
+  for (std::uint32_t own = 0; own < tree.ids.size(); ++own) {
+    const std::uint32_t s = tree.ids[own];
+    const TrianglePoints p = points(s);
+    const Aabb& box = boxes.triangle_box(own);
+    const auto too_far = [&](double least) {
+      return out[s].gap == 0.0 || least >= out[s].gap + kRounding * longest;
+    };
+    stack.assign(1, {0.0, 0});
+    while (!stack.empty()) {
+      const auto [least, index] = stack.back();
+      stack.pop_back();
+      if (too_far(least)) continue;
+      const TriangleTree::Node& node = tree.nodes[index];
+      if (!node.leaf()) {
+        std::pair far{box_distance(box, boxes.box(node.first)), node.first};
+        std::pair near{box_distance(box, boxes.box(node.first + 1)), node.first + 1};
+        if (far.first < near.first) std::swap(far, near);
+        stack.insert(stack.end(), {far, near});
+        continue;
+      }
+      for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot) {
+        const std::uint32_t t = tree.ids[slot];
+        if (t == s || too_far(box_distance(box, boxes.triangle_box(slot)))) continue;
         const SharedCorners shared = shared_corners(shape.linked()[s], shape.linked()[t]);
         if (shared.count > 0 && !shared.duplicates) continue;
-        const TrianglePoints p = points(s), q = points(t);
-        const bool meet = bounds[s].overlaps(bounds[t]) && triangles_intersect(p, q);
+        const TrianglePoints q = points(t);
+        const bool meet = box.overlaps(boxes.triangle_box(slot)) && triangles_intersect(p, q);
+        const double rounding = kRounding * std::max(out[s].edge, out[t].edge);
         const double distance = meet ? 0.0 : std::max(0.0, triangle_distance(p, q) - rounding);
-        for (const std::uint32_t own : {s, t})
-          out[own].gap = std::min(out[own].gap, std::isnan(distance) ? 0.0 : distance);
+        // For both: the other one has less to look for then.
+        for (const std::uint32_t either : {s, t})
+          out[either].gap = std::min(out[either].gap, std::isnan(distance) ? 0.0 : distance);
       }
-    return false;
-  });
+    }
+  }
   return out;
 }
 

@@ -78,15 +78,17 @@ const std::vector<Relation>& relations_of_cases() {
   return relations;
 }
 
+// Scaled to one end of the doubles, where exact arithmetic decides much; hard cases go to both.
 const std::vector<Relation>& relations_of_scenes() {
   static const std::vector<Relation> relations = {
       renaming("AllIds", kAllIds),
-      // Where exact arithmetic has to decide much; the hard cases go to both ends.
       scaling("ScaledByTwoToThe64", 64, Rest::kStays),
       scaling("ScaledByTwoToTheMinus480", -480, Rest::kStays),
       translation("TranslatedByThousandsOfSizes", 12, Carrier::kBare),
-      axis_turning("TurnedToOtherAxes", false), axis_turning("Mirrored", true),
-      moving_with_rounding(), calling("FreshDetector", ask_fresh_detector),
+      axis_turning("TurnedToOtherAxes", false),
+      axis_turning("Mirrored", true),
+      moving_with_rounding(),
+      calling("FreshDetector", ask_fresh_detector),
       calling("AfterAll", ask_after_all)};
   return relations;
 }

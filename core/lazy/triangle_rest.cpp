@@ -1,0 +1,241 @@
+#include "core/lazy/triangle_rest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/broad/aabb_tree.h"
+#include "core/broad/adjacent_pairs.h"
+#include "core/narrow/adjacent_triangles.h"
+#include "core/narrow/triangle_triangle.h"
+
+namespace contactcheck {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of what is measured, by the longest edge: nearly parallel edges count as far apart as two of
+// their points, too far by as much.
+constexpr double kRounding = 1e-5;
+// Measured for one triangle. With more about it, as in a bundle of needles, nothing is claimed.
+constexpr int kMostMeasured = 1000;
+
+// 1 / sin(angle / 2) of the angle with this cosine.
+double inverse_half_sine(double cosine) {
+  const double square = 0.5 * (1.0 - std::min(1.0, cosine + 1e-12));
+  return square > 0.0 ? 1.0 / std::sqrt(square) : kInfinity;
+}
+
+TriangleRest lone_triangle(const TrianglePoints& p) {
+  TriangleRest out;
+  double smallest_cosine = 1.0, edges[3];
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 u = p[(i + 1) % 3] - p[i], v = p[(i + 2) % 3] - p[i];
+    edges[i] = u.norm();
+    smallest_cosine = std::min(smallest_cosine, u.dot(v) / (u.norm() * v.norm()));
+    out.edge = std::max(out.edge, edges[i]);
+  }
+  const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+  out.altitude = twice_area / out.edge;
+  const double square = 0.5 * (1.0 + smallest_cosine - 1e-12);  // of the cosine of half the angle
+  out.stretch =
+      square > 1e-6 && out.altitude > 1e-6 * out.edge ? 1.0 / std::sqrt(square) : kInfinity;
+  out.gap = out.edge;
+  return out;
+}
+
+// The largest cosine between directions of two wedges at one corner, each spanned by two edges. It
+// is attained at an edge of one of them: between inner directions there is a saddle.
+double largest_cosine(const std::array<Vec3, 2>& p, const std::array<Vec3, 2>& q) {
+  double out = -1.0;
+  for (const Vec3& a : p)
+    for (const Vec3& b : q) out = std::max(out, a.dot(b));
+  const auto against_inside = [&out](const Vec3& ray, const std::array<Vec3, 2>& wedge) {
+    const Vec3 normal = wedge[0].cross(wedge[1]);
+    const double area = normal.squaredNorm();
+    if (!(area > 0.0)) return;
+    const Vec3 foot = ray - normal * (ray.dot(normal) / area);
+    const double along = foot.norm();
+    // A little beyond the wedge counts as inside: a larger cosine is safe.
+    if (wedge[0].cross(foot).dot(normal) >= -1e-9 * area &&
+        foot.cross(wedge[1]).dot(normal) >= -1e-9 * area)
+      out = std::max(out, along);
+  };
+  for (const Vec3& a : p) against_inside(a, q);
+  for (const Vec3& b : q) against_inside(b, p);
+  return out;
+}
+
+double ratio_at_corner(const TrianglePoints& p, const TrianglePoints& q,
+                       const SharedCorners& shared) {
+  const Vec3& corner = p[shared.p[0]];
+  const auto rays = [&](const TrianglePoints& t, const std::array<std::uint8_t, 3>& order) {
+    return std::array<Vec3, 2>{(t[order[1]] - corner).normalized(),
+                               (t[order[2]] - corner).normalized()};
+  };
+  return inverse_half_sine(largest_cosine(rays(p, shared.p), rays(q, shared.q)));
+}
+
+// Folded at the edge, a distance shrinks to no less than sin(angle / 2) of that in the unfolded
+// plane. There the straight path may pass an end of the edge; by way of that end it is longer by
+// 1 / sin(half of the two angles there).
+double ratio_at_edge(const TrianglePoints& p, const TrianglePoints& q,
+                     const SharedCorners& shared) {
+  const Vec3 &a = p[shared.p[0]], &b = p[shared.p[1]], &c = p[shared.p[2]], &d = q[shared.q[2]];
+  const Vec3 along = (b - a).normalized();
+  const auto across = [&](const Vec3& x) {
+    const Vec3 from_a = x - a;
+    return (from_a - along * from_a.dot(along)).normalized();
+  };
+  double out = inverse_half_sine(across(c).dot(across(d)));
+  for (const bool at_a : {true, false}) {
+    const Vec3& end = at_a ? a : b;
+    const Vec3 direction = at_a ? along : Vec3(-along);
+    const auto angle = [&](const Vec3& x) {
+      const Vec3 u = (x - end).normalized();
+      return std::array{u.dot(direction), u.cross(direction).norm()};  // cosine, sine
+    };
+    const auto [cos_c, sin_c] = angle(c);
+    const auto [cos_d, sin_d] = angle(d);
+    const double sine = sin_c * cos_d + cos_c * sin_d, cosine = cos_c * cos_d - sin_c * sin_d;
+    if (sine <= 1e-12) out *= inverse_half_sine(cosine);
+  }
+  return out;
+}
+
+double segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
+  const Vec3 u = p1 - p0, v = q1 - q0, w = p0 - q0;
+  const double a = u.dot(u), b = u.dot(v), c = v.dot(v), d = u.dot(w), e = v.dot(w);
+  const double denominator = a * c - b * b;
+  double s =
+      denominator > 1e-12 * a * c ? std::clamp((b * e - c * d) / denominator, 0.0, 1.0) : 0.0;
+  double t = c > 0.0 ? (b * s + e) / c : 0.0;
+  if (t < 0.0 || t > 1.0) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = a > 0.0 ? std::clamp((b * t - d) / a, 0.0, 1.0) : 0.0;
+  }
+  return (w + s * u - t * v).norm();
+}
+
+double point_distance(const Vec3& p, const TrianglePoints& t) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double area = normal.squaredNorm();
+  if (!(area > 0.0)) return kInfinity;  // its edges are looked at
+  for (int k = 0; k < 3; ++k)
+    if ((t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) < 0.0) return kInfinity;
+  return std::abs((p - t[0]).dot(normal)) / std::sqrt(area);
+}
+
+// Of triangles that share no point; in doubles.
+double triangle_distance(const TrianglePoints& p, const TrianglePoints& q) {
+  double out = kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    out = std::min({out, point_distance(p[i], q), point_distance(q[i], p)});
+    for (int j = 0; j < 3; ++j)
+      out = std::min(out, segment_distance(p[i], p[(i + 1) % 3], q[j], q[(j + 1) % 3]));
+  }
+  return out;
+}
+
+// At most the distance of what they hold.
+double box_distance(const Aabb& a, const Aabb& b) {
+  const Vec3 apart = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(Vec3::Zero());
+  return apart.norm() * (1 - 1e-6);  // rounding
+}
+
+TrianglePoints points_of(const BodyShape& shape, std::uint32_t triangle) {
+  const std::vector<Vec3>& v = shape.mesh.vertices;
+  const Triangle& corners = shape.mesh.triangles[triangle];
+  return {v[corners[0]], v[corners[1]], v[corners[2]]};
+}
+
+// The gaps of triangles that share nothing, each at most its own longest edge: branch and bound for
+// every triangle, the nearer box first.
+class GapSearch {
+ public:
+  GapSearch(const BodyShape& shape, std::vector<TriangleRest>& rest)
+      : shape_(shape),
+        rest_(rest),
+        boxes_(std::make_shared<TriangleTree>(make_triangle_tree(shape.mesh, 4))),
+        tree_(boxes_.tree()) {
+    boxes_.refit(shape.mesh.vertices);
+    for (const TriangleRest& triangle : rest) longest_ = std::max(longest_, triangle.edge);
+  }
+
+  void run() {
+    for (std::uint32_t slot = 0; slot < tree_.ids.size(); ++slot) search_around(slot);
+  }
+
+ private:
+  bool too_far(double least, double gap) const {
+    return gap == 0.0 || least >= gap + kRounding * longest_;
+  }
+
+  void search_around(std::uint32_t own) {
+    double& gap = rest_[tree_.ids[own]].gap;
+    const Aabb& box = boxes_.triangle_box(own);
+    int measured = 0;
+    stack_.assign(1, {0.0, 0});
+    while (!stack_.empty()) {
+      const auto [least, index] = stack_.back();
+      stack_.pop_back();
+      if (too_far(least, gap)) continue;
+      const TriangleTree::Node& node = tree_.nodes[index];
+      if (!node.leaf()) {
+        std::pair far{box_distance(box, boxes_.box(node.first)), node.first};
+        std::pair near{box_distance(box, boxes_.box(node.first + 1)), node.first + 1};
+        if (far.first < near.first) std::swap(far, near);
+        stack_.insert(stack_.end(), {far, near});
+        continue;
+      }
+      for (std::uint32_t slot = node.first; slot < node.first + node.count; ++slot)
+        if (slot != own && !too_far(box_distance(box, boxes_.triangle_box(slot)), gap))
+          measured += measure(own, slot) ? 1 : 0;
+      if (measured > kMostMeasured) gap = 0.0;
+    }
+  }
+
+  // For both: the other one has less to look for then. False: they share a vertex.
+  bool measure(std::uint32_t own, std::uint32_t slot) {
+    const std::uint32_t s = tree_.ids[own], t = tree_.ids[slot];
+    const SharedCorners shared = shared_corners(shape_.linked()[s], shape_.linked()[t]);
+    if (shared.count > 0 && !shared.duplicates) return false;
+    const TrianglePoints p = points_of(shape_, s), q = points_of(shape_, t);
+    const bool meet =
+        boxes_.triangle_box(own).overlaps(boxes_.triangle_box(slot)) && triangles_intersect(p, q);
+    const double rounding = kRounding * std::max(rest_[s].edge, rest_[t].edge);
+    const double distance = meet ? 0.0 : std::max(0.0, triangle_distance(p, q) - rounding);
+    for (TriangleRest* either : {&rest_[s], &rest_[t]})
+      either->gap = std::isnan(distance) ? 0.0 : std::min(either->gap, distance);
+    return true;
+  }
+
+  const BodyShape& shape_;
+  std::vector<TriangleRest>& rest_;
+  AabbTree boxes_;
+  const TriangleTree& tree_;
+  double longest_ = 0.0;
+  std::vector<std::pair<double, std::uint32_t>> stack_;  // distance of the box, node
+};
+
+}  // namespace
+
+std::vector<TriangleRest> triangles_at_rest(const BodyShape& shape) {
+  std::vector<TriangleRest> out;
+  for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
+    out.push_back(lone_triangle(points_of(shape, t)));
+  for (const AdjacentPair& pair : adjacent_pairs(shape.linked())) {
+    const TrianglePoints p = points_of(shape, pair.a), q = points_of(shape, pair.b);
+    const double ratio = pair.shared.count == 1 ? ratio_at_corner(p, q, pair.shared)
+                                                : ratio_at_edge(p, q, pair.shared);
+    const bool touching = meet_beyond_shared(pair.shared, p, q);
+    for (const std::uint32_t t : {pair.a, pair.b})
+      out[t].ratio = touching || std::isnan(ratio) ? kInfinity : std::max(out[t].ratio, ratio);
+  }
+  GapSearch(shape, out).run();
+  return out;
+}
+
+}  // namespace contactcheck

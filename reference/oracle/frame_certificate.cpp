@@ -309,6 +309,14 @@ std::optional<Plane> separating_plane(const TriangleCorners& p, const TriangleCo
   return plane_at(nearest);
 }
 
+std::array<Vec3, 2> nearest_points_rounded(const TriangleCorners& p, const TriangleCorners& q) {
+  const NearestPoints nearest = nearest_points(to_rational(p), to_rational(q));
+  const auto rounded = [](const RationalPoint& x) {
+    return Vec3(x[0].get_d(), x[1].get_d(), x[2].get_d());
+  };
+  return {rounded(nearest.on_p.at), rounded(nearest.on_q.at)};
+}
+
 // What two triangles share is the hull of its extreme points, which lie on edges of one of them: in
 // the other's face, on its edges or at its corners. The search offers all of these.
 std::optional<Witness> further_point(const TriangleCorners& p, const TriangleCorners& q,

@@ -43,12 +43,17 @@ struct Plane {
   ExactNumber offset;
 };
 
-/// Nothing when the triangles share no point. @pre all coordinates finite, of both functions
+/// Nothing when the triangles share no point. @pre all coordinates finite, of all three functions
 std::optional<Witness> common_point(const oracle::TriangleCorners& p,
                                     const oracle::TriangleCorners& q);
 /// Nothing when they share one; exactly one of the two functions answers.
 std::optional<Plane> separating_plane(const oracle::TriangleCorners& p,
                                       const oracle::TriangleCorners& q);
+
+/// A point of either triangle, as near to one another as the triangles are; each coordinate cut to a
+/// double.
+std::array<Vec3, 2> nearest_points_rounded(const oracle::TriangleCorners& p,
+                                           const oracle::TriangleCorners& q);
 
 /// Of two triangles of one mesh, the corners they share first in both: a common point off the hull
 /// of these. Nothing when there is none. @pre 1 or 2 are shared, and stand at the same places

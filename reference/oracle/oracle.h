@@ -4,6 +4,8 @@
 // the candidates, CGAL's EPICK kernel decides, with a separate path for degenerate triangles.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -36,6 +38,8 @@ struct Truth {
 /// coordinates; both 0 exactly when the surfaces share a point.
 struct DistanceInterval {
   double lower = 0.0, upper = 0.0;
+  /// Of distance(): one triangle of each surface, whose distance lies in the interval.
+  std::array<std::uint32_t, 2> triangles{};
 };
 
 class Oracle {

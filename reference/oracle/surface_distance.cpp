@@ -9,6 +9,7 @@
 #include "reference/oracle/surface_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +58,9 @@ class DistanceSearch {
     return refine();
   }
 
+  /// The triangles that touch, or whose distance gave the upper bound.
+  const std::array<std::uint32_t, 2>& nearest() const { return nearest_; }
+
  private:
   const SurfaceTree& tree_a() const { return *a_.tree; }
   const SurfaceTree& tree_b() const { return *b_.tree; }
@@ -71,10 +75,17 @@ class DistanceSearch {
   void measure(std::uint32_t a, std::uint32_t b);
   DistanceBounds refine();
 
+  void offer(std::uint32_t a, std::uint32_t b, double upper) {
+    if (!(upper < upper_)) return;
+    upper_ = upper;
+    nearest_ = {a, b};
+  }
+
   const ScaledSurface& a_;
   const ScaledSurface& b_;
   double upper_ = std::numeric_limits<double>::infinity();
   bool touching_ = false;
+  std::array<std::uint32_t, 2> nearest_{};
   std::vector<PairBounds> near_;  // all pairs measured whose lower bound was not above upper_
 };
 
@@ -123,11 +134,13 @@ void DistanceSearch::measure(std::uint32_t a, std::uint32_t b) {
   if (slab_bound(p, q) > upper_) return;
   const DistanceBounds bounds = distance_bounds(p, q);
   if (bounds.lower > upper_) return;
-  if (bounds.lower == 0) {
-    touching_ =
-        triangles_intersect(tree_a().corners(a, a_.vertices), tree_b().corners(b, b_.vertices));
+  if (bounds.lower == 0 &&
+      triangles_intersect(tree_a().corners(a, a_.vertices), tree_b().corners(b, b_.vertices))) {
+    touching_ = true;
+    nearest_ = {a, b};
+    return;
   }
-  upper_ = std::min(upper_, bounds.upper);
+  offer(a, b, bounds.upper);
   near_.push_back({a, b, bounds});
 }
 
@@ -140,7 +153,7 @@ DistanceBounds DistanceSearch::refine() {
     if (upper_ - pair.bounds.lower <= kWidth || pair.bounds.lower >= lowest_refined) break;
     const DistanceBounds exact =
         exact_distance_bounds(tree_a().corners(pair.a), tree_b().corners(pair.b));
-    upper_ = std::min(upper_, exact.upper);
+    offer(pair.a, pair.b, exact.upper);
     lowest_refined = std::min(lowest_refined, exact.lower);
     std::pop_heap(near_.begin(), near_.end(), lower_last);
     near_.pop_back();
@@ -171,7 +184,10 @@ DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
   const int exponent = std::ilogb(largest) + 1;
   scale(a, -exponent);
   scale(b, -exponent);
-  return unscaled(DistanceSearch(a, b).run(), exponent);
+  DistanceSearch search(a, b);
+  DistanceInterval out = unscaled(search.run(), exponent);
+  out.triangles = search.nearest();
+  return out;
 }
 
 }  // namespace contactcheck::oracle

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/oracle/rational_geometry.h"
 #include "tests/hard/corpus.h"
@@ -88,6 +89,19 @@ TriangleCorners flattened(test::TriangleSource& random) {
   if (kind > 0) t[2] = t[static_cast<std::size_t>(random.below(2))];
   if (kind > 2) t[0] = t[1] = t[2];
   return t;
+}
+
+TEST(Certificate, NearestPointsAreOfTheTrianglesAndAsFarApartAsThey) {
+  test::TriangleSource source(703);
+  for (int i = 0; i < 300; ++i) {
+    const TriangleCorners p = i % 2 ? source.grid_triangle(2) : source.triangle(Vec3::Zero(), 1),
+                          q = i % 2 ? source.grid_triangle(2) : source.triangle(Vec3(1, 0, 0), 1);
+    const auto [on_p, on_q] = nearest_points_rounded(p, q);
+    const double distance = std::sqrt(oracle::rational::squared_distance(p, q).get_d());
+    EXPECT_NEAR((on_p - on_q).norm(), distance, 1e-14);
+    EXPECT_LE(oracle::rational::squared_distance({on_p, on_p, on_p}, p), 1e-30);
+    EXPECT_LE(oracle::rational::squared_distance({on_q, on_q, on_q}, q), 1e-30);
+  }
 }
 
 TEST(Certificate, OfDegeneratePairs) {

@@ -44,12 +44,19 @@ double largest(const std::vector<Vec3>& points) {
   return out;
 }
 
-void expect_contract(const oracle::DistanceInterval& d, const mpq_class& squared, double size) {
-  const mpq_class low(d.lower), high(d.upper);
+// Of any positions of the two; their exact squared distance.
+mpq_class expect_contract(Surfaces& s, const std::vector<Vec3>& va, const std::vector<Vec3>& vb) {
+  const oracle::DistanceInterval d = s.between(va, vb);
+  const mpq_class squared = s.rational_squared(va, vb), low(d.lower), high(d.upper);
   EXPECT_LE(low * low, squared);
   EXPECT_GE(high * high, squared);
-  EXPECT_LE(d.upper - d.lower, 1e-9 * size);
+  EXPECT_LE(d.upper - d.lower, 1e-9 * std::max(largest(va), largest(vb)));
   EXPECT_EQ(d.upper == 0, squared == 0);
+  const Triangle &p = s.a.triangles[d.triangles[0]], &q = s.b.triangles[d.triangles[1]];
+  EXPECT_LE(oracle::rational::squared_distance({va[p[0]], va[p[1]], va[p[2]]},
+                                               {vb[q[0]], vb[q[1]], vb[q[2]]}),
+            high * high);
+  return squared;
 }
 
 TEST(SurfaceDistance, ParallelBoxes) {
@@ -91,9 +98,7 @@ TEST(SurfaceDistanceAgainstRational, RotatedBoxes) {
   for (int i = 0; i < 40; ++i) {
     const auto va = moved(s.a.vertices, random_rotation(source), Vec3::Zero());
     const auto vb = moved(s.b.vertices, random_rotation(source), source.point(Vec3::Zero(), 3.0));
-    const mpq_class squared = s.rational_squared(va, vb);
-    touching += squared == 0;
-    expect_contract(s.between(va, vb), squared, std::max(largest(va), largest(vb)));
+    touching += expect_contract(s, va, vb) == 0;
   }
   EXPECT_GT(touching, 3);
   EXPECT_LT(touching, 30);
@@ -109,8 +114,7 @@ TEST(SurfaceDistanceAgainstRational, ParallelFacesAtShrinkingGaps) {
     const auto va = moved(s.a.vertices, rotation, Vec3::Zero());
     const Vec3 gap = rotation.col(0) * std::ldexp(1.0, -2 * i);
     const auto vb = moved(s.b.vertices, rotation, gap);
-    expect_contract(s.between(va, vb), s.rational_squared(va, vb),
-                    std::max(largest(va), largest(vb)));
+    expect_contract(s, va, vb);
   }
 }
 
@@ -124,8 +128,7 @@ TEST(SurfaceDistanceAgainstRational, CornersAtShrinkingGaps) {
     const auto rotation = random_rotation(source);
     const auto va = moved(s.a.vertices, rotation, Vec3::Zero());
     const auto vb = moved(s.b.vertices, rotation, rotation * gap);
-    expect_contract(s.between(va, vb), s.rational_squared(va, vb),
-                    std::max(largest(va), largest(vb)));
+    expect_contract(s, va, vb);
   }
 }
 
@@ -138,8 +141,7 @@ TEST(SurfaceDistanceAgainstRational, SliversAndDegenerateTriangles) {
   for (int i = 0; i < 30; ++i) {
     const auto va = moved(s.a.vertices, random_rotation(source), Vec3::Zero());
     const auto vb = moved(s.b.vertices, random_rotation(source), source.point(Vec3::Zero(), 1.5));
-    expect_contract(s.between(va, vb), s.rational_squared(va, vb),
-                    std::max(largest(va), largest(vb)));
+    expect_contract(s, va, vb);
   }
 }
 

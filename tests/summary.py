@@ -27,9 +27,9 @@ def of_googletest(file):
 
 
 def of_output(text):
-    """Tests that Python's unittest or node counted; any other entry is one test."""
-    counted = re.findall(r"^Ran (\d+) tests? in|^# tests (\d+)$", text, re.MULTILINE)
-    return sum(int(a or b) for a, b in counted) or 1
+    """Tests that unittest, pytest or node counted; any other entry is one test."""
+    counted = re.findall(r"^Ran (\d+) tests? in|^(\d+) passed|^# tests (\d+)$", text, re.MULTILINE)
+    return sum(int("".join(count)) for count in counted) or 1
 
 
 def summary(build):

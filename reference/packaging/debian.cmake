@@ -1,4 +1,5 @@
-# `cpack` in the build folder writes contactcheck_VERSION_ARCH.deb and libcontactcheck-dev_....deb.
+# `cpack` in the build folder writes contactcheck_VERSION_ARCH.deb, libcontactcheck-dev_....deb and
+# python3-contactcheck_....deb.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME contactcheck)
 set(CPACK_PACKAGE_VENDOR contactcheck)
@@ -10,6 +11,8 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program development)
 if(NOT CONTACTCHECK_REFERENCE)
   set(CPACK_COMPONENTS_ALL development)
+elseif(CONTACTCHECK_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION devel)
@@ -21,6 +24,18 @@ what was missed, what was invented and what it cost.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # The meshes of most scenes.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libcgal-demo, povray-examples, python3")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-contactcheck)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The module for Python: exact contacts, distances and winding numbers of
+meshes in numpy arrays, lattices, every detector of contactcheck, and runs that
+judge detectors written in Python.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# The module is of one version of Python.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${CONTACTCHECK_PYTHON_VERSION}~), python3 (<< ${CONTACTCHECK_PYTHON_NEXT}~), python3-numpy")
+# What run() and gate() call.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "contactcheck (= ${PROJECT_VERSION})")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcontactcheck-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Headers, static libraries, CMake and pkg-config files: the detectors under

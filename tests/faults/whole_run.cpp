@@ -31,7 +31,7 @@ std::vector<std::string> WholeRun::files() const {
 std::string WholeRun::schema_errors() const {
   const fs::path results = out_folder(*scratch) / "results.json";
   const Outcome valid =
-      run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, results.string()});
+      run_program(CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, results.string()});
   return valid.exit_code == 0 ? "" : valid.out + valid.err;
 }
 

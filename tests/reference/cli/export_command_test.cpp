@@ -44,7 +44,7 @@ class Export : public testing::Test {
   // The checker that lies in the folder is content with it.
   void expect_proven(const std::string& id, const std::string& frames) const {
     const Outcome check =
-        test::run_program(CONTACTCHECK_PYTHON, {"-B", (out_ / id / "check.py").string()});
+        test::run_program(CONTACTCHECK_PYTHON3, {"-B", (out_ / id / "check.py").string()});
     EXPECT_EQ(check.exit_code, 0) << check.err;
     EXPECT_THAT(check.out, testing::StartsWith(id + ": " + frames + " frames proven: "));
   }

@@ -141,7 +141,7 @@ TEST_F(GateCommand, WritesXmlThatAParserReads) {
   const Outcome outcome = gate({"--junit", path("gate.xml")});
   EXPECT_EQ(outcome.exit_code, 1);
   const Outcome parsed = test::run_program(
-      CONTACTCHECK_PYTHON,
+      CONTACTCHECK_PYTHON3,
       {"-c",
        "import sys, xml.etree.ElementTree as e\n"
        "root = e.parse(sys.argv[1]).getroot()\n"
@@ -167,7 +167,7 @@ TEST_F(GateCommand, WritesNamesThatNeedEscapesIntoXml) {
       {"gate", path("results.json"), "--policy", path("policy.json"), "--junit", path("gate.xml")});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   const Outcome parsed = test::run_program(
-      CONTACTCHECK_PYTHON, {"-c",
+      CONTACTCHECK_PYTHON3, {"-c",
                             "import sys, xml.etree.ElementTree as e\n"
                             "case, = e.parse(sys.argv[1]).getroot().iter('testcase')\n"
                             "print(ascii(case.attrib))\n",
@@ -219,7 +219,7 @@ TEST_F(AcceptCommand, WritesABaselineThatIsValidAndThatAnotherRunPasses) {
   EXPECT_THAT(accepted.out, StartsWith(path("base.json") + ": 3 rows of contactcheck run "));
   EXPECT_LT(fs::file_size(path("base.json")), fs::file_size(path("out/results.json")));
   const Outcome valid =
-      test::run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, path("base.json")});
+      test::run_program(CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, path("base.json")});
   EXPECT_EQ(valid.exit_code, 0) << valid.out;
   ASSERT_EQ(run().exit_code, 0);
   scratch_.write("policy.json", test::policy_text(R"({"rule": "same", "scenes": ["*"],

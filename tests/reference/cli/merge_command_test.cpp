@@ -83,7 +83,7 @@ class Shards : public testing::Test {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const fs::path file = dir(out) / "results.json";
     const Outcome valid = test::run_program(
-        CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, "--described", file.string()});
+        CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, "--described", file.string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return Json::parse(text_of(file));
   }

@@ -31,7 +31,7 @@ class RecordedRun : public testing::Test {
       words.insert(words.end(), {"--detector", detector});
     const Outcome outcome = contactcheck_program(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    const Outcome valid = test::run_program(CONTACTCHECK_PYTHON,
+    const Outcome valid = test::run_program(CONTACTCHECK_PYTHON3,
                                             {"-B", CONTACTCHECK_VALIDATOR, in("out/results.json")});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return json::parse(text_of(scratch_.folder() / "out/results.json"));

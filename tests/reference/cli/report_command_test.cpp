@@ -49,7 +49,7 @@ TEST(ReportCommand, DrawsThePicturesOfTheRun) {
     const fs::path picture = fs::path("plots") / name;
     EXPECT_THAT(text_of(out / picture), HasSubstr("ffd-grid"));
     EXPECT_EQ(text_of(again / picture), text_of(out / picture));
-    const Outcome xml = test::run_program(CONTACTCHECK_PYTHON,
+    const Outcome xml = test::run_program(CONTACTCHECK_PYTHON3,
                                           {"-c",
                                            "import sys, xml.dom.minidom as dom\n"
                                            "print(dom.parse(sys.argv[1]).documentElement.tagName)",
@@ -138,7 +138,7 @@ TEST(ReportCommand, CsvIsWhatPythonReadsBack) {
   const Outcome report = contactcheck_program({"report", file, "--format", "csv,md", "--out", out});
   EXPECT_EQ(report.exit_code, 0) << report.err;
   const Outcome read =
-      test::run_program(CONTACTCHECK_PYTHON, {"-c", kReader, file, out / "report.csv"});
+      test::run_program(CONTACTCHECK_PYTHON3, {"-c", kReader, file, out / "report.csv"});
   EXPECT_EQ(read.out, "same\n") << read.err;
 }
 

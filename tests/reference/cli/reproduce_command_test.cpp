@@ -45,7 +45,7 @@ class ClosedLoopCommand : public testing::Test {
     last_ = contactcheck_program(arguments);
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const Outcome valid = test::run_program(
-        CONTACTCHECK_PYTHON,
+        CONTACTCHECK_PYTHON3,
         {"-B", CONTACTCHECK_VALIDATOR, "--described", (out() / "results.json").string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return json::parse(text_of(out() / "results.json"));

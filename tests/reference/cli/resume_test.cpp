@@ -84,7 +84,7 @@ class Resume : public testing::Test {
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const fs::path file = scratch_.folder() / folder / "results.json";
     const Outcome valid =
-        test::run_program(CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, file.string()});
+        test::run_program(CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, file.string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return Json::parse(text_of(file));
   }

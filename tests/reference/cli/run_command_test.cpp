@@ -61,7 +61,7 @@ class RunCommand : public testing::Test {
     EXPECT_EQ(last_.exit_code, 0) << last_.err;
     const fs::path file = scratch_.folder() / name / "results.json";
     const Outcome valid = test::run_program(
-        CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, "--described", file.string()});
+        CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, "--described", file.string()});
     EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.err;
     return json::parse(text_of(file));
   }

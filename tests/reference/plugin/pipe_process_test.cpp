@@ -57,7 +57,7 @@ TEST(PipeProcess, LastWordsAreTheLastLineOfItsErrors) {
 }
 
 TEST(PipeProcess, LastWordsOfPythonSayWhere) {
-  PipeProcess process(text::in_shell(CONTACTCHECK_PYTHON) +
+  PipeProcess process(text::in_shell(CONTACTCHECK_PYTHON3) +
                       " -c \"def answer(): return [][7]\nanswer()\"");
   const std::string said = complaint([&] { process.receive_line(); });
   EXPECT_THAT(said, HasSubstr("IndexError: list index out of range (File \"<string>\", line 1, in "

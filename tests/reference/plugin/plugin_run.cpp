@@ -17,7 +17,7 @@ std::string misbehaving_library(const std::string& fault) {
 }
 
 std::string misbehaving_command(const std::string& fault) {
-  return text::in_shell(CONTACTCHECK_PYTHON) + " -B " +
+  return text::in_shell(CONTACTCHECK_PYTHON3) + " -B " +
          text::in_shell(CONTACTCHECK_MISBEHAVING_COMMAND) + " " + fault;
 }
 
@@ -52,7 +52,7 @@ json PluginRun::row(const std::string& detector) {
 
 std::string PluginRun::schema_errors() const {
   const Outcome valid = run_program(
-      CONTACTCHECK_PYTHON, {"-B", CONTACTCHECK_VALIDATOR, (out() / "results.json").string()});
+      CONTACTCHECK_PYTHON3, {"-B", CONTACTCHECK_VALIDATOR, (out() / "results.json").string()});
   return valid.exit_code == 0 ? "" : valid.out + valid.err;
 }
 

@@ -1,0 +1,109 @@
+#include "reference/python/arrays.h"
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "core/types/check.h"
+
+namespace contactcheck::python {
+namespace {
+
+constexpr py::ssize_t kMostRows = std::numeric_limits<std::int32_t>::max();
+
+py::array array_of(const py::object& object, const std::string& name, const char* kinds,
+                   const std::string& wanted) {
+  const py::array out = py::array::ensure(object);
+  if (!out)
+    throw InputError(name + ": " + wanted + " wanted, got an object of type " +
+                     py::str(py::type::of(object).attr("__name__")).cast<std::string>());
+  const std::string allowed = kinds;
+  if (allowed.find(out.dtype().kind()) == std::string::npos || out.dtype().itemsize() > 8)
+    throw InputError(name + ": " + wanted + " wanted, got dtype " +
+                     py::str(out.dtype()).cast<std::string>());
+  return out;
+}
+
+std::string shape_of(const py::array& array) {
+  return py::str(array.attr("shape")).cast<std::string>();
+}
+
+void check_shape(const py::array& array, const std::string& name) {
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw InputError(name + " has shape " + shape_of(array) + "; it must be (n, 3)");
+  if (array.shape(0) > kMostRows)
+    throw InputError(name + " has " + std::to_string(array.shape(0)) + " rows; at most " +
+                     std::to_string(kMostRows) + " can be judged");
+}
+
+std::string place(const std::string& name, std::size_t row, std::size_t column) {
+  return name + "[" + std::to_string(row) + ", " + std::to_string(column) + "]";
+}
+
+template <typename Index>
+std::vector<Triangle> read_indices(const py::array& array, const std::string& name,
+                                   std::size_t vertices, bool any_value) {
+  const auto indices = py::array_t<Index, py::array::c_style | py::array::forcecast>::ensure(array);
+  const Index* from = indices.data();
+  std::vector<Triangle> out(static_cast<std::size_t>(indices.shape(0)));
+  for (std::size_t t = 0; t < out.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k, ++from) {
+      // A negative number is a very large one here.
+      const bool known = static_cast<std::make_unsigned_t<Index>>(*from) < vertices;
+      if (!known && !any_value)
+        throw InputError(place(name, t, k) + " is " + std::to_string(*from) + "; the mesh has " +
+                         std::to_string(vertices) + " vertices, counted from 0");
+      out[t][k] = known ? static_cast<std::uint32_t>(*from) : ~0u;
+    }
+  return out;
+}
+
+// 3, a, b, c, 3, d, e, f, ...: what VTK and pyvista call faces.
+py::array without_counts(const py::array& row, const std::string& name) {
+  if (row.shape(0) % 4 == 0) {
+    const py::array rows = row.attr("reshape")(-1, 4);
+    const py::object counts = rows[py::make_tuple(py::ellipsis(), 0)];
+    if (counts.attr("__eq__")(3).attr("all")().cast<bool>())
+      return rows[py::make_tuple(py::ellipsis(), py::slice(1, 4, 1))];
+  }
+  throw InputError(name + " has shape " + shape_of(row) +
+                   "; it must be (m, 3), or one row of 3, a, b, c for every triangle");
+}
+
+}  // namespace
+
+std::vector<Vec3> read_points(const py::object& object, const std::string& name, bool any_value) {
+  const py::array given = array_of(object, name, "fiu", "an (n, 3) array of numbers");
+  check_shape(given, name);
+  const auto doubles =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  std::vector<Vec3> out(static_cast<std::size_t>(doubles.shape(0)));
+  const double* from = doubles.data();
+  for (std::size_t i = 0; i < out.size(); ++i, from += 3) {
+    out[i] = Vec3(from[0], from[1], from[2]);
+    if (any_value || out[i].allFinite()) continue;
+    const std::size_t k = !std::isfinite(from[0]) ? 0 : !std::isfinite(from[1]) ? 1 : 2;
+    throw InputError(place(name, i, k) + " is " + py::str(py::float_(from[k])).cast<std::string>() +
+                     "; coordinates must be finite numbers");
+  }
+  return out;
+}
+
+std::vector<Triangle> read_triangles(const py::object& object, const std::string& name,
+                                     std::size_t vertices, bool any_value) {
+  py::array given = array_of(object, name, "iu", "an (m, 3) array of integers");
+  if (given.ndim() == 1 && given.shape(0) > 0) given = without_counts(given, name);
+  check_shape(given, name);
+  if (py::isinstance<py::array_t<std::int32_t>>(given))
+    return read_indices<std::int32_t>(given, name, vertices, any_value);
+  if (py::isinstance<py::array_t<std::uint64_t>>(given))
+    return read_indices<std::uint64_t>(given, name, vertices, any_value);
+  return read_indices<std::int64_t>(given, name, vertices, any_value);
+}
+
+py::array_t<double> points_table(const std::vector<Vec3>& points) {
+  return table<double, 3>(points, [](const Vec3& p) { return std::array{p[0], p[1], p[2]}; });
+}
+
+}  // namespace contactcheck::python

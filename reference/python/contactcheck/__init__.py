@@ -1,0 +1,294 @@
+"""Is a collision answer right, and how fast is the detector? Exact answers for arrays.
+
+A mesh is two arrays: V, (n, 3) coordinates in metres, and F, (m, 3) indices of vertices. What
+trimesh calls vertices and faces, meshio points and cells, Open3D vertices and triangles and pyvista
+points and faces goes in as it is. Coordinates of any type become float64, indices int32. Triangles
+are closed sets of points: touching is contact.
+
+Bad arguments raise InputError, a ValueError, whose sentence names argument, place and value. Long
+calls release the interpreter's lock.
+
+>>> import contactcheck
+>>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+>>> F = [[0, 1, 2]]
+>>> W = [[0.25, 0.25, -1], [0.25, 0.25, 1], [2, 2, 0]]
+>>> contactcheck.contacts(V, F, W, F)
+array([[0, 0]], dtype=int32)
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Iterable, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _binding
+from ._binding import InputError, RefusedInput, Unavailable, __version__
+from ._run import Results, Scene, Verdict, gate, run
+from ._serve import Body, Frame, LatticeArrays
+
+__all__ = [
+    "Body", "Detector", "Distance", "Frame", "InputError", "Inside", "Lattice", "LatticeArrays",
+    "RefusedInput", "Results", "Scene", "SelfContacts", "Unavailable", "Verdict", "__version__",
+    "check_mesh", "contacts", "detectors", "distance", "gate", "inside", "run", "self_contacts",
+]
+
+for _public in (Body, Frame, InputError, LatticeArrays, RefusedInput, Results, Scene, Unavailable,
+                Verdict, gate, run):
+    _public.__module__ = __name__
+
+
+class SelfContacts(NamedTuple):
+    """What self_contacts() answers."""
+
+    pairs: np.ndarray  #: (k, 2) int32, triangles, the lower one first, ascending
+    shared: np.ndarray  #: (k,) int32, vertices that both name: 0, 1 or 2
+
+
+class Distance(NamedTuple):
+    """What distance() answers: lower <= true distance <= upper."""
+
+    lower: float  #: metres
+    upper: float  #: metres
+    points: np.ndarray  #: (2, 3) float64, a point of either surface, nearest to one another
+
+
+class Inside(NamedTuple):
+    """What inside() answers."""
+
+    winding: np.ndarray  #: (n,) int32, 0 outside; 0 where on_surface says True
+    on_surface: np.ndarray  #: (n,) bool
+
+
+def contacts(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> np.ndarray:
+    """All pairs of triangles of two meshes that share a point: (k, 2) int32, ascending.
+
+    Exact for every finite input, degenerate triangles too, which are the segment or point that they
+    are. It is the oracle that judges detectors; a Detector is faster.
+
+    >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> touching = [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
+    >>> contacts(V, F, touching, F)
+    array([[0, 0]], dtype=int32)
+    >>> apart = [[np.nextafter(1, 2), 0, 0], [2, 0, 0], [2, 1, 0]]
+    >>> len(contacts(V, F, apart, F))
+    0
+    """
+    return _binding.contacts(
+        _binding.Shape(Va, Fa, "Va", "Fa"), _binding.Shape(Vb, Fb, "Vb", "Fb")
+    )
+
+
+def self_contacts(V: Any, F: Any, weld: bool = False) -> SelfContacts:
+    """All pairs of triangles of one mesh that meet in more than the vertices they share; exact.
+
+    `weld`: vertices with equal coordinates are one, as in files that store each corner anew. Two
+    triangles that name the same three vertices are duplicates (check_mesh), no contact. Raises
+    RefusedInput where more than 40 million pairs share a vertex.
+
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.25, 0.25, -1], [0.25, 0.25, 1], [2, 2, 0]]
+    >>> pairs, shared = self_contacts(V, [[0, 1, 2], [3, 4, 5]])
+    >>> pairs.tolist(), shared.tolist()
+    ([[0, 1]], [0])
+    """
+    return SelfContacts(*_binding.self_contacts(_binding.Shape(V, F, "V", "F", weld)))
+
+
+def distance(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> Distance:
+    """The distance of two surfaces: certified bounds in metres, and two nearest points.
+
+    Both bounds are 0 exactly where the surfaces share a point; else they differ by at most 1e-9 of
+    the largest coordinate. A body inside another has a distance to its surface: see inside().
+
+    >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> lower, upper, points = distance(V, F, [[0, 0, 2], [1, 0, 3], [0, 1, 3]], F)
+    >>> lower <= 2 <= upper, upper - lower < 1e-9
+    (True, True)
+    >>> points.tolist()
+    [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]]
+    """
+    return Distance(
+        *_binding.distance(_binding.Shape(Va, Fa, "Va", "Fa"), _binding.Shape(Vb, Fb, "Vb", "Fb"))
+    )
+
+
+def inside(points: Any, V: Any, F: Any) -> Inside:
+    """How often a closed mesh winds round each of (n, 3) points, and which lie on it; exact.
+
+    A point is inside where its winding number is not 0. Negative: the triangles run clockwise seen
+    from outside. The mesh may intersect itself. Raises InputError for one that is open, has an edge
+    with more than two triangles, or is not consistently oriented.
+
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> F = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    >>> winding, on_surface = inside([[0.1, 0.1, 0.1], [2, 2, 2], [0.5, 0.5, 0]], V, F)
+    >>> winding.tolist(), on_surface.tolist()
+    ([1, 0, 0], [False, False, True])
+    """
+    return Inside(*_binding.inside(points, _binding.Shape(V, F, "V", "F")))
+
+
+def check_mesh(V: Any, F: Any) -> dict[str, np.ndarray]:
+    """The defects of a mesh by name, each with the vertices or triangles concerned, (k,) int32.
+
+    empty-mesh, non-finite-vertex, index-out-of-range: such a mesh cannot be judged. repeated-index,
+    zero-area-triangle, duplicate-triangle; non-manifold-edge, boundary-edge,
+    inconsistent-orientation: without these three, inside() is defined. Of a vertex the index is
+    given for non-finite-vertex, else that of a triangle. NaN and bad indices do not raise.
+
+    >>> check_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 1]])
+    ... # doctest: +NORMALIZE_WHITESPACE
+    {'repeated-index': array([1], dtype=int32),
+     'boundary-edge': array([0, 0, 0], dtype=int32)}
+    """
+    return _binding.check_mesh(V, F)
+
+
+class Lattice:
+    """A mesh in a free-form-deformation lattice (Sederberg & Parry 1986, trilinear).
+
+    `cells`: about so many cells that hold surface (1 to 10000), or how many along each axis (1 to
+    128 each). `padding`: room round the mesh, as a fraction of its largest side. `smoothing`: of
+    fit(), 1e-12 to 1.
+
+    >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> lattice = Lattice(V, F, cells=(2, 2, 1))
+    >>> lattice.deform(lattice.nodes + [0, 0, 5]).tolist()
+    [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [0.0, 1.0, 5.0]]
+    """
+
+    def __init__(
+        self,
+        V: Any,
+        F: Any,
+        cells: Union[int, Sequence[int]] = 150,
+        padding: float = 0.02,
+        smoothing: float = 1e-6,
+    ) -> None:
+        amount = "cells" if np.ndim(cells) else "kept"
+        lattice = {amount: np.asarray(cells).tolist(), "padding": float(padding)}
+        lattice.update(fit=True, smoothing=float(smoothing))
+        self._shape = _binding.Shape(
+            V, F, "V", "F", False, json.dumps(lattice), f"Lattice(cells={cells!r})"
+        )
+        self._nodes = self._shape.nodes
+        self._nodes.flags.writeable = False
+
+    @property
+    def nodes(self) -> np.ndarray:
+        """The nodes at rest, (n, 3) float64, read-only; nodes far from the surface are left out."""
+        return self._nodes
+
+    @property
+    def cells(self) -> int:
+        """How many cells hold surface."""
+        return self._shape.cells
+
+    def deform(self, nodes: Any) -> np.ndarray:
+        """The mesh's vertices for (n, 3) moved nodes: the very doubles that detectors are given."""
+        return self._shape.deform(nodes)
+
+    def fit(self, V: Any) -> np.ndarray:
+        """The nodes whose deform() comes nearest to given vertices (least squares), (n, 3).
+
+        >>> rest = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        >>> lattice = Lattice(rest, [[0, 1, 2]])
+        >>> np.abs(lattice.deform(lattice.fit(rest + 1.0)) - rest - 1.0).max() < 1e-9
+        True
+        """
+        return self._shape.fit(V)
+
+    def __repr__(self) -> str:
+        return f"<contactcheck.Lattice: {self.cells} cells, {len(self.nodes)} nodes>"
+
+
+def detectors() -> list[str]:
+    """The detectors of this program.
+
+    >>> "ffd-lazy" in detectors()
+    True
+    """
+    return _binding.detectors()
+
+
+def _shape(body: Any, name: str) -> _binding.Shape:
+    if isinstance(body, Lattice):
+        return body._shape
+    if hasattr(body, "vertices"):
+        faces = "faces" if hasattr(body, "faces") else "triangles"
+        body = (body.vertices, getattr(body, faces))
+    try:
+        V, F = body
+    except (TypeError, ValueError):
+        got = type(body).__name__
+        raise InputError(f"{name}: a Lattice or a pair (V, F) wanted, got {got}") from None
+    return _binding.Shape(V, F, f"V of {name}", f"F of {name}")
+
+
+class Detector:
+    """A detector of contactcheck, by name and options as in `contactcheck list`.
+
+    One call of prepare() for some bodies, then for every frame update() and query(). Not exact
+    unless `declares["exact"]` says so, and then at its `levels`. Each may be used by one thread at
+    a time; others wait.
+
+    >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> detector = Detector("ffd-lazy")
+    >>> detector.prepare([(V, F), (V, F)])
+    >>> for height in (1.0, 0.0):
+    ...     detector.update([V, np.add(V, [0, 0, height])])
+    ...     print(detector.query("triangles")["triangles"].tolist())
+    []
+    [[0, 1, 0, 0]]
+    """
+
+    def __init__(self, name: str = "ffd-lazy", **options: Any) -> None:
+        given = ",".join(f"{key}={value}" for key, value in options.items())
+        separator = ":" if given and ":" not in name else "," if given else ""
+        self._detector = _binding.Detector(name + separator + given)
+
+    @property
+    def name(self) -> str:
+        """With its options, as tables show it."""
+        return self._detector.name
+
+    @property
+    def declares(self) -> dict[str, Any]:
+        """What it claims: levels, questions, closed, exact, margin, ... (as in results.json).
+
+        A margin may depend on the bodies: final after prepare().
+        """
+        return json.loads(self._detector.declares())
+
+    def prepare(self, bodies: Iterable[Any], questions: Sequence[str] = ()) -> None:
+        """Once for these bodies: each a Lattice, (V, F) or an object with vertices and faces.
+
+        `questions`: what will be asked. Some detectors then leave out what only others need.
+        """
+        shapes = [(f"bodies[{i}]", _shape(body, f"bodies[{i}]")) for i, body in enumerate(bodies)]
+        self._detector.prepare(shapes, list(questions))
+
+    def update(self, positions: Sequence[Any], time: float = 0.0) -> None:
+        """The bodies of one frame: (n, 3) nodes of a Lattice, vertices of other bodies; copied."""
+        self._detector.update(positions, time)
+
+    def query(self, question: str = "triangles") -> dict[str, np.ndarray]:
+        """What touches in the frame: question triangles, body, cells, contacts or self.
+
+        All lists are there, empty where the detector has none; int32, ascending, without repeats:
+
+        bodies (k, 2); triangles and cells (k, 4): body a, body b, element of a, of b; vertices
+        (k, 3): body, body that holds it, vertex; near (k, 4): body, other body, vertex, triangle.
+        The question self has body a = body b. The question contacts also gives piece_contacts
+        (k, 4) with piece_depths (k,) and piece_normals (k, 3): moving b by depth * normal separates
+        them; and vertex_contacts (k, 3) with vertex_depths and vertex_normals: the way out.
+        """
+        return self._detector.query(question)
+
+    def notes(self) -> list[str]:
+        """What one must know about the answer to the last frame: limits that were reached."""
+        return self._detector.notes()
+
+    def __repr__(self) -> str:
+        return f"<contactcheck.Detector {self.name}>"

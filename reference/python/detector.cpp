@@ -1,0 +1,247 @@
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/types/check.h"
+#include "reference/adapters/register.h"
+#include "reference/process/float_environment.h"
+#include "reference/python/arrays.h"
+#include "reference/python/judge.h"
+#include "reference/results/results_json.h"
+
+namespace contactcheck::python {
+namespace {
+
+const DetectorCatalog& catalog() {
+  static const DetectorCatalog standard = adapters::standard_catalog();
+  return standard;
+}
+
+constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
+                                   Question::kContacts, Question::kSelf};
+
+Question question_named(const std::string& name) {
+  std::string known;
+  for (const Question question : kQuestions) {
+    if (name == name_of(question)) return question;
+    known += (known.empty() ? "\"" : ", \"") + std::string(name_of(question)) + "\"";
+  }
+  throw InputError("no question is called \"" + name + "\"; there are " + known);
+}
+
+// One detector on one scene after another. One call at a time: the lock of Python is not held.
+class PyDetector {
+  // A detector that has thrown is only destroyed; bad arguments never reach it.
+  template <typename Call>
+  auto guarded(Call&& call) {
+    const std::lock_guard lock(mutex_);
+    const process::FloatEnvironmentGuard environment;
+    const auto restore = [&environment](void*) { environment.check_and_restore(); };
+    const std::unique_ptr<void, decltype(restore)> at_end(this, restore);
+    try {
+      return call();
+    } catch (const InputError&) {
+      throw;
+    } catch (...) {
+      detector_.reset();
+      state_ = State::kNone;
+      throw;
+    }
+  }
+
+ public:
+  explicit PyDetector(const std::string& name) : spec_(catalog().parse(name)) {
+    const DetectorInfo& info = *catalog().find(spec_.id);
+    if (!info.absent_because.empty()) throw Unavailable(spec_.id + ": " + info.absent_because);
+    detector_ = catalog().make(spec_);
+  }
+
+  const std::string& name() const { return spec_.name; }
+
+  std::string declares() {
+    return guarded([&] {
+      nlohmann::ordered_json out = results::to_json(made().semantics());
+      out["needs_vertices"] = made().needs_vertices();
+      return out.dump();
+    });
+  }
+
+  // A new detector: each is prepared once.
+  void prepare(const std::vector<std::pair<std::string, Shape>>& bodies,
+               const std::vector<std::string>& questions) {
+    guarded([&] {
+      State state = State::kNone;
+      std::swap(state, state_);
+      bodies_.clear();
+      for (const auto& [name, shape] : bodies) bodies_.push_back({name, shape.body});
+      std::vector<Question> asked;
+      for (const std::string& question : questions) asked.push_back(question_named(question));
+      detector_ = catalog().make(spec_);
+      if (!asked.empty()) detector_->expect(asked);
+      detector_->prepare(bodies_);
+      state_ = State::kPrepared;
+      nodes_.assign(bodies_.size(), {});
+      vertices_.assign(bodies_.size(), {});
+    });
+  }
+
+  void update(std::vector<std::vector<Vec3>> positions, double time) {
+    guarded([&] {
+      require(State::kPrepared, "prepare() comes before update()");
+      if (positions.size() != bodies_.size())
+        throw InputError("positions: " + std::to_string(positions.size()) + " arrays for " +
+                         std::to_string(bodies_.size()) + " bodies");
+      frame_.bodies.resize(bodies_.size());
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const BodyShape& shape = *bodies_[i].shape;
+        if (positions[i].size() != shape.node_count())
+          throw InputError("positions[" + std::to_string(i) + "] has " +
+                           std::to_string(positions[i].size()) + " rows; \"" + bodies_[i].name +
+                           "\" has " + std::to_string(shape.node_count()) +
+                           (shape.lattice ? " nodes" : " vertices"));
+      }
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const BodyShape& shape = *bodies_[i].shape;
+        nodes_[i] = std::move(positions[i]);
+        frame_.bodies[i] = {nodes_[i], {}};
+        if (!made().needs_vertices()) continue;
+        if (shape.lattice) {
+          vertices_[i].resize(shape.mesh.vertices.size());
+          map_body(shape, nodes_[i], vertices_[i]);
+        }
+        frame_.bodies[i].vertices = shape.lattice ? vertices_[i] : nodes_[i];
+      }
+      frame_.time = time;
+      state_ = State::kPrepared;
+      made().update(frame_);
+      ++frame_.index;
+      state_ = State::kUpdated;
+    });
+  }
+
+  ContactSet query(const std::string& name) {
+    return guarded([&] {
+      const Question question = question_named(name);
+      require(State::kUpdated, "update() comes before query()");
+      if (!made().semantics().answers(question))
+        throw InputError(spec_.name + " does not answer the question \"" + name + "\"");
+      ContactSet out;
+      made().query(question, out);
+      out.canonicalize();
+      return out;
+    });
+  }
+
+  std::vector<std::string> notes() {
+    return guarded([&] { return detector_ ? detector_->notes() : std::vector<std::string>(); });
+  }
+
+ private:
+  enum class State { kNone, kPrepared, kUpdated };
+
+  Detector& made() {
+    if (!detector_) throw InputError(spec_.name + " failed before; prepare() begins anew");
+    return *detector_;
+  }
+
+  void require(State state, const char* order) {
+    made();
+    if (state_ < state) throw InputError(order);
+  }
+
+  std::mutex mutex_;
+  DetectorSpec spec_;
+  std::unique_ptr<Detector> detector_;
+  State state_ = State::kNone;
+  std::vector<Body> bodies_;
+  std::vector<std::vector<Vec3>> nodes_, vertices_;
+  Frame frame_;
+};
+
+using Quad = std::array<std::uint32_t, 4>;
+
+template <typename Pairs>
+void append_own(const Pairs& own, std::vector<Quad>& rows) {
+  for (const SelfPair& p : own) rows.push_back({p.body, p.body, p.a, p.b});
+}
+
+// The lists of the pipe's answer (reference/plugin/README.md), by the same names.
+py::dict lists_of(const ContactSet& found) {
+  std::vector<std::array<std::uint32_t, 2>> bodies;
+  std::vector<Quad> triangles, cells, near;
+  for (const BodyPair& p : found.bodies) bodies.push_back({p.a, p.b});
+  for (const std::uint32_t body : found.self_bodies) bodies.push_back({body, body});
+  for (const ElementPair& p : found.triangles) triangles.push_back({p.body_a, p.body_b, p.a, p.b});
+  for (const ElementPair& p : found.cells) cells.push_back({p.body_a, p.body_b, p.a, p.b});
+  append_own(found.self, triangles);
+  append_own(found.self_cells, cells);
+  for (const auto* list : {&found.near, &found.self_near})
+    for (const NearPair& p : *list) near.push_back({p.body, p.other, p.vertex, p.triangle});
+
+  const auto same = [](const auto& row) { return row; };
+  const auto vertex = [](const VertexInBody& v) { return std::array{v.body, v.in, v.vertex}; };
+  const auto depth = [](const auto& contact) { return contact.depth; };
+  const auto normal = [](const auto& contact) {
+    return std::array{contact.normal[0], contact.normal[1], contact.normal[2]};
+  };
+  py::dict out;
+  out["bodies"] = table<std::int32_t, 2>(bodies, same);
+  out["triangles"] = table<std::int32_t, 4>(triangles, same);
+  out["cells"] = table<std::int32_t, 4>(cells, same);
+  out["vertices"] = table<std::int32_t, 3>(found.vertices, vertex);
+  out["near"] = table<std::int32_t, 4>(near, same);
+  out["piece_contacts"] = table<std::int32_t, 4>(found.piece_contacts, [](const PieceContact& c) {
+    return Quad{c.pieces.body_a, c.pieces.body_b, c.pieces.a, c.pieces.b};
+  });
+  out["piece_depths"] = column<double>(found.piece_contacts, depth);
+  out["piece_normals"] = table<double, 3>(found.piece_contacts, normal);
+  out["vertex_contacts"] = table<std::int32_t, 3>(
+      found.vertex_contacts, [&](const VertexContact& c) { return vertex(c.where); });
+  out["vertex_depths"] = column<double>(found.vertex_contacts, depth);
+  out["vertex_normals"] = table<double, 3>(found.vertex_contacts, normal);
+  return out;
+}
+
+}  // namespace
+
+void add_detector(py::module_& module) {
+  using Released = py::call_guard<py::gil_scoped_release>;
+  py::class_<PyDetector>(module, "Detector")
+      .def(py::init<const std::string&>(), Released())
+      .def_property_readonly("name", &PyDetector::name)
+      .def("declares", &PyDetector::declares, Released())
+      .def("prepare", &PyDetector::prepare, Released())
+      .def("update",
+           [](PyDetector& self, const py::sequence& positions, double time) {
+             std::vector<std::vector<Vec3>> arrays;
+             for (const py::handle array : positions)
+               arrays.push_back(read_points(py::reinterpret_borrow<py::object>(array),
+                                            "positions[" + std::to_string(arrays.size()) + "]"));
+             const py::gil_scoped_release released;
+             self.update(std::move(arrays), time);
+           })
+      .def("query",
+           [](PyDetector& self, const std::string& question) {
+             ContactSet found;
+             {
+               const py::gil_scoped_release released;
+               found = self.query(question);
+             }
+             return lists_of(found);
+           })
+      .def("notes", &PyDetector::notes, Released());
+  module.def("detectors", [] {
+    std::vector<std::string> out;
+    for (const DetectorInfo& info : catalog().all())
+      if (info.absent_because.empty()) out.push_back(info.id);
+    return out;
+  });
+}
+
+}  // namespace contactcheck::python

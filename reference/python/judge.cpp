@@ -1,0 +1,212 @@
+#include "reference/python/judge.h"
+
+#include <pybind11/stl.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/types/check.h"
+#include "core/types/shared_corners.h"
+#include "reference/oracle/floating_point.h"
+#include "reference/oracle/frame_certificate.h"
+#include "reference/oracle/oracle.h"
+#include "reference/oracle/vertex_queries.h"
+#include "reference/python/arrays.h"
+#include "reference/scene/lattice_spec.h"
+
+namespace contactcheck::python {
+namespace {
+
+using Released = py::gil_scoped_release;
+
+TriangleMesh read_mesh(const py::object& vertices, const py::object& faces,
+                       const std::string& vertices_name, const std::string& faces_name,
+                       bool any_value = false) {
+  TriangleMesh out;
+  out.vertices = read_points(vertices, vertices_name, any_value);
+  out.triangles = read_triangles(faces, faces_name, out.vertices.size(), any_value);
+  return out;
+}
+
+// `lattice`: as the lattice of a body in a scene file that is fitted to a recording; "null": none.
+Shape make_shape(const py::object& vertices, const py::object& faces,
+                 const std::string& vertices_name, const std::string& faces_name, bool weld,
+                 const std::string& lattice, const std::string& lattice_name) {
+  TriangleMesh mesh = read_mesh(vertices, faces, vertices_name, faces_name);
+  if (mesh.triangles.empty())
+    throw InputError(faces_name + " has no triangle; a mesh has one at least");
+  const Released released;
+  const text::JsonValue json = text::parse_json(lattice, lattice_name);
+  const scene::LatticeSpec spec =
+      scene::parse_lattice_spec(text::JsonField(json, lattice_name), true);
+  Shape out;
+  out.body = scene::build_shape(std::move(mesh), spec);
+  if (weld) out.body = welded(*out.body);
+  if (out.body->lattice) out.fit = std::make_shared<scene::LatticeFit>(*out.body, spec.smoothing);
+  return out;
+}
+
+// Shapes at rest, as the bodies of a frame.
+struct AtRest {
+  explicit AtRest(std::vector<Shape> shapes) {
+    for (Shape& shape : shapes) bodies.push_back({"", std::move(shape.body)});
+    for (const Body& body : bodies) {
+      const std::vector<Vec3>& vertices = body.shape->mesh.vertices;
+      frame.bodies.push_back({vertices, vertices});
+    }
+  }
+  oracle::TriangleCorners corners(std::size_t body, std::uint32_t triangle) const {
+    const TriangleMesh& mesh = bodies[body].shape->mesh;
+    const Triangle& t = mesh.triangles[triangle];
+    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+  }
+
+  std::vector<Body> bodies;
+  Frame frame;
+};
+
+py::array contacts(const Shape& a, const Shape& b) {
+  const AtRest scene({a, b});
+  std::vector<ElementPair> found;
+  {
+    const Released released;
+    found = oracle::Oracle(scene.bodies).judge(scene.frame, {}).surface.triangles;
+  }
+  return table<std::int32_t, 2>(found, [](const ElementPair& p) { return std::array{p.a, p.b}; });
+}
+
+py::tuple self_contacts(const Shape& shape) {
+  const AtRest scene({shape});
+  std::vector<SelfPair> found;
+  std::vector<std::uint32_t> shared;
+  {
+    const Released released;
+    oracle::WantedTruth wanted;
+    wanted.triangles = false;
+    wanted.self = true;
+    found = oracle::Oracle(scene.bodies).judge(scene.frame, wanted).surface.self;
+    const std::vector<Triangle>& linked = shape.body->linked();
+    for (const SelfPair& p : found)
+      shared.push_back(shared_corners(linked[p.a], linked[p.b]).count);
+  }
+  return py::make_tuple(table<std::int32_t, 2>(found,
+                                               [](const SelfPair& p) {
+                                                 return std::array{p.a, p.b};
+                                               }),
+                        column<std::int32_t>(shared, [](std::uint32_t count) { return count; }));
+}
+
+py::tuple distance(const Shape& a, const Shape& b) {
+  const AtRest scene({a, b});
+  oracle::DistanceInterval found;
+  std::vector<Vec3> points;
+  {
+    const Released released;
+    found = oracle::Oracle(scene.bodies).distance(scene.frame, {0, 1});
+    const oracle::FloatingPointGuard guard;
+    const std::array<Vec3, 2> nearest = oracle::certify::nearest_points_rounded(
+        scene.corners(0, found.triangles[0]), scene.corners(1, found.triangles[1]));
+    points.assign(nearest.begin(), nearest.end());
+  }
+  return py::make_tuple(found.lower, found.upper, points_table(points));
+}
+
+py::tuple inside(const py::object& points_object, const Shape& shape) {
+  const std::vector<Vec3> points = read_points(points_object, "points");
+  const MeshTopology& topology = shape.body->topology;
+  if (!topology.solid)
+    throw InputError("V, F has no inside: " + describe(topology) +
+                     "; a closed mesh is wanted, every edge with two triangles that run it in "
+                     "opposite directions");
+  std::vector<std::optional<int>> winding(points.size());
+  {
+    const Released released;
+    const oracle::FloatingPointGuard guard;
+    oracle::SurfaceTree tree(shape.body->mesh);
+    tree.refit(shape.body->mesh.vertices);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      winding[i] = oracle::winding_number(tree, points[i]);
+  }
+  return py::make_tuple(
+      column<std::int32_t>(winding, [](const std::optional<int>& w) { return w.value_or(0); }),
+      column<bool>(winding, [](const std::optional<int>& w) { return !w.has_value(); }));
+}
+
+py::dict check_mesh(const py::object& vertices, const py::object& faces) {
+  const TriangleMesh mesh = read_mesh(vertices, faces, "V", "F", true);
+  MeshTopology topology;
+  {
+    const Released released;
+    topology = analyse_topology(mesh);
+  }
+  std::map<MeshDefectKind, std::vector<std::uint32_t>> defects;
+  for (const MeshDefect& defect : topology.defects) defects[defect.kind].push_back(defect.index);
+  py::dict out;
+  for (const auto& [kind, indices] : defects)
+    out[name_of(kind)] = column<std::int32_t>(indices, [](std::uint32_t i) { return i; });
+  return out;
+}
+
+std::vector<Vec3> read_positions(const py::object& object, const std::string& name,
+                                 std::size_t count, const char* of) {
+  std::vector<Vec3> out = read_points(object, name);
+  if (out.size() != count)
+    throw InputError(name + " has " + std::to_string(out.size()) + " rows; the " + of + " are " +
+                     std::to_string(count));
+  return out;
+}
+
+py::array deform(const Shape& shape, const py::object& nodes_object) {
+  const std::vector<Vec3> nodes =
+      read_positions(nodes_object, "nodes", shape.body->node_count(), "nodes of the lattice");
+  std::vector<Vec3> out(shape.body->mesh.vertices.size());
+  {
+    const Released released;
+    map_body(*shape.body, nodes, out);
+  }
+  return points_table(out);
+}
+
+py::array fit(const Shape& shape, const py::object& vertices_object) {
+  const std::vector<Vec3> vertices = read_positions(
+      vertices_object, "V", shape.body->mesh.vertices.size(), "vertices of the mesh");
+  std::vector<Vec3> out;
+  {
+    const Released released;
+    scene::FitError error;
+    out = shape.fit->fitted(vertices, error);
+  }
+  return points_table(out);
+}
+
+}  // namespace
+
+void add_judge(py::module_& module) {
+  py::class_<Shape>(module, "Shape")
+      .def(py::init(&make_shape), py::arg("vertices"), py::arg("faces"), py::arg("vertices_name"),
+           py::arg("faces_name"), py::arg("weld") = false, py::arg("lattice") = "null",
+           py::arg("lattice_name") = "")
+      .def_property_readonly("nodes",
+                             [](const Shape& shape) {
+                               return points_table(shape.body->lattice
+                                                       ? shape.body->lattice->rest_nodes()
+                                                       : shape.body->mesh.vertices);
+                             })
+      .def_property_readonly("faces",
+                             [](const Shape& shape) {
+                               return table<std::int32_t, 3>(shape.body->mesh.triangles,
+                                                             [](const Triangle& t) { return t; });
+                             })
+      .def_property_readonly("cells",
+                             [](const Shape& shape) { return shape.body->lattice->cells.size(); })
+      .def("deform", &deform)
+      .def("fit", &fit);
+  module.def("contacts", &contacts);
+  module.def("self_contacts", &self_contacts);
+  module.def("distance", &distance);
+  module.def("inside", &inside);
+  module.def("check_mesh", &check_mesh);
+}
+
+}  // namespace contactcheck::python

@@ -1,0 +1,29 @@
+// What Python asks of the oracle: about meshes as they are, without a scene or a detector.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <memory>
+#include <string>
+
+#include "core/deform/body.h"
+#include "reference/scene/lattice_fit.h"
+
+namespace contactcheck::python {
+
+namespace py = pybind11;
+
+/// A mesh that has been checked, in a lattice or not.
+struct Shape {
+  std::shared_ptr<const BodyShape> body;
+  std::shared_ptr<const scene::LatticeFit> fit;  ///< of a lattice
+};
+
+/// Adds to the module: Shape, and the functions that judge shapes at rest.
+void add_judge(py::module_& module);
+/// Adds the class Detector.
+void add_detector(py::module_& module);
+/// Adds the class Results: a results file, checked, as a table and a picture.
+void add_results(py::module_& module);
+
+}  // namespace contactcheck::python

@@ -1,0 +1,160 @@
+"""The functions of the module, against the command line's answers and against numpy."""
+
+import json
+
+import contactcheck
+import numpy as np
+import pytest
+import recording
+
+TETRAHEDRON = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def test_contacts_are_those_of_the_command_line(bunnies):
+    for frame in bunnies:
+        (Va, Fa), (Vb, Fb) = frame.bodies
+        found = contactcheck.contacts(Va, Fa, Vb, Fb)
+        assert found.dtype == np.int32
+        assert np.array_equal(found, frame.contacts[:, 2:])
+
+
+def test_self_contacts_are_those_of_the_command_line(letter):
+    ((V, F),) = letter.bodies
+    pairs, shared = contactcheck.self_contacts(V, F)
+    assert np.array_equal(pairs, letter.contacts[:, 2:])
+    expected = [len(set(F[a]) & set(F[b])) for a, b in pairs]
+    assert np.array_equal(shared, expected)
+
+
+def test_welding_makes_neighbours_of_triangles_with_corners_of_their_own():
+    V, F = np.array(TETRAHEDRON[0], float), np.array(TETRAHEDRON[1])
+    soup, triangles = V[F].reshape(-1, 3), np.arange(12).reshape(-1, 3)
+    assert len(contactcheck.self_contacts(soup, triangles).pairs) == 6
+    assert len(contactcheck.self_contacts(soup, triangles, weld=True).pairs) == 0
+
+
+def test_distance_is_that_of_the_command_line(bunnies, bunny_run):
+    (scene,) = json.loads((bunny_run / "results.json").read_text())["scenes"]
+    assert len(scene["separation"]) == len(bunnies)
+    for frame, separation in zip(bunnies, scene["separation"]):
+        (Va, Fa), (Vb, Fb) = frame.bodies
+        lower, upper, points = contactcheck.distance(Va, Fa, Vb, Fb)
+        assert lower <= separation <= upper + 1e-9
+        assert (upper == 0) == (len(frame.contacts) > 0)
+        assert np.linalg.norm(points[0] - points[1]) == pytest.approx(upper, abs=2e-9)
+        # Each point is in the box of its own body's vertices at least, and on a touching frame in both.
+        for point, V in zip(points, (Va, Vb)):
+            assert np.all(point >= V.min(axis=0) - 1e-12) and np.all(point <= V.max(axis=0) + 1e-12)
+
+
+def solid_angles(points, V, F):
+    """The winding number by solid angles (van Oosterom & Strackee 1983): another way, in doubles."""
+    a, b, c = (V[F[:, k]][None] - points[:, None] for k in range(3))
+    la, lb, lc = (np.linalg.norm(x, axis=2) for x in (a, b, c))
+    volume = np.einsum("ijk,ijk->ij", a, np.cross(b, c))
+    dot = lambda x, y: np.einsum("ijk,ijk->ij", x, y)
+    below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
+    return np.sum(2 * np.arctan2(volume, below), axis=1) / (4 * np.pi)
+
+
+def test_inside_agrees_with_solid_angles(bunnies):
+    V, F = bunnies[0].bodies[0]
+    random = np.random.default_rng(4)
+    points = random.uniform(V.min(axis=0), V.max(axis=0), (400, 3))
+    winding, on_surface = contactcheck.inside(points, V, F)
+    assert np.array_equal(winding, np.rint(solid_angles(points, V, F)))
+    assert 20 < np.count_nonzero(winding) < 380 and not on_surface.any()
+    assert np.array_equal(contactcheck.inside(points, V, F[:, ::-1]).winding, -winding)
+
+
+def test_inside_tells_what_lies_on_the_surface(bunnies):
+    V, F = bunnies[0].bodies[0]
+    assert contactcheck.inside(V[:200], V, F).on_surface.all()
+    V, F = TETRAHEDRON
+    winding, on_surface = contactcheck.inside([[0.25, 0.25, 0], [0.25, 0.25, 5e-324]], V, F)
+    assert winding.tolist() == [0, 1] and on_surface.tolist() == [True, False]
+
+
+def test_check_mesh_names_every_kind_of_defect():
+    V, F = (np.array(x) for x in TETRAHEDRON)
+    flat = np.vstack([V, [[2, 0, 0]]])
+    assert contactcheck.check_mesh(V, F) == {}
+    nan = V.astype(float)
+    nan[2, 1] = np.nan
+
+    def defects(vertices, faces):
+        return {name: indices.tolist() for name, indices in contactcheck.check_mesh(vertices, faces).items()}
+
+    assert defects(np.zeros((0, 3)), np.zeros((0, 3), int)).keys() == {"empty-mesh"}
+    assert defects(nan, F)["non-finite-vertex"] == [2]
+    assert defects(V, np.vstack([F, [[0, 1, 4]]]))["index-out-of-range"] == [4]
+    assert defects(V, np.vstack([F, [[0, 1, -1]]]))["index-out-of-range"] == [4]
+    assert defects(V, np.vstack([F, [[0, 1, 1]]]))["repeated-index"] == [4]
+    assert defects(flat, np.vstack([F, [[0, 1, 4]]]))["zero-area-triangle"] == [4]
+    assert defects(V, np.vstack([F, F[:1]]))["duplicate-triangle"] == [4]
+    assert "non-manifold-edge" in defects(V, np.vstack([F, F[:1]]))
+    assert set(defects(V, F[1:])["boundary-edge"]) == {0, 1, 2}
+    assert "inconsistent-orientation" in defects(V, np.vstack([F[:3], F[3:, ::-1]]))
+
+
+def test_a_lattice_gives_the_bits_of_the_command_line(bunnies, bunny_run):
+    recorded = recording.read(bunny_run / "recordings" / "bunny-touch.ccr")
+    for body, shape in enumerate(b.shape for b in recorded.bodies):
+        lattice = contactcheck.Lattice(shape.rest_vertices, shape.triangles, cells=220)
+        assert lattice.cells == len(shape.lattice.cell_nodes)
+        for frame in (0, 6, 11):
+            vertices = lattice.deform(recorded.nodes(frame)[body])
+            assert vertices.tobytes() == bunnies[frame].bodies[body][0].tobytes()
+            error = np.abs(lattice.deform(lattice.fit(vertices)) - vertices).max()
+            assert error < 1e-5
+
+
+def test_a_detector_answers_as_on_the_command_line(bunnies, bunny_run):
+    recorded = recording.read(bunny_run / "recordings" / "bunny-touch.ccr")
+    lattices = [contactcheck.Lattice(b.shape.rest_vertices, b.shape.triangles, cells=220) for b in recorded.bodies]
+    for name in ("ffd-lazy", "fcl-aabb", "embree"):
+        detector = contactcheck.Detector(name)
+        detector.prepare(lattices, ["triangles"])
+        for frame in (6, 0, 5, 6):  # in any order
+            detector.update(recorded.nodes(frame))
+            found = detector.query("triangles")
+            if detector.declares["exact"]:
+                assert np.array_equal(found["triangles"], bunnies[frame].contacts)
+            assert len(found["bodies"]) == (len(found["triangles"]) > 0)
+
+
+def test_every_detector_answers_its_questions(bunnies):
+    bodies = bunnies[6].bodies
+    for name in contactcheck.detectors():
+        detector = contactcheck.Detector(name)
+        try:
+            detector.prepare(bodies)
+            detector.update([V for V, _ in bodies])
+        except contactcheck.RefusedInput as refused:  # those that need a lattice
+            assert "lattice" in str(refused), name
+            continue
+        for question in detector.declares["questions"]:
+            answer = detector.query(question)
+            for key, items in answer.items():
+                assert items.dtype == (np.float64 if "depth" in key or "normal" in key else np.int32)
+            assert len(answer["piece_contacts"]) == len(answer["piece_depths"]) == len(answer["piece_normals"])
+            assert len(answer["vertex_contacts"]) == len(answer["vertex_normals"])
+        assert detector.name == name and name in repr(detector)
+
+
+def test_self_contacts_of_a_detector(letter):
+    ((V, F),) = letter.bodies
+    detector = contactcheck.Detector("ffd-lazy")
+    detector.prepare([(V, F)], ["self"])
+    detector.update([V])
+    assert np.array_equal(detector.query("self")["triangles"], letter.contacts)
+
+
+def test_contacts_of_a_detector_part_the_bodies(bunnies):
+    (Va, Fa), (Vb, Fb) = bunnies[6].bodies
+    detector = contactcheck.Detector("fcl-aabb")
+    detector.prepare([(Va, Fa), (Vb, Fb)])
+    detector.update([Va, Vb])
+    found = detector.query("contacts")
+    assert len(found["piece_contacts"]) > 0
+    assert np.allclose(np.linalg.norm(found["piece_normals"], axis=1), 1)

@@ -1,0 +1,305 @@
+"""Whole runs: own detectors in processes of their own, results, the gate."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+
+import contactcheck
+import numpy as np
+import pytest
+
+V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+F = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+APPROACH = contactcheck.Scene.from_frames(
+    [([V] * 4, F), ([V + [x, 0.1, 0.1] for x in (3, 2, 0.7, 0.2)], F)], id="approach"
+)
+
+
+class Exact:
+    """Answers with the oracle of the module."""
+
+    declares = {"id": "exact", "levels": ["body", "triangle"], "questions": ["triangles", "body"]}
+
+    def prepare(self, bodies):
+        self.faces = [body.faces for body in bodies]
+
+    def update(self, frame):
+        self.frame = frame
+
+    def query(self, question):
+        pairs = []
+        for b in range(len(self.faces)):
+            for a in range(b):
+                V = self.frame.vertices
+                found = contactcheck.contacts(V[a], self.faces[a].astype(int), V[b], self.faces[b].astype(int))
+                pairs += [(a, b, s, t) for s, t in found]
+        return {"triangles": pairs}
+
+
+class Forgetful(Exact):
+    declares = dict(Exact.declares, id="forgetful")
+
+    def query(self, question):
+        return {"triangles": super().query(question)["triangles"][1:]}
+
+
+class Dying(Exact):
+    declares = dict(Exact.declares, id="dying")
+
+    def query(self, question):
+        if self.frame.index == 2:
+            os.kill(os.getpid(), signal.SIGSEGV)
+        return super().query(question)
+
+
+class Raising(Exact):
+    declares = dict(Exact.declares, id="raising")
+
+    def update(self, frame):
+        if frame.index == 2:
+            raise KeyError("no such luck")
+        super().update(frame)
+
+
+class Hanging(Exact):
+    declares = dict(Exact.declares, id="hanging")
+
+    def update(self, frame):
+        if frame.index == 2:
+            time.sleep(1000)
+        super().update(frame)
+
+
+class Refusing(Exact):
+    declares = dict(Exact.declares, id="refusing")
+
+    def update(self, frame):
+        raise contactcheck.RefusedInput("not today")
+
+
+class Printing(Exact):
+    declares = dict(Exact.declares, id="printing")
+
+    def query(self, question):
+        print("found something")
+        return super().query(question)
+
+
+class Odd(Exact):
+    declares = dict(Exact.declares, id="odd")
+
+    def query(self, question):
+        return {"triangels": []}
+
+
+class Mapping(Exact):
+    """Maps the vertices itself, from the nodes: the order of operations is core/deform/mapping.h's."""
+
+    declares = dict(Exact.declares, id="mapping", needs=["nodes", "vertices"])
+
+    def prepare(self, bodies):
+        super().prepare(bodies)
+        self.lattices = [body.lattice for body in bodies]
+        for body in bodies:
+            begin, cells = body.lattice.label_begin, body.lattice.label_cells
+            assert len(begin) == len(body.faces) + 1 and begin[-1] == len(cells)
+            assert (np.diff(begin.astype(int)) > 0).all() and cells.max() < len(body.lattice.cell_nodes)
+            assert np.array_equal(self.mapped(body.lattice, body.lattice.nodes).round(9), body.vertices.round(9))
+
+    @staticmethod
+    def mapped(lattice, nodes):
+        corners = nodes[lattice.cell_nodes[lattice.home_cell]]  # vertex, corner, axis
+        for k in range(3):
+            w = lattice.local[:, k, None, None]
+            corners = corners[:, 0::2] * (1 - w) + corners[:, 1::2] * w
+        return corners[:, 0]
+
+    def update(self, frame):
+        for lattice, nodes, vertices in zip(self.lattices, frame.nodes, frame.vertices):
+            assert self.mapped(lattice, nodes).tobytes() == vertices.tobytes()
+        super().update(frame)
+
+
+class Measuring(Exact):
+    """Answers as a detector of the module does, depths and normals too."""
+
+    declares = dict(Exact.declares, id="measuring", questions=["triangles", "body", "contacts"], depth_kind="convex-pair")
+
+    def prepare(self, bodies):
+        self.detector = contactcheck.Detector("fcl-aabb")
+        self.detector.prepare([(body.vertices, body.faces) for body in bodies])
+
+    def update(self, frame):
+        self.detector.update(frame.vertices)
+
+    def query(self, question):
+        return self.detector.query(question)
+
+
+def row(results, detector):
+    (found,) = [r for r in results.rows() if r["detector"] == detector]
+    return found
+
+
+def test_a_detector_on_bunny_touch_has_the_contacts_of_the_command_line(bunny_run):
+    results = contactcheck.run("bunny-touch", [Exact(), "ffd-lazy"], frames=12, timing=False)
+    hashes = {r["detector"]: r["contact_hash"] for r in contactcheck.Results(bunny_run / "results.json").rows()}
+    assert row(results, "exact")["contact_hash"] == hashes["ffd-lazy"] == row(results, "ffd-lazy")["contact_hash"]
+    assert row(results, "exact")["triangle_missed"] == row(results, "exact")["triangle_spurious"] == 0
+    assert row(results, "exact")["triangle_truth"] > 100
+
+
+def test_a_class_of_its_own_for_every_process():
+    results = contactcheck.run(APPROACH, [Exact, "fcl-aabb"], processes=2)
+    assert row(results, "exact")["status"] == "ok" and row(results, "exact")["passes"] == 2
+    assert row(results, "exact")["playback_frame_ms"] > 0
+    assert "<svg" in results.plot() and "exact" in results.plot()
+    assert "<table>" in results._repr_html_() and "<svg" in results._repr_html_()
+
+
+def test_bodies_come_with_their_lattices():
+    results = contactcheck.run("bunny-touch", [Mapping()], frames=4, timing=False)
+    assert row(results, "mapping")["status"] == "ok", row(results, "mapping")["message"]
+
+
+def test_depths_and_normals_reach_the_judge(bunny_run):
+    results = contactcheck.run("bunny-touch", [Measuring(), "fcl-aabb"], frames=12, timing=False)
+    measuring, fcl = row(results, "measuring"), row(results, "fcl-aabb")
+    assert measuring["status"] == "ok", measuring["message"]
+    assert fcl["depth_error_max_m"] > 0
+    for column in ("contact_hash", "depth_error_max_m", "normal_error_max_deg"):
+        assert measuring[column] == fcl[column], column
+
+
+def test_wrong_answers_are_found_with_their_triangles():
+    results = contactcheck.run(APPROACH, [Forgetful()], timing=False)
+    assert row(results, "forgetful")["triangle_missed"] == 2
+    assert results.per_frame("forgetful")["missed"].tolist() == [0, 0, 1, 1]
+    missed = results.contacts("forgetful")
+    assert sorted(missed) == [2, 3] and missed[2]["missed"].shape == (1, 4) and len(missed[2]["spurious"]) == 0
+    a, b, s, t = missed[2]["missed"][0]
+    first = [d for d in results.disagreements() if d["level"] == "triangle"][0]
+    assert (first["first"]["body"], first["first"]["triangle"]) == (f"body{a}", s)
+    expected = [V, V + [0.7, 0.1, 0.1]]
+    assert np.array_equal(first["second"]["vertices"], expected[b][F[t]])
+
+
+@pytest.mark.parametrize("detector, status, message", [
+    (Dying, "error", "signal 11"), (Raising, "error", "KeyError: 'no such luck'"), (Hanging, "error", "no progress"),
+    (Refusing, "refused", "not today"), (Odd, "error", "unknown lists: triangels"),
+])
+def test_a_failing_detector_is_a_row(detector, status, message):
+    results = contactcheck.run(APPROACH, [detector(), Exact()], timing=False, options=["--call-limit", "2"])
+    failed = row(results, detector.declares["id"])
+    assert failed["status"] == status and message in failed["message"]
+    assert row(results, "exact")["status"] == "ok"
+
+
+def test_what_a_detector_prints_is_a_note():
+    results = contactcheck.run(APPROACH, [Printing()], timing=False)
+    assert row(results, "printing")["status"] == "ok"
+    assert "found something" in str(results.data["runs"][0]["notes"])
+
+
+def test_a_scene_may_be_a_dictionary():
+    def scene(mesh):
+        bodies = [{"name": name, "mesh": mesh, "motion": {"position": [[0, [x, 0, 0]], [1, [0, 0, 0]]]}}
+                  for name, x in (("a", np.float64(1.5)), ("b", 0))]
+        return {"id": "mine", "frames": 3, "duration": 1, "levels": ["body", "triangle"], "bodies": bodies}
+
+    results = contactcheck.run(scene({"shape": "box"}), ["fcl-aabb"], timing=False)
+    assert row(results, "fcl-aabb")["contact_frames"] == 2
+    with pytest.raises(contactcheck.InputError, match=os.path.abspath("no.ply")):
+        contactcheck.run(scene({"file": "no.ply"}), ["fcl-aabb"], timing=False)
+
+
+def test_scenes_of_arrays_keep_every_bit(tmp_path):
+    random = np.random.default_rng(5)
+    frames = [V + random.normal(size=3) * 1e-9 for _ in range(3)]
+    file = contactcheck.Scene.from_frames([(frames, F)], levels=["body", "self"]).save(tmp_path)
+    assert json.loads(file.read_text())["bodies"][0]["recording"]
+    for f, expected in enumerate(frames):
+        data = (tmp_path / f"body0_{f:06d}.ply").read_bytes().split(b"end_header\n")[1]
+        assert data[:96] == expected.tobytes()
+
+
+def test_the_gate_says_why(bunny_run):
+    results = contactcheck.Results(bunny_run / "results.json")
+    policy = {
+        "schema": "contactcheck-policy/1", "id": "mine", "title": "mine",
+        "rules": [{"rule": "nothing is missed", "scenes": ["*"], "detectors": ["*"], "measure": "missed",
+                   "level": "triangle", "at_most": 0}],
+    }
+    verdict = contactcheck.gate(results, policy=policy)
+    assert verdict.passed and verdict.failures == [] and "gate: green" in verdict.text
+    broken = contactcheck.run(APPROACH, [Forgetful()], timing=False)
+    verdict = contactcheck.gate(broken, policy=policy)
+    assert not verdict.passed
+    assert verdict.failures[0]["rule"] == "nothing is missed" and "forgetful" in verdict.failures[0]["row"]
+    assert contactcheck.gate(results, baseline=results).passed
+    with pytest.raises(contactcheck.InputError, match="rules"):
+        contactcheck.gate(results, {"schema": "contactcheck-policy/1", "id": "mine", "title": "mine"})
+
+
+def test_the_report_is_written(bunny_run, tmp_path):
+    contactcheck.Results(bunny_run / "results.json").report(tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text()
+    assert page.startswith("<!doctype html>") and len(page) > 200_000
+
+
+@pytest.mark.parametrize("call, sentence", [
+    (lambda: contactcheck.run("no-such-scene"), '"no-such-scene" is no suite, scene'),
+    (lambda: contactcheck.run("bunny-touch", ["no-such"]), "no-such"),
+    (lambda: contactcheck.run("bunny-touch", [3]), "detectors: 3 has no prepare"),
+    (lambda: contactcheck.run("bunny-touch", ["fcl-aabb"], frames=0), "--frames"),
+    (lambda: contactcheck.run(APPROACH, [type("Bad", (Exact,), {"declares": {"levels": ["faces"]}})]), "faces"),
+    (lambda: contactcheck.Scene.from_frames([([], F)]), "bodies[0] has no frame"),
+    (lambda: contactcheck.Scene.from_frames([([V, V * np.nan], F)]), "V of bodies[0], frame 1[0, 0] is nan"),
+    (lambda: contactcheck.Results("no/such.json"), "no/such.json"),
+    (lambda: contactcheck.gate("no/such.json", policy="default"), "no/such.json"),
+])
+def test_bad_arguments_are_refused_in_the_words_of_the_command_line(call, sentence):
+    with pytest.raises(contactcheck.InputError) as caught:
+        call()
+    assert sentence in str(caught.value)
+
+
+def test_ctrl_c_ends_a_run_and_leaves_nothing_behind(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(textwrap.dedent("""
+        import contactcheck, pathlib, sys, time
+        class Slow:
+            declares = {"id": "slow", "levels": ["body"], "questions": ["body"]}
+            def prepare(self, bodies): pathlib.Path(sys.argv[1]).touch()
+            def update(self, frame): time.sleep(100)
+            def query(self, question): return {}
+        try:
+            contactcheck.run("bunny-touch", [Slow()], timing=False)
+        except KeyboardInterrupt:
+            sys.exit(42)
+    """))
+    started = tmp_path / "started"
+    process = subprocess.Popen([sys.executable, "-B", script, started], start_new_session=True, stderr=subprocess.DEVNULL)
+    while not started.exists():
+        assert process.poll() is None
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(30) == 42
+    deadline = time.monotonic() + 10
+    while any(str(started) in command for command in commands()):
+        assert time.monotonic() < deadline, "a process was left behind"
+        time.sleep(0.05)
+
+
+def commands():
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                yield (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            except OSError:
+                pass

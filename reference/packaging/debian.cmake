@@ -32,8 +32,12 @@ judge detectors written in Python.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 # The module is of one version of Python.
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3 (>= ${CONTACTCHECK_PYTHON_VERSION}~), python3 (<< ${CONTACTCHECK_PYTHON_NEXT}~), python3-numpy")
+if(CONTACTCHECK_PYTHON AND CONTACTCHECK_REFERENCE)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  string(JOIN ", " CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+         "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~)"
+         "python3 (<< ${Python_VERSION_MAJOR}.${next}~)" "python3-numpy")
+endif()
 # What run() and gate() call.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "contactcheck (= ${PROJECT_VERSION})")
 

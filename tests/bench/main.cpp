@@ -15,6 +15,9 @@ int main(int argc, char** argv) {
   contactcheck::bench::register_pipeline_benchmarks();
   contactcheck::bench::register_oracle_benchmarks();
   contactcheck::bench::register_supervision_benchmarks();
+#ifdef CONTACTCHECK_BENCH_PYTHON
+  contactcheck::bench::register_python_benchmarks();
+#endif
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

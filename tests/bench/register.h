@@ -10,5 +10,6 @@ void register_lazy_benchmarks();
 void register_pipeline_benchmarks();
 void register_oracle_benchmarks();
 void register_supervision_benchmarks();
+void register_python_benchmarks();
 
 }  // namespace contactcheck::bench

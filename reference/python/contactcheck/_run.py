@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _binding, _serve
-from ._binding import InputError, RefusedInput, Unavailable
+from ._binding import InputError, Unavailable
 
 TEXTS = {"scene", "detector", "status", "message", "options", "finest_level", "question",
          "contact_hash", "recording"}  # columns of a table; the others are numbers
@@ -281,8 +281,11 @@ def run(
     Raises InputError for a bad argument or scene, in the words of the command line. Ctrl-C ends the
     run, and raises KeyboardInterrupt.
     """
-    kept = tempfile.TemporaryDirectory(prefix="contactcheck-") if out is None else None
-    folder = pathlib.Path(kept.name if kept else out)
+    kept = None
+    if out is None:
+        kept = tempfile.TemporaryDirectory(prefix="contactcheck-")
+        out = kept.name
+    folder = pathlib.Path(out)
     quiet = not sys.stderr.isatty() if quiet is None else quiet
     if isinstance(scene, dict):
         scene = Scene(scene)
@@ -292,23 +295,22 @@ def run(
     words += ["--frames", frames] if frames is not None else []
     words += [] if timing else ["--no-timing"]
     words += ["--quiet"] if quiet else []
-    own = [detector for detector in detectors if not isinstance(detector, str)]
-    for detector in own:
-        for name in ("prepare", "update", "query", "declares"):
-            if not hasattr(detector, name):
-                raise InputError(f"detectors: {detector!r} has no {name}; a name is wanted, or an "
-                                 "object with prepare, update, query and declares")
-    server = _serve.Server(own, RefusedInput) if own else None
+    own: list = []
+    server = _serve.Server(own)
     try:
         for detector in detectors:
             if isinstance(detector, str):
                 words += ["--detector", detector]
-            else:
-                words += ["--detector-cmd", server.command(own.index(detector))]
+                continue
+            for name in ("prepare", "update", "query", "declares"):
+                if not hasattr(detector, name):
+                    raise InputError(f"detectors: {detector!r} has no {name}; a name is wanted, or "
+                                     "an object with prepare, update, query and declares")
+            words += ["--detector-cmd", server.command(len(own))]
+            own.append(detector)
         _call(words, server, quiet)
     finally:
-        if server:
-            server.close()
+        server.close()
     results = Results(folder / "results.json")
     results._kept = kept
     return results

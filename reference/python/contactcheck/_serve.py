@@ -8,6 +8,7 @@ ends the child alone. The command lives as long as the child and ends as it does
 
 from __future__ import annotations
 
+import dataclasses
 import faulthandler
 import io
 import json
@@ -19,9 +20,11 @@ import socket
 import struct
 import sys
 import traceback
-from typing import Any, BinaryIO, NamedTuple, Optional
+from typing import Any, BinaryIO, Optional
 
 import numpy as np
+
+from ._binding import RefusedInput
 
 PROTOCOL = "contactcheck-pipe/1"
 RELAY = os.path.join(os.path.dirname(__file__), "_relay.py")
@@ -33,7 +36,8 @@ WITH_DEPTH = {"piece_contacts": ("piece_depths", "piece_normals", 4),
               "vertex_contacts": ("vertex_depths", "vertex_normals", 3)}
 
 
-class LatticeArrays(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class LatticeArrays:
     """The lattice that a body is in."""
 
     nodes: np.ndarray  #: (n, 3) float64, at rest
@@ -44,7 +48,8 @@ class LatticeArrays(NamedTuple):
     label_cells: np.ndarray  #: label_cells[label_begin[t]:label_begin[t + 1]]
 
 
-class Body(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Body:
     """A body at rest, as prepare() of a detector of one's own is given it."""
 
     name: str
@@ -53,7 +58,8 @@ class Body(NamedTuple):
     lattice: Optional[LatticeArrays]
 
 
-class Frame(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Frame:
     """A moment of the scene, as update() of a detector of one's own is given it."""
 
     index: int
@@ -97,7 +103,8 @@ def _answer(answer: Any) -> tuple[dict, bytes]:
     unknown = set(answer) - known
     if unknown:
         raise ValueError(f"query() answered with unknown lists: {', '.join(sorted(unknown))}")
-    line, data = {"message": "contacts"}, b""
+    line: dict[str, Any] = {"message": "contacts"}
+    data = b""
     for name, columns in LISTS.items():
         if name in answer:
             rows = _rows(answer, name, columns)
@@ -123,7 +130,7 @@ def declaration(detector: Any) -> dict:
             "semantics": declares}
 
 
-def serve(detector: Any, source: BinaryIO, to: BinaryIO, refused: type) -> None:
+def serve(detector: Any, source: BinaryIO, to: BinaryIO) -> None:
     """Answers until the input ends."""
 
     def write(line: dict, data: bytes = b"") -> None:
@@ -156,11 +163,11 @@ def serve(detector: Any, source: BinaryIO, to: BinaryIO, refused: type) -> None:
                 write({"message": "done"})
             elif line["message"] == "query":
                 write(*_answer(detector.query(line["question"])))
-        except refused as error:
+        except RefusedInput as error:
             write({"message": "refused", "text": str(error)})
 
 
-def _child(detector: Any, pipes: list[int], refused: type) -> None:
+def _child(detector: Any, pipes: list[int]) -> None:
     """Of the forked process; does not return."""
     code = 1
     try:
@@ -176,7 +183,7 @@ def _child(detector: Any, pipes: list[int], refused: type) -> None:
         if faulthandler.is_enabled():
             faulthandler.enable(sys.stderr)
         own = detector() if isinstance(detector, type) else detector
-        serve(own, os.fdopen(0, "rb", closefd=False), to, refused)
+        serve(own, os.fdopen(0, "rb", closefd=False), to)
         code = 0
     except BaseException:
         traceback.print_exc(file=sys.stderr)
@@ -189,9 +196,8 @@ def _child(detector: Any, pipes: list[int], refused: type) -> None:
 class Server:
     """Forks for the commands of a run, which it waits for: all in the thread that called run()."""
 
-    def __init__(self, detectors: list, refused: type) -> None:
+    def __init__(self, detectors: list) -> None:
         self._detectors = detectors
-        self._refused = refused
         self._children: dict[int, tuple[socket.socket, int]] = {}  # process -> command, its file
         self._selector = selectors.DefaultSelector()
         # In Linux's abstract namespace: no file, and no limit from the length of a folder's name.
@@ -245,7 +251,7 @@ class Server:
             self._socket.close()
             for other in [connection, *(c for c, _ in self._children.values())]:
                 other.close()
-            _child(self._detectors[int(word)], pipes, self._refused)
+            _child(self._detectors[int(word)], pipes)
         for pipe in pipes:
             os.close(pipe)
         file = os.pidfd_open(process)

@@ -12,6 +12,7 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples"))
 PROGRAM = os.environ["CONTACTCHECK_PROGRAM"]
+os.environ.pop("LD_PRELOAD", None)  # of the interpreter alone, in a build with sanitizers
 
 
 def read_ply(file):

@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // their points, too far by as much.
 constexpr double kRounding = 1e-5;
 // Measured for one triangle. With more about it, as in a bundle of needles, nothing is claimed.
-constexpr int kMostMeasured = 1000;
+constexpr int kMostMeasured = 200;
 
 // 1 / sin(angle / 2) of the angle with this cosine.
 double inverse_half_sine(double cosine) {

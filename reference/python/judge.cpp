@@ -43,7 +43,9 @@ Shape make_shape(const py::object& vertices, const py::object& faces,
   Shape out;
   out.body = scene::build_shape(std::move(mesh), spec);
   if (weld) out.body = welded(*out.body);
-  if (out.body->lattice) out.fit = std::make_shared<scene::LatticeFit>(*out.body, spec.smoothing);
+  out.smoothing = spec.smoothing;
+  out.fit = std::make_shared<std::optional<scene::LatticeFit>>();
+  out.fit_made = std::make_shared<std::once_flag>();
   return out;
 }
 
@@ -174,8 +176,9 @@ py::array fit(const Shape& shape, const py::object& vertices_object) {
   std::vector<Vec3> out;
   {
     const Released released;
+    std::call_once(*shape.fit_made, [&] { shape.fit->emplace(*shape.body, shape.smoothing); });
     scene::FitError error;
-    out = shape.fit->fitted(vertices, error);
+    out = (*shape.fit)->fitted(vertices, error);
   }
   return points_table(out);
 }

@@ -4,6 +4,8 @@
 #include <pybind11/numpy.h>
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/deform/body.h"
@@ -16,7 +18,10 @@ namespace py = pybind11;
 /// A mesh that has been checked, in a lattice or not.
 struct Shape {
   std::shared_ptr<const BodyShape> body;
-  std::shared_ptr<const scene::LatticeFit> fit;  ///< of a lattice
+  double smoothing = 0.0;  ///< of the fit of a lattice
+  /// Made when it is first asked for: it takes longer than the lattice.
+  std::shared_ptr<std::optional<scene::LatticeFit>> fit;
+  std::shared_ptr<std::once_flag> fit_made;
 };
 
 /// Adds to the module: Shape, and the functions that judge shapes at rest.

@@ -13,10 +13,15 @@ constexpr py::ssize_t kMostRows = std::numeric_limits<std::int32_t>::max();
 
 py::array array_of(const py::object& object, const std::string& name, const char* kinds,
                    const std::string& wanted) {
-  const py::array out = py::array::ensure(object);
-  if (!out)
+  py::array out;
+  try {
+    out = py::module_::import("numpy").attr("asarray")(object);
+  } catch (const py::error_already_set& error) {
+    // Others, such as of memory, are the caller's to see.
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
     throw InputError(name + ": " + wanted + " wanted, got an object of type " +
                      py::str(py::type::of(object).attr("__name__")).cast<std::string>());
+  }
   const std::string allowed = kinds;
   if (allowed.find(out.dtype().kind()) == std::string::npos || out.dtype().itemsize() > 8)
     throw InputError(name + ": " + wanted + " wanted, got dtype " +
@@ -28,9 +33,9 @@ std::string shape_of(const py::array& array) {
   return py::str(array.attr("shape")).cast<std::string>();
 }
 
-void check_shape(const py::array& array, const std::string& name) {
+void check_shape(const py::array& array, const std::string& name, const char* wanted) {
   if (array.ndim() != 2 || array.shape(1) != 3)
-    throw InputError(name + " has shape " + shape_of(array) + "; it must be (n, 3)");
+    throw InputError(name + " has shape " + shape_of(array) + "; it must be " + wanted);
   if (array.shape(0) > kMostRows)
     throw InputError(name + " has " + std::to_string(array.shape(0)) + " rows; at most " +
                      std::to_string(kMostRows) + " can be judged");
@@ -40,10 +45,14 @@ std::string place(const std::string& name, std::size_t row, std::size_t column) 
   return name + "[" + std::to_string(row) + ", " + std::to_string(column) + "]";
 }
 
+// In C order and native; the array itself where it is so.
+template <typename Number>
+using Plain = py::array_t<Number, py::array::c_style | py::array::forcecast>;
+
 template <typename Index>
 std::vector<Triangle> read_indices(const py::array& array, const std::string& name,
                                    std::size_t vertices, bool any_value) {
-  const auto indices = py::array_t<Index, py::array::c_style | py::array::forcecast>::ensure(array);
+  const Plain<Index> indices(array);
   const Index* from = indices.data();
   std::vector<Triangle> out(static_cast<std::size_t>(indices.shape(0)));
   for (std::size_t t = 0; t < out.size(); ++t)
@@ -56,6 +65,16 @@ std::vector<Triangle> read_indices(const py::array& array, const std::string& na
       out[t][k] = known ? static_cast<std::uint32_t>(*from) : ~0u;
     }
   return out;
+}
+
+// Beyond 2^53 a double rounds them.
+void check_whole_numbers(const py::array& array, const std::string& name) {
+  const Plain<std::int64_t> numbers(array);
+  for (py::ssize_t i = 0; i < numbers.size(); ++i)
+    if (std::abs(static_cast<double>(numbers.data()[i])) > 0x1p53)
+      throw InputError(
+          place(name, static_cast<std::size_t>(i) / 3, static_cast<std::size_t>(i) % 3) + " is " +
+          std::to_string(numbers.data()[i]) + "; a double would round it");
 }
 
 // 3, a, b, c, 3, d, e, f, ...: what VTK and pyvista call faces.
@@ -74,10 +93,10 @@ py::array without_counts(const py::array& row, const std::string& name) {
 
 std::vector<Vec3> read_points(const py::object& object, const std::string& name, bool any_value) {
   const py::array given = array_of(object, name, "fiu", "an (n, 3) array of numbers");
-  check_shape(given, name);
-  const auto doubles =
-      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  check_shape(given, name, "(n, 3)");
+  if (given.dtype().kind() != 'f' && given.dtype().itemsize() == 8)
+    check_whole_numbers(given, name);
+  const Plain<double> doubles(given);
   std::vector<Vec3> out(static_cast<std::size_t>(doubles.shape(0)));
   const double* from = doubles.data();
   for (std::size_t i = 0; i < out.size(); ++i, from += 3) {
@@ -94,7 +113,7 @@ std::vector<Triangle> read_triangles(const py::object& object, const std::string
                                      std::size_t vertices, bool any_value) {
   py::array given = array_of(object, name, "iu", "an (m, 3) array of integers");
   if (given.ndim() == 1 && given.shape(0) > 0) given = without_counts(given, name);
-  check_shape(given, name);
+  check_shape(given, name, "(m, 3)");
   if (py::isinstance<py::array_t<std::int32_t>>(given))
     return read_indices<std::int32_t>(given, name, vertices, any_value);
   if (py::isinstance<py::array_t<std::uint64_t>>(given))

@@ -17,7 +17,7 @@ namespace contactcheck::python {
 namespace py = pybind11;
 
 /// (n, 3) numbers, read as doubles; float64 in C order is copied once. @throws InputError for other
-/// shapes and types, for those that a double rounds, and for NaN and infinity unless `any_value`
+/// shapes and types, for numbers that a double rounds, and for NaN and infinity unless `any_value`
 std::vector<Vec3> read_points(const py::object& object, const std::string& name,
                               bool any_value = false);
 

@@ -10,7 +10,7 @@
 
 #include "core/types/check.h"
 #include "reference/adapters/register.h"
-#include "reference/process/float_environment.h"
+#include "reference/oracle/floating_point.h"
 #include "reference/python/arrays.h"
 #include "reference/python/judge.h"
 #include "reference/results/results_json.h"
@@ -41,9 +41,7 @@ class PyDetector {
   template <typename Call>
   auto guarded(Call&& call) {
     const std::lock_guard lock(mutex_);
-    const process::FloatEnvironmentGuard environment;
-    const auto restore = [&environment](void*) { environment.check_and_restore(); };
-    const std::unique_ptr<void, decltype(restore)> at_end(this, restore);
+    const oracle::FloatingPointGuard guard;  // also of what the detector leaves behind
     try {
       return call();
     } catch (const InputError&) {
@@ -76,12 +74,12 @@ class PyDetector {
   void prepare(const std::vector<std::pair<std::string, Shape>>& bodies,
                const std::vector<std::string>& questions) {
     guarded([&] {
-      State state = State::kNone;
-      std::swap(state, state_);
-      bodies_.clear();
-      for (const auto& [name, shape] : bodies) bodies_.push_back({name, shape.body});
       std::vector<Question> asked;
       for (const std::string& question : questions) asked.push_back(question_named(question));
+      state_ = State::kNone;
+      detector_.reset();  // before its bodies
+      bodies_.clear();
+      for (const auto& [name, shape] : bodies) bodies_.push_back({name, shape.body});
       detector_ = catalog().make(spec_);
       if (!asked.empty()) detector_->expect(asked);
       detector_->prepare(bodies_);
@@ -157,11 +155,11 @@ class PyDetector {
 
   std::mutex mutex_;
   DetectorSpec spec_;
-  std::unique_ptr<Detector> detector_;
-  State state_ = State::kNone;
   std::vector<Body> bodies_;
   std::vector<std::vector<Vec3>> nodes_, vertices_;
   Frame frame_;
+  std::unique_ptr<Detector> detector_;  // destroyed before what it looks at
+  State state_ = State::kNone;
 };
 
 using Quad = std::array<std::uint32_t, 4>;
@@ -218,10 +216,10 @@ void add_detector(py::module_& module) {
       .def("declares", &PyDetector::declares, Released())
       .def("prepare", &PyDetector::prepare, Released())
       .def("update",
-           [](PyDetector& self, const py::sequence& positions, double time) {
+           [](PyDetector& self, const py::tuple& positions, double time) {
              std::vector<std::vector<Vec3>> arrays;
-             for (const py::handle array : positions)
-               arrays.push_back(read_points(py::reinterpret_borrow<py::object>(array),
+             for (const py::handle item : positions)
+               arrays.push_back(read_points(py::reinterpret_borrow<py::object>(item),
                                             "positions[" + std::to_string(arrays.size()) + "]"));
              const py::gil_scoped_release released;
              self.update(std::move(arrays), time);

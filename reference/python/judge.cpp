@@ -19,6 +19,8 @@ namespace contactcheck::python {
 namespace {
 
 using Released = py::gil_scoped_release;
+// Whatever the caller's thread has set, such as flush-to-zero by a library that was imported.
+using CleanNumbers = py::call_guard<oracle::FloatingPointGuard>;
 
 TriangleMesh read_mesh(const py::object& vertices, const py::object& faces,
                        const std::string& vertices_name, const std::string& faces_name,
@@ -106,7 +108,6 @@ py::tuple distance(const Shape& a, const Shape& b) {
   {
     const Released released;
     found = oracle::Oracle(scene.bodies).distance(scene.frame, {0, 1});
-    const oracle::FloatingPointGuard guard;
     const std::array<Vec3, 2> nearest = oracle::certify::nearest_points_rounded(
         scene.corners(0, found.triangles[0]), scene.corners(1, found.triangles[1]));
     points.assign(nearest.begin(), nearest.end());
@@ -124,7 +125,6 @@ py::tuple inside(const py::object& points_object, const Shape& shape) {
   std::vector<std::optional<int>> winding(points.size());
   {
     const Released released;
-    const oracle::FloatingPointGuard guard;
     oracle::SurfaceTree tree(shape.body->mesh);
     tree.refit(shape.body->mesh.vertices);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -189,7 +189,7 @@ void add_judge(py::module_& module) {
   py::class_<Shape>(module, "Shape")
       .def(py::init(&make_shape), py::arg("vertices"), py::arg("faces"), py::arg("vertices_name"),
            py::arg("faces_name"), py::arg("weld") = false, py::arg("lattice") = "null",
-           py::arg("lattice_name") = "")
+           py::arg("lattice_name") = "", CleanNumbers())
       .def_property_readonly("nodes",
                              [](const Shape& shape) {
                                return points_table(shape.body->lattice
@@ -203,13 +203,18 @@ void add_judge(py::module_& module) {
                              })
       .def_property_readonly("cells",
                              [](const Shape& shape) { return shape.body->lattice->cells.size(); })
-      .def("deform", &deform)
-      .def("fit", &fit);
-  module.def("contacts", &contacts);
-  module.def("self_contacts", &self_contacts);
-  module.def("distance", &distance);
-  module.def("inside", &inside);
-  module.def("check_mesh", &check_mesh);
+      .def("positions",
+           [](const Shape& shape, const py::object& object, const std::string& name) {
+             return points_table(read_positions(object, name, shape.body->mesh.vertices.size(),
+                                                "vertices of the mesh"));
+           })
+      .def("deform", &deform, CleanNumbers())
+      .def("fit", &fit, CleanNumbers());
+  module.def("contacts", &contacts, CleanNumbers());
+  module.def("self_contacts", &self_contacts, CleanNumbers());
+  module.def("distance", &distance, CleanNumbers());
+  module.def("inside", &inside, CleanNumbers());
+  module.def("check_mesh", &check_mesh, CleanNumbers());
 }
 
 }  // namespace contactcheck::python

@@ -167,11 +167,14 @@ class Lattice:
         smoothing: float = 1e-6,
     ) -> None:
         amount = "cells" if np.ndim(cells) else "kept"
-        lattice = {amount: np.asarray(cells).tolist(), "padding": float(padding)}
-        lattice.update(fit=True, smoothing=float(smoothing))
-        self._shape = _binding.Shape(
-            V, F, "V", "F", False, json.dumps(lattice), f"Lattice(cells={cells!r})"
-        )
+        lattice = {amount: np.asarray(cells).tolist(), "padding": padding}
+        lattice.update(fit=True, smoothing=smoothing)
+        try:
+            text = json.dumps(lattice, allow_nan=False)
+        except (TypeError, ValueError):
+            raise InputError(f"Lattice: cells={cells!r}, padding={padding!r} and smoothing="
+                             f"{smoothing!r} must be finite numbers") from None
+        self._shape = _binding.Shape(V, F, "V", "F", False, text, f"Lattice(cells={cells!r})")
         self._nodes = self._shape.nodes
         self._nodes.flags.writeable = False
 
@@ -215,9 +218,12 @@ def detectors() -> list[str]:
 def _shape(body: Any, name: str) -> _binding.Shape:
     if isinstance(body, Lattice):
         return body._shape
-    if hasattr(body, "vertices"):
-        faces = "faces" if hasattr(body, "faces") else "triangles"
-        body = (body.vertices, getattr(body, faces))
+    for vertices in ("vertices", "points"):  # trimesh and Open3D; meshio and pyvista
+        if hasattr(body, vertices):
+            faces = next((getattr(body, key) for key in ("faces", "triangles") if hasattr(body, key)),
+                         getattr(body, "cells_dict", {}).get("triangle"))
+            body = (getattr(body, vertices), faces)
+            break
     try:
         V, F = body
     except (TypeError, ValueError):
@@ -262,7 +268,7 @@ class Detector:
         return json.loads(self._detector.declares())
 
     def prepare(self, bodies: Iterable[Any], questions: Sequence[str] = ()) -> None:
-        """Once for these bodies: each a Lattice, (V, F) or an object with vertices and faces.
+        """Once for these bodies: each a Lattice, (V, F), or a mesh of trimesh, meshio, Open3D, pyvista.
 
         `questions`: what will be asked. Some detectors then leave out what only others need.
         """
@@ -271,7 +277,7 @@ class Detector:
 
     def update(self, positions: Sequence[Any], time: float = 0.0) -> None:
         """The bodies of one frame: (n, 3) nodes of a Lattice, vertices of other bodies; copied."""
-        self._detector.update(positions, time)
+        self._detector.update(tuple(positions), time)
 
     def query(self, question: str = "triangles") -> dict[str, np.ndarray]:
         """What touches in the frame: question triangles, body, cells, contacts or self.

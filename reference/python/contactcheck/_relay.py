@@ -6,8 +6,8 @@ import socket
 import sys
 
 connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-connection.connect(b"\0" + sys.argv[1].encode())
-socket.send_fds(connection, [sys.argv[2].encode()], [0, 1, 2])
+connection.connect(b"\0" + os.environ["CONTACTCHECK_PYTHON_SOCKET"].encode())
+socket.send_fds(connection, [sys.argv[1].encode()], [0, 1, 2])
 nothing = os.open(os.devnull, os.O_RDWR)
 for file in range(3):
     os.dup2(nothing, file)  # the pipes end with the child

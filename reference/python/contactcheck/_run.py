@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import weakref
 import xml.etree.ElementTree as xml
 from typing import Any, NamedTuple, Optional, Sequence, Union
 
@@ -38,11 +39,19 @@ def program() -> str:
 def _call(
     words: Sequence[Any], server: Optional[_serve.Server] = None, quiet: bool = True
 ) -> subprocess.CompletedProcess:
-    """Runs the program; bad usage and bad input raise its sentence. Ctrl-C ends it in its own way."""
+    """Runs the program; bad usage and bad input raise its sentence. Ctrl-C ends it in its own way.
+
+    Exit code 1 (a check fails) and 3 (a detector's status is error) are results.
+    """
     output = subprocess.PIPE if quiet else None
-    process = subprocess.Popen(
-        [program(), *map(str, words)], stdin=subprocess.DEVNULL, stdout=output, stderr=output,
-        text=True, start_new_session=True)  # so that Ctrl-C reaches it by us, once
+    try:
+        process = subprocess.Popen(
+            [program(), *map(str, words)], stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+            text=True, env=server.environment() if server else None,
+            start_new_session=True,  # so that Ctrl-C reaches it by us, once
+            preexec_fn=lambda: _serve.end_with_parent(signal.SIGINT))
+    except OSError as error:
+        raise Unavailable(f"{program()} cannot be run: {error.strerror}") from None
     try:
         if server:
             server.wait(process.pid)
@@ -51,8 +60,13 @@ def _call(
         process.send_signal(signal.SIGINT)
         process.communicate()
         raise
+    if process.returncode == 2 and not quiet:
+        return _call(words, server)  # it fails at once, and its sentence is ours then
     if process.returncode == 2:
-        raise InputError((error or "see above").strip().removeprefix("contactcheck: "))
+        raise InputError(error.strip().removeprefix("contactcheck: "))
+    if process.returncode not in (0, 1, 3):
+        last = (error or "").strip().rpartition("\n")[2]
+        raise RuntimeError(f"contactcheck ended with exit code {process.returncode}: {last}")
     return subprocess.CompletedProcess(words, process.returncode, out, error)
 
 
@@ -95,16 +109,19 @@ class Scene:
         """
         out = cls({"id": id, "time_step": time_step, "levels": list(levels), "bodies": []})
         for i, (frames, F) in enumerate(bodies):
-            name = f"body{i}"
-            shapes = [_binding.Shape(V, F, f"V of bodies[{i}], frame {f}", f"F of bodies[{i}]")
-                      for f, V in enumerate(frames)]
-            if not shapes:
+            name, place = f"body{i}", f"V of bodies[{i}], frame "
+            if len(frames) == 0:
                 raise InputError(f"bodies[{i}] has no frame")
+            if len(frames) != len(bodies[0][0]):
+                raise InputError(f"bodies[{i}] has {len(frames)} frames, bodies[0] {len(bodies[0][0])}")
+            shape = _binding.Shape(frames[0], F, place + "0", f"F of bodies[{i}]")
+            positions = [shape.positions(V, f"{place}{f}") for f, V in enumerate(frames)]
+            out.description["frames"] = len(positions)
             body: dict = {"name": name, "recording": {"frames": f"{name}_%06d.ply"}}
             if lattice:
                 body["lattice"] = lattice
             out.description["bodies"].append(body)
-            out._meshes.append((name, [shape.nodes for shape in shapes], shapes[0].faces))
+            out._meshes.append((name, positions, shape.faces))
         return out
 
     def save(self, folder: Union[str, os.PathLike]) -> pathlib.Path:
@@ -157,7 +174,6 @@ class Results:
         self.file = pathlib.Path(file)
         self._results = _binding.Results(str(self.file))
         self.data: dict = json.loads(self.file.read_text(encoding="utf-8"))
-        self._kept: Any = None
 
     def rows(self) -> list[dict[str, Any]]:
         """One dictionary per scene and detector, the columns of report.csv; None: no value.
@@ -191,8 +207,9 @@ class Results:
     def contacts(self, detector: str, scene: Optional[str] = None) -> dict[int, dict[str, np.ndarray]]:
         """Of one row, by frame: pairs `missed` and `spurious`, (k, 4): body a, body b, element a, b.
 
-        At the finest level that it claims (fixtures/README.md, "Contacts"); frames without an error
-        are left out, and so are pairs beyond 500 of a frame.
+        At the finest level that it claims; what the elements are, and where they are -1, says
+        fixtures/README.md, "Contacts". Frames without an error are left out, and so are pairs
+        beyond 500 of a frame.
         """
         run = self._run(detector, scene)
         name = next(s.get("contacts") for s in self.data["scenes"] if s["id"] == run["scene"])
@@ -269,9 +286,16 @@ def run(
 ) -> Results:
     """Runs detectors on a scene and judges every answer, as `contactcheck run` does.
 
+    >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+    >>> scene = Scene.from_frames([([V, V], F), ([V + 2, V], F)])
+    >>> for row in run(scene, ["ffd-lazy", "fcl-aabb"], timing=False).rows():
+    ...     print(row["detector"], row["status"], row["triangle_truth"], row["triangle_missed"])
+    ffd-lazy ok 1 0
+    fcl-aabb ok 1 0
+
     `scene`: a name of `contactcheck list`, a file, a dictionary of the scene format, or a Scene.
     `detectors`: names, and detectors of one's own: objects or classes with prepare(bodies),
-    update(frame), query(question) and an attribute `declares`. None: the scene's own. Each is asked
+    update(frame), query(question) and an attribute `declares`; none: the scene's own. Each is asked
     in a process of its own, forked from this one; its crash or hang is a row with status error.
     `frames`: so many, in the same time. `processes`: timed passes; `timing=False` judges only.
     `out`: the folder of all files; None: one that is removed with the results. `quiet`: neither
@@ -281,26 +305,26 @@ def run(
     Raises InputError for a bad argument or scene, in the words of the command line. Ctrl-C ends the
     run, and raises KeyboardInterrupt.
     """
-    kept = None
-    if out is None:
-        kept = tempfile.TemporaryDirectory(prefix="contactcheck-")
-        out = kept.name
-    folder = pathlib.Path(out)
-    quiet = not sys.stderr.isatty() if quiet is None else quiet
-    if isinstance(scene, dict):
-        scene = Scene(scene)
-    if isinstance(scene, Scene):
-        scene = scene.save(folder / "scene")
-    words: list = ["run", scene, "--out", folder, "--processes", processes, *options]
-    words += ["--frames", frames] if frames is not None else []
-    words += [] if timing else ["--no-timing"]
-    words += ["--quiet"] if quiet else []
+    from . import Detector
+
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="contactcheck-") if out is None else out)
+    if isinstance(detectors, str) or hasattr(detectors, "query"):
+        detectors = [detectors]
+    quiet = not (sys.stderr and sys.stderr.isatty()) if quiet is None else quiet
     own: list = []
     server = _serve.Server(own)
     try:
+        if isinstance(scene, dict):
+            scene = Scene(scene)
+        if isinstance(scene, Scene):
+            scene = scene.save(folder / "scene")
+        words: list = ["run", scene, "--out", folder, "--processes", processes, *options]
+        words += ["--frames", frames] if frames is not None else []
+        words += [] if timing else ["--no-timing"]
+        words += ["--quiet"] if quiet else []
         for detector in detectors:
-            if isinstance(detector, str):
-                words += ["--detector", detector]
+            if isinstance(detector, (str, Detector)):
+                words += ["--detector", str(getattr(detector, "name", detector))]
                 continue
             for name in ("prepare", "update", "query", "declares"):
                 if not hasattr(detector, name):
@@ -308,11 +332,18 @@ def run(
                                      "an object with prepare, update, query and declares")
             words += ["--detector-cmd", server.command(len(own))]
             own.append(detector)
+        if "--resume" not in options:
+            (folder / "results.json").unlink(missing_ok=True)
         _call(words, server, quiet)
+        results = Results(folder / "results.json")
+    except BaseException:
+        if out is None:
+            shutil.rmtree(folder, ignore_errors=True)
+        raise
     finally:
         server.close()
-    results = Results(folder / "results.json")
-    results._kept = kept
+    if out is None:
+        weakref.finalize(results, shutil.rmtree, folder, ignore_errors=True)
     return results
 
 

@@ -8,11 +8,14 @@ ends the child alone. The command lives as long as the child and ends as it does
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import dataclasses
 import faulthandler
 import io
 import json
 import os
+import select
 import selectors
 import shlex
 import signal
@@ -28,6 +31,14 @@ from ._binding import RefusedInput
 
 PROTOCOL = "contactcheck-pipe/1"
 RELAY = os.path.join(os.path.dirname(__file__), "_relay.py")
+SOCKET = "CONTACTCHECK_PYTHON_SOCKET"  # of the environment of a run
+LIBC = ctypes.CDLL(None)
+
+
+def end_with_parent(how: int) -> None:
+    """The signal that this process gets when the thread that started it has ended."""
+    PR_SET_PDEATHSIG = 1
+    LIBC.prctl(PR_SET_PDEATHSIG, how)
 
 # The lists of an answer in the order of the protocol, with the integers of a row; those of
 # piece_contacts and vertex_contacts have a depth and a normal each.
@@ -90,7 +101,8 @@ def _rows(answer: dict, name: str, columns: int) -> np.ndarray:
     out = np.asarray(answer[name])
     if out.size == 0:
         return np.zeros((0, columns), "<u4")
-    if out.ndim != 2 or out.shape[1] != columns or out.dtype.kind not in "iu" or out.min() < 0:
+    if out.ndim != 2 or out.shape[1] != columns or out.dtype.kind not in "iu" or (
+            out.min() < 0 or out.max() >= 2**32):
         got = f"shape {out.shape} of {out.dtype}"
         raise ValueError(f'"{name}" must be (k, {columns}) indices, got {got}')
     return out.astype("<u4")
@@ -122,12 +134,13 @@ def _answer(answer: Any) -> tuple[dict, bytes]:
 
 
 def declaration(detector: Any) -> dict:
-    """Its line of `hello`, from its attribute `declares`."""
+    """Its line of `hello`, from its attribute `declares`: what is no key of the line is semantics."""
     declares = dict(detector.declares)
-    name = declares.pop("id", type(detector).__name__)
-    needs = declares.pop("needs", ["vertices"])
-    return {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": list(needs),
-            "semantics": declares}
+    name = getattr(detector, "__name__", type(detector).__name__)
+    line = {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": ["vertices"]}
+    line.update({key: declares.pop(key) for key in ("id", "summary", "version", "options", "needs")
+                 if key in declares})
+    return {**line, "semantics": {**declares.pop("semantics", {}), **declares}}
 
 
 def serve(detector: Any, source: BinaryIO, to: BinaryIO) -> None:
@@ -172,6 +185,9 @@ def _child(detector: Any, pipes: list[int]) -> None:
     code = 1
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+        os.setsid()  # its own processes end with it
+        end_with_parent(signal.SIGKILL)
         for target, pipe in enumerate(pipes):
             os.dup2(pipe, target)
         # What the detector prints goes to standard error, not between the messages.
@@ -197,7 +213,7 @@ class Server:
     """Forks for the commands of a run, which it waits for: all in the thread that called run()."""
 
     def __init__(self, detectors: list) -> None:
-        self._detectors = detectors
+        self._detectors = detectors  # more may be added
         self._children: dict[int, tuple[socket.socket, int]] = {}  # process -> command, its file
         self._selector = selectors.DefaultSelector()
         # In Linux's abstract namespace: no file, and no limit from the length of a folder's name.
@@ -207,9 +223,11 @@ class Server:
         self._selector.register(self._socket, selectors.EVENT_READ, self._connected)
 
     def command(self, index: int) -> str:
-        """For --detector-cmd."""
-        name = self._socket.getsockname()[1:].decode("ascii")
-        return "exec " + shlex.join([sys.executable, "-S", "-E", RELAY, name, str(index)])
+        """For --detector-cmd: the same words in every run."""
+        return "exec " + shlex.join([sys.executable or "python3", "-S", "-E", RELAY, str(index)])
+
+    def environment(self) -> dict[str, str]:
+        return {**os.environ, SOCKET: self._socket.getsockname()[1:].decode("ascii")}
 
     def wait(self, process: int) -> None:
         """Until the process of the run has ended."""
@@ -231,8 +249,7 @@ class Server:
 
     def close(self) -> None:
         for process in list(self._children):
-            os.kill(process, signal.SIGKILL)
-            self._child_ended(process)
+            self._end(process)
         self._selector.close()
         self._socket.close()
 
@@ -246,29 +263,37 @@ class Server:
         if len(pipes) != 3:
             connection.close()
             return
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # the child must not return
         process = os.fork()
         if process == 0:
             self._socket.close()
             for other in [connection, *(c for c, _ in self._children.values())]:
                 other.close()
             _child(self._detectors[int(word)], pipes)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
         for pipe in pipes:
             os.close(pipe)
         file = os.pidfd_open(process)
         self._children[process] = (connection, file)
-        self._selector.register(file, selectors.EVENT_READ, lambda: self._child_ended(process))
-        # The command sends nothing more: readable means that it was killed.
-        self._selector.register(connection, selectors.EVENT_READ,
-                                lambda: os.kill(process, signal.SIGKILL))
+        # The command sends nothing more: readable means that it was killed. Either ends both.
+        for source in (file, connection):
+            self._selector.register(source, selectors.EVENT_READ, lambda: self._end(process))
 
-    def _child_ended(self, process: int) -> None:
+    def _end(self, process: int) -> None:
+        if process not in self._children:
+            return  # both had something to say
         connection, file = self._children.pop(process)
-        _, status = os.waitpid(process, 0)
         self._selector.unregister(connection)
         self._selector.unregister(file)
+        ended = bool(select.select([file], [], [], 0)[0])
+        if not ended:
+            signal.pidfd_send_signal(file, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process, signal.SIGKILL)  # what it has started
+        code = 0
+        with contextlib.suppress(ChildProcessError):  # a program may have all children taken away
+            code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+        with contextlib.suppress(OSError):
+            connection.send(str(code).encode())
         os.close(file)
-        try:
-            connection.send(str(os.waitstatus_to_exitcode(status)).encode())
-        except OSError:
-            pass
         connection.close()

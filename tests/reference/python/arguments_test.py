@@ -1,6 +1,7 @@
 """What goes in as it is, and what is refused: with argument, place and value."""
 
 import re
+import types
 
 import contactcheck
 import numpy as np
@@ -36,18 +37,38 @@ def test_an_array_is_not_changed_and_may_be_read_only():
     assert np.array_equal(vertices, V) and np.array_equal(faces, F)
 
 
-class Mesh:
-    def __init__(self, name):
-        self.vertices = V
-        setattr(self, name, F)
+def mesh(**attributes):
+    return types.SimpleNamespace(**attributes)
 
 
-@pytest.mark.parametrize("body", [(V, F), [V, F], Mesh("faces"), Mesh("triangles"), contactcheck.Lattice(V, F)])
+@pytest.mark.parametrize("body", [
+    (V, F), [V, F], contactcheck.Lattice(V, F), mesh(vertices=V, faces=F), mesh(vertices=V, triangles=F),
+    mesh(points=V, faces=np.array([3, 0, 1, 2, 3, 3, 4, 5])), mesh(points=V, cells_dict={"triangle": F}),
+])
 def test_bodies_of_any_kind(body):
     detector = contactcheck.Detector("ffd-lazy")
     detector.prepare([body], ["self"])
     detector.update([body.nodes if isinstance(body, contactcheck.Lattice) else V])
     assert detector.query("self")["triangles"].tolist() == [[0, 0, 0, 1]]
+
+
+class Lazily:
+    """A sequence that makes its items when they are asked for."""
+
+    def __len__(self):
+        return 2
+
+    def __getitem__(self, index):
+        return [V.copy(), V + 0.0][index]
+
+
+@pytest.mark.parametrize("positions", [lambda: np.stack([V, V]), lambda: Lazily(), lambda: (V + 0.0 for _ in range(2))])
+def test_positions_of_any_kind(positions):
+    detector = prepared()
+    expected = updated().query()["triangles"]
+    for _ in range(100):
+        detector.update(positions())
+    assert np.array_equal(detector.query()["triangles"], expected)
 
 
 HUGE = np.broadcast_to(np.zeros(3), (2**31, 3))
@@ -60,7 +81,7 @@ BAD = [
     (lambda: contactcheck.contacts(V, np.array([[0, 1, 2**64 - 1]], np.uint64), V, F), "is 18446744073709551615;"),
     (lambda: contactcheck.contacts(V[:, :2], F, V, F), "Va has shape (6, 2); it must be (n, 3)"),
     (lambda: contactcheck.contacts(V.ravel(), F, V, F), "Va has shape (18,); it must be (n, 3)"),
-    (lambda: contactcheck.contacts(V, F[:, :2], V, F), "Fa has shape (2, 2)"),
+    (lambda: contactcheck.contacts(V, F[:, :2], V, F), "Fa has shape (2, 2); it must be (m, 3)"),
     (lambda: contactcheck.contacts(V, [3, 0, 1, 2, 4, 0, 1, 2], V, F), "one row of 3, a, b, c for every triangle"),
     (lambda: contactcheck.contacts(V, [3, 0, 1], V, F), "one row of 3, a, b, c for every triangle"),
     (lambda: contactcheck.contacts(V, F.astype(float), V, F), "integers wanted, got dtype float64"),
@@ -69,6 +90,7 @@ BAD = [
     (lambda: contactcheck.contacts(V.astype(np.longdouble), F, V, F), "got dtype float128"),
     (lambda: contactcheck.contacts(V.astype(object), F, V, F), "got dtype object"),
     (lambda: contactcheck.contacts(V.astype(str), F, V, F), "got dtype <U"),
+    (lambda: contactcheck.contacts(V.astype(int) + 2**53 + 2, F, V, F), "Va[0, 0] is 9007199254740994; a double would round it"),
     (lambda: contactcheck.contacts(None, F, V, F), "Va: an (n, 3) array of numbers wanted, got"),
     (lambda: contactcheck.contacts([[1, 2], [3]], F, V, F), "Va: an (n, 3) array of numbers wanted, got"),
     (lambda: contactcheck.contacts(V, np.zeros((0, 3), int), V, F), "Fa has no triangle"),
@@ -87,6 +109,8 @@ BAD = [
     (lambda: contactcheck.Lattice(V, F, cells=(1, 2, 129)), "129"),
     (lambda: contactcheck.Lattice(V, F, padding=float("nan")), "padding"),
     (lambda: contactcheck.Lattice(V, F, smoothing=0), "smoothing"),
+    (lambda: contactcheck.Lattice(V, F, cells=1j), "cells=1j"),
+    (lambda: contactcheck.contacts(V, F, V, np.array(3)), "Fb has shape (); it must be (m, 3)"),
     (lambda: contactcheck.Lattice(V, F).deform(V[:2]), "nodes has 2 rows; the nodes of the lattice are"),
     (lambda: contactcheck.Lattice(V, F).fit(V[:2]), "V has 2 rows; the vertices of the mesh are 6"),
     (lambda: contactcheck.Detector("ffd-lasy"), "ffd-lasy"),

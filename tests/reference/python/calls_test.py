@@ -1,8 +1,10 @@
 """Threads, memory, the interpreter's lock and the floating-point environment."""
 
+import ctypes
 import gc
 import os
 import pathlib
+import platform
 import resource
 import subprocess
 import sys
@@ -11,6 +13,7 @@ import time
 
 import contactcheck
 import numpy as np
+import pytest
 
 
 def grid(n, height=0.0):
@@ -83,6 +86,7 @@ def test_memory_stays_flat():
         contactcheck.distance(V, F, V + 3, F)
         contactcheck.check_mesh(V, F)
         contactcheck.self_contacts(V, F)
+        detector.prepare([lattice, (V, F)])
         detector.update([lattice.nodes, V])
         detector.query()
         try:
@@ -114,6 +118,44 @@ def test_a_detector_leaves_subnormal_numbers_alone():
         except contactcheck.RefusedInput:
             pass
         assert np.float64(5e-324) * np.float64(1.0) == 5e-324, name
+
+
+MXCSR = 28  # its place in fenv_t
+MODES = {"flush-to-zero": 0x9FC0, "upward": 0x5F80, "downward": 0x3F80}
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="knows this processor's fenv_t alone")
+@pytest.mark.parametrize("mode", MODES)
+def test_answers_do_not_depend_on_the_thread_s_floating_point_environment(mode):
+    libm = ctypes.CDLL("libm.so.6")
+    V, F = grid(6)
+    far, tiny = V + 1 / 3, V * 1e-309
+    above = tiny + [0, 0, 5e-324]
+    small = V * 1e-305
+    moved = [contactcheck.Lattice(X, F, cells=(3, 3, 1)).nodes * 1.1 for X in (small, far)]
+    detector = contactcheck.Detector("ffd-lazy")
+    detector.prepare([(tiny, F), (above, F)])
+
+    def answers():
+        lattices = [contactcheck.Lattice(X, F, cells=(3, 3, 1)) for X in (small, far)]
+        detector.update([tiny, above])
+        return [contactcheck.contacts(tiny, F, above, F), contactcheck.self_contacts(tiny, F).pairs,
+                *contactcheck.distance(far, F, V, F), *contactcheck.distance(tiny, F, above, F),
+                detector.query()["triangles"], lattices[1].fit(far), lattices[0].nodes, lattices[1].nodes,
+                *(lattice.deform(nodes) for lattice, nodes in zip(lattices, moved)),
+                np.frombuffer(str(contactcheck.check_mesh(tiny, F)).encode(), np.uint8)]
+
+    expected = answers()
+    before = ctypes.create_string_buffer(64)
+    libm.fegetenv(before)
+    changed = ctypes.create_string_buffer(before.raw, 64)
+    changed[MXCSR:MXCSR + 4] = MODES[mode].to_bytes(4, "little")
+    libm.fesetenv(changed)
+    try:
+        found = answers()
+    finally:
+        libm.fesetenv(before)
+    assert [np.asarray(x).tobytes() for x in found] == [np.asarray(x).tobytes() for x in expected]
 
 
 def test_it_imports_numpy_and_the_standard_library_alone():

@@ -141,6 +141,23 @@ class Measuring(Exact):
         return self.detector.query(question)
 
 
+class Wide(Exact):
+    declares = dict(Exact.declares, id="wide")
+
+    def query(self, question):
+        return {"triangles": np.array([[2**32, 1, 0, 0]])}
+
+
+class Leaving(Exact):
+    """Starts a process that would outlive it."""
+
+    declares = dict(Exact.declares, id="leaving", summary="leaves something", version="7")
+
+    def prepare(self, bodies):
+        super().prepare(bodies)
+        subprocess.Popen(["sleep", "1234.5"])
+
+
 def row(results, detector):
     (found,) = [r for r in results.rows() if r["detector"] == detector]
     return found
@@ -192,6 +209,7 @@ def test_wrong_answers_are_found_with_their_triangles():
 @pytest.mark.parametrize("detector, status, message", [
     (Dying, "error", "signal 11"), (Raising, "error", "KeyError: 'no such luck'"), (Hanging, "error", "no progress"),
     (Refusing, "refused", "not today"), (Odd, "error", "unknown lists: triangels"),
+    (Wide, "error", '"triangles" must be (k, 4) indices'),
 ])
 def test_a_failing_detector_is_a_row(detector, status, message):
     results = contactcheck.run(APPROACH, [detector(), Exact()], timing=False, options=["--call-limit", "2"])
@@ -204,6 +222,45 @@ def test_what_a_detector_prints_is_a_note():
     results = contactcheck.run(APPROACH, [Printing()], timing=False)
     assert row(results, "printing")["status"] == "ok"
     assert "found something" in str(results.data["runs"][0]["notes"])
+
+
+def test_what_a_detector_has_started_ends_with_it():
+    results = contactcheck.run(APPROACH, Leaving(), timing=False)
+    assert row(results, "leaving")["status"] == "ok"
+    assert results.data["plugins"][0]["version"] == "7"
+    assert not any("sleep 1234.5" in command for command in commands())
+
+
+def test_detectors_of_the_program_by_name_or_as_they_are():
+    for detectors in ("ffd-lazy", contactcheck.Detector("ffd-lazy"), ("ffd-lazy",)):
+        assert [r["detector"] for r in contactcheck.run(APPROACH, detectors, timing=False).rows()] == ["ffd-lazy"]
+
+
+def test_a_folder_may_be_used_again(tmp_path):
+    touching = contactcheck.Scene.from_frames([([V] * 5, F), ([V + 0.1] * 5, F)])
+    apart = contactcheck.Scene.from_frames([([V] * 2, F), ([V + 9] * 2, F)])
+    for scene, expected in ((touching, 5), (apart, 0)):
+        results = contactcheck.run(scene, ["fcl-aabb"], timing=False, out=tmp_path)
+        assert row(results, "fcl-aabb")["contact_frames"] == expected
+
+
+@pytest.mark.parametrize("program, error", [("/bin/false", RuntimeError), ("/no/such", contactcheck.Unavailable)])
+def test_a_program_that_fails_leaves_no_results(program, error, tmp_path, monkeypatch):
+    contactcheck.run(APPROACH, ["fcl-aabb"], timing=False, out=tmp_path)
+    # What /bin/false ends with is the code of a check that fails, too.
+    monkeypatch.setenv("CONTACTCHECK_PROGRAM", program)
+    with pytest.raises((error, contactcheck.InputError)):
+        contactcheck.run(APPROACH, ["fcl-aabb"], timing=False, out=tmp_path)
+
+
+def test_temporary_folders_go_with_their_results(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    results = contactcheck.run(APPROACH, ["fcl-aabb"], timing=False)
+    assert len(list(tmp_path.iterdir())) == 1
+    del results
+    with pytest.raises(contactcheck.InputError):
+        contactcheck.run(APPROACH, ["no-such"], timing=False)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_scene_may_be_a_dictionary():
@@ -259,6 +316,8 @@ def test_the_report_is_written(bunny_run, tmp_path):
     (lambda: contactcheck.run("bunny-touch", ["fcl-aabb"], frames=0), "--frames"),
     (lambda: contactcheck.run(APPROACH, [type("Bad", (Exact,), {"declares": {"levels": ["faces"]}})]), "faces"),
     (lambda: contactcheck.Scene.from_frames([([], F)]), "bodies[0] has no frame"),
+    (lambda: contactcheck.Scene.from_frames([([V], F), ([V, V], F)]), "bodies[1] has 2 frames, bodies[0] 1"),
+    (lambda: contactcheck.run("no-such-scene", quiet=False), '"no-such-scene" is no suite, scene'),
     (lambda: contactcheck.Scene.from_frames([([V, V * np.nan], F)]), "V of bodies[0], frame 1[0, 0] is nan"),
     (lambda: contactcheck.Results("no/such.json"), "no/such.json"),
     (lambda: contactcheck.gate("no/such.json", policy="default"), "no/such.json"),
@@ -269,7 +328,8 @@ def test_bad_arguments_are_refused_in_the_words_of_the_command_line(call, senten
     assert sentence in str(caught.value)
 
 
-def test_ctrl_c_ends_a_run_and_leaves_nothing_behind(tmp_path):
+@pytest.mark.parametrize("how, code", [(signal.SIGINT, 42), (signal.SIGKILL, -signal.SIGKILL)])
+def test_an_interpreter_that_ends_leaves_no_process_behind(how, code, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(textwrap.dedent("""
         import contactcheck, pathlib, sys, time
@@ -279,19 +339,20 @@ def test_ctrl_c_ends_a_run_and_leaves_nothing_behind(tmp_path):
             def update(self, frame): time.sleep(100)
             def query(self, question): return {}
         try:
-            contactcheck.run("bunny-touch", [Slow()], timing=False)
+            contactcheck.run("bunny-touch", [Slow()], timing=False, out=sys.argv[2])
         except KeyboardInterrupt:
             sys.exit(42)
     """))
-    started = tmp_path / "started"
-    process = subprocess.Popen([sys.executable, "-B", script, started], start_new_session=True, stderr=subprocess.DEVNULL)
+    started, out = tmp_path / "started", tmp_path / "out"
+    process = subprocess.Popen([sys.executable, "-B", script, started, out], start_new_session=True,
+                               stderr=subprocess.DEVNULL)
     while not started.exists():
         assert process.poll() is None
         time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
-    assert process.wait(30) == 42
+    process.send_signal(how)
+    assert process.wait(30) == code
     deadline = time.monotonic() + 10
-    while any(str(started) in command for command in commands()):
+    while any(str(tmp_path) in command for command in commands()):
         assert time.monotonic() < deadline, "a process was left behind"
         time.sleep(0.05)
 

@@ -50,8 +50,8 @@ def _call(
             text=True, env=server.environment() if server else None,
             start_new_session=True,  # so that Ctrl-C reaches it by us, once
             preexec_fn=lambda: _serve.end_with_parent(signal.SIGINT))
-    except OSError as error:
-        raise Unavailable(f"{program()} cannot be run: {error.strerror}") from None
+    except OSError as why:
+        raise Unavailable(f"{program()} cannot be run: {why.strerror}") from None
     try:
         if server:
             server.wait(process.pid)

@@ -15,7 +15,6 @@ import faulthandler
 import io
 import json
 import os
-import select
 import selectors
 import shlex
 import signal
@@ -263,32 +262,31 @@ class Server:
         if len(pipes) != 3:
             connection.close()
             return
-        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # the child must not return
+        # A child must not be interrupted into returning.
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         process = os.fork()
         if process == 0:
             self._socket.close()
             for other in [connection, *(c for c, _ in self._children.values())]:
                 other.close()
             _child(self._detectors[int(word)], pipes)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         for pipe in pipes:
             os.close(pipe)
         file = os.pidfd_open(process)
         self._children[process] = (connection, file)
         # The command sends nothing more: readable means that it was killed. Either ends both.
-        for source in (file, connection):
+        for source in (file, connection.fileno()):
             self._selector.register(source, selectors.EVENT_READ, lambda: self._end(process))
 
     def _end(self, process: int) -> None:
         if process not in self._children:
             return  # both had something to say
         connection, file = self._children.pop(process)
-        self._selector.unregister(connection)
+        self._selector.unregister(connection.fileno())
         self._selector.unregister(file)
-        ended = bool(select.select([file], [], [], 0)[0])
-        if not ended:
-            signal.pidfd_send_signal(file, signal.SIGKILL)
         with contextlib.suppress(ProcessLookupError):
+            signal.pidfd_send_signal(file, signal.SIGKILL)  # nothing to one that has ended
             os.killpg(process, signal.SIGKILL)  # what it has started
         code = 0
         with contextlib.suppress(ChildProcessError):  # a program may have all children taken away

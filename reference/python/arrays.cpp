@@ -1,5 +1,6 @@
 #include "reference/python/arrays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -91,21 +92,30 @@ py::array without_counts(const py::array& row, const std::string& name) {
 
 }  // namespace
 
-std::vector<Vec3> read_points(const py::object& object, const std::string& name, bool any_value) {
+void read_points(const py::object& object, const std::string& name, std::vector<Vec3>& out,
+                 bool any_value) {
   const py::array given = array_of(object, name, "fiu", "an (n, 3) array of numbers");
   check_shape(given, name, "(n, 3)");
   if (given.dtype().kind() != 'f' && given.dtype().itemsize() == 8)
     check_whole_numbers(given, name);
   const Plain<double> doubles(given);
-  std::vector<Vec3> out(static_cast<std::size_t>(doubles.shape(0)));
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const double* from = doubles.data();
-  for (std::size_t i = 0; i < out.size(); ++i, from += 3) {
-    out[i] = Vec3(from[0], from[1], from[2]);
-    if (any_value || out[i].allFinite()) continue;
-    const std::size_t k = !std::isfinite(from[0]) ? 0 : !std::isfinite(from[1]) ? 1 : 2;
-    throw InputError(place(name, i, k) + " is " + py::str(py::float_(from[k])).cast<std::string>() +
-                     "; coordinates must be finite numbers");
-  }
+  const auto count = static_cast<std::size_t>(doubles.size());
+  out.resize(count / 3);
+  std::copy_n(from, count, out.empty() ? nullptr : out.front().data());
+  // 0 times NaN or infinity is NaN; Eigen makes SIMD of it.
+  const bool finite = (Eigen::Map<const Eigen::ArrayXd>(from, doubles.size()) * 0.0).sum() == 0.0;
+  for (std::size_t i = 0; !finite && !any_value && i < count; ++i)
+    if (!std::isfinite(from[i]))
+      throw InputError(place(name, i / 3, i % 3) + " is " +
+                       py::str(py::float_(from[i])).cast<std::string>() +
+                       "; coordinates must be finite numbers");
+}
+
+std::vector<Vec3> read_points(const py::object& object, const std::string& name, bool any_value) {
+  std::vector<Vec3> out;
+  read_points(object, name, out, any_value);
   return out;
 }
 

@@ -20,6 +20,9 @@ namespace py = pybind11;
 /// shapes and types, for numbers that a double rounds, and for NaN and infinity unless `any_value`
 std::vector<Vec3> read_points(const py::object& object, const std::string& name,
                               bool any_value = false);
+/// The same into a vector whose memory is used again.
+void read_points(const py::object& object, const std::string& name, std::vector<Vec3>& out,
+                 bool any_value = false);
 
 /// (m, 3) indices of vertices, of any integer type; or as VTK has them, in one row: 3, a, b, c, ...
 /// Indices out of range are refused, or with `any_value` become ~0. @throws InputError

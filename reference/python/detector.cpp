@@ -89,6 +89,12 @@ class PyDetector {
     });
   }
 
+  /// Memory for the positions of the next frame: that of the frame before the last.
+  std::vector<std::vector<Vec3>> spare() {
+    const std::lock_guard lock(spare_mutex_);
+    return std::exchange(spare_, {});
+  }
+
   void update(std::vector<std::vector<Vec3>> positions, double time) {
     guarded([&] {
       require(State::kPrepared, "prepare() comes before update()");
@@ -106,7 +112,7 @@ class PyDetector {
       }
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const BodyShape& shape = *bodies_[i].shape;
-        nodes_[i] = std::move(positions[i]);
+        std::swap(nodes_[i], positions[i]);
         frame_.bodies[i] = {nodes_[i], {}};
         if (!made().needs_vertices()) continue;
         if (shape.lattice) {
@@ -121,18 +127,19 @@ class PyDetector {
       ++frame_.index;
       state_ = State::kUpdated;
     });
+    const std::lock_guard lock(spare_mutex_);
+    spare_ = std::move(positions);
   }
 
-  ContactSet query(const std::string& name) {
-    return guarded([&] {
+  void query(const std::string& name, ContactSet& out) {
+    guarded([&] {
       const Question question = question_named(name);
       require(State::kUpdated, "update() comes before query()");
       if (!made().semantics().answers(question))
         throw InputError(spec_.name + " does not answer the question \"" + name + "\"");
-      ContactSet out;
+      out.clear();
       made().query(question, out);
       out.canonicalize();
-      return out;
     });
   }
 
@@ -153,7 +160,8 @@ class PyDetector {
     if (state_ < state) throw InputError(order);
   }
 
-  std::mutex mutex_;
+  std::mutex mutex_, spare_mutex_;
+  std::vector<std::vector<Vec3>> spare_;
   DetectorSpec spec_;
   std::vector<Body> bodies_;
   std::vector<std::vector<Vec3>> nodes_, vertices_;
@@ -164,24 +172,25 @@ class PyDetector {
 
 using Quad = std::array<std::uint32_t, 4>;
 
-template <typename Pairs>
-void append_own(const Pairs& own, std::vector<Quad>& rows) {
-  for (const SelfPair& p : own) rows.push_back({p.body, p.body, p.a, p.b});
+Quad row_of(const ElementPair& p) { return {p.body_a, p.body_b, p.a, p.b}; }
+Quad row_of(const SelfPair& p) { return {p.body, p.body, p.a, p.b}; }
+Quad row_of(const NearPair& p) { return {p.body, p.other, p.vertex, p.triangle}; }
+
+// Between bodies, and of bodies with themselves.
+template <typename Pairs, typename Own>
+std::vector<Quad> rows_of(const Pairs& pairs, const Own& own) {
+  std::vector<Quad> out;
+  out.reserve(pairs.size() + own.size());
+  for (const auto& pair : pairs) out.push_back(row_of(pair));
+  for (const auto& pair : own) out.push_back(row_of(pair));
+  return out;
 }
 
 // The lists of the pipe's answer (reference/plugin/README.md), by the same names.
 py::dict lists_of(const ContactSet& found) {
   std::vector<std::array<std::uint32_t, 2>> bodies;
-  std::vector<Quad> triangles, cells, near;
   for (const BodyPair& p : found.bodies) bodies.push_back({p.a, p.b});
   for (const std::uint32_t body : found.self_bodies) bodies.push_back({body, body});
-  for (const ElementPair& p : found.triangles) triangles.push_back({p.body_a, p.body_b, p.a, p.b});
-  for (const ElementPair& p : found.cells) cells.push_back({p.body_a, p.body_b, p.a, p.b});
-  append_own(found.self, triangles);
-  append_own(found.self_cells, cells);
-  for (const auto* list : {&found.near, &found.self_near})
-    for (const NearPair& p : *list) near.push_back({p.body, p.other, p.vertex, p.triangle});
-
   const auto same = [](const auto& row) { return row; };
   const auto vertex = [](const VertexInBody& v) { return std::array{v.body, v.in, v.vertex}; };
   const auto depth = [](const auto& contact) { return contact.depth; };
@@ -190,13 +199,12 @@ py::dict lists_of(const ContactSet& found) {
   };
   py::dict out;
   out["bodies"] = table<std::int32_t, 2>(bodies, same);
-  out["triangles"] = table<std::int32_t, 4>(triangles, same);
-  out["cells"] = table<std::int32_t, 4>(cells, same);
+  out["triangles"] = table<std::int32_t, 4>(rows_of(found.triangles, found.self), same);
+  out["cells"] = table<std::int32_t, 4>(rows_of(found.cells, found.self_cells), same);
   out["vertices"] = table<std::int32_t, 3>(found.vertices, vertex);
-  out["near"] = table<std::int32_t, 4>(near, same);
-  out["piece_contacts"] = table<std::int32_t, 4>(found.piece_contacts, [](const PieceContact& c) {
-    return Quad{c.pieces.body_a, c.pieces.body_b, c.pieces.a, c.pieces.b};
-  });
+  out["near"] = table<std::int32_t, 4>(rows_of(found.near, found.self_near), same);
+  out["piece_contacts"] = table<std::int32_t, 4>(
+      found.piece_contacts, [](const PieceContact& c) { return row_of(c.pieces); });
   out["piece_depths"] = column<double>(found.piece_contacts, depth);
   out["piece_normals"] = table<double, 3>(found.piece_contacts, normal);
   out["vertex_contacts"] = table<std::int32_t, 3>(
@@ -217,19 +225,19 @@ void add_detector(py::module_& module) {
       .def("prepare", &PyDetector::prepare, Released())
       .def("update",
            [](PyDetector& self, const py::tuple& positions, double time) {
-             std::vector<std::vector<Vec3>> arrays;
-             for (const py::handle item : positions)
-               arrays.push_back(read_points(py::reinterpret_borrow<py::object>(item),
-                                            "positions[" + std::to_string(arrays.size()) + "]"));
+             std::vector<std::vector<Vec3>> arrays = self.spare();
+             arrays.resize(positions.size());
+             for (std::size_t i = 0; i < arrays.size(); ++i)
+               read_points(positions[i], "positions[" + std::to_string(i) + "]", arrays[i]);
              const py::gil_scoped_release released;
              self.update(std::move(arrays), time);
            })
       .def("query",
            [](PyDetector& self, const std::string& question) {
-             ContactSet found;
+             thread_local ContactSet found;  // for its memory
              {
                const py::gil_scoped_release released;
-               found = self.query(question);
+               self.query(question, found);
              }
              return lists_of(found);
            })

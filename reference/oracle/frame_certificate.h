@@ -50,8 +50,8 @@ std::optional<Witness> common_point(const oracle::TriangleCorners& p,
 std::optional<Plane> separating_plane(const oracle::TriangleCorners& p,
                                       const oracle::TriangleCorners& q);
 
-/// A point of either triangle, as near to one another as the triangles are; each coordinate cut to a
-/// double.
+/// A point of either triangle, as near to one another as the triangles are; each coordinate cut to
+/// a double.
 std::array<Vec3, 2> nearest_points_rounded(const oracle::TriangleCorners& p,
                                            const oracle::TriangleCorners& q);
 

@@ -43,31 +43,36 @@ def _call(
 
     Exit code 1 (a check fails) and 3 (a detector's status is error) are results.
     """
-    output = subprocess.PIPE if quiet else None
-    try:
-        process = subprocess.Popen(
-            [program(), *map(str, words)], stdin=subprocess.DEVNULL, stdout=output, stderr=output,
-            text=True, env=server.environment() if server else None,
-            start_new_session=True,  # so that Ctrl-C reaches it by us, once
-            preexec_fn=lambda: _serve.end_with_parent(signal.SIGINT))
-    except OSError as why:
-        raise Unavailable(f"{program()} cannot be run: {why.strerror}") from None
-    try:
-        if server:
-            server.wait(process.pid)
-        out, error = process.communicate()
-    except BaseException:
-        process.send_signal(signal.SIGINT)
-        process.communicate()
-        raise
+    # Files and no pipes: nobody reads while the server waits.
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as error:
+        try:
+            process = subprocess.Popen(
+                [program(), *map(str, words)], stdin=subprocess.DEVNULL,
+                stdout=out if quiet else None, stderr=error if quiet else None,
+                env=server.environment() if server else None,
+                start_new_session=True,  # so that Ctrl-C reaches it by us, once
+                preexec_fn=lambda: _serve.end_with_parent(signal.SIGINT))
+        except OSError as why:
+            raise Unavailable(f"{program()} cannot be run: {why.strerror}") from None
+        try:
+            if server:
+                server.wait(process.pid)
+            process.wait()
+        except BaseException:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+            raise
+        out.seek(0)
+        error.seek(0)
+        printed, sentence = out.read(), error.read().strip()
     if process.returncode == 2 and not quiet:
         return _call(words, server)  # it fails at once, and its sentence is ours then
     if process.returncode == 2:
-        raise InputError(error.strip().removeprefix("contactcheck: "))
+        raise InputError(sentence.removeprefix("contactcheck: "))
     if process.returncode not in (0, 1, 3):
-        last = (error or "").strip().rpartition("\n")[2]
+        last = sentence.rpartition("\n")[2]
         raise RuntimeError(f"contactcheck ended with exit code {process.returncode}: {last}")
-    return subprocess.CompletedProcess(words, process.returncode, out, error)
+    return subprocess.CompletedProcess(words, process.returncode, printed, sentence)
 
 
 def write_ply(file: pathlib.Path, vertices: np.ndarray, faces: np.ndarray) -> None:
@@ -107,6 +112,7 @@ class Scene:
         >>> Scene.from_frames([([V, V], F), ([V + 1, V], F)])
         <contactcheck.Scene frames: 2 bodies>
         """
+        bodies = list(bodies)
         out = cls({"id": id, "time_step": time_step, "levels": list(levels), "bodies": []})
         for i, (frames, F) in enumerate(bodies):
             name, place = f"body{i}", f"V of bodies[{i}], frame "
@@ -168,6 +174,14 @@ class Results:
     """What a run has found: any results.json, also of the command line.
 
     `data` is the document itself (fixtures/results.schema.json).
+
+    >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+    >>> results = run(Scene.from_frames([([V, V], F), ([V + 2, V], F)]), "ffd-lazy", timing=False)
+    >>> results.per_frame("ffd-lazy")["truth"].tolist(), results.contacts("ffd-lazy")
+    ([0, 1], {})
+    >>> again = Results(results.file)
+    >>> [(row["detector"], row["triangle_recall"]) for row in again.rows()], again.disagreements()
+    ([('ffd-lazy', 1.0)], [])
     """
 
     def __init__(self, file: Union[str, os.PathLike]) -> None:
@@ -356,6 +370,11 @@ def gate(
 
     `policy`: a file, a name or the dictionary of a policy (fixtures/policies/README.md); with a
     baseline by default `unchanged`. `baseline`: earlier results.
+
+    >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
+    >>> results = run(Scene.from_frames([([V], F), ([V], F)]), "ffd-lazy", timing=False)
+    >>> gate(results, baseline=results).passed
+    True
     """
 
     def path(of: Any) -> Any:

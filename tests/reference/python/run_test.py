@@ -236,6 +236,12 @@ def test_detectors_of_the_program_by_name_or_as_they_are():
         assert [r["detector"] for r in contactcheck.run(APPROACH, detectors, timing=False).rows()] == ["ffd-lazy"]
 
 
+def test_a_run_may_print_much():
+    results = contactcheck.run(APPROACH, Exact(), timing=False, quiet=True,
+                               options=["--json-lines", *["--detector", "fcl-aabb", "--detector", "embree"]])
+    assert row(results, "exact")["status"] == "ok"
+
+
 def test_a_folder_may_be_used_again(tmp_path):
     touching = contactcheck.Scene.from_frames([([V] * 5, F), ([V + 0.1] * 5, F)])
     apart = contactcheck.Scene.from_frames([([V] * 2, F), ([V + 9] * 2, F)])

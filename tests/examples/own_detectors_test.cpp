@@ -16,7 +16,8 @@ using test::PluginRun;
 
 std::string c_library() { return CONTACTCHECK_C_EXAMPLE; }
 std::string python_command() {
-  return text::in_shell(CONTACTCHECK_PYTHON3) + " -B " + text::in_shell(CONTACTCHECK_PYTHON_EXAMPLE);
+  return text::in_shell(CONTACTCHECK_PYTHON3) + " -B " +
+         text::in_shell(CONTACTCHECK_PYTHON_EXAMPLE);
 }
 
 void expect_exact(const json& row) {

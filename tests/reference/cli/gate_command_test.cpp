@@ -168,10 +168,10 @@ TEST_F(GateCommand, WritesNamesThatNeedEscapesIntoXml) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   const Outcome parsed = test::run_program(
       CONTACTCHECK_PYTHON3, {"-c",
-                            "import sys, xml.etree.ElementTree as e\n"
-                            "case, = e.parse(sys.argv[1]).getroot().iter('testcase')\n"
-                            "print(ascii(case.attrib))\n",
-                            path("gate.xml")});
+                             "import sys, xml.etree.ElementTree as e\n"
+                             "case, = e.parse(sys.argv[1]).getroot().iter('testcase')\n"
+                             "print(ascii(case.attrib))\n",
+                             path("gate.xml")});
   EXPECT_EQ(parsed.out, "{'classname': '<R> & \"S\"', 'name': 'touch <e> & \"co\"\\xe4\\''}\n")
       << parsed.err;
 }

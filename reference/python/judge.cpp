@@ -46,8 +46,6 @@ Shape make_shape(const py::object& vertices, const py::object& faces,
   out.body = scene::build_shape(std::move(mesh), spec);
   if (weld) out.body = welded(*out.body);
   out.smoothing = spec.smoothing;
-  out.fit = std::make_shared<std::optional<scene::LatticeFit>>();
-  out.fit_made = std::make_shared<std::once_flag>();
   return out;
 }
 
@@ -176,9 +174,10 @@ py::array fit(const Shape& shape, const py::object& vertices_object) {
   std::vector<Vec3> out;
   {
     const Released released;
-    std::call_once(*shape.fit_made, [&] { shape.fit->emplace(*shape.body, shape.smoothing); });
+    Shape::Fit& fit = *shape.fit;
+    std::call_once(fit.made, [&] { fit.value.emplace(*shape.body, shape.smoothing); });
     scene::FitError error;
-    out = (*shape.fit)->fitted(vertices, error);
+    out = fit.value->fitted(vertices, error);
   }
   return points_table(out);
 }

@@ -18,10 +18,13 @@ namespace py = pybind11;
 /// A mesh that has been checked, in a lattice or not.
 struct Shape {
   std::shared_ptr<const BodyShape> body;
-  double smoothing = 0.0;  ///< of the fit of a lattice
-  /// Made when it is first asked for: it takes longer than the lattice.
-  std::shared_ptr<std::optional<scene::LatticeFit>> fit;
-  std::shared_ptr<std::once_flag> fit_made;
+  double smoothing = 0.0;  ///< of the fit
+  /// Of a lattice, made when it is first asked for: it takes longer than the lattice.
+  struct Fit {
+    std::once_flag made;
+    std::optional<scene::LatticeFit> value;
+  };
+  std::shared_ptr<Fit> fit = std::make_shared<Fit>();
 };
 
 /// Adds to the module: Shape, and the functions that judge shapes at rest.

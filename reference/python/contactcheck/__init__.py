@@ -19,7 +19,7 @@ array([[0, 0]], dtype=int32)
 from __future__ import annotations
 
 import json
-from typing import Any, Iterable, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 

@@ -2,8 +2,8 @@
 
 The run starts a small command for every detector of its own, as for any detector behind a pipe. The
 command hands its pipes over to the interpreter that called run(), which forks: the child has the
-detector as it stands there, defined in a module or in a cell of a notebook, and its crash or hang
-ends the child alone. The command lives as long as the child and ends as it does.
+detector, also one that is defined in a cell of a notebook, and its crash or hang ends the child
+alone. The command lives as long as the child and ends as it does.
 """
 
 from __future__ import annotations

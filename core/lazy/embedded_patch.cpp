@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <utility>
 
 #include "core/deform/mapping.h"
 #include "core/lazy/triangle_rest.h"
-#include "core/types/check.h"
 
 namespace contactcheck {
 namespace {

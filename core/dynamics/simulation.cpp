@@ -1,13 +1,13 @@
 #include "core/dynamics/simulation.h"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "core/types/borrowed_arena.h"
 #include "core/types/check.h"
 #include "core/types/shortest.h"
 
@@ -26,8 +26,8 @@ void for_bodies(std::uint32_t threads, std::size_t bodies, const Work& work) {
     for (std::size_t b = 0; b < bodies; ++b) work(b);
     return;
   }
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, bodies, work); });
+  BorrowedArena arena(static_cast<int>(threads));
+  arena->execute([&] { tbb::parallel_for(std::size_t{0}, bodies, work); });
 }
 
 }  // namespace

@@ -3,12 +3,12 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <optional>
 
+#include "core/types/borrowed_arena.h"
 #include "core/types/check.h"
 
 namespace contactcheck {
@@ -34,7 +34,7 @@ struct ThreadTeam::Arena {
       more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   std::optional<tbb::global_control> more;
-  tbb::task_arena tasks;
+  BorrowedArena tasks;
 };
 
 ThreadTeam::ThreadTeam(std::size_t threads) : scratch_(threads) {
@@ -54,7 +54,7 @@ void ThreadTeam::for_each(std::size_t count,
     work(i, scratch_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
   };
   // One piece of work at a time: they differ too much for ranges.
-  arena_->tasks.execute(
+  arena_->tasks->execute(
       [&] { tbb::parallel_for(std::size_t{0}, count, on_this_thread, tbb::simple_partitioner()); });
 }
 

@@ -89,6 +89,10 @@ def test_memory_stays_flat():
         detector.prepare([lattice, (V, F)])
         detector.update([lattice.nodes, V])
         detector.query()
+        shared = contactcheck.Detector(threads=2)  # a new one has threads to itself
+        shared.prepare([(V, F), (V, F)])
+        shared.update([V, V])
+        shared.query()
         try:
             contactcheck.inside(V, V, F)
         except contactcheck.InputError:

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 #include <string>
 #include <utility>
@@ -245,14 +246,16 @@ std::string own_words(const std::string& detector, const results::Results& resul
                                                 : " " + results::detector_words(results, detector);
 }
 
-// The first wrong answer that can be reduced; one of a detector from outside before all others.
+// The first wrong answer that can be reduced; one of a detector from outside before all others, but
+// none of a class in Python, whose command answers in this run alone.
 void print_next(const RunArguments& arguments, const results::Results& results) {
+  const bool by_python = std::getenv("CONTACTCHECK_PYTHON_SOCKET") != nullptr;
   const results::Disagreement* next = nullptr;
   std::string words;
   for (const results::Disagreement& d : results.disagreements) {
     if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
     const std::string own = own_words(d.detector, results);
-    if (next != nullptr && own.empty()) continue;
+    if (!own.empty() ? by_python : next != nullptr) continue;
     next = &d;
     words = own;
     if (!own.empty()) break;

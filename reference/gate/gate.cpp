@@ -32,9 +32,17 @@ std::string quoted(const std::vector<std::string>& patterns) {
   return out;
 }
 
+// Whether it shared a process with what it could have changed, and that with it.
+bool is_unisolated(const results::Results& results, const results::Run& row) {
+  const results::Plugin* const plugin = results.plugin_of(row.detector);
+  return plugin != nullptr && plugin->unisolated;
+}
+
 // A row without an answer cannot be judged, except by a rule about the status itself.
 Check judge_row(const Rule& rule, const results::Index& now, const results::Index* before,
                 const results::Run& row) {
+  if (is_unisolated(now.results(), row))
+    return cannot_judge(rule, "unisolated: it was asked in the process that called run()");
   if (row.ok() || rule.measure->kind == MeasureKind::kStatus)
     return is_timing(*rule.measure) ? judge_timing(rule, now, before, row)
                                     : judge_accuracy(rule, now, before, row);
@@ -151,7 +159,7 @@ std::vector<Check> lost_rows(const results::Index& now, const results::Results& 
   for (const results::Run& old : before.runs) {
     const results::Run* const row = now.run(old.scene, old.detector);
     if (row != nullptr) {
-      if (!old.ok() || row->ok()) continue;
+      if (!old.ok() || row->ok() || is_unisolated(now.results(), *row)) continue;
       Check& check = add(old, row->message);
       check.detector = old.detector;
       check.measured = std::string("status ") + name_of(row->status);

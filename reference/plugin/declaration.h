@@ -28,6 +28,7 @@ struct Declaration {
   std::vector<OptionInfo> options;
   Semantics semantics;  ///< with the default options, before prepare
   bool needs_vertices = true, needs_nodes = true;
+  bool unisolated = false;  ///< it is asked in a process that cannot be ended with it
 };
 
 /// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are

@@ -2,7 +2,9 @@
 #include <pybind11/pybind11.h>
 
 #include "core/types/check.h"
+#include "reference/process/process_tree.h"
 #include "reference/python/judge.h"
+#include "reference/suite/job.h"
 
 PYBIND11_MODULE(_binding, module) {
   namespace py = pybind11;
@@ -11,6 +13,8 @@ PYBIND11_MODULE(_binding, module) {
   py::register_exception<contactcheck::RefusedInput>(module, "RefusedInput", PyExc_ValueError);
   py::register_exception<contactcheck::Unavailable>(module, "Unavailable", PyExc_RuntimeError);
   module.attr("__version__") = CONTACTCHECK_VERSION;
+  module.attr("MEMORY_LIMIT") = contactcheck::suite::RunSettings{}.memory_limit;
+  module.def("resident_bytes", contactcheck::process::resident_bytes_of_tree, py::arg("process"));
   contactcheck::python::add_judge(module);
   contactcheck::python::add_detector(module);
   contactcheck::python::add_results(module);

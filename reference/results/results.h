@@ -298,6 +298,7 @@ struct MeasuredGoal : Goal {
 
 struct Plugin {
   std::string detector, kind, source, content, version;
+  bool unisolated = false;  ///< its process could not be ended: its rows are never gated
 };
 
 struct DefectCount {

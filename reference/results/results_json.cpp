@@ -451,6 +451,7 @@ void fields(Io& io, Plugin& p) {
   io("source", p.source);
   io("content", p.content);
   io("version", p.version);
+  io.unless_empty("unisolated", p.unisolated);
 }
 
 template <typename Io>

@@ -5,8 +5,11 @@ import signal
 import socket
 import sys
 
+name = os.environ.get("CONTACTCHECK_PYTHON_SOCKET")
+if name is None:
+    sys.exit("it lives in the interpreter that called contactcheck.run(), and is asked during that alone")
 connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-connection.connect(b"\0" + os.environ["CONTACTCHECK_PYTHON_SOCKET"].encode())
+connection.connect(b"\0" + name.encode())
 socket.send_fds(connection, [sys.argv[1].encode()], [0, 1, 2])
 nothing = os.open(os.devnull, os.O_RDWR)
 for file in range(3):

@@ -75,6 +75,16 @@ def _call(
     return subprocess.CompletedProcess(words, process.returncode, printed, sentence)
 
 
+def _memory_limit(options: Sequence[str]) -> int:
+    """Bytes; of a bad one the program says what is wrong."""
+    limit = str(_binding.MEMORY_LIMIT >> 20)
+    for word, following in zip(options, [*options[1:], ""]):
+        name, equals, value = str(word).partition("=")
+        if name == "--memory-limit":
+            limit = value if equals else str(following)
+    return int(limit) << 20 if limit.isdecimal() else _binding.MEMORY_LIMIT
+
+
 def write_ply(file: pathlib.Path, vertices: np.ndarray, faces: np.ndarray) -> None:
     record = np.zeros(len(faces), [("corners", "u1"), ("face", "<i4", 3)])
     record["corners"], record["face"] = 3, faces
@@ -310,11 +320,13 @@ def run(
     `scene`: a name of `contactcheck list`, a file, a dictionary of the scene format, or a Scene.
     `detectors`: names, and detectors of one's own: objects or classes with prepare(bodies),
     update(frame), query(question) and an attribute `declares`; none: the scene's own. Each is asked
-    in a process of its own, forked from this one; its crash or hang is a row with status error.
+    in a process of its own, forked from this one; its crash or hang is a row with status error. One
+    that declares "unisolated" (reference/python/README.md), or for which no process can be had, is
+    asked in a thread of this one, and its rows are never gated.
     `frames`: so many, in the same time. `processes`: timed passes; `timing=False` judges only.
     `out`: the folder of all files; None: one that is removed with the results. `quiet`: neither
     progress nor tables; by default where standard error is no terminal. `options`: of the command
-    line, e.g. ["--memory-limit", "512"] (which does not count memory of detectors of one's own).
+    line, e.g. ["--memory-limit", "512"]: of a detector of one's own that counts what it has taken.
 
     Raises InputError for a bad argument or scene, in the words of the command line. Ctrl-C ends the
     run, and raises KeyboardInterrupt.
@@ -326,7 +338,7 @@ def run(
         detectors = [detectors]
     quiet = not (sys.stderr and sys.stderr.isatty()) if quiet is None else quiet
     own: list = []
-    server = _serve.Server(own)
+    server = _serve.Server(own, _memory_limit(options))
     try:
         if isinstance(scene, dict):
             scene = Scene(scene)

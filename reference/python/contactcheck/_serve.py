@@ -3,7 +3,8 @@
 The run starts a small command for every detector of its own, as for any detector behind a pipe. The
 command hands its pipes over to the interpreter that called run(), which forks: the child has the
 detector, also one that is defined in a cell of a notebook, and its crash or hang ends the child
-alone. The command lives as long as the child and ends as it does.
+alone. The command lives as long as the child and ends as it does. What cannot be forked, such as a
+context of a GPU, is asked in a thread of the interpreter.
 """
 
 from __future__ import annotations
@@ -21,12 +22,13 @@ import signal
 import socket
 import struct
 import sys
+import threading
 import traceback
 from typing import Any, BinaryIO, Optional
 
 import numpy as np
 
-from ._binding import RefusedInput
+from ._binding import RefusedInput, resident_bytes
 
 PROTOCOL = "contactcheck-pipe/1"
 RELAY = os.path.join(os.path.dirname(__file__), "_relay.py")
@@ -139,11 +141,14 @@ def declaration(detector: Any) -> dict:
     line = {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": ["vertices"]}
     line.update({key: declares.pop(key) for key in ("id", "summary", "version", "options", "needs")
                  if key in declares})
+    declares.pop("unisolated", None)  # of the server
     return {**line, "semantics": {**declares.pop("semantics", {}), **declares}}
 
 
-def serve(detector: Any, source: BinaryIO, to: BinaryIO) -> None:
+def serve(detector: Any, source: BinaryIO, to: BinaryIO, unisolated: bool = False) -> None:
     """Answers until the input ends."""
+    if isinstance(detector, type):
+        detector = detector()
 
     def write(line: dict, data: bytes = b"") -> None:
         line["bytes"] = len(data)
@@ -151,6 +156,8 @@ def serve(detector: Any, source: BinaryIO, to: BinaryIO) -> None:
         to.flush()
 
     hello = declaration(detector)
+    if unisolated:
+        hello["unisolated"] = True
     bodies: list[dict] = []
     for text in iter(source.readline, b""):
         line = json.loads(text)
@@ -197,8 +204,7 @@ def _child(detector: Any, pipes: list[int]) -> None:
         sys.stderr = os.fdopen(os.dup(2), "w", buffering=1)
         if faulthandler.is_enabled():
             faulthandler.enable(sys.stderr)
-        own = detector() if isinstance(detector, type) else detector
-        serve(own, os.fdopen(0, "rb", closefd=False), to)
+        serve(detector, os.fdopen(0, "rb", closefd=False), to)
         code = 0
     except BaseException:
         traceback.print_exc(file=sys.stderr)
@@ -208,12 +214,91 @@ def _child(detector: Any, pipes: list[int]) -> None:
         os._exit(code)
 
 
-class Server:
-    """Forks for the commands of a run, which it waits for: all in the thread that called run()."""
+class _Answering:
+    """A detector that is asked: by a process, or by a thread of this one."""
 
-    def __init__(self, detectors: list) -> None:
+    def __init__(self, connection: socket.socket, errors: int) -> None:
+        self.connection = connection  # to the command; readable: it was killed
+        self.errors = errors  # standard error of the command
+        self.ended = -1  # readable: a process has ended (its pidfd), or a thread (an event)
+
+    def say(self, sentence: str) -> None:
+        with contextlib.suppress(OSError):  # nobody reads any more
+            os.write(self.errors, sentence.encode() + b"\n")
+
+    def over_limit(self, limit: int) -> bool:
+        return False
+
+    def leave(self) -> None:
+        """In a fork: whoever reads from it shall see its end."""
+        self.connection.close()
+
+    def end(self) -> int:
+        """Its exit code."""
+        raise NotImplementedError
+
+
+class _Process(_Answering):
+    def __init__(self, connection: socket.socket, errors: int, process: int) -> None:
+        super().__init__(connection, errors)
+        self.process, self.ended = process, os.pidfd_open(process)
+        self.at_first = resident_bytes(process)  # the interpreter's, which it shares
+
+    def over_limit(self, limit: int) -> bool:
+        return resident_bytes(self.process) > self.at_first + limit
+
+    def end(self) -> int:
+        with contextlib.suppress(ProcessLookupError):
+            signal.pidfd_send_signal(self.ended, signal.SIGKILL)  # nothing to one that has ended
+            os.killpg(self.process, signal.SIGKILL)  # what it has started
+        with contextlib.suppress(ChildProcessError):  # a program may have all children taken away
+            return os.waitstatus_to_exitcode(os.waitpid(self.process, 0)[1])
+        return 0
+
+
+class _Thread(_Answering):
+    def __init__(self, connection: socket.socket, pipes: list[int], detector: Any) -> None:
+        super().__init__(connection, os.dup(pipes[2]))
+        self.ended, self._code, self._detector = os.eventfd(0), 1, detector
+        # Its own files: it may still be in a call when the command has been killed.
+        self._pipes, self._finished = [os.dup(pipe) for pipe in pipes], os.dup(self.ended)
+        self.thread = threading.Thread(target=self._serve, daemon=True)
+        self.thread.start()
+
+    def _serve(self) -> None:
+        source, to, errors = (os.fdopen(pipe, mode) for pipe, mode in zip(self._pipes, ("rb", "wb", "w")))
+        try:
+            print("unisolated: asked in the process that called run()", file=errors, flush=True)
+            serve(self._detector, source, to, unisolated=True)
+            self._code = 0
+        except BaseException:
+            traceback.print_exc(file=errors)
+        finally:
+            self._pipes = []
+            for file in (source, to, errors):
+                with contextlib.suppress(OSError):
+                    file.close()
+            os.eventfd_write(self._finished, 1)
+            os.close(self._finished)
+
+    def leave(self) -> None:
+        super().leave()
+        for pipe in self._pipes:
+            os.close(pipe)
+
+    def end(self) -> int:
+        return self._code
+
+
+class Server:
+    """Asks the detectors of a run, for its commands: waits in the thread that called run()."""
+
+    def __init__(self, detectors: list, memory_limit: int) -> None:
         self._detectors = detectors  # more may be added
-        self._children: dict[int, tuple[socket.socket, int]] = {}  # process -> command, its file
+        self._memory_limit = memory_limit  # bytes
+        self._answering: list[_Answering] = []
+        self._threads: dict[int, threading.Thread] = {}  # by detector: those that cannot be forked
+        self._forked: set[int] = set()  # detectors
         self._selector = selectors.DefaultSelector()
         # In Linux's abstract namespace: no file, and no limit from the length of a folder's name.
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -240,15 +325,19 @@ class Server:
         self._selector.register(watched, selectors.EVENT_READ, run_ended)
         try:
             while not ended:
-                for key, _ in self._selector.select():
+                for key, _ in self._selector.select(0.1 if self._answering else None):
                     key.data()
+                for one in list(self._answering):
+                    if one.over_limit(self._memory_limit):
+                        one.say(f"took more than {self._memory_limit >> 20} MiB (memory limit)")
+                        self._end(one)
         finally:
             self._selector.unregister(watched)
             os.close(watched)
 
     def close(self) -> None:
-        for process in list(self._children):
-            self._end(process)
+        for one in list(self._answering):
+            self._end(one)
         self._selector.close()
         self._socket.close()
 
@@ -259,39 +348,59 @@ class Server:
             connection.close()  # somebody else's
             return
         word, pipes, _, _ = socket.recv_fds(connection, 16, 3)
-        if len(pipes) != 3:
-            connection.close()
-            return
-        # A child must not be interrupted into returning.
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-        process = os.fork()
-        if process == 0:
-            self._socket.close()
-            for other in [connection, *(c for c, _ in self._children.values())]:
-                other.close()
-            _child(self._detectors[int(word)], pipes)
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        if len(pipes) == 3:
+            one = self._started(int(word), connection, pipes)
+            if one:
+                self._answering.append(one)
+                for source in (one.ended, connection.fileno()):
+                    self._selector.register(source, selectors.EVENT_READ, lambda: self._end(one))
+            else:
+                connection.close()
         for pipe in pipes:
             os.close(pipe)
-        file = os.pidfd_open(process)
-        self._children[process] = (connection, file)
-        # The command sends nothing more: readable means that it was killed. Either ends both.
-        for source in (file, connection.fileno()):
-            self._selector.register(source, selectors.EVENT_READ, lambda: self._end(process))
 
-    def _end(self, process: int) -> None:
-        if process not in self._children:
+    def _started(self, index: int, connection: socket.socket, pipes: list[int]) -> Optional[_Answering]:
+        detector = self._detectors[index]
+        declares = getattr(detector, "declares", None)
+        if index not in self._threads and not (isinstance(declares, dict) and declares.get("unisolated")):
+            # A child must not be interrupted into returning.
+            mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+            try:
+                process = os.fork()
+                if process == 0:
+                    self._socket.close()
+                    connection.close()
+                    for one in self._answering:
+                        one.leave()
+                    _child(detector, pipes)
+                self._forked.add(index)
+                return _Process(connection, os.dup(pipes[2]), process)
+            except OSError as why:
+                # What was declared in a process holds for it: a thread would have to say more.
+                if index in self._forked:
+                    os.write(pipes[2], f"no process can be had: {why.strerror}\n".encode())
+                    return None
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        earlier = self._threads.get(index)
+        if earlier:
+            earlier.join(0.5)
+            if earlier.is_alive():
+                os.write(pipes[2], b"it has not returned from an earlier call\n")
+                return None
+        one = _Thread(connection, pipes, detector)
+        self._threads[index] = one.thread
+        return one
+
+    def _end(self, one: _Answering) -> None:
+        if one not in self._answering:
             return  # both had something to say
-        connection, file = self._children.pop(process)
-        self._selector.unregister(connection.fileno())
-        self._selector.unregister(file)
-        with contextlib.suppress(ProcessLookupError):
-            signal.pidfd_send_signal(file, signal.SIGKILL)  # nothing to one that has ended
-            os.killpg(process, signal.SIGKILL)  # what it has started
-        code = 0
-        with contextlib.suppress(ChildProcessError):  # a program may have all children taken away
-            code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+        self._answering.remove(one)
+        self._selector.unregister(one.connection.fileno())
+        self._selector.unregister(one.ended)
+        code = one.end()
         with contextlib.suppress(OSError):
-            connection.send(str(code).encode())
-        os.close(file)
-        connection.close()
+            one.connection.send(str(code).encode())
+        os.close(one.ended)
+        os.close(one.errors)
+        one.connection.close()

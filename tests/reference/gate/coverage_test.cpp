@@ -94,6 +94,34 @@ TEST(RulesThatCannotJudge, BreakAPolicyThatAllowsFewer) {
                                    "1, allowed at most 0; they are \"stages\""));
 }
 
+// A detector that had no process of its own: whatever its row says, it is not gated.
+TEST(UnisolatedRow, CannotBeJudged) {
+  const Json baseline = sample_results();
+  Json results = sample_results();
+  row_of(results, "touch", "paper") = row_of(results, "touch", "broken");
+  results["runs"][2]["detector"] = "paper";
+  const auto checks = [&](const char* measure) {
+    return checks_of(std::string("'scenes': ['touch'], 'detectors': ['paper'], ") + measure,
+                     results, &baseline);
+  };
+  const auto measures = {"'measure': 'missed', 'at_most': 0", "'measure': 'status', 'equals': 'ok'",
+                         "'measure': 'contact_hash', 'unchanged': true"};
+  for (const char* measure : measures)
+    EXPECT_EQ(red_sentences(checks(measure)).size(), 2u) << measure << " and the row that was lost";
+  results["plugins"] = {{{"detector", "paper"},
+                         {"kind", "command"},
+                         {"source", "it"},
+                         {"content", "c"},
+                         {"version", ""},
+                         {"unisolated", true}}};
+  for (const char* measure : measures) {
+    const std::vector<Check> judged = checks(measure);
+    ASSERT_EQ(judged.size(), 1u) << measure;
+    EXPECT_EQ(judged[0].verdict, Verdict::kCannotJudge) << measure;
+    EXPECT_THAT(judged[0].reason, testing::StartsWith("unisolated")) << measure;
+  }
+}
+
 TEST(RuleThatNeedsABaseline, IsRefusedWithoutOne) {
   for (const char* rule :
        {"'measure': 'contact_hash', 'unchanged': true",

@@ -159,6 +159,34 @@ class Leaving(Exact):
         subprocess.Popen(["sleep", "1234.5"])
 
 
+class Attached(Exact):
+    """Lives in this process alone, as a context of a GPU does."""
+
+    declares = dict(Exact.declares, id="attached", unisolated=True)
+
+    def update(self, frame):
+        assert os.getpid() == HERE
+        super().update(frame)
+
+
+class Greedy(Exact):
+    declares = dict(Exact.declares, id="greedy")
+
+    def query(self, question):
+        if self.frame.index == 2:
+            self.all = np.ones((150 << 20) // 8)
+            time.sleep(1)
+        return super().query(question)
+
+
+HERE = os.getpid()
+NOTHING_MISSED = {
+    "schema": "contactcheck-policy/1", "id": "mine", "title": "mine",
+    "rules": [{"rule": "nothing is missed", "scenes": ["*"], "detectors": ["*"], "measure": "missed",
+               "level": "triangle", "at_most": 0}],
+}
+
+
 def row(results, detector):
     (found,) = [r for r in results.rows() if r["detector"] == detector]
     return found
@@ -217,6 +245,74 @@ def test_a_failing_detector_is_a_row(detector, status, message):
     failed = row(results, detector.declares["id"])
     assert failed["status"] == status and message in failed["message"]
     assert row(results, "exact")["status"] == "ok"
+
+
+def test_a_detector_is_held_to_the_memory_limit():
+    results = contactcheck.run(APPROACH, [Greedy()], timing=False, options=["--memory-limit=100"])
+    assert "took more than 100 MiB (memory limit)" in row(results, "greedy")["message"]
+    results = contactcheck.run(APPROACH, [Greedy()], timing=False, options=["--memory-limit", "300"])
+    assert row(results, "greedy")["status"] == "ok", row(results, "greedy")["message"]
+
+
+@pytest.mark.parametrize("detector", [Attached(), Attached])
+def test_a_detector_may_stay_in_this_process_and_is_never_gated(detector):
+    results = contactcheck.run(APPROACH, [detector, Exact(), "fcl-aabb"], processes=2)
+    attached, exact = row(results, "attached"), row(results, "exact")
+    assert attached["status"] == "ok", attached["message"]
+    assert attached["contact_hash"] == exact["contact_hash"] and attached["passes"] == 2
+    assert [plugin.get("unisolated") for plugin in results.data["plugins"]] == [True, None]
+    (run,) = [run for run in results.data["runs"] if run["detector"] == "attached"]
+    assert "unisolated" in str(run["notes"])
+    verdict = contactcheck.gate(results, NOTHING_MISSED)
+    assert verdict.passed and re.search("cannot judge.*\n.*attached.*\n?.*unisolated", verdict.text), verdict.text
+
+
+def test_where_no_process_can_be_had_a_thread_is_asked(monkeypatch):
+    def no_fork():
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(os, "fork", no_fork)
+    results = contactcheck.run(APPROACH, [Forgetful()], timing=False)
+    assert row(results, "forgetful")["triangle_missed"] == 2
+    assert results.data["plugins"][0]["unisolated"] is True
+    assert contactcheck.gate(results, NOTHING_MISSED).passed
+
+
+def test_a_process_that_is_not_to_be_had_later_is_an_error(monkeypatch):
+    fork, forks = os.fork, []
+
+    def fork_once():
+        forks.append(1)
+        if len(forks) > 1:
+            raise BlockingIOError(11, "Resource temporarily unavailable")
+        return fork()
+
+    monkeypatch.setattr(os, "fork", fork_once)
+    results = contactcheck.run(APPROACH, [Exact()], timing=False)
+    assert "no process can be had" in row(results, "exact")["message"]
+    assert "unisolated" not in results.data["plugins"][0]
+
+
+@pytest.mark.parametrize("failing, message", [
+    (Raising, "KeyError: 'no such luck'"), (Hanging, "no progress"), (Odd, "unknown lists: triangels")])
+def test_a_detector_that_fails_in_this_process_is_a_row(failing, message):
+    class InHere(failing):
+        declares = dict(Exact.declares, id="in-here", unisolated=True)
+
+    detector = InHere()
+    results = contactcheck.run(APPROACH, [detector, Exact()], timing=False, options=["--call-limit", "2"])
+    failed = row(results, "in-here")
+    assert failed["status"] == "error" and message in failed["message"]
+    assert row(results, "exact")["status"] == "ok"
+
+
+def test_no_command_is_proposed_that_needs_this_interpreter(capfd):
+    contactcheck.run(APPROACH, [Forgetful()], timing=False, quiet=False)
+    printed = capfd.readouterr().out
+    assert "forgetful" in printed and "next:" not in printed
+    relay = [sys.executable, pathlib.Path(contactcheck.__file__).parent / "_relay.py", "0"]
+    alone = subprocess.run(relay, capture_output=True, text=True, env={})
+    assert alone.returncode == 1 and "contactcheck.run()" in alone.stderr
 
 
 def test_what_a_detector_prints_is_a_note():
@@ -295,15 +391,10 @@ def test_scenes_of_arrays_keep_every_bit(tmp_path):
 
 def test_the_gate_says_why(bunny_run):
     results = contactcheck.Results(bunny_run / "results.json")
-    policy = {
-        "schema": "contactcheck-policy/1", "id": "mine", "title": "mine",
-        "rules": [{"rule": "nothing is missed", "scenes": ["*"], "detectors": ["*"], "measure": "missed",
-                   "level": "triangle", "at_most": 0}],
-    }
-    verdict = contactcheck.gate(results, policy=policy)
+    verdict = contactcheck.gate(results, policy=NOTHING_MISSED)
     assert verdict.passed and verdict.failures == [] and "gate: green" in verdict.text
     broken = contactcheck.run(APPROACH, [Forgetful()], timing=False)
-    verdict = contactcheck.gate(broken, policy=policy)
+    verdict = contactcheck.gate(broken, policy=NOTHING_MISSED)
     assert not verdict.passed
     assert verdict.failures[0]["rule"] == "nothing is missed" and "forgetful" in verdict.failures[0]["row"]
     assert contactcheck.gate(results, baseline=results).passed

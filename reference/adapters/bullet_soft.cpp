@@ -7,11 +7,10 @@
 //              cross far from any vertex. Judged at `near` and `body`; its figures at `vertex` are
 //              informative. A body with itself is compared by the path of deformable bodies
 //              (VF_DD), another test: judged at `self-near`.
-//   bullet-cl  Cluster contacts (CL_SS): each body is divided at rest into clusters of vertices;
-//   two
-//              bodies are in contact when the convex hulls of two of their clusters are nearer than
-//              the sum of the margins (strictly) or overlap, by GJK and EPA. Hulls of concave or
-//              curved pieces hold space that the surface does not: contact is reported across a
+//   bullet-cl  Cluster contacts (CL_SS): each body is divided at rest into clusters of vertices.
+//              Two bodies are in contact when the convex hulls of two of their clusters are nearer
+//              than the sum of the margins (strictly) or overlap, by GJK and EPA. Hulls of concave
+//              or curved pieces hold space that the surface does not: contact is reported across a
 //              gap, and for a thin shell within another. Judged at `body`. A body's own clusters
 //              are compared where they share no vertex: judged at `self-body`.
 //

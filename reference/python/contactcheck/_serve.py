@@ -220,7 +220,7 @@ class _Answering:
     def __init__(self, connection: socket.socket, errors: int) -> None:
         self.connection = connection  # to the command; readable: it was killed
         self.errors = errors  # standard error of the command
-        self.ended = -1  # readable: a process has ended (its pidfd), or a thread (an event)
+        self.ended = -1  # readable: a process has ended (its pidfd), or a thread (a pipe)
 
     def say(self, sentence: str) -> None:
         with contextlib.suppress(OSError):  # nobody reads any more
@@ -259,32 +259,34 @@ class _Process(_Answering):
 class _Thread(_Answering):
     def __init__(self, connection: socket.socket, pipes: list[int], detector: Any) -> None:
         super().__init__(connection, os.dup(pipes[2]))
-        self.ended, self._code, self._detector = os.eventfd(0), 1, detector
+        self.ended, running = os.pipe()  # closed when the thread is through
+        self._code, self._detector = 1, detector
         # Its own files: it may still be in a call when the command has been killed.
-        self._pipes, self._finished = [os.dup(pipe) for pipe in pipes], os.dup(self.ended)
+        self._files = [*map(os.dup, pipes), running]
         self.thread = threading.Thread(target=self._serve, daemon=True)
         self.thread.start()
 
     def _serve(self) -> None:
-        source, to, errors = (os.fdopen(pipe, mode) for pipe, mode in zip(self._pipes, ("rb", "wb", "w")))
+        source, to = open(self._files[0], "rb"), open(self._files[1], "wb")
+        errors = open(self._files[2], "w")
         try:
             print("unisolated: asked in the process that called run()", file=errors, flush=True)
             serve(self._detector, source, to, unisolated=True)
             self._code = 0
         except BaseException:
-            traceback.print_exc(file=errors)
+            with contextlib.suppress(OSError):  # nobody reads any more
+                traceback.print_exc(file=errors)
         finally:
-            self._pipes = []
-            for file in (source, to, errors):
+            running, self._files = self._files[3], []
+            for close in (source.close, to.close, errors.close):
                 with contextlib.suppress(OSError):
-                    file.close()
-            os.eventfd_write(self._finished, 1)
-            os.close(self._finished)
+                    close()
+            os.close(running)
 
     def leave(self) -> None:
         super().leave()
-        for pipe in self._pipes:
-            os.close(pipe)
+        for file in self._files:
+            os.close(file)
 
     def end(self) -> int:
         return self._code

@@ -1,5 +1,6 @@
 // contactcheck._binding: what contactcheck/__init__.py, the module for users, is made of.
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "core/types/check.h"
 #include "reference/process/process_tree.h"
@@ -14,7 +15,7 @@ PYBIND11_MODULE(_binding, module) {
   py::register_exception<contactcheck::Unavailable>(module, "Unavailable", PyExc_RuntimeError);
   module.attr("__version__") = CONTACTCHECK_VERSION;
   module.attr("MEMORY_LIMIT") = contactcheck::suite::RunSettings{}.memory_limit;
-  module.def("resident_bytes", contactcheck::process::resident_bytes_of_tree, py::arg("process"));
+  module.def("process_tree", contactcheck::process::process_tree, py::arg("process"));
   contactcheck::python::add_judge(module);
   contactcheck::python::add_detector(module);
   contactcheck::python::add_results(module);

@@ -9,9 +9,11 @@ context of a GPU, is asked in a thread of the interpreter.
 
 from __future__ import annotations
 
+import collections
 import contextlib
 import ctypes
 import dataclasses
+import errno
 import faulthandler
 import io
 import json
@@ -24,11 +26,12 @@ import struct
 import sys
 import threading
 import traceback
+from collections.abc import Mapping
 from typing import Any, BinaryIO, Optional
 
 import numpy as np
 
-from ._binding import RefusedInput, resident_bytes
+from ._binding import RefusedInput, process_tree
 
 PROTOCOL = "contactcheck-pipe/1"
 RELAY = os.path.join(os.path.dirname(__file__), "_relay.py")
@@ -141,8 +144,19 @@ def declaration(detector: Any) -> dict:
     line = {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": ["vertices"]}
     line.update({key: declares.pop(key) for key in ("id", "summary", "version", "options", "needs")
                  if key in declares})
-    declares.pop("unisolated", None)  # of the server
+    if declares.pop("unisolated", False):
+        line["unisolated"] = True
     return {**line, "semantics": {**declares.pop("semantics", {}), **declares}}
+
+
+def _unisolated(detector: Any) -> bool:
+    declares = getattr(detector, "declares", None)
+    return isinstance(declares, Mapping) and bool(declares.get("unisolated"))
+
+
+def _say(errors: int, sentence: str) -> None:
+    with contextlib.suppress(OSError):  # nobody reads any more
+        os.write(errors, sentence.encode() + b"\n")
 
 
 def serve(detector: Any, source: BinaryIO, to: BinaryIO, unisolated: bool = False) -> None:
@@ -156,6 +170,8 @@ def serve(detector: Any, source: BinaryIO, to: BinaryIO, unisolated: bool = Fals
         to.flush()
 
     hello = declaration(detector)
+    if hello.get("unisolated") and not unisolated:
+        raise ValueError('"unisolated" must be in an attribute of the class, or give an object')
     if unisolated:
         hello["unisolated"] = True
     bodies: list[dict] = []
@@ -214,24 +230,41 @@ def _child(detector: Any, pipes: list[int]) -> None:
         os._exit(code)
 
 
+def _kibibytes(process: int) -> collections.Counter:
+    """Of the memory of a process, by the kernel's names; of one that has ended nothing."""
+    out: collections.Counter = collections.Counter()
+    with contextlib.suppress(OSError), open(f"/proc/{process}/smaps_rollup") as rollup:
+        for name, number, *_ in map(str.split, list(rollup)[1:]):
+            out[name.rstrip(":")] = int(number)
+    return out
+
+
+# What a fork inherits of this process and must not hold open: whoever reads from it would not see its
+# end. All forks, also those of a detector and of another run.
+_not_of_forks: set[int] = set()
+
+
+def _leave() -> None:
+    if _not_of_forks:
+        nothing = os.open(os.devnull, os.O_RDWR)
+        for file in _not_of_forks:
+            os.dup2(nothing, file, inheritable=False)  # its number stays taken: objects may close it
+        os.close(nothing)
+        _not_of_forks.clear()
+
+
+os.register_at_fork(after_in_child=_leave)
+
+
 class _Answering:
     """A detector that is asked: by a process, or by a thread of this one."""
 
-    def __init__(self, connection: socket.socket, errors: int) -> None:
-        self.connection = connection  # to the command; readable: it was killed
-        self.errors = errors  # standard error of the command
+    def __init__(self, errors: int) -> None:
+        self.errors = os.dup(errors)  # standard error of the command
         self.ended = -1  # readable: a process has ended (its pidfd), or a thread (a pipe)
-
-    def say(self, sentence: str) -> None:
-        with contextlib.suppress(OSError):  # nobody reads any more
-            os.write(self.errors, sentence.encode() + b"\n")
 
     def over_limit(self, limit: int) -> bool:
         return False
-
-    def leave(self) -> None:
-        """In a fork: whoever reads from it shall see its end."""
-        self.connection.close()
 
     def end(self) -> int:
         """Its exit code."""
@@ -239,13 +272,24 @@ class _Answering:
 
 
 class _Process(_Answering):
-    def __init__(self, connection: socket.socket, errors: int, process: int) -> None:
-        super().__init__(connection, errors)
-        self.process, self.ended = process, os.pidfd_open(process)
-        self.at_first = resident_bytes(process)  # the interpreter's, which it shares
+    def __init__(self, process: int, pipes: list[int]) -> None:
+        try:
+            super().__init__(pipes[2])
+            self.process, self.ended = process, os.pidfd_open(process)
+        except OSError:
+            os.kill(process, signal.SIGKILL)
+            os.waitpid(process, 0)
+            raise
+        self.inherited = _kibibytes(os.getpid())["Rss"]
 
     def over_limit(self, limit: int) -> bool:
-        return resident_bytes(self.process) > self.at_first + limit
+        """Of what it has taken: of two numbers, both at most that, the greater. What is its own alone;
+        and all, with a share of what it shares, less what it can share with the interpreter."""
+        memory: collections.Counter = collections.Counter()
+        for each in process_tree(self.process):
+            memory += _kibibytes(each)
+        own = sum(number for name, number in memory.items() if name.startswith("Private_"))
+        return max(own, memory["Pss"] - self.inherited) << 10 > limit
 
     def end(self) -> int:
         with contextlib.suppress(ProcessLookupError):
@@ -257,14 +301,21 @@ class _Process(_Answering):
 
 
 class _Thread(_Answering):
-    def __init__(self, connection: socket.socket, pipes: list[int], detector: Any) -> None:
-        super().__init__(connection, os.dup(pipes[2]))
+    def __init__(self, detector: Any, pipes: list[int]) -> None:
+        super().__init__(pipes[2])
         self.ended, running = os.pipe()  # closed when the thread is through
-        self._code, self._detector = 1, detector
         # Its own files: it may still be in a call when the command has been killed.
         self._files = [*map(os.dup, pipes), running]
+        _not_of_forks.update(self._files)
+        self._code, self._detector = 1, detector
         self.thread = threading.Thread(target=self._serve, daemon=True)
-        self.thread.start()
+        try:
+            self.thread.start()
+        except RuntimeError as why:
+            _not_of_forks.difference_update(self._files)
+            for file in (*self._files, self.ended, self.errors):
+                os.close(file)
+            raise OSError(errno.EAGAIN, f"neither process nor thread can be had: {why}") from None
 
     def _serve(self) -> None:
         source, to = open(self._files[0], "rb"), open(self._files[1], "wb")
@@ -277,16 +328,11 @@ class _Thread(_Answering):
             with contextlib.suppress(OSError):  # nobody reads any more
                 traceback.print_exc(file=errors)
         finally:
-            running, self._files = self._files[3], []
+            _not_of_forks.difference_update(self._files)
             for close in (source.close, to.close, errors.close):
                 with contextlib.suppress(OSError):
                     close()
-            os.close(running)
-
-    def leave(self) -> None:
-        super().leave()
-        for file in self._files:
-            os.close(file)
+            os.close(self._files[3])
 
     def end(self) -> int:
         return self._code
@@ -298,7 +344,7 @@ class Server:
     def __init__(self, detectors: list, memory_limit: int) -> None:
         self._detectors = detectors  # more may be added
         self._memory_limit = memory_limit  # bytes
-        self._answering: list[_Answering] = []
+        self._answering: dict[_Answering, socket.socket] = {}  # readable: the command was killed
         self._threads: dict[int, threading.Thread] = {}  # by detector: those that cannot be forked
         self._forked: set[int] = set()  # detectors
         self._selector = selectors.DefaultSelector()
@@ -306,6 +352,7 @@ class Server:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._socket.bind("")
         self._socket.listen(64)
+        _not_of_forks.add(self._socket.fileno())
         self._selector.register(self._socket, selectors.EVENT_READ, self._connected)
 
     def command(self, index: int) -> str:
@@ -331,7 +378,7 @@ class Server:
                     key.data()
                 for one in list(self._answering):
                     if one.over_limit(self._memory_limit):
-                        one.say(f"took more than {self._memory_limit >> 20} MiB (memory limit)")
+                        _say(one.errors, f"took more than {self._memory_limit >> 20} MiB (memory limit)")
                         self._end(one)
         finally:
             self._selector.unregister(watched)
@@ -341,7 +388,7 @@ class Server:
         for one in list(self._answering):
             self._end(one)
         self._selector.close()
-        self._socket.close()
+        self._close(self._socket)
 
     def _connected(self) -> None:
         connection, _ = self._socket.accept()
@@ -350,59 +397,61 @@ class Server:
             connection.close()  # somebody else's
             return
         word, pipes, _, _ = socket.recv_fds(connection, 16, 3)
-        if len(pipes) == 3:
-            one = self._started(int(word), connection, pipes)
-            if one:
-                self._answering.append(one)
-                for source in (one.ended, connection.fileno()):
-                    self._selector.register(source, selectors.EVENT_READ, lambda: self._end(one))
-            else:
-                connection.close()
-        for pipe in pipes:
-            os.close(pipe)
+        if len(pipes) != 3:
+            connection.close()
+            return
+        _not_of_forks.add(connection.fileno())
+        # Between a fork and its entry in the list Ctrl-C would leave a process that nobody knows.
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        try:
+            one = self._started(int(word), pipes)
+            self._answering[one] = connection
+            for source in (one.ended, connection.fileno()):
+                self._selector.register(source, selectors.EVENT_READ, lambda: self._end(one))
+        except OSError as why:
+            _say(pipes[2], str(why.strerror))
+            self._close(connection)
+        finally:
+            for pipe in pipes:
+                os.close(pipe)
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
-    def _started(self, index: int, connection: socket.socket, pipes: list[int]) -> Optional[_Answering]:
+    def _started(self, index: int, pipes: list[int]) -> _Answering:
         detector = self._detectors[index]
-        declares = getattr(detector, "declares", None)
-        if index not in self._threads and not (isinstance(declares, dict) and declares.get("unisolated")):
-            # A child must not be interrupted into returning.
-            mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        if index not in self._threads and not _unisolated(detector):
             try:
                 process = os.fork()
-                if process == 0:
-                    self._socket.close()
-                    connection.close()
-                    for one in self._answering:
-                        one.leave()
-                    _child(detector, pipes)
-                self._forked.add(index)
-                return _Process(connection, os.dup(pipes[2]), process)
             except OSError as why:
                 # What was declared in a process holds for it: a thread would have to say more.
                 if index in self._forked:
-                    os.write(pipes[2], f"no process can be had: {why.strerror}\n".encode())
-                    return None
-            finally:
-                signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+                    raise OSError(why.errno, f"no process can be had: {why.strerror}") from None
+            else:
+                if process == 0:
+                    _child(detector, pipes)
+                self._forked.add(index)
+                return _Process(process, pipes)
         earlier = self._threads.get(index)
         if earlier:
             earlier.join(0.5)
             if earlier.is_alive():
-                os.write(pipes[2], b"it has not returned from an earlier call\n")
-                return None
-        one = _Thread(connection, pipes, detector)
+                raise OSError(errno.EBUSY, "it has not returned from an earlier call")
+        one = _Thread(detector, pipes)
         self._threads[index] = one.thread
         return one
 
     def _end(self, one: _Answering) -> None:
         if one not in self._answering:
             return  # both had something to say
-        self._answering.remove(one)
-        self._selector.unregister(one.connection.fileno())
+        connection = self._answering.pop(one)
+        self._selector.unregister(connection.fileno())
         self._selector.unregister(one.ended)
         code = one.end()
         with contextlib.suppress(OSError):
-            one.connection.send(str(code).encode())
+            connection.send(str(code).encode())
         os.close(one.ended)
         os.close(one.errors)
-        one.connection.close()
+        self._close(connection)
+
+    def _close(self, connection: socket.socket) -> None:
+        _not_of_forks.discard(connection.fileno())
+        connection.close()

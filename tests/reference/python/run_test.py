@@ -9,6 +9,7 @@ import subprocess
 import sys
 import textwrap
 import time
+import types
 
 import contactcheck
 import numpy as np
@@ -254,6 +255,32 @@ def test_a_detector_is_held_to_the_memory_limit():
     assert row(results, "greedy")["status"] == "ok", row(results, "greedy")["message"]
 
 
+def test_memory_of_the_interpreter_is_not_the_detectors():
+    many = np.ones((300 << 20) // 8)
+
+    class Forking(Exact):
+        declares = dict(Exact.declares, id="forking")
+
+        def prepare(self, bodies):
+            super().prepare(bodies)
+            self.child = os.fork()
+            if self.child == 0:
+                time.sleep(60)
+            time.sleep(0.5)
+
+    class Copying(Exact):
+        declares = dict(Exact.declares, id="copying")
+
+        def prepare(self, bodies):
+            super().prepare(bodies)
+            many.__iadd__(1)
+            time.sleep(1)
+
+    results = contactcheck.run(APPROACH, [Forking, Copying], timing=False, options=["--memory-limit=200"])
+    assert row(results, "forking")["status"] == "ok", row(results, "forking")["message"]
+    assert "took more than 200 MiB (memory limit)" in row(results, "copying")["message"]
+
+
 @pytest.mark.parametrize("detector", [Attached(), Attached])
 def test_a_detector_may_stay_in_this_process_and_is_never_gated(detector):
     results = contactcheck.run(APPROACH, [detector, Exact(), "fcl-aabb"], processes=2)
@@ -276,6 +303,55 @@ def test_where_no_process_can_be_had_a_thread_is_asked(monkeypatch):
     assert row(results, "forgetful")["triangle_missed"] == 2
     assert results.data["plugins"][0]["unisolated"] is True
     assert contactcheck.gate(results, NOTHING_MISSED).passed
+
+
+def test_where_neither_process_nor_thread_can_be_had_nothing_stays(monkeypatch):
+    def none(*_):
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    def no_thread(_):
+        raise RuntimeError("can't start new thread")
+
+    before = sorted(os.listdir("/proc/self/fd"))
+    monkeypatch.setattr(os, "fork", none)
+    monkeypatch.setattr("threading.Thread.start", no_thread)
+    with pytest.raises(contactcheck.InputError, match="neither process nor thread"):
+        contactcheck.run(APPROACH, [Exact()], timing=False)
+    assert sorted(os.listdir("/proc/self/fd")) == before
+
+
+def test_no_fork_keeps_the_end_of_another_detector():
+    class Late(Exact):
+        declares = types.MappingProxyType(dict(Exact.declares, id="late", unisolated=True))
+
+        def query(self, question):
+            child = os.fork()
+            if child == 0:
+                time.sleep(5)
+                os._exit(0)
+            raise ValueError("too late")
+
+    results = contactcheck.run(APPROACH, [Late()], timing=False, options=["--call-limit", "3"])
+    assert "ValueError: too late" in row(results, "late")["message"]
+
+
+def test_an_interrupt_during_a_fork_leaves_no_process(monkeypatch):
+    fork, children = os.fork, []
+
+    def interrupted():
+        child = fork()
+        if child != 0:
+            children.append(child)
+            os.kill(os.getpid(), signal.SIGINT)
+        return child
+
+    before = sorted(os.listdir("/proc/self/fd"))
+    monkeypatch.setattr(os, "fork", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        contactcheck.run(APPROACH, [Exact()], timing=False)
+    assert sorted(os.listdir("/proc/self/fd")) == before
+    with pytest.raises(ChildProcessError):
+        os.waitpid(children[0], 0)
 
 
 def test_a_process_that_is_not_to_be_had_later_is_an_error(monkeypatch):

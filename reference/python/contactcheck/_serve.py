@@ -26,7 +26,7 @@ import struct
 import sys
 import threading
 import traceback
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, BinaryIO, Optional
 
 import numpy as np
@@ -207,7 +207,6 @@ def _child(detector: Any, pipes: list[int]) -> None:
     code = 1
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
         os.setsid()  # its own processes end with it
         end_with_parent(signal.SIGKILL)
         for target, pipe in enumerate(pipes):
@@ -338,6 +337,24 @@ class _Thread(_Answering):
         return self._code
 
 
+@contextlib.contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Ctrl-C waits: between a fork and its entry in a list it would leave a process that nobody knows.
+    A mask would not do, since another thread of the program can take the signal."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield
+        return
+    came: list = []
+    signal.signal(signal.SIGINT, lambda *arguments: came.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        if came:
+            handler(*came[0])
+
+
 class Server:
     """Asks the detectors of a run, for its commands: waits in the thread that called run()."""
 
@@ -401,20 +418,18 @@ class Server:
             connection.close()
             return
         _not_of_forks.add(connection.fileno())
-        # Between a fork and its entry in the list Ctrl-C would leave a process that nobody knows.
-        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         try:
-            one = self._started(int(word), pipes)
-            self._answering[one] = connection
-            for source in (one.ended, connection.fileno()):
-                self._selector.register(source, selectors.EVENT_READ, lambda: self._end(one))
+            with _uninterrupted():
+                one = self._started(int(word), pipes)
+                self._answering[one] = connection
+                for source in (one.ended, connection.fileno()):
+                    self._selector.register(source, selectors.EVENT_READ, lambda: self._end(one))
         except OSError as why:
             _say(pipes[2], str(why.strerror))
             self._close(connection)
         finally:
             for pipe in pipes:
                 os.close(pipe)
-            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
     def _started(self, index: int, pipes: list[int]) -> _Answering:
         detector = self._detectors[index]

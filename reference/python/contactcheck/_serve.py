@@ -170,10 +170,10 @@ def serve(detector: Any, source: BinaryIO, to: BinaryIO, unisolated: bool = Fals
         to.flush()
 
     hello = declaration(detector)
-    if hello.get("unisolated") and not unisolated:
-        raise ValueError('"unisolated" must be in an attribute of the class, or give an object')
     if unisolated:
         hello["unisolated"] = True
+    elif hello.get("unisolated"):
+        raise ValueError('"unisolated" must be in an attribute of the class, or give an object')
     bodies: list[dict] = []
     for text in iter(source.readline, b""):
         line = json.loads(text)

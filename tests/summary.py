@@ -4,7 +4,7 @@
     summary.py BUILD [--no-skips]     --no-skips: exit code 1 where a test was skipped
 
 Reads BUILD/tests/ran: junit.xml, which ctest writes (presets name it), and the files of the
-GoogleTest programs that it ran.
+GoogleTest programs and of pytest that it ran.
 """
 
 import argparse
@@ -14,14 +14,16 @@ import sys
 import xml.etree.ElementTree as xml
 
 
-def of_googletest(file):
-    """(tests that ran, [(test, why it was skipped)])"""
+def of_junit(file):
+    """(tests that ran, [(test, why it was skipped)]) of GoogleTest's or pytest's file. GoogleTest also
+    lists tests that were not asked for."""
     ran, skipped = 0, []
     for case in xml.parse(file).iter("testcase"):
-        if case.get("result") == "skipped":
-            why = next((part.get("message", "") for part in case.iter("skipped")), "")
-            skipped.append((f"{case.get('classname')}.{case.get('name')}", why.strip().splitlines()[-1]))
-        elif case.get("status") == "run":
+        why = case.find("skipped")
+        if why is not None:
+            skipped.append((f"{case.get('classname')}.{case.get('name')}",
+                            why.get("message", "").strip().splitlines()[-1]))
+        elif case.get("status", "run") == "run":
             ran += 1
     return ran, skipped
 
@@ -45,7 +47,7 @@ def summary(build):
         if not details.exists():
             ran += of_output(output)
             continue
-        of_entry, of_entry_skipped = of_googletest(details)
+        of_entry, of_entry_skipped = of_junit(details)
         skipped += of_entry_skipped
         ran += of_entry
         if of_entry + len(of_entry_skipped) == 0:

@@ -27,6 +27,8 @@ void add_gate(CommandLine& line) {
   gate->add_option("--junit", arguments->junit,
                    "write JUnit XML: a test case per rule, scene and detector")
       ->type_name("FILE");
+  gate->add_flag("--advisory-times", arguments->advisory_times,
+                 "show rules on times, but let only the other rules decide");
   gate->add_flag("--github", arguments->github, "write GitHub annotations and a job summary");
   gate->footer(
       "Exit code 1 when the policy is broken.\n"

@@ -77,6 +77,7 @@ struct GateArguments {
   std::filesystem::path results, policy;
   std::filesystem::path baseline, junit;  ///< empty: none
   bool github = false;
+  bool advisory_times = false;  ///< rules on times are shown and do not make the gate red
 };
 
 struct AbArguments {

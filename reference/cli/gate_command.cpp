@@ -43,8 +43,9 @@ fs::path policy_file(const fs::path& policy) {
 gate::GateResult judged(const GateArguments& arguments) {
   if (arguments.policy.empty() && arguments.baseline.empty())
     throw InputError("gate needs --policy FILE, --baseline FILE or both");
-  const gate::Policy policy =
+  gate::Policy policy =
       gate::read_policy(policy_file(arguments.policy.empty() ? "unchanged" : arguments.policy));
+  policy.advisory_times = arguments.advisory_times;
   const results::Results now = results::results_in(arguments.results);
   if (arguments.baseline.empty()) return gate::run_gate(policy, now, nullptr);
   const results::Results before = results::results_in(arguments.baseline);

@@ -191,11 +191,16 @@ GateResult run_gate(const Policy& policy, const results::Results& results,
   out.title = policy.title;
   out.results_command = results.command;
   out.rules = policy.rules.size();
-  for (const Rule& rule : policy.rules)
+  for (const Rule& rule : policy.rules) {
+    const std::size_t first = out.checks.size();
     apply_rule(rule, now, before ? &*before : nullptr, out.checks);
+    if (policy.advisory_times && is_timing(*rule.measure))
+      for (std::size_t i = first; i < out.checks.size(); ++i) out.checks[i].red = false;
+  }
   if (baseline != nullptr)
     for (Check& lost : lost_rows(now, *baseline)) out.checks.push_back(std::move(lost));
-  if (std::optional<Check> open = too_many_open(policy, out)) out.checks.push_back(*open);
+  if (!policy.advisory_times)
+    if (std::optional<Check> open = too_many_open(policy, out)) out.checks.push_back(*open);
   return out;
 }
 

@@ -13,6 +13,11 @@ std::vector<RuleChecks> left_open(const GateResult& result, Verdict verdict) {
   return by_rule(result, [&](const Check& c) { return !c.red && c.verdict == verdict; });
 }
 
+// A failure that does not make the gate red is one of a rule on times, where these are advisory.
+std::string open_name(Verdict verdict) {
+  return name_of(verdict) + std::string(verdict == Verdict::kFail ? " (advisory)" : "");
+}
+
 // The first check of a rule, and how many others there are.
 std::string first_sentence(const RuleChecks& group) {
   const std::size_t others = group.checks.size() - 1;
@@ -56,7 +61,7 @@ std::string open_rules(const GateResult& result, Verdict verdict, bool color) {
   const auto open = left_open(result, verdict);
   if (open.empty()) return "";
   const std::size_t shown = std::min(open.size(), kMostRules);
-  std::string out = paint(name_of(verdict), kBold, color) + "\n";
+  std::string out = paint(open_name(verdict), kBold, color) + "\n";
   for (std::size_t i = 0; i < shown; ++i)
     out += fmt::format("  {}: {}\n", open[i].rule, first_sentence(open[i]));
   return out + more_text(shown, open.size(), "rules");
@@ -83,7 +88,7 @@ std::string test_case(const Check& check) {
   }
   if (check.verdict == Verdict::kPass) return head + "/>\n";
   return head + fmt::format(">\n      <skipped message=\"{}: {}\"/>\n    </testcase>\n",
-                            name_of(check.verdict), message);
+                            open_name(check.verdict), message);
 }
 
 struct Tally {
@@ -134,7 +139,7 @@ std::string open_annotations(const GateResult& result, const char* kind, Verdict
   std::vector<std::string> lines;
   for (const RuleChecks& group : left_open(result, verdict))
     lines.push_back(github_annotation(
-        kind, group.rule, std::string(name_of(verdict)) + ": " + first_sentence(group)));
+        kind, group.rule, open_name(verdict) + ": " + first_sentence(group)));
   return limited(lines, kind);
 }
 
@@ -187,7 +192,7 @@ std::string open_list(const GateResult& result, Verdict verdict) {
   std::string out;
   for (const RuleChecks& group : left_open(result, verdict)) {
     const std::size_t shown = std::min(group.checks.size(), kMostOfOpenRule);
-    out += fmt::format("- {}, {}:\n", cell(group.rule), name_of(verdict));
+    out += fmt::format("- {}, {}:\n", cell(group.rule), open_name(verdict));
     for (std::size_t i = 0; i < shown; ++i)
       out += "  - " + cell(sentence_of(*group.checks[i])) + "\n";
     if (group.checks.size() > shown)
@@ -202,7 +207,8 @@ std::string gate_screen(const GateResult& result, bool color) {
   const bool red = result.red();
   return fmt::format("{}  {}\n{}\n", paint(result.policy, kBold, color), result.title,
                      counts_text(result)) +
-         broken_rules(result, color) + open_rules(result, Verdict::kTooNoisy, color) +
+         broken_rules(result, color) + open_rules(result, Verdict::kFail, color) +
+         open_rules(result, Verdict::kTooNoisy, color) +
          open_rules(result, Verdict::kCannotJudge, color) +
          (red ? paint("gate: red", kRed, color) : paint("gate: green", kGreen, color)) + "\n";
 }
@@ -262,14 +268,16 @@ std::string github_annotations(const GateResult& result) {
       errors.push_back(
           github_annotation("error", check.rule,
                             sentence_of(check) + (check.rerun.empty() ? "" : "\n" + check.rerun)));
-  return limited(errors, "error") + open_annotations(result, "warning", Verdict::kTooNoisy) +
+  return limited(errors, "error") + open_annotations(result, "warning", Verdict::kFail) +
+         open_annotations(result, "warning", Verdict::kTooNoisy) +
          open_annotations(result, "notice", Verdict::kCannotJudge);
 }
 
 std::string github_summary(const GateResult& result) {
   return fmt::format("## contactcheck gate {}: {}\n\n{}. {}.\n\n", cell(result.policy),
                      result.red() ? "red" : "green", cell(result.title), counts_text(result)) +
-         red_table(result) + open_list(result, Verdict::kTooNoisy) +
+         red_table(result) + open_list(result, Verdict::kFail) +
+         open_list(result, Verdict::kTooNoisy) +
          open_list(result, Verdict::kCannotJudge);
 }
 

@@ -94,6 +94,9 @@ struct Policy {
   /// More rules than this that cannot judge some of their rows make the gate red; none: any number
   /// may.
   std::optional<std::size_t> cannot_judge_at_most;
+  /// Rules on times are judged and shown, and neither they nor rules that cannot judge make the gate
+  /// red: for a first run, on a machine whose load nobody controls. Not a key of the file.
+  bool advisory_times = false;
 };
 
 /// Does it need the results of an earlier run?

@@ -1,5 +1,5 @@
 # Debian's cross compiler for AArch64; programs run under qemu-user. Of core and its tests (preset
-# "aarch64"): .ci/aarch64 installs what it needs.
+# "aarch64"): .ci/tools/aarch64 installs what it needs.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

@@ -7,7 +7,7 @@
 #include "reference/mesh/datasets.h"
 #include "tests/fuzz/fuzzed_file.h"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(archive) {
   using namespace contactcheck;
   static const test::FuzzedFile file("archive.tar");
   for (const char* member : {"a", "data/meshes/a.off"})

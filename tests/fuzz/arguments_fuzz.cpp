@@ -52,7 +52,7 @@ void parse(std::vector<std::string> words) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(arguments) {
   using namespace contactcheck;
   const std::vector<std::string> words =
       test::words_of(std::string(reinterpret_cast<const char*>(data), size));

@@ -23,7 +23,7 @@ void check_promises(const scene::PointCache& cache, std::size_t bytes) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(cache) {
   using namespace contactcheck;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   for (const scene::CacheFormat format : {scene::CacheFormat::kPc2, scene::CacheFormat::kMdd}) try {

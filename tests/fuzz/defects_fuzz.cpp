@@ -29,7 +29,7 @@ void check_round_trip(const results::KnownDefects& known) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(defects) {
   using namespace contactcheck;
   static const test::FuzzedFile file(test::kName);
   results::KnownDefects known;

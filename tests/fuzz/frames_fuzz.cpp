@@ -57,7 +57,7 @@ void check_promises(const scene::Scene& scene, const std::vector<std::filesystem
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(frames) {
   using namespace contactcheck;
   const std::vector<std::string> frames =
       test::frames_of({reinterpret_cast<const char*>(data), size});

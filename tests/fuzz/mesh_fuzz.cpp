@@ -83,7 +83,7 @@ void read_as(mesh::SoupFormat format, const std::string& bytes) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(mesh) {
   using contactcheck::mesh::SoupFormat;
   contactcheck::test::silence_cgal();
   const std::string bytes(reinterpret_cast<const char*>(data), size);

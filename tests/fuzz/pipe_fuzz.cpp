@@ -66,7 +66,7 @@ void check_as(const char* message, const std::string& line, std::string_view byt
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(pipe) {
   const std::string_view all(reinterpret_cast<const char*>(data), size);
   const std::size_t end = all.find('\n');
   const std::string line(all.substr(0, end));

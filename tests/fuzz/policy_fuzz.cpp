@@ -24,7 +24,7 @@ void check_promises(const gate::Policy& policy) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(policy) {
   using namespace contactcheck;
   static const test::FuzzedFile file("policy.json");
   test::try_file(file, data, size, [](const std::filesystem::path& path) {

@@ -49,7 +49,7 @@ void check(const std::string& bytes) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(recording) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   contactcheck::test::check(bytes);
   if (size >= contactcheck::test::kSmallestRepaired)

@@ -60,7 +60,7 @@ void check_baseline(const results::Results& results) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(results) {
   using namespace contactcheck;
   const test::Json json = test::Json::parse(data, data + size, nullptr, false);
   if (!json.is_object() || !results::schema_defect(test::schema(), json).empty()) return 0;

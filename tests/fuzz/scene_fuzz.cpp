@@ -98,7 +98,7 @@ void check_promises(const scene::Scene& scene) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(scene) {
   using namespace contactcheck;
   const std::string text(reinterpret_cast<const char*>(data), size);
   if (!test::harmless_text(text)) return test::kNotForTheCorpus;

@@ -34,7 +34,7 @@ void check_promises(const scene::Suite& suite) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(suite) {
   using namespace contactcheck;
   static const test::FuzzedFile file("suite.json");
   test::try_file(file, data, size, [](const std::filesystem::path& path) {

@@ -93,7 +93,7 @@ void check_filter(const Pair& pair, const TriangleBatch& batch, bool truth) {
 }  // namespace
 }  // namespace contactcheck::test
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+CONTACTCHECK_FUZZ_TARGET(triangles) {
   using namespace contactcheck;
   const auto pair = test::hard_pair({data, size});
   if (!pair) return test::kNotForTheCorpus;

@@ -11,7 +11,7 @@ A table stands between `<!-- table: NAME -->` and `<!-- end -->` (TABLES in tabl
 a sentence has no mark, for readers of the plain text: tests/texts/figures.json lists, under "made",
 pieces of sentences with {figures} (`figures` in tables.py); the page must have each, filled in,
 exactly once. The README's picture is headline.py's. Any other number of a page, outside code and links, needs an entry under "fixed": the
-words around it, and why they are right. .ci/publish makes the results and does all of this.
+words around it, and why they are right. .ci/tools/publish makes the results and does all of this.
 """
 
 import argparse

@@ -377,11 +377,13 @@ def gate(
     results: Union[Results, str, os.PathLike],
     policy: Union[str, os.PathLike, dict, None] = None,
     baseline: Union[Results, str, os.PathLike, None] = None,
+    advisory_times: bool = False,
 ) -> Verdict:
     """Checks results against the rules of a policy, as `contactcheck gate` does.
 
     `policy`: a file, a name or the dictionary of a policy (fixtures/policies/README.md); with a
-    baseline by default `unchanged`. `baseline`: earlier results.
+    baseline by default `unchanged`. `baseline`: earlier results. `advisory_times`: rules on times are
+    in `text`, but only the other rules decide.
 
     >>> V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), [[0, 1, 2]]
     >>> results = run(Scene.from_frames([([V], F), ([V], F)]), "ffd-lazy", timing=False)
@@ -399,6 +401,7 @@ def gate(
         words = ["gate", path(results)]
         words += ["--policy", policy] if policy is not None else []
         words += ["--baseline", path(baseline)] if baseline is not None else []
+        words += ["--advisory-times"] if advisory_times else []
         junit = pathlib.Path(folder) / "gate.xml"
         called = _call([*words, "--junit", junit])
         failures = []

@@ -41,12 +41,12 @@ sentence on standard error, nothing on standard output, nothing written):
     [Frames]                                    # a group; tests are named GROUP.NAME
     Fraction = {words = ["run", "--frames", "1.5"], named = ["--frames", "1.5"]}
     [Suite]
-    each = {words = ["run", "DIR/u.json", "..."], named = ["DIR/u.json"]}   # begins all cases of a group
+    each = {words = ["run", "DIR/u.json", "..."], named = ["DIR/u.json"]}   # what its cases share
     NoId = {write = {"u.json" = "{}"}, words = ["--quiet"], named = ["id is missing"]}
 
 `words` of a case stand for the "..." of its group's; its other keys are added to those of the group:
 `named` (pieces of the sentence), `write` (files by name, with this text), `change` (as above, but a
-list) and `env` (variables of the environment). DIR is the folder in all of them but files.
+list) and `env` (variables of the environment). DIR is the folder in `words`, `named` and `env`.
 """
 
 import copy

@@ -15,7 +15,7 @@ A case is a command of the program and what must be in its output:
     [[change]]                       # of a JSON file in DIR, in this order
     file = "results.json"
     at = "/runs/2/message"           # JSON pointer; "-" appends to a list
-    to = "one | two"                 # or remove = true
+    to = "one | two"                 # or null = true, or remove = true
 
     [[expect]]
     in = "out/report.md"             # "stdout", "stderr" or a file below DIR
@@ -40,6 +40,13 @@ sentence on standard error, nothing on standard output, nothing written):
     [files]                                     # as above, for all of the table
     [Frames]                                    # a group; tests are named GROUP.NAME
     Fraction = {words = ["run", "--frames", "1.5"], named = ["--frames", "1.5"]}
+    [Suite]
+    each = {words = ["run", "DIR/u.json", "..."], named = ["DIR/u.json"]}   # what its cases share
+    NoId = {write = {"u.json" = "{}"}, words = ["--quiet"], named = ["id is missing"]}
+
+`words` of a case stand for the "..." of its group's; its other keys are added to those of the group:
+`named` (pieces of the sentence), `write` (files by name, with this text), `change` (as above, but a
+list) and `env` (variables of the environment). DIR is the folder in `words`, `named` and `env`.
 """
 
 import copy
@@ -57,6 +64,7 @@ import program
 
 MOST_LINES = 40
 CASE_KEYS = {"about", "command", "exit", "before", "files", "change", "expect"}
+REFUSAL_KEYS = {"words", "named", "write", "change", "env"}
 EXPECT_KEYS = {"in", "from", "to", "only", "lines", "contains", "absent"}
 
 
@@ -101,8 +109,33 @@ class RefusalsFile(pytest.File):
         table = tomllib.loads(self.path.read_text(encoding="utf-8"))
         files = table.pop("files", {})
         for group, cases in table.items():
+            each = cases.pop("each", {})
             for name, case in cases.items():
-                yield RefusalItem.from_parent(self, name=f"{group}.{name}", case=case, files=files)
+                yield RefusalItem.from_parent(self, name=f"{group}.{name}", case=joined(each, case),
+                                              files=files)
+
+
+def joined(each, case):
+    """A case of a table with what its group shares."""
+    unknown = (set(each) | set(case)) - REFUSAL_KEYS
+    if unknown:
+        raise Broken(f"unknown keys: {sorted(unknown)}")
+    shared, words = each.get("words", ["..."]), case.get("words", [])
+    if "..." in shared:
+        at = shared.index("...")
+        words = [*shared[:at], *words, *shared[at + 1:]]
+    elif words:
+        raise Broken("no \"...\" in the words of the group stands for those of the case")
+    else:
+        words = shared
+    out = {"words": words}
+    for key in ("named", "change"):
+        out[key] = each.get(key, []) + case.get(key, [])
+    for key in ("write", "env"):
+        out[key] = {**each.get(key, {}), **case.get(key, {})}
+    if not out["named"]:
+        raise Broken("a sentence has pieces to be named")
+    return out
 
 
 class RefusalItem(Item):
@@ -111,12 +144,17 @@ class RefusalItem(Item):
         self.case, self.files = case, files
 
     def runtest(self):
-        if set(self.case) != {"words", "named"}:
-            raise Broken(f"{self.name}: a refusal has `words` and `named`, not {sorted(self.case)}")
         with scratch() as folder:
             write_files(self.files, self.path.parent, folder)
+            for name, text in self.case["write"].items():
+                target = pathlib.Path(folder) / name
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_text(text, encoding="utf-8")
+            for change in self.case["change"]:
+                change_json(folder, change)
+            env = dict(zip(self.case["env"], with_folder(self.case["env"].values(), folder)))
             program.refused(*with_folder(self.case["words"], folder),
-                            named=with_folder(self.case["named"], folder), folder=folder)
+                            named=with_folder(self.case["named"], folder), folder=folder, env=env)
 
 
 class CaseItem(Item):
@@ -194,7 +232,7 @@ def change_json(folder, change):
     if change.get("remove"):
         del place[last]
     else:
-        place[last] = copy.deepcopy(change["to"])
+        place[last] = None if change.get("null") else copy.deepcopy(change["to"])
     file.write_text(json.dumps(document), encoding="utf-8")
 
 

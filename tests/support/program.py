@@ -130,16 +130,16 @@ def tree(folder):
             for path in pathlib.Path(folder).rglob("*")}
 
 
-def refused(*words, named, folder):
+def refused(*words, named, folder, env=None):
     """The sentence with which the program refuses these words: exit code 2, one line on standard
     error that has every piece of `named`, nothing on standard output, nothing written below `folder`."""
     before = tree(folder)
-    outcome = contactcheck(*words, cwd=folder)
+    outcome = contactcheck(*words, cwd=folder, env=env)
     assert outcome.exit_code == 2, outcome.err
     assert outcome.err.count("\n") == 1 and outcome.err.startswith("contactcheck: "), outcome.err
     assert outcome.out == ""
     for piece in named:
-        assert piece in outcome.err
+        assert piece in outcome.err, f"\"{piece}\" is not in: {outcome.err}"
     assert tree(folder) == before, "nothing may be written"
     return outcome.err
 
@@ -147,11 +147,5 @@ def refused(*words, named, folder):
 def tiny_scene(name="tiny", frames=5):
     """The text of a scene small enough to be run many times: two boxes in lattices of 3 x 3 x 3 cells;
     one comes, enters the other and leaves again."""
-    box = {"mesh": {"shape": "box", "divisions": 2}, "lattice": {"cells": [3, 3, 3]}}
-    path = [[0, [1.3, 0.1, 0.2]], [0.5, [0.9, 0.1, 0.2]], [1, [1.3, 0.1, 0.2]]]
-    twist = {"twist": {"axis": "x", "degrees": [[0, 0], [1, 20]]}}
-    return json.dumps({
-        "id": name, "title": "Two boxes", "frames": frames, "duration": 1,
-        "levels": ["body", "containment", "cell", "box", "triangle", "vertex"],
-        "bodies": [{"name": "left", **box},
-                   {"name": "right", **box, "motion": {"position": path, "deformers": [twist]}}]})
+    scene = json.loads((ROOT / "tests" / "support" / "tiny_scene.json").read_text(encoding="utf-8"))
+    return json.dumps({**scene, "id": name, "frames": frames})

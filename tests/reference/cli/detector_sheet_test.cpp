@@ -2,7 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "core/detect/option_info.h"
+#include "core/detect/registry.h"
+#include "reference/adapters/register.h"
+#include "tests/support/files.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -163,6 +168,38 @@ TEST(DetectorSheet, KeepsTheFileOrCommandInOneLineHoweverLongItIs) {
     plugin.source = {plugin::PluginKind::kCommand, "python3 '" + path + "'"};
     EXPECT_THAT(plugin_sheet(plugin, info_with(plain()), spec, 30),
                 HasSubstr("\n  from        command \"python3 '" + path + "'\"\n"));
+  }
+}
+
+// With runs of blanks and line ends as one blank, so that it does not matter where lines break.
+std::string on_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string out;
+  for (std::string word; words >> word;) out += word + " ";
+  return out;
+}
+
+// help_test.py holds what `list` prints against the same file.
+TEST(DetectorSheet, IsKeptForEveryDetectorOfTheCatalogue) {
+  std::string ids;
+  const DetectorCatalog catalog = adapters::standard_catalog();
+  for (const DetectorInfo& info : catalog.all()) ids += info.id + "\n";
+  EXPECT_EQ(ids, test::text_of(CONTACTCHECK_DETECTORS));
+}
+
+TEST(DetectorSheet, OfEveryDetectorGivesSummaryAndOptionsWithinAHundredColumns) {
+  const DetectorCatalog catalog = adapters::standard_catalog();
+  for (const DetectorInfo& info : catalog.all()) {
+    const std::string sheet = detector_sheet(info, 100), text = on_one_line(sheet);
+    EXPECT_THAT(sheet, testing::StartsWith(info.id + "\n"));
+    EXPECT_FALSE(info.summary.empty()) << info.id;
+    EXPECT_THAT(text, HasSubstr(on_one_line(info.summary)));
+    for (const OptionInfo& o : info.options) {
+      EXPECT_THAT(text, HasSubstr(o.name + "=" + o.default_value + " ("));
+      EXPECT_THAT(text, HasSubstr(on_one_line(o.help)));
+    }
+    std::istringstream lines(sheet);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }
 }
 

@@ -277,14 +277,12 @@ def test_instruction_sets_that_no_detector_uses_are_refused(tmp_path, scene):
             named=["--isa best: no detector of this run"], folder=tmp_path)
 
 
-@pytest.mark.parametrize("isa", ["AVX3", "NEON"])
-def test_instruction_set_of_another_machine_is_absent(tmp_path, scene, isas, isa):
-    if isa in isas:
-        pytest.skip(f"this machine has {isa}")
-    results, outcome = run(tmp_path / "out", scene, "--no-timing", *named("ffd-lazy"), "--isa", isa)
-    assert results["runs"][0]["status"] == "absent"
-    assert isa in results["runs"][0]["message"]
-    assert f"absent: ffd-lazy:isa={isa}" in outcome.out
+def test_instruction_set_of_another_machine_is_absent(tmp_path, scene, isas):
+    for isa in {"AVX3", "NEON"} - set(isas):
+        results, outcome = run(tmp_path / "out", scene, "--no-timing", *named("ffd-lazy"), "--isa", isa)
+        assert results["runs"][0]["status"] == "absent"
+        assert isa in results["runs"][0]["message"]
+        assert f"absent: ffd-lazy:isa={isa}" in outcome.out
 
 
 def test_frames_replace_those_of_the_scene(tmp_path, scene):

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FIXTURES = ROOT / "fixtures"
@@ -60,6 +61,15 @@ class RunningProgram:
 
     def has_ended(self):
         return self.process.poll() is not None
+
+    def wait_for(self, condition):
+        """Whether `condition` came true before the program ended or counted as hanging."""
+        end = time.monotonic() + LONGEST_RUN
+        while not self.has_ended() and time.monotonic() < end:
+            if condition():
+                return True
+            time.sleep(0.002)
+        return condition()
 
     def send(self, number):
         self.process.send_signal(number)

@@ -55,6 +55,32 @@ TEST(PageData, FamiliesAreNoScenes) {
   EXPECT_EQ(page.at("families").at(0).at("values").size(), 3u);
 }
 
+TEST(PageData, ManyDrawnScenesAreShownAsSumsAlone) {
+  const Json many = data_of(test::drawn_sample_results(10));
+  EXPECT_TRUE(many.at("scenes").empty());
+  EXPECT_EQ(many.at("scene_count"), 10);
+  EXPECT_EQ(many.at("drawn").at("accuracy").size(), 2u);
+  EXPECT_EQ(many.at("choices"), Json::array({"all 10 scenes", "5 drawn scenes with contact",
+                                             "5 drawn scenes without contact"}));
+  EXPECT_EQ(many.at("levels").at(0).at("recall").at("columns"),
+            Json::array({"detector", "all scenes"}));
+  EXPECT_EQ(data_of(test::drawn_sample_results(9)).at("scenes").size(), 9u);
+}
+
+TEST(PageData, OtherScenesAreShownWithManyDrawnOnes) {
+  Json results = test::drawn_sample_results(10);
+  EXPECT_TRUE(data_of(results).at("scenes").empty());
+  const Json sample = test::sample_results();
+  results["scenes"].push_back(sample["scenes"][0]);
+  results["runs"].push_back(sample["runs"][0]);
+  EXPECT_EQ(data_of(results).at("scenes").size(), 1u);
+}
+
+TEST(PageData, WithoutADrawnSceneHasNoSectionOfThem) {
+  EXPECT_TRUE(data_of(test::drawn_sample_results(1)).contains("drawn"));
+  EXPECT_FALSE(data_of(test::sample_results()).contains("drawn"));
+}
+
 TEST(PageData, PaperIsWrittenOutWhereThereIsAReproduction) {
   const PaperPart paper = {
       .overview = {"Ratios", "", {{"scene", true, ""}, {"paper", false, ""}}, {{"s", "2.00x"}}},

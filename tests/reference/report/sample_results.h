@@ -9,4 +9,8 @@ namespace contactcheck::test {
 /// `absent` and one `refused`.
 nlohmann::ordered_json sample_results();
 
+/// The sample's scene, drawn `count` times as drawn-7-1 and on, with fcl-aabb alone. Every second
+/// one has contact.
+nlohmann::ordered_json drawn_sample_results(std::size_t count);
+
 }  // namespace contactcheck::test

@@ -3,31 +3,19 @@
 #include <gmock/gmock.h>
 
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
 #include "reference/report/detector_group.h"
 #include "reference/report/label_layout.h"
-#include "reference/report/markdown.h"
 #include "reference/report/plot_axis.h"
-#include "reference/results/results_json.h"
-#include "tests/reference/report/sample_results.h"
 
 namespace contactcheck::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using test::sample_results;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Key;
 using testing::Not;
-
-std::string sample_picture() { return speed_error_picture(results::from_json(sample_results())); }
-
-auto chart_files(const Json& results) { return report_files(results::from_json(results)); }
 
 SpeedErrorPoint point(const std::string& detector, double ms, double error) {
   SpeedErrorPoint p;
@@ -63,15 +51,6 @@ std::vector<std::pair<double, double>> markers_in(const std::string& svg) {
   for (std::sregex_iterator it(svg.begin(), svg.end(), marker), end; it != end; ++it)
     places.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
   return places;
-}
-
-TEST(SpeedErrorPlot, SaysOfEveryPointWhatTheResultsSay) {
-  const std::string svg = sample_picture();
-  EXPECT_THAT(svg, HasSubstr("ffd-aabb-sphere2+tri: 0.500 ms per frame (question triangles), "
-                             "missed 1 of 200000, spurious 2 of 200001 (level triangle)"));
-  EXPECT_THAT(svg, HasSubstr("Measured on A CPU, AVX2."));
-  EXPECT_THAT(svg, HasSubstr("time per frame, ms"));
-  EXPECT_EQ(markers_in(svg).size(), 2u);
 }
 
 TEST(SpeedErrorPlot, FasterIsLeftAndBetterIsDown) {
@@ -124,33 +103,6 @@ TEST(SpeedErrorPlot, OnePointHasAxesToo) {
 }
 
 TEST(SpeedErrorPlot, IsNoneWithoutPoints) { EXPECT_EQ(plot_of({}), ""); }
-
-TEST(SpeedErrorPlot, TakesNoMarkupFromResults) {
-  Json results = sample_results();
-  results["runs"][0]["detector"] = "<script>&\"";
-  results["machine"]["cpu"] = "<b>";
-  const std::string svg = speed_error_picture(results::from_json(results));
-  EXPECT_THAT(svg, Not(HasSubstr("<script")));
-  EXPECT_THAT(svg, Not(HasSubstr("<b>")));
-  EXPECT_THAT(svg, HasSubstr("&lt;script&gt;&amp;&quot;"));
-}
-
-TEST(SpeedErrorPlot, IsTheSameTextEveryTime) { EXPECT_EQ(sample_picture(), sample_picture()); }
-
-TEST(SpeedErrorPlot, LiesOnPaperThatFollowsTheReader) {
-  const std::string svg = sample_picture();
-  EXPECT_THAT(svg, HasSubstr("class=\"paper\""));
-  EXPECT_THAT(svg, HasSubstr("@media(prefers-color-scheme:dark)"));
-}
-
-TEST(SpeedErrorPlot, IsAFileOfTheReport) {
-  EXPECT_THAT(chart_files(sample_results()), Contains(Key("plots/speed_error.svg")));
-  EXPECT_THAT(chart_files(sample_results()).at("report.md"), HasSubstr("](plots/speed_error.svg)"));
-  Json untimed = sample_results();
-  for (int i : {0, 1}) untimed["runs"][i]["time_ms"] = Json::object();
-  EXPECT_THAT(chart_files(untimed), Not(Contains(Key("plots/speed_error.svg"))));
-  EXPECT_THAT(chart_files(untimed).at("report.md"), Not(HasSubstr("Speed against error")));
-}
 
 std::vector<std::string> names_of(const std::vector<Tick>& ticks) {
   std::vector<std::string> names;

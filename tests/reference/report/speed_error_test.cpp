@@ -6,18 +6,15 @@
 #include <random>
 
 #include "reference/results/results_json.h"
-#include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using test::hard_results;
 using test::sample_results;
 using testing::ElementsAre;
 using testing::Field;
-using testing::IsEmpty;
 
 SpeedError speed_chart(const Json& results) { return speed_error(results::from_json(results)); }
 
@@ -53,13 +50,6 @@ TEST(SpeedError, HasTheNumbersOfTheResults) {
   EXPECT_DOUBLE_EQ(p.error, 2.0 / 200001.0) << "the worse of 1 in 200000 and 2 in 200001";
 }
 
-TEST(SpeedError, SaysWhoIsLeftOutAndWhy) {
-  const SpeedError chart = speed_chart(sample_results());
-  ASSERT_EQ(chart.left_out.size(), 3u);
-  EXPECT_EQ(chart.left_out[0].detector, "fcl-obbrss");
-  EXPECT_EQ(chart.left_out[0].why, "ended well in 0 of 1 scenes");
-}
-
 TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
   Json results = two_scenes_json();
   results["runs"][5]["frames"] = 20;
@@ -68,82 +58,6 @@ TEST(SpeedError, WeighsTimesByFramesAndSumsCounts) {
   EXPECT_EQ(chart.scenes, "all 2 scenes");
   EXPECT_DOUBLE_EQ(chart.points[0].ms, (60 * 2.0 + 20 * 10.0) / 80);
   EXPECT_EQ(chart.points[0].truth, 400000);
-}
-
-TEST(SpeedError, TakesOneSceneWhereMostDetectorsDidNotRunInAll) {
-  Json results = two_scenes_json();
-  for (const char* name : {"a", "b", "c"}) {
-    Json run = results["runs"][0];
-    run["detector"] = name;
-    results["runs"].push_back(run);
-  }
-  EXPECT_EQ(speed_chart(results).scenes, "scene hello") << "5 detectors there, 2 in both";
-  results["runs"].erase(9);
-  EXPECT_EQ(speed_chart(results).scenes, "all 2 scenes") << "4 there, 2 in both";
-}
-
-TEST(SpeedError, HardCasesAreTheirOwnChart) {
-  const SpeedError chart = speed_chart(hard_results());
-  EXPECT_EQ(chart.scenes, "all 2 families of hard cases");
-  EXPECT_THAT(chart.points, detectors_are("exact", "skin"));
-}
-
-TEST(SpeedError, LevelsThatAreNoClaimDoNotCount) {
-  Json results = sample_results();
-  results["runs"][0]["levels"]["triangle"]["informative"] = true;
-  const SpeedError chart = speed_chart(results);
-  EXPECT_EQ(chart.points.size(), 1u);
-  EXPECT_EQ(chart.left_out[0].why, "nothing to judge");
-}
-
-TEST(SpeedError, CountsOfDifferentLevelsDoNotAddUp) {
-  Json results = two_scenes_json();
-  Json& second = results["runs"][6];
-  ASSERT_EQ(second["detector"], "ffd-aabb-sphere2+tri");
-  second["per_frame"]["level"] = "body";
-  second["levels"].erase("triangle");
-  const SpeedErrorPoint p = speed_chart(results).points[1];
-  EXPECT_EQ(p.level, Level::kBody);
-  EXPECT_EQ(p.truth, 26) << "13 pairs of bodies in either scene";
-  EXPECT_EQ(p.spurious, 4);
-  second["per_frame"]["level"] = "near";
-  second["levels"] = {{"near", second["levels"]["body"]}};
-  EXPECT_EQ(speed_chart(results).left_out.front().why, "nothing to judge") << "in common";
-}
-
-// The judge's order, which is not that of the results: containment is never the finest.
-TEST(SpeedError, BodiesThatTouchComeBeforeBodiesThatHold) {
-  Json results = two_scenes_json();
-  for (const int i : {1, 6})
-    results["runs"][i]["levels"]["containment"] = results["runs"][i]["levels"]["body"];
-  results["runs"][6]["per_frame"]["level"] = "body";
-  results["runs"][6]["levels"].erase("triangle");
-  EXPECT_EQ(speed_chart(results).points[1].level, Level::kBody);
-}
-
-TEST(SpeedError, ScenesWithNothingToJudgeDoNotCoarsenTheOthers) {
-  Json results = two_scenes_json();
-  results["runs"][6]["per_frame"].erase("level");
-  results["runs"][6]["levels"] = Json::object();
-  const SpeedErrorPoint p = speed_chart(results).points[1];
-  EXPECT_EQ(p.level, Level::kTriangle);
-  EXPECT_EQ(p.truth, 200000);
-}
-
-TEST(SpeedError, WithoutTimesThereIsNothingToCompare) {
-  Json results = sample_results();
-  for (int i : {0, 1}) results["runs"][i]["time_ms"] = Json::object();
-  EXPECT_THAT(speed_chart(results).points, IsEmpty());
-  results["runs"] = Json::array();
-  EXPECT_THAT(speed_chart(results).points, IsEmpty());
-  results["scenes"] = Json::array();
-  EXPECT_THAT(speed_chart(results).points, IsEmpty());
-}
-
-TEST(SpeedError, TimesThatNoAxisHasAreNone) {
-  Json results = sample_results();
-  results["runs"][0]["time_ms"]["playback"]["frame"] = 0.0;
-  EXPECT_EQ(speed_chart(results).left_out[0].why, "not timed");
 }
 
 TEST(SpeedError, RunsThatWereNotTimedColdAreLeftOutThere) {

@@ -4,17 +4,23 @@
 
 #include <sstream>
 
+#include "reference/report/lattice_fits.h"
+#include "reference/report/random_pairs.h"
 #include "reference/results/results_json.h"
+#include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
 
 namespace contactcheck::report {
 namespace {
 
+using Json = nlohmann::ordered_json;
+using test::drawn_sample_results;
+using test::hard_results;
 using test::sample_results;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string terminal_of(const nlohmann::ordered_json& results, bool color) {
+std::string terminal_of(const Json& results, bool color) {
   return terminal_tables(results::from_json(results), color);
 }
 
@@ -137,6 +143,82 @@ TEST(Terminal, SummarizesOnlySeveralScenes) {
   scene["id"] = "again";
   results["scenes"].push_back(scene);
   EXPECT_THAT(terminal_of(results, false), HasSubstr("all scenes"));
+}
+
+TEST(Terminal, ShowsGoalsOfSuitesThatHaveThemAlone) {
+  Json results = sample_results();
+  EXPECT_THAT(terminal_of(results, false), Not(HasSubstr("goals")));
+  results["goals"] = Json::parse(R"([
+    {"goal": "wide", "scene": "t", "detector": "e", "part": "playback", "over": "d",
+     "at_most": 1.4, "measured": null, "why": "e: not here", "met": null}])");
+  EXPECT_THAT(terminal_of(results, false), HasSubstr("not measured: e: not here"));
+}
+
+TEST(Terminal, ShowsKnownDefectsThatSurprise) {
+  Json results = hard_results();
+  EXPECT_THAT(terminal_of(results, false), Not(HasSubstr("known defects")));
+  results["known_defects"] = Json::parse(R"({"defects": [], "readings": [],
+    "changed": [{"detector": "skin", "scene": "one", "kind": "missed", "values": ["1e-3"],
+                 "was": [1], "is": [1000000]}],
+    "not_shown": [{"detector": "skin", "scene": "one", "kind": "missed", "values": ["0"],
+                   "was": [12]}],
+    "unlisted": [{"detector": "skin", "scene": "one", "kind": "spurious",
+                  "values": ["1e-9", "1e-3"], "is": [4, 5]}]})");
+  EXPECT_THAT(
+      terminal_of(results, false),
+      HasSubstr("count changed (listed -> shown):\n  skin  one  missed  1e-3: 1 -> 1,000,000\n"
+                "listed, not shown:\n  skin  one  missed  0: 12\n"
+                "shown, not listed:\n  skin  one  spurious  1e-9: 4; 1e-3: 5\n"));
+}
+
+TEST(Terminal, ShowsHardCasesAsSums) {
+  EXPECT_THAT(terminal_of(hard_results(), false), HasSubstr("hard cases"));
+  EXPECT_THAT(terminal_of(sample_results(), false), Not(HasSubstr("hard cases")));
+}
+
+TEST(Terminal, ShowsManyDrawnScenesAsSumsAlone) {
+  EXPECT_THAT(terminal_of(drawn_sample_results(9), false), HasSubstr("drawn-7-2"));
+  EXPECT_THAT(terminal_of(drawn_sample_results(10), false), Not(HasSubstr("drawn-7-2")));
+}
+
+TEST(Terminal, TellsTheWorstFrameOfTheWorstFit) {
+  results::Scene scene;
+  scene.fits = {{"cloth", {0.003, 0.0}, {0.006, 0.0}}, {"ball", {0.0, 0.001}, {0.0, 0.007}}};
+  EXPECT_EQ(fits_line(scene),
+            "judged with lattices fitted to recordings: vertices at most 7.00 mm off (body ball, "
+            "frame 1)");
+  EXPECT_EQ(fits_line({}), "");
+  results::Results results = results::from_json(sample_results());
+  EXPECT_THAT(terminal_tables(results, false), Not(HasSubstr("fitted")));
+  results.scenes[0].fits = {{"cloth", {0.001}, {0.002}}};
+  EXPECT_THAT(
+      terminal_tables(results, false),
+      HasSubstr(
+          "with contact\n  judged with lattices fitted to recordings: vertices at most 2.00 mm"));
+}
+
+TEST(Terminal, TellsRandomPairsInALine) {
+  results::Results results = results::from_json(sample_results());
+  EXPECT_EQ(pairs_line(results.scenes[0]), "");
+  results::RandomPairs& pairs = results.scenes[0].pairs.emplace();
+  pairs.count = 10'000'000;
+  pairs.seed = 7;
+  pairs.touching = 5'012'345;
+  EXPECT_THAT(terminal_tables(results, false),
+              HasSubstr("13 with contact\n  10,000,000 pairs, seed 7, 5,012,345 touch; oracle "
+                        "against rational arithmetic: 0 wrong\n  detector"));
+}
+
+TEST(Terminal, ExplainsHowSteadyPassesWereBelowTheTables) {
+  Json results = sample_results();
+  EXPECT_THAT(terminal_tables(results::from_json(results), false, true),
+              Not(HasSubstr("beside itself")));
+  results["runs"][0]["time_ms"]["passes"] = 10;
+  results["runs"][0]["time_ms"]["pass_ms"] = {1.5, 1.0, 3.0, 2.0, 0.3, 0.2, 6.0, 4.0, 1.5, 1.0};
+  EXPECT_THAT(terminal_tables(results::from_json(results), false), Not(HasSubstr("beside itself")));
+  EXPECT_THAT(terminal_tables(results::from_json(results), false, true),
+              testing::ContainsRegex("\n\n  each detector beside itself, over 5 pairs of passes: "
+                                     "1.00 lies inside 0 of 1 [^\n]*\n\n"));
 }
 
 TEST(Terminal, ColumnsOfOneTableAreAligned) {

@@ -183,6 +183,7 @@ def test_puts_what_it_found_at_the_head_of_the_page(sheet):
 
 def test_refuses_to_allow_all_that_one_body_can_have(sheet):
     outcome = check(sheet, ["sheet/frame_1.obj", "sheet/frame_2.obj"], "--allow", "self")
+    assert outcome.exit_code == 2
     assert "--allow self leaves nothing to be checked of one body" in outcome.err
 
 

@@ -23,14 +23,13 @@ Policy policy_of(const std::string& rest) {
 }
 
 TEST(Policy, OfEveryKeyIsRead) {
-  const Rule rule =
-      policy_of(
-          "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
-          "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
-          "'part': 'cold', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
-          "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass', "
-          "'refused': 'pass'")
-          .rules.at(0);
+  const Rule rule = policy_of(
+                        "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
+                        "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
+                        "'part': 'cold', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
+                        "'noisy': 'fail', 'unjudged': 'fail', 'error': 'pass', "
+                        "'refused': 'pass'")
+                        .rules.at(0);
   EXPECT_EQ(rule.name, "R");
   EXPECT_EQ(rule.why, "because");
   EXPECT_TRUE(rule.scenes.hold("aa"));

@@ -1,4 +1,4 @@
-"""Cases and scenes that contactcheck reduce cannot take: exit code 2 and one sentence that names the place."""
+"""Cases and scenes that contactcheck reduce cannot take: exit code 2, one sentence that names the place."""
 
 import json
 import shutil

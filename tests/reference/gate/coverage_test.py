@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from program import contactcheck, refused
+from program import refused
 
 HOLDS = {"scenes": ["touch"], "detectors": ["exact"], "measure": "missed", "at_most": 0}
 BASELINE_RULE = "everything that the baseline has"
@@ -60,10 +60,8 @@ def test_rules_that_cannot_judge_break_a_policy_that_allows_fewer(gate, results,
     assert red_sentences(gate([HOLDS, STAGES], results, **allowed)) == red
 
 
-def test_rules_that_cannot_judge_are_counted(gate, results, tmp_path):
-    gate([HOLDS, STAGES], results)
-    out = contactcheck("gate", tmp_path / "results.json", "--policy", tmp_path / "policy.json").out
-    assert out.splitlines()[1].endswith(" 1 cannot judge (of 1 rule)")
+def test_rules_that_cannot_judge_are_counted(run_gate, results):
+    assert run_gate([HOLDS, STAGES], results).out.splitlines()[1].endswith(" 1 cannot judge (of 1 rule)")
 
 
 @pytest.mark.parametrize("measure", [

@@ -4,7 +4,9 @@ import json
 
 import pytest
 
-from program import contactcheck, successful
+from program import ROOT, contactcheck, successful
+
+PIPE_EXAMPLE = ROOT / "tests" / "examples" / "python-pipe" / "detector.py"
 
 
 class Tune:
@@ -26,6 +28,11 @@ class Tune:
 
     def outcome(self, *more):
         return contactcheck(*self.words(*more))
+
+    def outside_detector(self):
+        """A command that runs the detector "python-sweep" of the examples, of words without quotes."""
+        (self.folder / "detector.py").write_bytes(PIPE_EXAMPLE.read_bytes())
+        return f"python3 -B {self.folder}/detector.py"
 
     @property
     def result(self):

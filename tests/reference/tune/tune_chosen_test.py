@@ -2,12 +2,12 @@
 
 import json
 import pathlib
+import shlex
 
 import pytest
 
-from program import ROOT, contactcheck, names_in, successful, tiny_scene
+from program import contactcheck, names_in, successful, tiny_scene
 
-PIPE_EXAMPLE = ROOT / "tests" / "examples" / "python-pipe" / "detector.py"
 DETECTOR = "ffd-aabb+tri:bounds=safe,cell=2"  # whose precision is to be chosen
 DOUBLE = DETECTOR + ",precision=double"
 # The six sides of a box about the origin, outwards.
@@ -87,7 +87,7 @@ def test_chosen_is_a_file_that_run_takes_as_it_stands(tune):
     assert tune.result["chosen"]["file"] == "chosen.json"
     expect_that_run_takes(tune, tune.out / "chosen.json")
     assert "cell=2" in suite_of(tune)["detectors"][0]
-    command = f"  contactcheck run {tune.out}/chosen.json\n"
+    command = f"  contactcheck run {shlex.quote(str(tune.out / 'chosen.json'))}\n"
     assert command in tuned.out
     assert command in tune.page
     assert names_in(tune.out) == {"chosen.json", "tune.json", "tune.md"}, "and no empty folder"
@@ -154,13 +154,13 @@ def test_chosen_names_a_recording(tune):
 
 
 def test_chosen_says_that_a_detector_from_outside_must_be_brought_along(tune):
-    (tune.folder / "detector.py").write_bytes(PIPE_EXAMPLE.read_bytes())
-    own = f"python3 -B {tune.folder}/detector.py"
+    own = tune.outside_detector()
     tuned = tune("--detector-cmd", own, "--question", "triangles", "--frames", "4")
     assert "a file cannot bring in a detector from outside" in tuned.out
     detector = tune.result["chosen"]["detector"]
     chosen = tune.out / "chosen.json"
-    assert f"contactcheck run {chosen} --detector-cmd '{own}' --detector {detector}\n" in tuned.out
+    assert (f"contactcheck run {shlex.quote(str(chosen))} --detector-cmd '{own}' --detector {detector}\n"
+            in tuned.out)
     row = row_of(tune, chosen, "--detector-cmd", own, "--detector", detector)
     assert (row["scene"], row["detector"]) == ("tiny", detector)
     alone = contactcheck("run", chosen, "--out", tune.out)

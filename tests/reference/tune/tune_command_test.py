@@ -2,12 +2,12 @@
 
 import json
 import re
+import shlex
 
 import pytest
 
-from program import ROOT, contactcheck, successful, tiny_scene
+from program import contactcheck, successful, tiny_scene
 
-PIPE_EXAMPLE = ROOT / "tests" / "examples" / "python-pipe" / "detector.py"
 CELL_3 = "ffd-aabb+tri:cell=3,bounds=paper,precision=double"
 
 
@@ -28,7 +28,7 @@ def test_tune_chooses_a_configuration_that_run_confirms(tune):
     assert (result["candidates"], result["frames"], result["held_out_frames"]) == (12, 9, 8)
     assert result["chosen"]["missed"] == 0
     chosen = result["chosen"]["detector"]
-    command = f"contactcheck run {tune.scene} --detector {chosen}"
+    command = f"contactcheck run {shlex.quote(str(tune.scene))} --detector {chosen}"
     assert command in tuned.out
     assert command in tune.page
     successful("run", tune.scene, "--detector", chosen, "--no-timing", "--quiet", "--out", tune.out)
@@ -91,8 +91,7 @@ def test_tune_keeps_lattices_apart_that_differ_by_less_than_a_percent(tune):
 
 
 def test_tune_names_a_command_that_runs_a_detector_from_outside(tune):
-    (tune.folder / "detector.py").write_bytes(PIPE_EXAMPLE.read_bytes())
-    own = f"python3 -B {tune.folder}/detector.py"
+    own = tune.outside_detector()
     tuned = tune("--detector-cmd", own, "--question", "triangles", "--frames", "4")
     assert f"--detector-cmd '{own}' --detector python-sweep" in tuned.out
 

@@ -1,5 +1,7 @@
 """contactcheck tune of simulated scenes, as it is run."""
 
+import shlex
+
 import pytest
 
 from program import successful
@@ -16,7 +18,7 @@ def test_tune_simulates_the_scene_and_holds_out_every_other_frame(tune):
     tuned = tune("--detector", "ffd-aabb+tri:cell=1", "--question", "triangles")
     assert (tune.result["frames"], tune.result["held_out_frames"]) == (6, 6)
     assert "deformers" not in tune.result, "the deformer is the scene's, and costs nothing"
-    assert f"contactcheck run {tune.scene} --detector ffd-aabb+tri" in tuned.out
+    assert f"contactcheck run {shlex.quote(str(tune.scene))} --detector ffd-aabb+tri" in tuned.out
     tune("--detector", "ffd-aabb+tri:cell=1", "--frames", "4")
     assert tune.result["frames"] == 4
 

@@ -2,15 +2,28 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "core/types/check.h"
 #include "reference/scene/catalogue.h"
-#include "tests/reference/gate/gate_world.h"
+#include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::gate {
 namespace {
 
+// The policy of one rule "R": `{"rule": "R", ` + rest + `}`, with quotes ' for ".
+Policy policy_of(const std::string& rest) {
+  std::string rule = "{'rule': 'R', " + rest + "}";
+  std::replace(rule.begin(), rule.end(), '\'', '"');
+  const test::Scratch scratch;
+  return read_policy(
+      scratch.write("policy.json", R"({"schema": "contactcheck-policy/1", "id": "p", "title": "t",)"
+                                   R"("rules": [)" +
+                                       rule + "]}"));
+}
+
 TEST(Policy, OfEveryKeyIsRead) {
-  const Rule rule = test::policy_of(
+  const Rule rule = policy_of(
                         "'why': 'because', 'scenes': ['a*', '!ab'], 'detectors': ['d'], "
                         "'measure': 'slowdown', 'question': 'body', 'reference': 'fcl-aabb', "
                         "'part': 'cold', 'at_most': 1.25, 'floor_us': 3.5, 'noise_width': 0.2, "
@@ -38,7 +51,7 @@ TEST(Policy, OfEveryKeyIsRead) {
 
 TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsAndRefusalsFail) {
   const Rule rule =
-      test::policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', 'at_most': 0")
+      policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', 'at_most': 0")
           .rules.at(0);
   EXPECT_FALSE(rule.noisy_fails);
   EXPECT_FALSE(rule.unjudged_fails);
@@ -51,7 +64,7 @@ TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsAndRefusalsFail) {
 
 TEST(Policy, TakesAWindowOfSpeedUpsAndRefusesOneWithoutRoom) {
   const auto window = [](const std::string& bounds) {
-    return test::policy_of(
+    return policy_of(
         "'scenes': ['*'], 'detectors': ['embree'], 'measure': 'speedup', 'question': 'triangles', "
         "'reference': 'fcl-aabb', " +
         bounds);
@@ -70,8 +83,8 @@ TEST(Policy, TakesAWindowOfSpeedUpsAndRefusesOneWithoutRoom) {
                                                "; it must be above at_least, which is 3."));
     }
   }
-  EXPECT_THROW(test::policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', "
-                               "'at_least': 1, 'at_most': 2"),
+  EXPECT_THROW(policy_of("'scenes': ['*'], 'detectors': ['*'], 'measure': 'missed', "
+                         "'at_least': 1, 'at_most': 2"),
                InputError)
       << "of speed-ups alone";
 }

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/deform/recording.h"
@@ -18,9 +17,6 @@ namespace {
 
 using nlohmann::json;
 using test::Scratch;
-using test::sentence_of;
-using testing::AllOf;
-using testing::HasSubstr;
 
 /// A recording of two bodies, and a case of its frame 2.
 class Case : public testing::Test {
@@ -53,14 +49,6 @@ class Case : public testing::Test {
     std::vector<std::vector<std::vector<Vec3>>> nodes;
     for (std::size_t f = 0; f < scene_.frames; ++f) nodes.push_back(judged_.positions[f].nodes);
     return nodes;
-  }
-
-  /// The sentence that the case is refused with after `change`.
-  std::string refusal(const std::function<void(json&)>& change) {
-    json c = json::parse(suite::read_text_file(write("triangle", {0, 1, 5, 17})));
-    change(c);
-    scratch_.write("cases/0001.json", c.dump());
-    return sentence_of([&] { read_case(file_); });
   }
 
   process::SharedProgress page_;
@@ -123,45 +111,6 @@ TEST_F(Case, IsToldFromAScene) {
   EXPECT_FALSE(is_case_file(scratch_.folder() / "missing.json"));
 }
 
-TEST_F(Case, IsRefusedWithFilePlaceAndValue) {
-  const auto without = [](const char* key) { return [key](json& c) { c.erase(key); }; };
-  const auto with = [](const char* key, const json& value) {
-    return [key, value](json& c) { c[key] = value; };
-  };
-  for (const char* key : {"scene", "frame", "detector", "level", "kind", "first", "second"})
-    EXPECT_THAT(refusal(without(key)), AllOf(HasSubstr("0001.json"), HasSubstr(key)));
-  EXPECT_THAT(refusal(with("level", "corner")), HasSubstr("level is \"corner\""));
-  EXPECT_THAT(refusal(with("kind", "late")), HasSubstr("kind is \"late\""));
-  EXPECT_THAT(refusal(with("frame", 3)), AllOf(HasSubstr("frame is 3"), HasSubstr("2")));
-  EXPECT_THAT(refusal(with("frame", -1)), HasSubstr("frame is -1"));
-  EXPECT_THAT(refusal(with("color", "red")), HasSubstr("color"));
-  EXPECT_THAT(refusal(with("recording", "gone.ccr")),
-              AllOf(HasSubstr("gone.ccr"), HasSubstr("does not exist")));
-  EXPECT_THAT(refusal([](json& c) { c["first"]["body"] = "nobody"; }),
-              AllOf(HasSubstr("first.body is \"nobody\""), HasSubstr("resting")));
-  EXPECT_THAT(refusal([](json& c) { c["second"]["body"] = "resting"; }),
-              HasSubstr("second.body is \"resting\""));
-  EXPECT_THAT(refusal([](json& c) { c["first"]["triangle"] = 12; }),
-              HasSubstr("first.triangle is 12"));
-  EXPECT_THAT(refusal([](json& c) { c["first"]["vertices"].erase(0); }),
-              HasSubstr("first.vertices"));
-  EXPECT_THAT(refusal([](json& c) { c["first"]["vertices"][1][2] = "0x"; }),
-              HasSubstr("first.vertices[1][2]"));
-}
-
-TEST_F(Case, OfAnotherRunThanItsRecordingIsRefused) {
-  EXPECT_THAT(refusal([](json& c) { c["second"]["vertices"][1][2] = "0x1p-3"; }),
-              AllOf(HasSubstr("second.vertices[1]"), HasSubstr("of another run")));
-}
-
-TEST_F(Case, WithABrokenRecordingIsRefused) {
-  scratch_.write("recordings/approach.ccr", "no recording");
-  EXPECT_THAT(sentence_of([&] {
-                read_case(write("triangle", {0, 1, 5, 17}));
-              }),
-              HasSubstr("not a recording"));
-}
-
 TEST(TasksOfScene, GivesEveryFrameOrTheOneThatIsNamed) {
   const std::filesystem::path fixtures = CONTACTCHECK_FIXTURES;
   EXPECT_EQ(tasks_of_scene("hard-shared-edge", fixtures).size(), 12u);
@@ -170,17 +119,6 @@ TEST(TasksOfScene, GivesEveryFrameOrTheOneThatIsNamed) {
   EXPECT_EQ(one[0].frame, 5u);
   EXPECT_EQ(one[0].place, "value 1e-9 (frame 5)");
   EXPECT_EQ(one[0].snapshot.nodes[1].size(), 8u);
-}
-
-TEST(TasksOfScene, RefusesWhatHasNoSuchFrame) {
-  const std::filesystem::path fixtures = CONTACTCHECK_FIXTURES;
-  const auto refusal = [&](const std::string& target) {
-    return sentence_of([&] { tasks_of_scene(target, fixtures); });
-  };
-  EXPECT_THAT(refusal("hard-shared-edge@7"), AllOf(HasSubstr("\"7\""), HasSubstr("0x1p-1074")));
-  EXPECT_THAT(refusal("hard"), HasSubstr("is a suite"));
-  EXPECT_THAT(refusal("paper-rabbit"), HasSubstr("is simulated"));
-  EXPECT_THAT(refusal("atlantis@3"), HasSubstr("atlantis"));
 }
 
 }  // namespace

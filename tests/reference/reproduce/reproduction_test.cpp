@@ -1,8 +1,10 @@
 #include "reference/reproduce/reproduction.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "reference/results/results_json.h"
 #include "tests/reference/reproduce/sample_run.h"
@@ -16,7 +18,6 @@ using test::sample_reproduction_results;
 using test::sample_results;
 using test::sample_run;
 using test::sample_step_ms;
-using testing::HasSubstr;
 
 PaperTables tables() { return test::paper_of_our_methods(); }
 
@@ -109,21 +110,20 @@ TEST(Reproduction, SameContactsGoesByTheHash) {
 }
 
 TEST(Reproduction, SentencesNameBothNumbersWhereOursFallsShort) {
-  EXPECT_THAT(
-      sentences(sample_reproduction_results()),
-      testing::ElementsAre(
-          "The collision test of ffd-aabb-sphere takes 1.50 times as long as that of "
-          "ffd-aabb-sphere2; Table 3 of the paper says 2.00, ours is 25 % below. Its spheres leave "
-          "25.0 % of the pairs of cells that ffd-aabb-sphere takes to the hash.",
-          "A whole step gains 1.250 and not 1.500: the collision test is 60.0 % of our step with "
-          "ffd-aabb-sphere (66.7 % in the paper), so that no test, however fast, could gain more "
-          "than 2.500."));
+  const std::vector<std::string> wanted = {
+      "The collision test of ffd-aabb-sphere takes 1.50 times as long as that of "
+      "ffd-aabb-sphere2; Table 3 of the paper says 2.00, ours is 25 % below. Its spheres leave "
+      "25.0 % of the pairs of cells that ffd-aabb-sphere takes to the hash.",
+      "A whole step gains 1.250 and not 1.500: the collision test is 60.0 % of our step with "
+      "ffd-aabb-sphere (66.7 % in the paper), so that no test, however fast, could gain more "
+      "than 2.500."};
+  EXPECT_EQ(sentences(sample_reproduction_results()), wanted);
 }
 
 TEST(Reproduction, SentenceSaysNothingOfSpheresWithoutAHash) {
   Json results = sample_reproduction_results();
   results["runs"][1]["stages"].erase(1);
-  EXPECT_THAT(sentences(results).at(0), testing::EndsWith("ours is 25 % below."));
+  EXPECT_TRUE(sentences(results).at(0).ends_with("ours is 25 % below."));
   EXPECT_EQ(two_over_one(results).at("safe").at("into_hash_before"), 40);
   EXPECT_TRUE(two_over_one(results).at("safe").at("into_hash_after").is_null());
 }
@@ -132,9 +132,11 @@ TEST(Reproduction, ThereIsNoSentenceWhereOursReachesThePaper) {
   // 6 over 3 ms is the paper's 2.00; 10 over 7 ms of a whole step still is no 1.500.
   Json results = sample_reproduction_results();
   results["runs"][1]["step_ms"] = sample_step_ms({.test_by_repeat = {3, 3, 3}});
-  EXPECT_THAT(sentences(results), testing::ElementsAre(HasSubstr("A whole step gains 1.429")));
+  const std::vector<std::string> one = sentences(results);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_NE(one[0].find("A whole step gains 1.429"), std::string::npos) << one[0];
   results["runs"][1]["step_ms"] = sample_step_ms({.test_by_repeat = {2, 2, 2}});
-  EXPECT_THAT(sentences(results), testing::IsEmpty());
+  EXPECT_TRUE(sentences(results).empty());
 }
 
 TEST(Reproduction, SceneThatTheResultsDoNotHoldIsLeftOut) {
@@ -148,10 +150,8 @@ TEST(Reproduction, SceneThatTheResultsDoNotHoldIsLeftOut) {
 TEST(Reproduction, RunThatIsNotOkIsNull) {
   Json results = sample_reproduction_results();
   Json& broken = results["runs"][1];
-  broken = {{"scene", "paper-s"},
-            {"detector", broken.at("detector")},
-            {"status", "error"},
-            {"message", "killed"}};
+  broken = Json::parse(R"({"scene": "paper-s", "detector": "ffd-aabb-sphere2:bounds=safe",
+                           "status": "error", "message": "killed"})");
   Json reproduction = reproduce(results::from_json(results), tables());
   EXPECT_TRUE(scene_of(reproduction).at("steps").at(2).at("safe").is_null());
   EXPECT_TRUE(scene_of(reproduction).at("ratios").at(1).at("safe").is_null());
@@ -187,7 +187,7 @@ TEST(Reproduction, FrameRateIsOfTheProposalAsItIsWritten) {
 TEST(Reproduction, ClosedLoopsAreTakenOverWithTheirDetectors) {
   Json results = sample_reproduction_results();
   results["runs"][1]["closed_loop"] = sample_closed_loop();
-  results["runs"][2]["closed_loop"] = {{"error", "the simulation diverged"}};
+  results["runs"][2]["closed_loop"]["error"] = "the simulation diverged";
   Json reproduction = reproduce(results::from_json(results), tables());
   const Json& loops = scene_of(reproduction).at("closed_loop");
   ASSERT_EQ(loops.size(), 2u);

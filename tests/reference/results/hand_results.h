@@ -26,28 +26,12 @@ inline results::Run timed_run(const std::string& scene, const std::string& detec
   return run;
 }
 
-/// So many times as fast as a reference, by passes enough for an interval.
-inline results::Speedup speedup_of(const results::Ratio& ratio) {
-  results::Speedup out;
-  out.playback = ratio;
-  out.passes = results::kFewestForInterval;
-  return out;
-}
-
 inline results::Results results_of(std::vector<results::Run> runs) {
   results::Results results;
   results.version = "1.0.0";
   results.machine = {"A", "AVX2", "Debian 12", "g++ 12", "Release", 2};
   results.runs = std::move(runs);
   return results;
-}
-
-/// A scene of that truth.
-inline results::Scene scene_of(const std::string& id, const std::string& truth_hash) {
-  results::Scene scene;
-  scene.id = id;
-  scene.truth_hash = truth_hash;
-  return scene;
 }
 
 }  // namespace contactcheck::test

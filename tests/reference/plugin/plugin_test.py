@@ -31,9 +31,9 @@ for text in iter(sys.stdin.buffer.readline, b""):
 """
 
 
-@pytest.fixture(name="script", params=["mine.py"])
+@pytest.fixture(name="script")
 def fixture_script(request, tmp_path):
-    file = tmp_path / request.param
+    file = tmp_path / getattr(request, "param", "mine.py")
     file.parent.mkdir(exist_ok=True)
     file.write_text(SCRIPT, encoding="utf-8")
     return file

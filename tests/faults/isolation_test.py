@@ -68,30 +68,35 @@ def assert_harmless(run, fault, undisturbed):
     assert run.outcome.err == "scene 1 of 1: tiny\n"
 
 
-@pytest.mark.parametrize("fault, message, flags", [
-    ("fault-crash", f"frame 2, phase update: {CRASH}", UNTIMED),
-    ("fault-crash:phase=prepare", f"frame 0, phase prepare: {CRASH}", UNTIMED),
-    ("fault-crash:frame=4,phase=query", f"frame 4, phase query: {CRASH}", UNTIMED),
+# What becomes of a fault that ends its worker, and the flags of its run.
+LETHAL = {
+    "fault-crash": (f"frame 2, phase update: {CRASH}", UNTIMED),
+    "fault-crash:phase=prepare": (f"frame 0, phase prepare: {CRASH}", UNTIMED),
+    "fault-crash:frame=4,phase=query": (f"frame 4, phase query: {CRASH}", UNTIMED),
     # Times between frames are given as frame 0; they are looked at up to frame 2, the first contact.
-    ("fault-crash:frame=0,phase=again", f"frame 2, phase query: {CRASH}", UNTIMED),
-    ("fault-crash:frame=0,phase=update-again", f"frame 2, phase update: {CRASH}", UNTIMED),
-    ("fault-hang:phase=update-timed", f"frame 2, phase update: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
-    ("fault-hang:phase=timed", f"frame 2, phase query: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
-    ("fault-hang", f"frame 2, phase update: {TIME_LIMIT}", (*UNTIMED, *SHORT_CALLS)),
-    ("fault-abort", "frame 2, phase update: signal 6 (Aborted)", UNTIMED),
-    ("fault-quick-exit", "frame 2, phase update: exit code 0", UNTIMED),
-    ("fault-memory", "frame 2, phase update: more than 400 MiB resident (memory limit)",
-     (*UNTIMED, "--memory-limit", "400")),
-    ("fault-flood", "frame 2, phase update: more than 64 MiB written to standard output and error (output "
+    "fault-crash:frame=0,phase=again": (f"frame 2, phase query: {CRASH}", UNTIMED),
+    "fault-crash:frame=0,phase=update-again": (f"frame 2, phase update: {CRASH}", UNTIMED),
+    "fault-hang:phase=update-timed": (f"frame 2, phase update: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
+    "fault-hang:phase=timed": (f"frame 2, phase query: {TIME_LIMIT}", (*TIMED, *SHORT_CALLS)),
+    "fault-hang": (f"frame 2, phase update: {TIME_LIMIT}", (*UNTIMED, *SHORT_CALLS)),
+    "fault-abort": ("frame 2, phase update: signal 6 (Aborted)", UNTIMED),
+    "fault-quick-exit": ("frame 2, phase update: exit code 0", UNTIMED),
+    "fault-memory": ("frame 2, phase update: more than 400 MiB resident (memory limit)",
+                     (*UNTIMED, "--memory-limit", "400")),
+    "fault-flood": ("frame 2, phase update: more than 64 MiB written to standard output and error (output "
                     "limit)", UNTIMED),
     # A byte that cannot be printed is shown as "?".
-    ("fault-throw", "frame 2, phase update: caf?is shut", UNTIMED),
-    ("fault-throw-int:phase=prepare",
-     "frame 0, phase prepare: threw int, which is no std::exception", UNTIMED),
+    "fault-throw": ("frame 2, phase update: caf?is shut", UNTIMED),
+    "fault-throw-int:phase=prepare": ("frame 0, phase prepare: threw int, which is no std::exception",
+                                      UNTIMED),
     # A copy of the worker goes on; it is not listened to.
-    ("fault-fork", f"frame 2, phase update: {CRASH}", UNTIMED),
-])
-def test_lethal_fault_is_an_error_in_its_frame_and_phase(fault, message, flags, run_with):
+    "fault-fork": (f"frame 2, phase update: {CRASH}", UNTIMED),
+}
+
+
+@pytest.mark.parametrize("fault", LETHAL)
+def test_lethal_fault_is_an_error_in_its_frame_and_phase(fault, run_with):
+    message, flags = LETHAL[fault]
     assert_error(run_with(fault, flags), fault, f"scene tiny, {message}")
 
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "reference/plugin/plugin.h"
 #include "tests/reference/scene/scratch.h"
 
 namespace contactcheck::plugin {
@@ -66,6 +67,15 @@ TEST(Declaration, SurvivesBeingWritten) {
                   R"({"id": "m", "semantics": {"levels": ["body"], "questions": ["body"]}})"))
           .dump();
   EXPECT_EQ(to_json(declaration_in(bare)).dump(), bare) << "also with empty texts";
+}
+
+TEST(Plugin, RecordIsReadAsItWasWritten) {
+  Plugin plugin;
+  plugin.source = {PluginKind::kCommand, "./mine --fast"};
+  plugin.content = "0x1";
+  plugin.declaration = declaration_in(kWhole);
+  const std::string record = to_json(plugin).dump();
+  EXPECT_EQ(to_json(plugin_from_text(record)).dump(), record);
 }
 
 TEST(Declaration, OfSemanticsThatDoNotFitTogetherIsRefused) {

@@ -38,7 +38,8 @@ std::vector<Check> lost_rows(const results::Index& now, const results::Results& 
 
 /// Every rule on every row that it is about. A rule whose patterns match nothing is a failure; so
 /// is what the baseline has and the results lack, and more rules that cannot judge than the policy
-/// allows (but see Policy::advisory_times). `baseline` may be null. @throws InputError when it is and a rule needs one
+/// allows (but see Policy::advisory_times). `baseline` may be null. @throws InputError when it is
+/// and a rule needs one
 GateResult run_gate(const Policy& policy, const results::Results& results,
                     const results::Results* baseline);
 

@@ -138,8 +138,8 @@ std::string limited(const std::vector<std::string>& lines, const char* kind) {
 std::string open_annotations(const GateResult& result, const char* kind, Verdict verdict) {
   std::vector<std::string> lines;
   for (const RuleChecks& group : left_open(result, verdict))
-    lines.push_back(github_annotation(
-        kind, group.rule, open_name(verdict) + ": " + first_sentence(group)));
+    lines.push_back(
+        github_annotation(kind, group.rule, open_name(verdict) + ": " + first_sentence(group)));
   return limited(lines, kind);
 }
 
@@ -277,8 +277,7 @@ std::string github_summary(const GateResult& result) {
   return fmt::format("## contactcheck gate {}: {}\n\n{}. {}.\n\n", cell(result.policy),
                      result.red() ? "red" : "green", cell(result.title), counts_text(result)) +
          red_table(result) + open_list(result, Verdict::kFail) +
-         open_list(result, Verdict::kTooNoisy) +
-         open_list(result, Verdict::kCannotJudge);
+         open_list(result, Verdict::kTooNoisy) + open_list(result, Verdict::kCannotJudge);
 }
 
 }  // namespace contactcheck::gate

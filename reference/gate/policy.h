@@ -94,8 +94,8 @@ struct Policy {
   /// More rules than this that cannot judge some of their rows make the gate red; none: any number
   /// may.
   std::optional<std::size_t> cannot_judge_at_most;
-  /// Rules on times are judged and shown, and neither they nor rules that cannot judge make the gate
-  /// red: for a first run, on a machine whose load nobody controls. Not a key of the file.
+  /// Rules on times are judged and shown, and neither they nor rules that cannot judge make the
+  /// gate red: for a first run, on a machine whose load nobody controls. Not a key of the file.
   bool advisory_times = false;
 };
 

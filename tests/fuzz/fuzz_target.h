@@ -35,13 +35,13 @@ inline std::map<std::string, FuzzTarget>& fuzz_targets() {
 
 }  // namespace contactcheck::test
 
-// CONTACTCHECK_FUZZ_TARGET(name) { statements on data and size }, in no namespace. A program has one
-// function of libFuzzer's name; the replay has all targets.
+// CONTACTCHECK_FUZZ_TARGET(name) { statements on data and size }, in no namespace. A program has
+// one function of libFuzzer's name; the replay has all targets.
 #ifdef CONTACTCHECK_REPLAY
-#define CONTACTCHECK_FUZZ_TARGET(name)                                        \
-  static int fuzz_##name(const std::uint8_t* data, std::size_t size);         \
-  static const bool registered_##name =                                       \
-      contactcheck::test::fuzz_targets().emplace(#name, fuzz_##name).second;  \
+#define CONTACTCHECK_FUZZ_TARGET(name)                                       \
+  static int fuzz_##name(const std::uint8_t* data, std::size_t size);        \
+  static const bool registered_##name =                                      \
+      contactcheck::test::fuzz_targets().emplace(#name, fuzz_##name).second; \
   static int fuzz_##name([[maybe_unused]] const std::uint8_t* data, std::size_t size)
 #else
 #define CONTACTCHECK_FUZZ_TARGET(name) \

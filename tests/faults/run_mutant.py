@@ -31,7 +31,7 @@ import time
 import kept_verdicts
 from mutant_build import CAUGHT, ROOT, SURVIVED, Failure, Mutant, OutOfTime, Workers
 from mutant_verdict import WORDS, require_clean, unchanged_build, verdict
-from product_verdict import ProductJudge
+from python_tests import ProductJudge
 
 
 class CoreJudge:

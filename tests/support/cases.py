@@ -158,10 +158,24 @@ class RefusalItem(Item):
 
 
 class CaseItem(Item):
+    @property
+    def rewrite(self):
+        """Writes a file of lines and shows the difference; None without --rewrite."""
+        if not self.config.getoption("--rewrite"):
+            return None
+
+        def write(file, lines, difference):
+            file.write_text("".join(line + "\n" for line in lines), encoding="utf-8")
+            # pytest shows what a test prints only where it fails.
+            with self.config.pluginmanager.getplugin("capturemanager").global_and_fixture_disabled():
+                print(f"\n{file}: written\n{difference}")
+
+        return write
+
     def runtest(self):
         case = tomllib.loads(self.path.read_text(encoding="utf-8"))
         home = self.path.parent
-        check_case(case, home, self.config.getoption("--rewrite"))
+        check_case(case, home, self.rewrite)
         with scratch() as folder:
             write_files(case.get("files", {}), home, folder)
             for change in case.get("change", []):
@@ -176,8 +190,7 @@ class CaseItem(Item):
             if not any(expect["in"] == "stderr" for expect in expectations) and outcome.err:
                 raise Broken(f"standard error is not empty:\n{outcome.err}")
             faults = [fault for expect in expectations
-                      for fault in faults_of(expect, texts[expect["in"]], home,
-                                             self.config.getoption("--rewrite"))]
+                      for fault in faults_of(expect, texts[expect["in"]], home, self.rewrite)]
         if faults:
             raise Broken(f"{case['about']}\n" + "\n".join(faults))
 
@@ -297,7 +310,6 @@ def faults_of(expect, text, home, rewrite):
     shown = [next((e for e in expected if holds(e, line)), line) for line in actual]
     difference = "\n".join(difflib.unified_diff(expected, shown, file.name, expect["in"], lineterm=""))
     if rewrite:
-        file.write_text("".join(line + "\n" for line in shown), encoding="utf-8")
-        print(f"{file}: written\n{difference}")
+        rewrite(file, shown, difference)
         return faults
     return [*faults, difference]

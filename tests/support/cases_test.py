@@ -80,7 +80,7 @@ def test_case_fails_and_says_why(outcome, case, files, message):
 
 
 def test_rewriting_writes_what_differs_and_keeps_patterns(outcome, tmp_path):
-    done = outcome("--rewrite", "-s", case__toml=CASE, lines__txt=LINES.replace("head", "heads"))
+    done = outcome("--rewrite", case__toml=CASE, lines__txt=LINES.replace("head", "heads"))
     assert done.returncode == 0 and "-heads" in done.stdout and "+head" in done.stdout, done.stdout
     assert (tmp_path / "a_case" / "lines.txt").read_text(encoding="utf-8") == LINES
 

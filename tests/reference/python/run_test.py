@@ -482,6 +482,18 @@ def test_the_gate_says_why(bunny_run):
         contactcheck.gate(results, {"schema": "contactcheck-policy/1", "id": "mine", "title": "mine"})
 
 
+def test_advisory_times_do_not_decide(bunny_run):
+    results = contactcheck.Results(bunny_run / "results.json")  # it has no timings
+    on_times = {"rule": "fast", "scenes": ["*"], "detectors": ["ffd-lazy"], "measure": "speedup",
+                "question": "triangles", "reference": "fcl-aabb", "at_least": 1, "unjudged": "fail"}
+    policy = {**NOTHING_MISSED, "rules": [*NOTHING_MISSED["rules"], on_times]}
+    assert not contactcheck.gate(results, policy).passed
+    verdict = contactcheck.gate(results, policy, advisory_times=True)
+    assert verdict.passed and "fast: bunny-touch" in verdict.text
+    broken = contactcheck.run(APPROACH, [Forgetful()], timing=False)
+    assert not contactcheck.gate(broken, NOTHING_MISSED, advisory_times=True).passed
+
+
 def test_the_report_is_written(bunny_run, tmp_path):
     contactcheck.Results(bunny_run / "results.json").report(tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text()

@@ -56,6 +56,7 @@ import os
 import pathlib
 import re
 import shutil
+import tempfile
 import tomllib
 
 import pytest
@@ -147,9 +148,7 @@ class RefusalItem(Item):
         with scratch() as folder:
             write_files(self.files, self.path.parent, folder)
             for name, text in self.case["write"].items():
-                target = pathlib.Path(folder) / name
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_text(text, encoding="utf-8")
+                target_in(folder, name).write_text(text, encoding="utf-8")
             for change in self.case["change"]:
                 change_json(folder, change)
             env = dict(zip(self.case["env"], with_folder(self.case["env"].values(), folder)))
@@ -196,7 +195,7 @@ class CaseItem(Item):
 
 
 def scratch():
-    return program.tempfile.TemporaryDirectory(prefix="contactcheck-")
+    return tempfile.TemporaryDirectory(prefix="contactcheck-")
 
 
 def with_folder(words, folder):
@@ -205,9 +204,14 @@ def with_folder(words, folder):
 
 def write_files(files, home, folder):
     for name, source in files.items():
-        target = pathlib.Path(folder) / name
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(home / source, target)
+        shutil.copyfile(home / source, target_in(folder, name))
+
+
+def target_in(folder, name):
+    """The path of a file to be written, whose folder is there."""
+    target = pathlib.Path(folder) / name
+    target.parent.mkdir(parents=True, exist_ok=True)
+    return target
 
 
 def check_case(case, home, rewrite):
@@ -233,15 +237,7 @@ def check_case(case, home, rewrite):
 def change_json(folder, change):
     file = pathlib.Path(folder) / change["file"]
     document = json.loads(file.read_text(encoding="utf-8"))
-    *path, last = [step.replace("~1", "/").replace("~0", "~") for step in change["at"].split("/")[1:]]
-    place = document
-    for step in path:
-        place = place[int(step) if isinstance(place, list) else step]
-    if isinstance(place, list):
-        if last == "-":
-            place.append(None)
-            last = len(place) - 1
-        last = int(last)
+    place, last = program.place_at(document, change["at"])
     if change.get("remove"):
         del place[last]
     else:

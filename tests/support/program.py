@@ -130,6 +130,21 @@ def run_files(*further):
     return {"cases", "contacts", "recordings", "report.csv", "report.md", "results.json", *page, *further}
 
 
+def place_at(document, pointer):
+    """The container in a JSON document, and the key or index in it, that a JSON pointer such as
+    "/runs/2/message" names; "-" is a new item at the end of a list."""
+    *steps, last = [step.replace("~1", "/").replace("~0", "~") for step in pointer.split("/")[1:]]
+    place = document
+    for step in steps:
+        place = place[int(step) if isinstance(place, list) else step]
+    if not isinstance(place, list):
+        return place, last
+    if last == "-":
+        place.append(None)
+        last = -1
+    return place, int(last)
+
+
 def names_in(folder):
     return {entry.name for entry in pathlib.Path(folder).iterdir()}
 

@@ -4,6 +4,8 @@ passes, at 1000 us a frame.
 
 import pytest
 
+from program import place_at
+
 RATIO = "speedup 4.00x [3.80, 4.20] over ref, triangles, playback"
 SAME_CONTACTS = {"measure": "contact_hash", "unchanged": True}
 
@@ -51,10 +53,7 @@ def with_passes(results, passes):
 def put(document, path, value):
     """The document with a value at a place such as "runs/0/frames"."""
     changed = document.copy()
-    *steps, last = path.split("/")
-    place = changed
-    for step in steps:
-        place = place[int(step) if isinstance(place, list) else step]
+    place, last = place_at(changed, f"/{path}")
     place[last] = value
     return changed
 

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from program import EXAMPLE_RESULTS, refused, successful
+from program import EXAMPLE_RESULTS, place_at, refused, successful
 
 
 @pytest.fixture
@@ -13,10 +13,7 @@ def results():
 
 
 def put(results, path, value):
-    *steps, last = path.split("/")
-    place = results
-    for step in steps:
-        place = place[int(step) if isinstance(place, list) else step]
+    place, last = place_at(results, f"/{path}")
     place[last] = value
 
 

@@ -1,4 +1,4 @@
-// Results of a run with families of hard cases, made by hand.
+// Results of a run with families of hard cases, made by hand (hard.json).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// Results written by hand: one scene, runs of every status.
+// Results written by hand (sample.json): one scene, runs of every status.
 #pragma once
 
 #include <nlohmann/json.hpp>

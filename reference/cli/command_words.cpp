@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "reference/cli/arguments.h"
 #include "reference/cli/wrapped_text.h"
 
 namespace contactcheck::cli {
@@ -73,6 +74,13 @@ ProgramWords words_of(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands({}))
     if (!command->get_group().empty()) words.commands.push_back(command_words(*command));
   return words;
+}
+
+ProgramWords program_words(const DetectorCatalog& catalog) {
+  CLI::App app;
+  CommandLine line{app, catalog, "", {}};
+  describe_program(line);
+  return words_of(app);
 }
 
 }  // namespace contactcheck::cli

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/detect/registry.h"
+
 namespace CLI {
 class App;
 class FormatterBase;
@@ -33,6 +35,8 @@ struct ProgramWords {
 };
 
 ProgramWords words_of(const CLI::App& app);
+/// Of the program as it is with the detectors of `catalog`, which its help names.
+ProgramWords program_words(const DetectorCatalog& catalog);
 
 /// Help with one line an option, in the same words.
 std::shared_ptr<CLI::FormatterBase> help_formatter();

@@ -1,12 +1,11 @@
 // Writes the manual page and the shells' completions out of the command line's own words:
 //   write_command_pages FOLDER
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "reference/adapters/register.h"
-#include "reference/cli/arguments.h"
+#include "reference/cli/command_words.h"
 #include "reference/cli/completion.h"
 #include "reference/cli/man_page.h"
 
@@ -20,11 +19,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
 }
 
 void write_pages(const std::filesystem::path& folder) {
-  CLI::App app;
-  const contactcheck::DetectorCatalog catalog = contactcheck::adapters::standard_catalog();
-  contactcheck::cli::CommandLine line{app, catalog, "", {}};
-  contactcheck::cli::describe_program(line);
-  const contactcheck::cli::ProgramWords program = contactcheck::cli::words_of(app);
+  const contactcheck::cli::ProgramWords program =
+      contactcheck::cli::program_words(contactcheck::adapters::standard_catalog());
   write(folder / "contactcheck.1", contactcheck::cli::man_page(program));
   write(folder / "contactcheck.bash", contactcheck::cli::bash_completion(program));
   write(folder / "_contactcheck", contactcheck::cli::zsh_completion(program));

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "reference/adapters/register.h"
-#include "reference/cli/arguments.h"
+#include "reference/cli/command_words.h"
 #include "reference/cli/completion.h"
 #include "reference/cli/man_page.h"
 
@@ -33,13 +33,7 @@ ProgramWords small_program(Bound& bound) {
   return words_of(app);
 }
 
-ProgramWords real_program() {
-  CLI::App app;
-  const DetectorCatalog catalog = adapters::standard_catalog();
-  CommandLine line{app, catalog, "", {}};
-  describe_program(line);
-  return words_of(app);
-}
+ProgramWords real_program() { return program_words(adapters::standard_catalog()); }
 
 TEST(CommandWords, AreThoseOfTheCommandLine) {
   Bound bound;

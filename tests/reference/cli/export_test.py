@@ -4,6 +4,7 @@ finish. That the certificates are right is tested in tests/reference/oracle.
 
 import json
 import os
+import re
 import signal
 import sys
 import time
@@ -34,10 +35,11 @@ def frames_in(folder):
 
 
 def expect_proven(folder, frames):
-    """The checker that lies in the folder is content with it."""
+    """The checker that lies in the folder is content with it; what it says."""
     check = run_program(sys.executable, ["-B", folder / "check.py"])
     assert check.exit_code == 0, check.err
     assert check.out.startswith(f"{folder.name}: {frames} frames proven: ")
+    return check.out
 
 
 def test_writes_a_folder_that_proves_itself(tmp_path, scene):
@@ -49,7 +51,9 @@ def test_writes_a_folder_that_proves_itself(tmp_path, scene):
     assert names_in(out / "tiny") == {"bodies", "check.py", "scene.json", "truth"}
     assert names_in(out / "tiny" / "bodies") == {"0-left", "1-right"}
     assert names_in(out / "tiny" / "truth") == {f"frame_000{number}.json" for number in range(5)}
-    expect_proven(out / "tiny", 5)
+    [pairs] = re.findall(r"(\d+) pairs of triangles touch, (\d+) more", outcome.out)
+    assert re.findall(r"(\d+) pairs of triangles .*; (\d+) are", expect_proven(out / "tiny", 5)) == [pairs]
+    assert "0" not in pairs
 
 
 def test_every_takes_some_of_the_frames(tmp_path, scene):

@@ -2,6 +2,8 @@
 
 import itertools
 import json
+import shlex
+import sys
 
 import pytest
 
@@ -59,6 +61,18 @@ def test_scene_event_has_its_rows_also_where_a_detector_is_refused(tmp_path):
     assert scene["runs"][0]["detector"] == "ffd-grid"
     assert scene["runs"][0]["status"] == "refused"
     assert scene["runs"][0]["message"] != ""
+
+
+def test_end_event_has_the_exit_code_of_the_program(tmp_path, command):
+    broken = tmp_path / "broken.py"
+    broken.write_text("""\
+import json
+print(json.dumps({"message": "hello", "protocol": "contactcheck-pipe/1", "id": "broken",
+                  "semantics": {"levels": ["triangle"], "questions": ["triangles"]}}))
+""")
+    outcome = contactcheck(*command, "--detector-cmd", shlex.join([sys.executable, str(broken)]))
+    assert outcome.exit_code == 3, outcome.err
+    assert events_of(outcome.out)[-1]["exit_code"] == 3
 
 
 def test_refused_input_gives_no_event(tmp_path, command):

@@ -36,8 +36,10 @@ def run(folder, out, *more):
 
 
 def merge(folder, parts, out="out"):
-    successful("merge", *(folder / part / "results.json" for part in parts), "--out", folder / out)
-    return valid_results(folder / out / "results.json")
+    outcome = successful("merge", *(folder / part / "results.json" for part in parts), "--out", folder / out)
+    results = valid_results(folder / out / "results.json")
+    assert outcome.out.startswith(f"merged {len(parts)} shards, {len(results['scenes'])} scenes\n")
+    return results
 
 
 def without_times(results):

@@ -47,7 +47,7 @@ def test_case_without_a_member_is_refused(case, tmp_path, key):
     (["color"], "red", ["color"]),
     (["recording"], "gone.ccr", ["gone.ccr", "does not exist"]),
     (["first", "body"], "nobody", ['first.body is "nobody"', "one of first, second"]),
-    (["second", "body"], "first", ['second.body is "first"']),
+    (["second", "body"], "first", ['second.body is "first"', "another body than first"]),
     (["first", "triangle"], 12, ["first.triangle is 12"]),
     (["first", "vertices"], [["0x0p+0"] * 3] * 2, ["first.vertices", "array of 2"]),
     (["first", "vertices", 1, 2], "0x", ["first.vertices[1][2]"]),

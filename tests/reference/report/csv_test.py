@@ -70,6 +70,11 @@ def test_row_has_what_was_measured_and_empty_cells_for_the_rest(row_of, sample):
         "contact_hash": "0x2"}
 
 
+def test_spreads_have_the_largest_error_the_percentile_and_the_mean(row_of, bullet):
+    cells = row_of(bullet, 0)
+    assert [cells[f"depth_error_{part}_m"] for part in ("max", "p95", "mean")] == ["0.004", "0.003", "0.001"]
+
+
 def test_has_a_detectors_own_clock(row_of, sample):
     sample["runs"][1]["time_ms"]["playback"]["self_reported"] = 0.125
     assert row_of(sample, 1)["playback_self_reported_ms"] == "0.125"

@@ -50,6 +50,7 @@ def test_shades_by_share(plot_of, hard):
     before = plot_of("two", hard)
     assert before.count('class="missed"') == 2, "the legend, and 1 of 4"
     assert 'class="missed" fill-opacity="0.47"' in before, "0.3 + 0.7 / 4"
+    assert "skin at 0: 1 missed of 4, 0 spurious" in before
     hard["runs"][4]["per_frame"]["missed"][0] = 4
     assert 'class="missed" fill-opacity' not in plot_of("two", hard)
 

@@ -226,6 +226,14 @@ def test_sentences_carry_the_computed_numbers(tmp_path):
         "Table 3: 1 of 2 totals are smaller than the sum of their own parts: s with two.")
 
 
+@pytest.mark.parametrize("test, said", [(21, "falls by 19.000 ms"), (42, "rises by 2.000 ms")])
+def test_savings_say_whether_a_time_falls_or_rises(tmp_path, test, said):
+    made = Reproduction(replaced(PAPER, '"test": 20, "response": 4, "total": 40',
+                                 f'"test": {test}, "response": 4, "total": 60'), tmp_path)
+    assert made.one(topic="test-saving", table="Table 3")["sentence"] == (
+        f"Table 3, s: from one to two the collision test {said}.")
+
+
 def test_scene_without_an_object_count_in_the_text_has_no_finding(tmp_path):
     assert Reproduction(replaced(PAPER, '"objects_in_text": 2,', ""), tmp_path).select(topic="objects") == []
 

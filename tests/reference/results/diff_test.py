@@ -113,6 +113,11 @@ def test_ends_of_a_ratio_are_said(diff, passes, now, ratio):
     assert out.startswith(f"Faster (1)\n  s  d  {ratio} faster, measured against fcl-aabb\n")
 
 
+def test_ends_of_a_slowdown_are_those_of_a_ratio_above_1(diff):
+    out = diff([row(**speedup(1, 1, 1))], [row(**speedup(0.5, 0.25, 0.8))])
+    assert out.startswith("Slower (1)\n  s  d  2.00x [1.25, 4.00] slower, measured against fcl-aabb\n")
+
+
 def test_many_differences_fit_on_a_screen_that_says_what_it_leaves_out(diff):
     before, after = [], []
     for i in range(300):

@@ -27,6 +27,7 @@ def expect_refused(results, folder, sentence):
     ("runs/0/levels/body/truth", -1, "runs[0].levels.body.truth is -1; it must be at least 0"),
     ("runs/0/levels/body/truth", 1.5, "runs[0].levels.body.truth is 1.5; it must be of type integer"),
     ("runs/0/levels/body/recall", 1.5, "runs[0].levels.body.recall is 1.5; it must be at most 1"),
+    ("runs/0/time_ms/pass_ms", [1, 0], "runs[0].time_ms.pass_ms[1] is 0; it must be above 0"),
     ("runs/0/scene", "", 'runs[0].scene is ""; it must be a text that is not empty'),
     ("runs/0/status", "fine", 'runs[0].status is "fine"; it must be one of ok, error, absent, refused'),
     ("libraries/fcl", 7, "libraries.fcl is 7; it must be of type string"),

@@ -86,6 +86,7 @@ def test_chosen_is_a_file_that_run_takes_as_it_stands(tune):
     tuned = tune("--detector", DETECTOR)
     assert tune.result["chosen"]["file"] == "chosen.json"
     expect_that_run_takes(tune, tune.out / "chosen.json")
+    assert suite_of(tune)["title"] == "Chosen by contactcheck tune for tiny"
     assert "cell=2" in suite_of(tune)["detectors"][0]
     command = f"  contactcheck run {shlex.quote(str(tune.out / 'chosen.json'))}\n"
     assert command in tuned.out

@@ -5,7 +5,7 @@ import math
 
 
 def box(divisions):
-    """The closed unit box from the origin: 12 divisions^2 triangles."""
+    """The closed unit box from the origin: 12 divisions^2 triangles, those of unit_box_mesh (shapes.h)."""
     numbers, triangles = {}, []
 
     def vertex(axis, layer, i, j):
@@ -16,7 +16,7 @@ def box(divisions):
     for axis, layer in itertools.product(range(3), (0, divisions)):
         for i, j in itertools.product(range(divisions), repeat=2):
             quad = [vertex(axis, layer, i + u, j + v) for u, v in ((0, 0), (1, 0), (1, 1), (0, 1))]
-            a, b, c, d = quad if layer else reversed(quad)
+            a, b, c, d = quad if layer else (quad[0], *reversed(quad[1:]))
             triangles += [[a, b, c], [a, c, d]]
     return [[k / divisions for k in point] for point in numbers], triangles
 

@@ -60,8 +60,10 @@ Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
   out.label_begin.push_back(0);
   for (const Triangle& t : mesh.triangles) {
     const TrianglePoints points = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    grid.for_cells_meeting(
-        points, [&](const GridIndex& cell) { out.label_cells.push_back(number[grid.flat(cell)]); });
+    grid.for_cells_meeting(points, [&](const GridIndex& cell) {
+      out.label_cells.push_back(number[grid.flat(cell)]);
+      return true;
+    });
     out.label_begin.push_back(static_cast<std::uint32_t>(out.label_cells.size()));
   }
   sort_by_cell(lattice.cells.size(), out);

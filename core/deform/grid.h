@@ -49,7 +49,7 @@ class Grid {
   }
 
   /// Calls `visit(GridIndex)` for every cell whose closed box meets the closed triangle, exactly,
-  /// in ascending (z, y, x) order.
+  /// in ascending (z, y, x) order, until it returns false.
   template <typename Visit>
   void for_cells_meeting(const TrianglePoints& triangle, Visit&& visit) const {
     Aabb box;
@@ -65,7 +65,7 @@ class Grid {
       for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
         for (std::uint32_t x = lo[0]; x <= hi[0]; ++x) {
           const GridIndex cell{x, y, z};
-          if (triangle_meets_box(triangle, cell_box(cell))) visit(cell);
+          if (triangle_meets_box(triangle, cell_box(cell)) && !visit(cell)) return;
         }
   }
 

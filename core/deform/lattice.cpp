@@ -70,7 +70,10 @@ KeptFlags kept_flags(const Grid& grid, const TriangleMesh& mesh) {
   // Every cell that meets a triangle, exactly.
   for (const Triangle& t : mesh.triangles)
     grid.for_cells_meeting({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
-                           [&](const GridIndex& cell) { kept.set(grid.flat(cell)); });
+                           [&](const GridIndex& cell) {
+                             kept.set(grid.flat(cell));
+                             return true;
+                           });
   // A vertex without a triangle still needs a home.
   for (const Vec3& v : mesh.vertices) kept.set(grid.flat(grid.cell_of(v)));
   return kept;

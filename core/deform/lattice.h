@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "core/types/mesh.h"
@@ -15,6 +16,11 @@ namespace contactcheck {
 
 /// Position of a cell or node in the grid.
 using GridIndex = std::array<std::uint32_t, 3>;
+
+/// In (z, y, x).
+inline bool grid_before(const GridIndex& a, const GridIndex& b) {
+  return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
+}
 
 /// The eight corners of a cell or box. Corner c lies at the high end of axis k when bit k of c is
 /// set.

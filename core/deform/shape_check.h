@@ -2,23 +2,26 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/deform/grid.h"
 
 namespace contactcheck {
 
 namespace shape_check_detail {
 
+/// By which a local coordinate may differ from its position over the cell's side: a few roundings
+/// of numbers in [0, 1]. What detectors allow for a vertex at rest (core/lazy/embedded_patch.h) is
+/// more.
+inline constexpr double kLocalTolerance = 0x1p-50;
+
 inline bool ascending_in_grid(const std::vector<GridIndex>& indices) {
-  const auto before = [](const GridIndex& a, const GridIndex& b) {
-    return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
-  };
-  const auto not_before = [&](const GridIndex& a, const GridIndex& b) { return !before(a, b); };
+  const auto not_before = [](const GridIndex& a, const GridIndex& b) { return !grid_before(a, b); };
   return std::adjacent_find(indices.begin(), indices.end(), not_before) == indices.end();
 }
 
@@ -30,6 +33,9 @@ inline std::string lines_fault(const Lattice& lattice) {
     if (std::adjacent_find(lines.begin(), lines.end(), std::greater_equal<>()) != lines.end()) {
       return "the lattice lines of " + axis + " do not increase";
     }
+    const auto no_width = [](double a, double b) { return !std::isfinite(b - a); };
+    if (std::adjacent_find(lines.begin(), lines.end(), no_width) != lines.end())
+      return "two lattice lines of " + axis + " are farther apart than the largest double";
   }
   return "";
 }
@@ -78,22 +84,54 @@ inline std::string homes_fault(const TriangleMesh& mesh, const Lattice& lattice,
     if ((local.array() < 0.0).any() || (local.array() > 1.0).any()) {
       return "a local coordinate of vertex " + std::to_string(v) + " is outside [0, 1]";
     }
+    const Aabb box = lattice.cell_box(cell);
+    const Vec3 place = (mesh.vertices[v] - box.lo).cwiseQuotient(box.extent());
+    if (((local - place).array().abs() > kLocalTolerance).any()) {
+      return "the local coordinates of vertex " + std::to_string(v) +
+             " are not those of its position in its home cell";
+    }
   }
   return "";
 }
 
-inline std::string labels_fault(const Embedding& embedding, std::size_t cells) {
+inline std::string cell_name(const GridIndex& at) {
+  return "(" + std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " + std::to_string(at[2]) +
+         ")";
+}
+
+/// The label of each triangle names the cells that it meets, all of which are kept.
+inline std::string labels_fault(const TriangleMesh& mesh, const Lattice& lattice,
+                                const Embedding& embedding) {
+  const std::size_t cells = lattice.cells.size();
   const std::vector<std::uint32_t>& begin = embedding.label_begin;
   if (begin.front() != 0 || begin.back() != embedding.label_cells.size() ||
       std::adjacent_find(begin.begin(), begin.end(), std::greater_equal<>()) != begin.end()) {
     return "the label starts do not ascend from 0 to the number of label cells";
   }
+  const Grid grid(lattice.lines);
   for (std::uint32_t t = 0; t + 1 < begin.size(); ++t) {
     const auto label = embedding.cells_of_triangle(t);
     if (label.back() >= cells ||
         std::adjacent_find(label.begin(), label.end(), std::greater_equal<>()) != label.end()) {
       return "the label of triangle " + std::to_string(t) + " is not an ascending list of cells";
     }
+    std::string fault;
+    std::size_t named = 0;
+    const Triangle& corners = mesh.triangles[t];
+    grid.for_cells_meeting(
+        {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]},
+        [&](const GridIndex& cell) {
+          if (named < label.size() && lattice.cells[label[named]] == cell) return ++named, true;
+          const bool kept =
+              std::binary_search(lattice.cells.begin(), lattice.cells.end(), cell, grid_before);
+          fault = "triangle " + std::to_string(t) + " meets cell " + cell_name(cell) +
+                  (kept ? ", which its label does not name" : ", which is not kept");
+          return false;
+        });
+    if (fault.empty() && named < label.size())
+      fault = "the label of triangle " + std::to_string(t) + " names cell " +
+              cell_name(lattice.cells[label[named]]) + ", which it does not meet";
+    if (!fault.empty()) return fault;
   }
   return "";
 }
@@ -101,8 +139,8 @@ inline std::string labels_fault(const Embedding& embedding, std::size_t cells) {
 }  // namespace shape_check_detail
 
 /// The first broken promise of a shape, as the end of a sentence; empty for a good shape. Checks
-/// the mesh (by shape.topology), the lattice, home cells, local coordinates and labels, not the
-/// arrays derived from them.
+/// the mesh (by shape.topology), the lattice, home cells, local coordinates and labels (against the
+/// vertices, exactly), not the arrays derived from them.
 /// @pre topology belongs to the mesh; cell_nodes, home_cell, local and label_begin have one entry
 ///      per cell, vertex, vertex and triangle + 1
 inline std::string shape_fault(const BodyShape& shape) {
@@ -116,7 +154,7 @@ inline std::string shape_fault(const BodyShape& shape) {
   if (fault.empty()) fault = grid_fault(lattice, lattice.nodes, 0, "node");
   if (fault.empty()) fault = cell_nodes_fault(lattice);
   if (fault.empty()) fault = homes_fault(shape.mesh, lattice, shape.embedding);
-  if (fault.empty()) fault = labels_fault(shape.embedding, lattice.cells.size());
+  if (fault.empty()) fault = labels_fault(shape.mesh, lattice, shape.embedding);
   return fault;
 }
 

@@ -50,11 +50,12 @@ FfdModelOf<T> model_of(const BodyShape& shape, const FfdConfig& config) {
   }
 }
 
-// Never 0, whatever was rounded: coordinates are divided by it.
+// Neither 0 nor infinite, whatever was rounded: coordinates are divided by it, and infinite ones
+// over an infinite cell would be no number.
 template <typename T>
 T grid_cell(double size) {
   using Limits = std::numeric_limits<T>;
-  if (size > Limits::max()) return Limits::infinity();
+  if (size > static_cast<double>(Limits::max())) return Limits::max();
   return std::max(static_cast<T>(size), Limits::denorm_min());
 }
 
@@ -63,7 +64,7 @@ T grid_cell(double size) {
 template <typename T>
 Vec3Of<T> grid_offset(const Vec3& origin, double cell) {
   Vec3Of<T> out = Vec3Of<T>::Zero();
-  if (!(cell > 0.0) || !std::isfinite(grid_cell<T>(cell))) return out;
+  if (!(cell > 0.0) || !std::isfinite(cell)) return out;
   for (int k = 0; k < 3; ++k) out[k] = static_cast<T>(std::fmod(origin[k], cell));
   return out;
 }
@@ -145,8 +146,13 @@ void FfdDetectorOf<T>::update(const Frame& frame) {
                            "one position per vertex");
   }
   numbers_.update(frame);
-  for (std::size_t body = 0; body < models_.size(); ++body)
-    update_state(models_[body], config_, numbers_.nodes(body), states_[body]);
+  for (std::size_t body = 0; body < models_.size(); ++body) {
+    try {
+      update_state(models_[body], config_, numbers_.nodes(body), states_[body]);
+    } catch (const RefusedInput& e) {
+      throw RefusedInput("body " + std::to_string(body) + ": " + e.what());
+    }
+  }
   if (config_.element == ElementTest::kTriangle) {
     triangle_.begin_frame(models_, numbers_.vertices());
   } else {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/deform/mapping.h"
+#include "core/types/check.h"
 
 namespace contactcheck {
 namespace {
@@ -98,7 +99,11 @@ void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
   state.nodes = nodes;
   state.corners.resize(model.pieces.size());
   map_boxes(*model.shape->lattice, std::span(model.piece_boxes), nodes, std::span(state.corners));
-  const T error = mapping_error_bound(largest_coordinate(nodes));
+  const T largest = largest_coordinate(nodes), error = mapping_error_bound(largest);
+  // A blend of such nodes could round to infinity, and the next one to no number.
+  if (!std::isfinite(largest + 16 * error))
+    throw RefusedInput(
+        "a node's coordinate is so near the largest double that its box could overflow");
   find_hulls(model, state);
   if (config.bounds == BoundsReading::kSafe) bound_cells(model, error, state);
   place_spheres(model, config, error, state);

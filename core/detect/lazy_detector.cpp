@@ -228,6 +228,7 @@ std::size_t LazyDetector::shared_bytes() const {
   std::size_t bytes = 0;
   for (const auto& tree : trees_)
     if (distinct.insert(tree.get()).second) bytes += tree->bytes();
+  for (const auto& [shape, patches] : patches_) bytes += patches.bytes();
   return bytes;
 }
 
@@ -236,7 +237,7 @@ std::size_t LazyDetector::instance_bytes() const {
   for (const LazyState& s : states_)
     bytes += s.near_nodes.size() * sizeof(Float4) + s.cells.size() * sizeof(CellTerms) +
              s.blocks.bytes() + s.leaves.bytes() + s.single.nodes.size() * sizeof(Vec3f) +
-             s.single.leaves.bytes();
+             s.single.leaves.bytes() + s.embedded_regions.size() + s.embedded_children.size();
   for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   for (const std::vector<Vec3f>& m : single_mapped_) bytes += m.size() * sizeof(Vec3f);

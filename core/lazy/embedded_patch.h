@@ -48,6 +48,11 @@
 // Where a triangle has no area, meets another at rest, or is a duplicate, c or k is infinite or g
 // is 0, and nothing is claimed.
 //
+// Range. Lengths at rest are in the scale of the mesh (rest_scale) and mapped ones in that of the
+// frame, so that bodies of any size have entries of DF near 1. Products are in doubles. What comes
+// from squares of lengths below 2^-200, sides of cells outside [2^-100, 2^100], or a DF whose
+// square is outside [2^-200, 2^200] is not looked at: there nothing is claimed.
+//
 // The same is asked first of every cell, and of every two by two by two, with all triangles in it:
 // once a frame, since many patches lie in one. Two patches together are asked about only where the
 // claim holds for each.
@@ -63,30 +68,32 @@
 
 namespace contactcheck {
 
-/// What is known at rest of the triangles below a child of a block, or below two.
+/// What is known at rest of the triangles below a child of a block, or below two. Lengths are in
+/// the scale of the mesh.
 struct PatchRest {
-  std::array<double, 3> lo{}, hi{};                       ///< box of the triangles, exact
-  std::array<std::uint8_t, 3> first_cell{}, last_cell{};  ///< grid positions of the cells it meets
-  float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;        ///< c, k, h: at least
-  float gap = 0.0f, altitude = 0.0f;                      ///< g, a: at most
+  std::array<double, 3> lo{}, hi{};                 ///< box of the triangles, exact, in metres
+  GridIndex first_cell{}, last_cell{};              ///< of the cells that it meets
+  float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;  ///< c, k, h: at least; or infinite
+  float gap = 0.0f, altitude = 0.0f;                ///< g, a: at most
 
   PatchRest united(const PatchRest& other) const;
-  bool nothing() const { return first_cell[0] > last_cell[0]; }
+};
+
+/// All triangles within some cells: one, or two by two by two.
+struct PatchRegion {
+  GridIndex first{};  ///< the lowest of them
+  PatchRest patch;
 };
 
 struct PatchTree {
   std::vector<PatchRest> children;  ///< [block * kBlockWidth + lane]
-  /// Per grid cell, x fastest: of the triangles within it; and of those within the two by two by
-  /// two cells that begin with it. Without a triangle: first_cell above last_cell.
-  std::vector<PatchRest> in_cell, in_eight;
-  std::array<std::uint32_t, 3> cells{};  ///< of the grid
-  double largest = 0.0;                  ///< |coordinate| of a vertex at rest
-  std::vector<std::int32_t> kept;        ///< per grid cell: the kept cell, or -1
+  /// Those with a triangle, ascending in (z, y, x) of `first`: no more than the kept cells, and
+  /// eight times as many.
+  std::vector<PatchRegion> ones, eights;
+  double scale = 1.0;  ///< of lengths at rest (rest_scale)
 
-  /// Of a grid cell.
-  std::size_t flat(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    return (std::size_t{z} * cells[1] + y) * cells[0] + x;
-  }
+  /// Bytes held, for the report.
+  std::size_t bytes() const;
 };
 
 /// @pre the shape has a lattice, and the tree is its

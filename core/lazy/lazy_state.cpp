@@ -11,16 +11,6 @@
 namespace contactcheck {
 namespace {
 
-// The power of two that brings x to about 1 (at most 1), as near as it and its inverse are
-// doubles; 1 for 0.
-double scale_to_one(double x) {
-  constexpr int kLargestExponent = 1000;
-  if (!(x > 0.0)) return 1.0;
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
-}
-
 // A slack as a float that is no smaller. Finite whatever happens, so that boxes of lanes without a
 // child stay empty; all content of a body lies within 1 of its origin, so this much is everything.
 float round_up(double slack) {
@@ -158,6 +148,14 @@ class Validation {
 
 }  // namespace
 
+double scale_to_one(double x) {
+  constexpr int kLargestExponent = 1000;
+  if (!(x > 0.0)) return 1.0;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return std::ldexp(1.0, -std::clamp(exponent, -kLargestExponent, kLargestExponent));
+}
+
 void forget_frame(LazyState& state) {
   state.blocks.begin_frame(state.tree->blocks.size());
   if (state.precision == Precision::kSingle) {
@@ -268,7 +266,7 @@ void find_cells(LazyState& state) {
   for (std::size_t c = 0; c < cells.size(); ++c)
     set_terms(cells[c], state.near_nodes, state.cells[c]);
   state.cells_known = true;
-  state.embedded_cells.clear();
+  state.embedded_children.clear();
 }
 
 void count_made(const LazyState& state, LazyCounters& counters) {

@@ -170,8 +170,8 @@ struct LazyState {
   const LatticeTree* tree = nullptr;
   Precision precision = Precision::kDouble;
   const PatchTree* patches = nullptr;  ///< where known: what cannot meet itself
-  /// What is known in this frame of regions and children of `patches`; empty: not asked.
-  std::vector<std::uint8_t> embedded_cells, embedded_children;
+  /// What is known in this frame of regions and children of `patches`; no children: not asked.
+  std::vector<std::uint8_t> embedded_regions, embedded_children;
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices
@@ -217,6 +217,10 @@ FrameTable<LeafCacheOf<Real>>& leaves_in(LazyState& state) {
     return state.leaves;
   }
 }
+
+/// The power of two that brings x to at most 1 and above 1/2, as near as it and its inverse are
+/// doubles: an x above 2^1000 to below 2^24, one below 2^-1000 to 2^-74 at least. 1 for 0.
+double scale_to_one(double x);
 
 /// Invalidates per-frame state.
 void forget_frame(LazyState& state);

@@ -136,20 +136,23 @@ class Splitter {
     return middle;
   }
 
-  // Of all planes between cells the one that divides the triangles most evenly.
+  // Of all planes between cells the one that divides the triangles most evenly. Along an axis that
+  // is one of the two about the cell of the median triangle, so that no loop is over the grid.
   std::uint32_t split_between_cells(const Part& part) {
     const std::uint32_t count = part.last - part.first;
     int best_axis = 0;
     std::uint32_t best_plane = 0, best_left = 0;
+    std::vector<std::uint32_t> cells(count);
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<std::uint32_t> below(shape_.lattice->lines[axis].size(), 0);
-      std::for_each(begin(part), end(part),
-                    [&](std::uint32_t t) { ++below[grid_index(t, axis) + 1]; });
-      std::partial_sum(below.begin(), below.end(), below.begin());
-      for (std::uint32_t plane = 1; plane < below.size(); ++plane) {
-        if (std::min(below[plane], count - below[plane]) <= std::min(best_left, count - best_left))
-          continue;
-        best_axis = axis, best_plane = plane, best_left = below[plane];
+      std::transform(begin(part), end(part), cells.begin(),
+                     [&](std::uint32_t t) { return grid_index(t, axis); });
+      std::nth_element(cells.begin(), cells.begin() + count / 2, cells.end());
+      const std::uint32_t median = cells[count / 2];
+      for (const std::uint32_t plane : {median, median + 1}) {
+        const auto left = static_cast<std::uint32_t>(std::count_if(
+            cells.begin(), cells.end(), [&](std::uint32_t cell) { return cell < plane; }));
+        if (std::min(left, count - left) <= std::min(best_left, count - best_left)) continue;
+        best_axis = axis, best_plane = plane, best_left = left;
       }
     }
     std::stable_partition(begin(part), end(part),

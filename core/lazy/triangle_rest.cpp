@@ -9,6 +9,7 @@
 
 #include "core/broad/aabb_tree.h"
 #include "core/broad/adjacent_pairs.h"
+#include "core/lazy/lazy_state.h"
 #include "core/narrow/adjacent_triangles.h"
 #include "core/narrow/triangle_triangle.h"
 
@@ -21,6 +22,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-5;
 // Measured for one triangle. With more about it, as in a bundle of needles, nothing is claimed.
 constexpr int kMostMeasured = 200;
+// Of a longest edge, in the scale of the body: products of four lengths of such a triangle, with
+// the least altitude that is looked at, are still normal doubles. Of a smaller one nothing is
+// claimed.
+constexpr double kLeastEdge = 0x1p-200;
 
 // 1 / sin(angle / 2) of the angle with this cosine.
 double inverse_half_sine(double cosine) {
@@ -42,7 +47,7 @@ TriangleRest lone_triangle(const TrianglePoints& p) {
   const double square = 0.5 * (1.0 + smallest_cosine - 1e-12);  // of the cosine of half the angle
   out.stretch =
       square > 1e-6 && out.altitude > 1e-6 * out.edge ? 1.0 / std::sqrt(square) : kInfinity;
-  out.gap = out.edge;
+  out.gap = out.edge >= kLeastEdge ? out.edge : 0.0;
   return out;
 }
 
@@ -145,22 +150,31 @@ double box_distance(const Aabb& a, const Aabb& b) {
   return apart.norm() * (1 - 1e-6);  // rounding
 }
 
-TrianglePoints points_of(const BodyShape& shape, std::uint32_t triangle) {
-  const std::vector<Vec3>& v = shape.mesh.vertices;
-  const Triangle& corners = shape.mesh.triangles[triangle];
-  return {v[corners[0]], v[corners[1]], v[corners[2]]};
-}
+// The body, its vertices in its scale.
+struct ScaledBody {
+  const BodyShape& shape;
+  std::vector<Vec3> vertices;
+
+  explicit ScaledBody(const BodyShape& body) : shape(body), vertices(body.mesh.vertices) {
+    const double scale = rest_scale(body);
+    for (Vec3& v : vertices) v *= scale;
+  }
+  TrianglePoints points(std::uint32_t triangle) const {
+    const Triangle& corners = shape.mesh.triangles[triangle];
+    return {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]};
+  }
+};
 
 // The gaps of triangles that share nothing, each at most its own longest edge: branch and bound for
 // every triangle, the nearer box first.
 class GapSearch {
  public:
-  GapSearch(const BodyShape& shape, std::vector<TriangleRest>& rest)
-      : shape_(shape),
+  GapSearch(const ScaledBody& body, std::vector<TriangleRest>& rest)
+      : body_(body),
         rest_(rest),
-        boxes_(std::make_shared<TriangleTree>(make_triangle_tree(shape.mesh, 4))),
+        boxes_(std::make_shared<TriangleTree>(make_triangle_tree(body.shape.mesh, 4))),
         tree_(boxes_.tree()) {
-    boxes_.refit(shape.mesh.vertices);
+    boxes_.refit(body.vertices);
     for (const TriangleRest& triangle : rest) longest_ = std::max(longest_, triangle.edge);
   }
 
@@ -200,9 +214,10 @@ class GapSearch {
   // For both: the other one has less to look for then. False: they share a vertex.
   bool measure(std::uint32_t own, std::uint32_t slot) {
     const std::uint32_t s = tree_.ids[own], t = tree_.ids[slot];
-    const SharedCorners shared = shared_corners(shape_.linked()[s], shape_.linked()[t]);
+    const std::vector<Triangle>& linked = body_.shape.linked();
+    const SharedCorners shared = shared_corners(linked[s], linked[t]);
     if (shared.count > 0 && !shared.duplicates) return false;
-    const TrianglePoints p = points_of(shape_, s), q = points_of(shape_, t);
+    const TrianglePoints p = body_.points(s), q = body_.points(t);
     const bool meet =
         boxes_.triangle_box(own).overlaps(boxes_.triangle_box(slot)) && triangles_intersect(p, q);
     const double rounding = kRounding * std::max(rest_[s].edge, rest_[t].edge);
@@ -212,7 +227,7 @@ class GapSearch {
     return true;
   }
 
-  const BodyShape& shape_;
+  const ScaledBody& body_;
   std::vector<TriangleRest>& rest_;
   AabbTree boxes_;
   const TriangleTree& tree_;
@@ -222,19 +237,26 @@ class GapSearch {
 
 }  // namespace
 
+double rest_scale(const BodyShape& shape) {
+  double largest = 0.0;
+  for (const Vec3& v : shape.mesh.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  return scale_to_one(largest);
+}
+
 std::vector<TriangleRest> triangles_at_rest(const BodyShape& shape) {
+  const ScaledBody body(shape);
   std::vector<TriangleRest> out;
   for (std::uint32_t t = 0; t < shape.mesh.triangles.size(); ++t)
-    out.push_back(lone_triangle(points_of(shape, t)));
+    out.push_back(lone_triangle(body.points(t)));
   for (const AdjacentPair& pair : adjacent_pairs(shape.linked())) {
-    const TrianglePoints p = points_of(shape, pair.a), q = points_of(shape, pair.b);
+    const TrianglePoints p = body.points(pair.a), q = body.points(pair.b);
     const double ratio = pair.shared.count == 1 ? ratio_at_corner(p, q, pair.shared)
                                                 : ratio_at_edge(p, q, pair.shared);
     const bool touching = meet_beyond_shared(pair.shared, p, q);
     for (const std::uint32_t t : {pair.a, pair.b})
       out[t].ratio = touching || std::isnan(ratio) ? kInfinity : std::max(out[t].ratio, ratio);
   }
-  GapSearch(shape, out).run();
+  GapSearch(body, out).run();
   return out;
 }
 

@@ -89,6 +89,13 @@ class PyDetector {
     });
   }
 
+  /// A frame that is refused, even while it is read, leaves none to ask about.
+  void forget_frame() {
+    guarded([&] {
+      if (state_ == State::kUpdated) state_ = State::kPrepared;
+    });
+  }
+
   /// Memory for the positions of the next frame: that of the frame before the last.
   std::vector<std::vector<Vec3>> spare() {
     const std::lock_guard lock(spare_mutex_);
@@ -122,7 +129,6 @@ class PyDetector {
         frame_.bodies[i].vertices = shape.lattice ? vertices_[i] : nodes_[i];
       }
       frame_.time = time;
-      state_ = State::kPrepared;
       made().update(frame_);
       ++frame_.index;
       state_ = State::kUpdated;
@@ -225,6 +231,10 @@ void add_detector(py::module_& module) {
       .def("prepare", &PyDetector::prepare, Released())
       .def("update",
            [](PyDetector& self, const py::tuple& positions, double time) {
+             {
+               const py::gil_scoped_release released;
+               self.forget_frame();
+             }
              std::vector<std::vector<Vec3>> arrays = self.spare();
              arrays.resize(positions.size());
              for (std::size_t i = 0; i < arrays.size(); ++i)

@@ -276,7 +276,10 @@ class Detector:
         self._detector.prepare(shapes, list(questions))
 
     def update(self, positions: Sequence[Any], time: float = 0.0) -> None:
-        """The bodies of one frame: (n, 3) nodes of a Lattice, vertices of other bodies; copied."""
+        """The bodies of one frame: (n, 3) nodes of a Lattice, vertices of other bodies; copied.
+
+        One that is refused leaves no frame to ask about.
+        """
         self._detector.update(tuple(positions), time)
 
     def query(self, question: str = "triangles") -> dict[str, np.ndarray]:

@@ -1,4 +1,8 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/types/check.h"
 #include "tests/core/detect/scenes.h"
@@ -39,6 +43,45 @@ TEST(SmallScenes, OfNoOrOneBodyHaveNoContact) {
         const ContactSet found = test::answer(*detector, scene->frames[0]);
         EXPECT_TRUE(found.bodies.empty() && found.cells.empty() && found.triangles.empty());
       }
+}
+
+/// The first frame, scaled so that its largest coordinate of a node is `largest`.
+FrameData scaled_to(const Scene& scene, double largest) {
+  std::vector<std::vector<Vec3>> nodes = scene.frames[0].nodes;
+  double now = 0.0;
+  for (const auto& body : nodes)
+    for (const Vec3& n : body) now = std::max(now, n.cwiseAbs().maxCoeff());
+  for (auto& body : nodes)
+    for (Vec3& n : body)
+      for (int k = 0; k < 3; ++k)
+        n[k] = std::abs(n[k]) == now ? std::copysign(largest, n[k]) : n[k] / now * largest;
+  return test::make_frame(scene.bodies, std::move(nodes));
+}
+
+// Mean edges, and with them cells of the hash grid, were infinite: infinite boxes had no place in
+// it, and their contacts were lost.
+TEST(LargestDouble, IsAnsweredUpToAFewRoundingsAndThenRefused) {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  Scene deep = test::approach({604, 0.3}, 6);
+  deep.frames = {deep.frames.back()};
+  for (const std::string& name : test::exact_detectors()) {
+    SCOPED_TRACE(name);
+    for (const double share : {0.25, 0.75, 1 - 0x1p-40}) {
+      const FrameData frame = scaled_to(deep, share * kLargest);
+      ASSERT_FALSE(test::true_pairs(deep, frame).empty());
+      const auto detector = test::prepared(name, deep);
+      EXPECT_EQ(test::answer(*detector, frame).triangles, test::true_pairs(deep, frame)) << share;
+    }
+  }
+  const FrameData frame = scaled_to(deep, kLargest);
+  for (const std::string& id : test::family()) {
+    try {
+      test::prepared(id + "+tri", deep)->update(frame.frame());
+      FAIL() << id;
+    } catch (const RefusedInput& e) {
+      EXPECT_THAT(e.what(), ::testing::HasSubstr("so near the largest double")) << id;
+    }
+  }
 }
 
 TEST(FrameDeathTest, OfAnotherSizeThanTheSceneBreaksAPromise) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/narrow/adjacent_triangles.h"
 #include "tests/core/lazy/bounds_cases.h"
@@ -202,6 +203,114 @@ TEST(EmbeddedPatch, IsNotClaimedOfAHingeThatTheBendingCloses) {
   Tally tally;
   check(body, tree, patches_of(body), tally);
   EXPECT_GT(tally.meeting, 0);
+}
+
+// Cells that are looked at along an axis, and their neighbours: the first, the last, and those
+// about what fits into 8 and 16 bits.
+bool is_looked_at(std::uint32_t cell, std::uint32_t cells) {
+  for (const std::uint32_t middle : {1u, 255u, 256u, 65535u, 65536u, cells - 1})
+    if (cell + 2 >= middle && cell <= middle + 2) return true;
+  return false;
+}
+
+// The middle surface of a row of cells along an axis, four quads a cell, where it is looked at. The
+// others are not kept.
+ShapePtr strip(std::uint32_t cells, int axis) {
+  TriangleMesh mesh;
+  const auto place = [axis](double along, double across) {
+    Vec3 out;
+    out[axis] = along, out[(axis + 1) % 3] = across, out[(axis + 2) % 3] = 0.5;
+    return out;
+  };
+  bool joined = false;
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    if (!is_looked_at(cell, cells)) {
+      joined = false;
+      continue;
+    }
+    for (std::uint32_t quad = 0; quad <= 4; ++quad) {
+      if (quad == 0 && joined) continue;
+      for (const double across : {0.0, 1.0})
+        mesh.vertices.push_back(place(cell + quad / 4.0, across));
+      if (quad == 0) continue;
+      const auto a = static_cast<std::uint32_t>(mesh.vertices.size() - 4);
+      mesh.triangles.push_back({a, a + 2, a + 3});
+      mesh.triangles.push_back({a, a + 3, a + 1});
+    }
+    joined = true;
+  }
+  std::array<std::vector<double>, 3> lines{{{0, 1}, {0, 1}, {0, 1}}};
+  lines[axis].resize(cells + 1);
+  for (std::uint32_t i = 0; i <= cells; ++i) lines[axis][i] = i;
+  return make_shape_on_lines(mesh, lines);
+}
+
+// Positions of cells were kept in 8 bits: what cell 256 does was looked up in cell 0. Here one cell
+// is twisted by half a turn, which draws its middle together to a point; all others are as at rest.
+TEST(EmbeddedPatch, IsNotClaimedOfATwistedCellWhereverItIsAlongAnAxis) {
+  for (const std::uint32_t cells : {255u, 256u, 257u, 300u, 65535u, 65536u, 65537u})
+    for (const int axis : {0, 1, 2}) {
+      const ShapePtr shape = strip(cells, axis);
+      OneBody body(shape, false);
+      const PatchTree tree = make_patch_tree(*shape, body.tree());
+      const std::vector<Patch> patches = patches_of(body);
+      for (const std::uint32_t twisted : {1u, 254u, 255u, 256u, 257u, 65534u, 65535u, 65536u}) {
+        if (twisted >= cells || !is_looked_at(twisted, cells)) continue;
+        SCOPED_TRACE("cell " + std::to_string(twisted) + " of " + std::to_string(cells) +
+                     " along axis " + std::to_string(axis));
+        std::vector<Vec3> nodes = rest_nodes_at(*shape, Vec3::Zero());
+        for (Vec3& n : nodes)
+          if (n[axis] > twisted)
+            for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) n[k] = 1.0 - n[k];
+        body.begin(nodes);
+        int here = 0, claimed = 0;
+        for (const Patch& patch : patches) {
+          const bool in_it =
+              std::any_of(patch.triangles.begin(), patch.triangles.end(), [&](std::uint32_t t) {
+                const Vec3& corner = shape->mesh.vertices[shape->mesh.triangles[t][0]];
+                return corner[axis] >= twisted && corner[axis] < twisted + 1;
+              });
+          const bool says = stays_embedded(body.state(), tree, patch.child, patch.child);
+          EXPECT_FALSE(in_it && says);
+          here += in_it;
+          claimed += says;
+        }
+        EXPECT_GT(here, 0);
+        // Farther out, cells are too small for floats in the frame of the body.
+        EXPECT_TRUE(claimed > 0 || cells > 300) << "of the others";
+      }
+    }
+}
+
+// Squares of such lengths are no floats, of the largest no doubles either: what was asked of them
+// came out as 0, and held. Powers of two change no digit.
+TEST(EmbeddedPatch, OfABodyOfAnySizeAtRestIsClaimedAsOfOneOfAMetre) {
+  std::vector<Tally> tallies;
+  for (const double size : {1.0, 0x1p-900, 0x1p-540, 0x1p-75, 0x1p75, 0x1p130, 0x1p540, 0x1p1000}) {
+    SCOPED_TRACE(size);
+    TriangleSource random(7);
+    TriangleMesh mesh = sphere_mesh(Vec3::Zero(), 1.0, 3);
+    for (Vec3& v : mesh.vertices) v *= size;
+    const ShapePtr ball = make_shape(mesh, {4, 4, 4});
+    OneBody body(ball, false);
+    const PatchTree tree = make_patch_tree(*ball, body.tree());
+    const std::vector<Patch> patches = patches_of(body);
+    Tally& tally = tallies.emplace_back();
+    for (const double strength : {0.0, 0.03, 0.6}) {
+      std::vector<Vec3> nodes = rest_nodes_at(*ball, Vec3::Zero());
+      // A metre large in its frame, whatever it is at rest.
+      for (Vec3& n : nodes) n = random.point(n / size, strength);
+      body.begin(nodes);
+      check(body, tree, patches, tally);
+    }
+    EXPECT_GT(tally.meeting, 0);
+    EXPECT_GT(tally.claimed, 0);
+    // Areas leave the range of doubles farther out, and the tree is another one.
+    if (std::abs(std::log2(size)) > 500) continue;
+    EXPECT_EQ(tally.claimed, tallies[0].claimed);
+    EXPECT_EQ(tally.refused, tallies[0].refused);
+    EXPECT_EQ(tally.meeting, tallies[0].meeting);
+  }
 }
 
 TEST(EmbeddedPatch, OfTrianglesThatTouchAtRestNothingIsClaimed) {

@@ -149,15 +149,24 @@ def test_bad_arguments_are_refused_with_name_place_and_value(call, sentence):
     assert isinstance(caught.value, contactcheck.InputError)
 
 
-def test_bad_arguments_leave_a_detector_as_it_was():
+def test_a_bad_question_leaves_the_frame_as_it_was():
     detector = updated()
     before = detector.query()["triangles"]
-    for bad in ([V], [V, with_value(np.nan)]):
-        with pytest.raises(contactcheck.InputError):
-            detector.update(bad)
     with pytest.raises(contactcheck.InputError):
         detector.query("faces")
     assert np.array_equal(detector.query()["triangles"], before)
+
+
+def test_a_frame_that_is_refused_is_not_answered_for_by_the_one_before():
+    detector = updated()
+    before = detector.query()["triangles"]
+    for bad in ([V], [V, V[:3]], [V, with_value(np.nan)]):
+        with pytest.raises(contactcheck.InputError):
+            detector.update(bad)
+        with pytest.raises(contactcheck.InputError, match="update.* comes before query"):
+            detector.query()
+        detector.update([V, V])
+        assert np.array_equal(detector.query()["triangles"], before)
 
 
 def test_too_many_triangles_at_one_vertex_are_refused():

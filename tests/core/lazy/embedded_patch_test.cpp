@@ -286,7 +286,7 @@ TEST(EmbeddedPatch, IsNotClaimedOfATwistedCellWhereverItIsAlongAnAxis) {
 // came out as 0, and held. Powers of two change no digit.
 TEST(EmbeddedPatch, OfABodyOfAnySizeAtRestIsClaimedAsOfOneOfAMetre) {
   std::vector<Tally> tallies;
-  for (const double size : {1.0, 0x1p-900, 0x1p-540, 0x1p-75, 0x1p75, 0x1p130, 0x1p540, 0x1p1000}) {
+  for (const double size : {1.0, 0x1p-900, 0x1p-540, 0x1p-75, 0x1p80, 0x1p130, 0x1p540, 0x1p1000}) {
     SCOPED_TRACE(size);
     TriangleSource random(7);
     TriangleMesh mesh = sphere_mesh(Vec3::Zero(), 1.0, 3);

@@ -2,7 +2,6 @@
 // inconsistent. The reader answers each with InputError or with a recording that can be used.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <limits>
@@ -267,83 +266,15 @@ TEST(RecordingDamage, BrokenEmbeddingIsRefused) {
                  "label of triangle 0");
 }
 
-// Whatever maps vertices by their local coordinates would deform another mesh than the one written.
-TEST(RecordingDamage, LocalCoordinatesOfAnotherPlaceAreRefused) {
-  const std::vector<Vec3> local = sample_recording().bodies[0].shape->embedding.local;
-  const auto inner = std::find_if(local.begin(), local.end(), [](const Vec3& x) {
-    return x.x() > 0.25 && x.x() < 0.5;  // where doubles are 2^-54 apart
-  });
-  ASSERT_NE(inner, local.end());
-  const auto vertex = static_cast<std::size_t>(inner - local.begin());
-  const auto moved_by = [&](double distance) {
-    return sample_with([&](BodyShape& s) { s.embedding.local[vertex].x() += distance; });
-  };
-  EXPECT_TRUE(accepted(moved_by(0x1p-51))) << "another order of rounding";
-  EXPECT_TRUE(accepted(moved_by(-0x1p-50)));
-  const std::string because =
-      "local coordinates of vertex " + std::to_string(vertex) + " are not those of its position";
-  expect_refused(moved_by(0x1p-50 + 0x1p-54), because);
-  expect_refused(moved_by(-0x1p-49), because);
-  expect_refused(moved_by(1e-6), because);
-}
-
-// Of three cells in a row that a triangle crosses.
-std::string bridge_with(const std::function<void(BodyShape&)>& change) {
-  Recording recording;
-  const TriangleMesh mesh = {{Vec3(0.25, 0.5, 0.5), Vec3(2.75, 0.25, 0.5), Vec3(2.75, 0.75, 0.5)},
-                             {{0, 1, 2}}};
-  auto shape =
-      std::make_shared<BodyShape>(*make_shape_on_lines(mesh, {{{0, 1, 2, 3}, {0, 1}, {0, 1}}}));
-  change(*shape);
-  recording.scene = "bridge";
-  recording.bodies = {{"a", shape}};
-  recording.time_step = 0.1;
-  recording.frames = {{shape->lattice->rest_nodes()}};
-  return bytes_of(recording);
-}
-
-TEST(RecordingDamage, ATriangleMeetsKeptCellsAloneAndItsLabelNamesThem) {
-  EXPECT_TRUE(accepted(bridge_with([](BodyShape&) {})));
-  expect_refused(bridge_with([](BodyShape& s) {
-                   s.lattice->cells.erase(s.lattice->cells.begin() + 1);
-                   s.lattice->cell_nodes.erase(s.lattice->cell_nodes.begin() + 1);
-                   s.embedding.home_cell = {0, 1, 1};
-                   s.embedding.label_cells = {0, 1};
-                   s.embedding.label_begin = {0, 2};
+// tests/core/deform/shape_check_test.cpp has the limits.
+TEST(RecordingDamage, EmbeddingsThatContradictTheMeshAreRefused) {
+  expect_refused(sample_with([](BodyShape& s) { s.embedding.local[4].x() = 0.5; }),
+                 "local coordinates of vertex 4 are not those of its position");
+  expect_refused(sample_with([](BodyShape& s) {
+                   s.embedding.label_cells.pop_back();
+                   --s.embedding.label_begin.back();
                  }),
-                 "triangle 0 meets cell (1, 0, 0), which is not kept");
-  for (const std::uint32_t left_out : {0u, 1u, 2u})
-    expect_refused(bridge_with([&](BodyShape& s) {
-                     s.embedding.label_cells.erase(s.embedding.label_cells.begin() + left_out);
-                     s.embedding.label_begin = {0, 2};
-                   }),
-                   "triangle 0 meets cell (" + std::to_string(left_out) +
-                       ", 0, 0), which its label does not name");
-  expect_refused(
-      bridge_with([](BodyShape& s) {
-        s.lattice->lines[2] = {0, 1, 2};
-        s.lattice->cells.push_back({0, 0, 1});
-        for (const GridIndex& node :
-             {GridIndex{0, 0, 2}, GridIndex{1, 0, 2}, GridIndex{0, 1, 2}, GridIndex{1, 1, 2}})
-          s.lattice->nodes.push_back(node);
-        const CornerIds& below = s.lattice->cell_nodes[0];
-        s.lattice->cell_nodes.push_back({below[4], below[5], below[6], below[7], 16, 17, 18, 19});
-        s.embedding.label_cells.push_back(3);
-        s.embedding.label_begin = {0, 4};
-      }),
-      "the label of triangle 0 names cell (0, 0, 1), which it does not meet");
-}
-
-TEST(RecordingDamage, LinesFartherApartThanTheLargestDoubleAreRefused) {
-  constexpr double kLargest = std::numeric_limits<double>::max();
-  expect_refused(bridge_with([](BodyShape& s) {
-                   s.lattice->lines[0] = {-kLargest, 1, 2, kLargest};
-                 }),
-                 "local coordinates of vertex 0 are not those of its");
-  expect_refused(bridge_with([](BodyShape& s) {
-                   s.lattice->lines[1] = {-kLargest, kLargest};
-                 }),
-                 "lattice lines of axis 1 are farther apart than the largest double");
+                 "which its label does not name");
 }
 
 }  // namespace

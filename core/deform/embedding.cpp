@@ -9,8 +9,6 @@
 namespace contactcheck {
 namespace {
 
-constexpr std::uint32_t kNotKept = ~0u;
-
 // v and both lines are doubles with lo <= v <= hi: v - lo <= hi - lo survives rounding, so the
 // quotient lies in [0, 1]; it is 0 and 1 exactly on the lines.
 double local_coordinate(double v, double lo, double hi) { return (v - lo) / (hi - lo); }
@@ -42,16 +40,18 @@ SingleLocal single_local(const Embedding& embedding) {
 
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
   const Grid grid(lattice.lines);
-  std::vector<std::uint32_t> number(grid.cell_count(), kNotKept);  // of kept cells
-  for (std::uint32_t c = 0; c < lattice.cells.size(); ++c) number[grid.flat(lattice.cells[c])] = c;
-
+  const auto number = [&](const GridIndex& cell) {
+    const std::size_t found = lattice.first_cell_from(cell);
+    CONTACTCHECK_INVARIANT(found < lattice.cells.size() && lattice.cells[found] == cell,
+                           "cells of vertices and triangles are kept");
+    return static_cast<std::uint32_t>(found);
+  };
   Embedding out;
   out.home_cell.resize(mesh.vertices.size());
   out.local.resize(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3& p = mesh.vertices[v];
-    const std::uint32_t cell = number[grid.flat(grid.cell_of(p))];
-    CONTACTCHECK_INVARIANT(cell != kNotKept, "a vertex's home cell is kept");
+    const std::uint32_t cell = number(grid.cell_of(p));
     const Aabb box = lattice.cell_box(cell);
     out.home_cell[v] = cell;
     for (int k = 0; k < 3; ++k) out.local[v][k] = local_coordinate(p[k], box.lo[k], box.hi[k]);
@@ -61,7 +61,7 @@ Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
   for (const Triangle& t : mesh.triangles) {
     const TrianglePoints points = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     grid.for_cells_meeting(points, [&](const GridIndex& cell) {
-      out.label_cells.push_back(number[grid.flat(cell)]);
+      out.label_cells.push_back(number(cell));
       return true;
     });
     out.label_begin.push_back(static_cast<std::uint32_t>(out.label_cells.size()));

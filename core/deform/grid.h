@@ -15,19 +15,6 @@ class Grid {
  public:
   explicit Grid(const std::array<std::vector<double>, 3>& lines) : lines_(lines) {}
 
-  std::size_t cells(int axis) const { return lines_[axis].size() - 1; }
-  std::size_t cell_count() const { return cells(0) * cells(1) * cells(2); }
-  std::size_t node_count() const { return lines_[0].size() * lines_[1].size() * lines_[2].size(); }
-
-  std::size_t flat(const GridIndex& c) const { return (c[2] * cells(1) + c[1]) * cells(0) + c[0]; }
-  GridIndex unflat(std::size_t i) const { return split(i, cells(0), cells(1)); }
-  std::size_t flat_node(const GridIndex& n) const {
-    return (n[2] * lines_[1].size() + n[1]) * lines_[0].size() + n[0];
-  }
-  GridIndex unflat_node(std::size_t i) const {
-    return split(i, lines_[0].size(), lines_[1].size());
-  }
-
   /// The last interval of `axis` whose lower line is <= x, clamped to the grid. A coordinate on an
   /// inner line belongs to the upper interval: every vertex has one home.
   std::uint32_t interval(int axis, double x) const {
@@ -70,11 +57,6 @@ class Grid {
   }
 
  private:
-  static GridIndex split(std::size_t i, std::size_t nx, std::size_t ny) {
-    return {static_cast<std::uint32_t>(i % nx), static_cast<std::uint32_t>(i / nx % ny),
-            static_cast<std::uint32_t>(i / nx / ny)};
-  }
-
   const std::array<std::vector<double>, 3>& lines_;
 };
 

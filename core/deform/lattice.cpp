@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/deform/grid.h"
@@ -53,62 +52,52 @@ std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
   return lines;
 }
 
-/// By flat index.
-struct KeptFlags {
-  std::vector<bool> flags;
-  std::size_t count = 0;  ///< of those that are set
+// In the order of the grid, each once. No array is as large as the grid: of long lattices most
+// cells are not kept.
+void sort_in_grid(std::vector<GridIndex>& list) {
+  std::sort(list.begin(), list.end(), grid_before);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
-  void set(std::size_t flat) {
-    if (flags[flat]) return;
-    flags[flat] = true;
-    ++count;
-  }
-};
-
-KeptFlags kept_flags(const Grid& grid, const TriangleMesh& mesh) {
-  KeptFlags kept{std::vector<bool>(grid.cell_count(), false)};
+std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
+  std::vector<GridIndex> cells;
   // Every cell that meets a triangle, exactly.
   for (const Triangle& t : mesh.triangles)
     grid.for_cells_meeting({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]},
                            [&](const GridIndex& cell) {
-                             kept.set(grid.flat(cell));
+                             cells.push_back(cell);
                              return true;
                            });
   // A vertex without a triangle still needs a home.
-  for (const Vec3& v : mesh.vertices) kept.set(grid.flat(grid.cell_of(v)));
-  return kept;
-}
-
-std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
-  const std::vector<bool> kept = kept_flags(grid, mesh).flags;
-  std::vector<GridIndex> cells;
-  for (std::size_t flat = 0; flat < kept.size(); ++flat) {
-    if (kept[flat]) cells.push_back(grid.unflat(flat));
-  }
+  for (const Vec3& v : mesh.vertices) cells.push_back(grid.cell_of(v));
+  sort_in_grid(cells);
   return cells;
 }
 
-void number_nodes(const Grid& grid, Lattice& lattice) {
-  std::vector<bool> used(grid.node_count(), false);
+void number_nodes(Lattice& lattice) {
   const auto corner = [](const GridIndex& cell, int c) {
     return GridIndex{cell[0] + (c & 1), cell[1] + (c >> 1 & 1), cell[2] + (c >> 2 & 1)};
   };
   for (const GridIndex& cell : lattice.cells)
-    for (int c = 0; c < 8; ++c) used[grid.flat_node(corner(cell, c))] = true;
-  std::vector<std::uint32_t> number(used.size(), 0);
-  for (std::size_t flat = 0; flat < used.size(); ++flat) {
-    if (!used[flat]) continue;
-    number[flat] = static_cast<std::uint32_t>(lattice.nodes.size());
-    lattice.nodes.push_back(grid.unflat_node(flat));
-  }
+    for (int c = 0; c < 8; ++c) lattice.nodes.push_back(corner(cell, c));
+  sort_in_grid(lattice.nodes);
   for (const GridIndex& cell : lattice.cells) {
     CornerIds ids;
-    for (int c = 0; c < 8; ++c) ids[c] = number[grid.flat_node(corner(cell, c))];
+    for (int c = 0; c < 8; ++c)
+      ids[c] =
+          static_cast<std::uint32_t>(std::lower_bound(lattice.nodes.begin(), lattice.nodes.end(),
+                                                      corner(cell, c), grid_before) -
+                                     lattice.nodes.begin());
     lattice.cell_nodes.push_back(ids);
   }
 }
 
 }  // namespace
+
+std::size_t Lattice::first_cell_from(const GridIndex& at) const {
+  return static_cast<std::size_t>(std::lower_bound(cells.begin(), cells.end(), at, grid_before) -
+                                  cells.begin());
+}
 
 Vec3 Lattice::rest_node(std::uint32_t node) const {
   const GridIndex& g = nodes[node];
@@ -142,7 +131,7 @@ Lattice make_lattice_on_lines(const TriangleMesh& mesh, std::array<std::vector<d
   lattice.lines = std::move(lines);
   const Grid grid(lattice.lines);
   lattice.cells = kept_cells(grid, mesh);
-  number_nodes(grid, lattice);
+  number_nodes(lattice);
   return lattice;
 }
 
@@ -161,9 +150,8 @@ Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, do
   // Kept cells grow about quadratically with the divisions: stop once far beyond the wish.
   for (int divisions = 1; divisions <= 256; ++divisions) {
     const Resolution r = resolution_at(divisions);
-    // Counted as they are set: a mesh that is small in its box is tried in grids of 256^3 cells.
     const auto lines = make_lines(mesh, r, padding);
-    const std::size_t kept = kept_flags(Grid(lines), mesh).count;
+    const std::size_t kept = kept_cells(Grid(lines), mesh).size();
     const std::size_t gap = kept > wanted ? kept - wanted : wanted - kept;
     if (gap < best_gap) {
       best_gap = gap;

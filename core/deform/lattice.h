@@ -37,6 +37,8 @@ struct Lattice {
   std::vector<GridIndex> nodes;       ///< nodes of kept cells, ascending in (z, y, x)
   std::vector<CornerIds> cell_nodes;  ///< per kept cell: indices into `nodes`
 
+  /// The first kept cell that is not before `at` in the grid, or how many there are.
+  std::size_t first_cell_from(const GridIndex& at) const;
   Vec3 rest_node(std::uint32_t node) const;
   std::vector<Vec3> rest_nodes() const;
   Aabb cell_box(std::uint32_t cell) const;

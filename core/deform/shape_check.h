@@ -122,8 +122,8 @@ inline std::string labels_fault(const TriangleMesh& mesh, const Lattice& lattice
         {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]},
         [&](const GridIndex& cell) {
           if (named < label.size() && lattice.cells[label[named]] == cell) return ++named, true;
-          const bool kept =
-              std::binary_search(lattice.cells.begin(), lattice.cells.end(), cell, grid_before);
+          const std::size_t at = lattice.first_cell_from(cell);
+          const bool kept = at < lattice.cells.size() && lattice.cells[at] == cell;
           fault = "triangle " + std::to_string(t) + " meets cell " + cell_name(cell) +
                   (kept ? ", which its label does not name" : ", which is not kept");
           return false;

@@ -156,13 +156,6 @@ double smallest_eigenvalue(const Eigen::Matrix3d& m) {
 
 constexpr std::uint8_t kUnknown = 0, kEmbedded = 1, kNotTold = 2;
 
-// The first kept cell that is not before `at`.
-std::size_t first_kept(const Lattice& lattice, const GridIndex& at) {
-  return static_cast<std::size_t>(
-      std::lower_bound(lattice.cells.begin(), lattice.cells.end(), at, grid_before) -
-      lattice.cells.begin());
-}
-
 // The conditions of the claim for one frame.
 bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& patch) {
   const Lattice& lattice = *state.shape->lattice;
@@ -183,7 +176,7 @@ bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& pa
   }
   for (std::uint32_t z = patch.first_cell[2]; z <= patch.last_cell[2]; ++z)
     for (std::uint32_t y = patch.first_cell[1]; y <= patch.last_cell[1]; ++y)
-      for (std::size_t cell = first_kept(lattice, {patch.first_cell[0], y, z});
+      for (std::size_t cell = lattice.first_cell_from({patch.first_cell[0], y, z});
            cell < lattice.cells.size() &&
            !grid_before({patch.last_cell[0], y, z}, lattice.cells[cell]);
            ++cell) {

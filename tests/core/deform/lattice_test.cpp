@@ -24,13 +24,15 @@ TrianglePoints points_of(const TriangleMesh& mesh, const Triangle& t) {
 std::vector<GridIndex> kept_by_brute_force(const TriangleMesh& mesh, const Lattice& lattice) {
   const Grid grid(lattice.lines);
   std::vector<GridIndex> kept;
-  for (std::size_t flat = 0; flat < grid.cell_count(); ++flat) {
-    const GridIndex cell = grid.unflat(flat);
-    const bool met = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+  const auto met = [&](const GridIndex& cell) {
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
       return triangle_meets_box(points_of(mesh, t), grid.cell_box(cell));
     });
-    if (met) kept.push_back(cell);
-  }
+  };
+  for (std::uint32_t z = 0; z + 1 < lattice.lines[2].size(); ++z)
+    for (std::uint32_t y = 0; y + 1 < lattice.lines[1].size(); ++y)
+      for (std::uint32_t x = 0; x + 1 < lattice.lines[0].size(); ++x)
+        if (met({x, y, z})) kept.push_back({x, y, z});
   return kept;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 #include "core/deform/mapping.h"
@@ -11,6 +12,8 @@ namespace contactcheck {
 namespace {
 
 std::shared_ptr<BodyShape> checked_shape(TriangleMesh mesh) {
+  const std::string too_large = mesh_size_fault(mesh.vertices.size(), mesh.triangles.size());
+  if (!too_large.empty()) throw InputError("the mesh cannot be used: it " + too_large);
   auto shape = std::make_shared<BodyShape>();
   shape->mesh = std::move(mesh);
   shape->topology = analyse_topology(shape->mesh);

@@ -37,14 +37,14 @@ struct Body {
 };
 
 /// Builds a shape in a lattice of the given resolution.
-/// @throws InputError when the mesh has a fatal defect
+/// @throws InputError when the mesh has a fatal defect or is too large (mesh_size_fault)
 std::shared_ptr<const BodyShape> make_shape(TriangleMesh mesh, const Resolution& resolution,
                                             double padding = 0.02);
 /// Builds a shape in a lattice on given grid lines (make_lattice_on_lines).
-/// @throws InputError when the mesh has a fatal defect
+/// @throws InputError when the mesh has a fatal defect or is too large (mesh_size_fault)
 std::shared_ptr<const BodyShape> make_shape_on_lines(TriangleMesh mesh,
                                                      std::array<std::vector<double>, 3> lines);
-/// Builds a shape without a lattice (static or recorded).
+/// Builds a shape without a lattice (static or recorded). @throws InputError likewise
 std::shared_ptr<const BodyShape> make_bare_shape(TriangleMesh mesh);
 
 /// The same shape, its mesh welded: vertices with equal coordinates at rest (-0 = 0) are one.

@@ -247,8 +247,10 @@ std::shared_ptr<const BodyShape> read_shape(ByteReader& in, std::size_t number,
     in.fail("shape " + std::to_string(number) + " does not have the hash it is keyed by",
             begin - 8);
   }
+  std::string fault = mesh_size_fault(shape->mesh.vertices.size(), shape->mesh.triangles.size());
+  if (!fault.empty()) in.fail("shape " + std::to_string(number) + ": the mesh " + fault, begin);
   shape->topology = analyse_topology(shape->mesh);
-  const std::string fault = shape_fault(*shape);
+  fault = shape_fault(*shape);
   if (!fault.empty()) in.fail("shape " + std::to_string(number) + ": " + fault, begin);
   if (shape->lattice) sort_by_cell(shape->lattice->cells.size(), shape->embedding);
   if ((flags & kIsWelded) != 0) return welded(*shape);

@@ -174,6 +174,16 @@ std::size_t MeshTopology::count(MeshDefectKind kind) const {
       defects.begin(), defects.end(), [&](const MeshDefect& d) { return d.kind == kind; }));
 }
 
+std::string mesh_size_fault(std::uint64_t vertices, std::uint64_t triangles) {
+  const auto more = [](std::uint64_t count, const char* of, std::uint64_t most) {
+    return "has " + std::to_string(count) + " " + of + "; at most " + std::to_string(most) +
+           " can be judged";
+  };
+  if (vertices > kMostMeshVertices) return more(vertices, "vertices", kMostMeshVertices);
+  if (triangles > kMostMeshTriangles) return more(triangles, "triangles", kMostMeshTriangles);
+  return "";
+}
+
 MeshTopology analyse_topology(const TriangleMesh& mesh) {
   MeshTopology out;
   check_vertices_and_indices(mesh, out);

@@ -46,7 +46,16 @@ struct MeshTopology {
   std::size_t count(MeshDefectKind kind) const;
 };
 
-/// Lists every defect of `mesh`; never throws for bad meshes.
+/// Of a mesh that is used. So many triangles have fewer corners than 2^32 and fewer blocks of a
+/// tree than 2^29 (core/lazy); indices of vertices fit into 31 bits, as those of Python's arrays
+/// do.
+inline constexpr std::uint64_t kMostMeshTriangles = std::uint64_t{1} << 29;
+inline constexpr std::uint64_t kMostMeshVertices = (std::uint64_t{1} << 31) - 1;
+
+/// "has 600000000 triangles; at most 536870912 can be judged"; empty for a mesh within the limits.
+std::string mesh_size_fault(std::uint64_t vertices, std::uint64_t triangles);
+
+/// Lists every defect of `mesh`; never throws for bad meshes. @pre no mesh_size_fault()
 MeshTopology analyse_topology(const TriangleMesh& mesh);
 
 /// "3 boundary-edge (first: triangle 17), 1 zero-area-triangle (triangle 4)"; empty without

@@ -198,5 +198,16 @@ TEST(MeshTopology, DescribeCountsKindsAndNamesTheFirstIndex) {
   EXPECT_EQ(describe(analyse_topology(mesh)), "2 non-finite-vertex (first: vertex 1)");
 }
 
+TEST(MeshSizeFault, NamesWhatIsBeyondItsLimit) {
+  for (const std::uint64_t below : {std::uint64_t{1}, std::uint64_t{0}}) {
+    EXPECT_EQ(mesh_size_fault(kMostMeshVertices - below, 1), "");
+    EXPECT_EQ(mesh_size_fault(3, kMostMeshTriangles - below), "");
+  }
+  EXPECT_EQ(mesh_size_fault(kMostMeshVertices + 1, 1),
+            "has 2147483648 vertices; at most 2147483647 can be judged");
+  EXPECT_EQ(mesh_size_fault(3, kMostMeshTriangles + 1),
+            "has 536870913 triangles; at most 536870912 can be judged");
+}
+
 }  // namespace
 }  // namespace contactcheck

@@ -5,6 +5,7 @@
 
 #include "core/deform/grid.h"
 #include "core/types/check.h"
+#include "core/types/count.h"
 
 namespace contactcheck {
 namespace {
@@ -64,7 +65,8 @@ Embedding embed(const TriangleMesh& mesh, const Lattice& lattice) {
       out.label_cells.push_back(number(cell));
       return true;
     });
-    out.label_begin.push_back(static_cast<std::uint32_t>(out.label_cells.size()));
+    out.label_begin.push_back(
+        in_32_bits<InputError>(out.label_cells.size(), "cells in the labels of triangles"));
   }
   sort_by_cell(lattice.cells.size(), out);
   return out;

@@ -45,6 +45,7 @@ using SingleLocal = std::array<std::vector<float>, 3>;
 SingleLocal single_local(const Embedding& embedding);
 
 /// @pre the lattice was made for this mesh by make_lattice
+/// @throws InputError when the labels have more cells together than 32 bits number
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice);
 
 }  // namespace contactcheck

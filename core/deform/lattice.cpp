@@ -7,6 +7,7 @@
 #include "core/deform/grid.h"
 #include "core/narrow/triangle_box.h"
 #include "core/types/check.h"
+#include "core/types/count.h"
 
 namespace contactcheck {
 namespace {
@@ -81,6 +82,7 @@ void number_nodes(Lattice& lattice) {
   for (const GridIndex& cell : lattice.cells)
     for (int c = 0; c < 8; ++c) lattice.nodes.push_back(corner(cell, c));
   sort_in_grid(lattice.nodes);
+  in_32_bits<InputError>(lattice.nodes.size(), "nodes of kept cells");
   for (const GridIndex& cell : lattice.cells) {
     CornerIds ids;
     for (int c = 0; c < 8; ++c)
@@ -120,9 +122,19 @@ Aabb Lattice::cell_box(std::uint32_t cell) const {
   return box;
 }
 
+void refuse_fine_resolution(const Resolution& resolution) {
+  const std::array<std::uint32_t, 3> cells = {resolution.x, resolution.y, resolution.z};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (cells[k] > kMostCellsOfAxis)
+      throw InputError("the lattice cannot have " + std::to_string(cells[k]) +
+                       " cells along axis " + "xyz"[k] + ": at most " +
+                       std::to_string(kMostCellsOfAxis) + " are made");
+}
+
 Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding) {
   CONTACTCHECK_INVARIANT(resolution.x > 0 && resolution.y > 0 && resolution.z > 0,
                          "a lattice has at least one cell per axis");
+  refuse_fine_resolution(resolution);
   return make_lattice_on_lines(mesh, make_lines(mesh, resolution, padding));
 }
 

@@ -58,15 +58,23 @@ struct Resolution {
   std::uint32_t x = 1, y = 1, z = 1;
 };
 
+/// Along one axis of a regular lattice; 2^24 + 1 grid lines are 128 MiB.
+inline constexpr std::uint32_t kMostCellsOfAxis = std::uint32_t{1} << 24;
+
+/// @throws InputError, naming axis and number, for more than kMostCellsOfAxis
+void refuse_fine_resolution(const Resolution& resolution);
+
 /// A regular lattice round `mesh` (padding: fraction of the largest side added on each side), with
 /// the cells kept that hold surface: whose closed box meets a triangle (exactly), or that are the
 /// home of a vertex.
 /// @pre the mesh has no fatal defect; each resolution is at least 1
-/// @throws InputError when the mesh lies too far out for grid lines that differ as doubles
+/// @throws InputError when the mesh lies too far out for grid lines that differ as doubles, as
+/// refuse_fine_resolution() does, and when the kept cells have more nodes than 32 bits number
 Lattice make_lattice(const TriangleMesh& mesh, const Resolution& resolution, double padding);
 
 /// A lattice on given grid lines, with the same cells kept. @pre as Lattice::lines; the mesh lies
 /// within them
+/// @throws InputError when the kept cells have more nodes than 32 bits number
 Lattice make_lattice_on_lines(const TriangleMesh& mesh, std::array<std::vector<double>, 3> lines);
 
 /// The resolution of near-cubic cells whose lattice keeps a number of cells nearest to `wanted`.

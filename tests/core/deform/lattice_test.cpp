@@ -156,6 +156,21 @@ TEST(Lattice, TooFineForDoublesIsRefusedWithTheAxis) {
   }
 }
 
+TEST(Lattice, MoreCellsOfAnAxisThanAreMadeAreRefused) {
+  for (const std::uint32_t cells : {kMostCellsOfAxis - 1, kMostCellsOfAxis})
+    EXPECT_NO_THROW(refuse_fine_resolution({cells, cells, cells}));
+  for (const std::uint32_t cells : {kMostCellsOfAxis + 1, ~0u}) {
+    EXPECT_THROW(refuse_fine_resolution({cells, 1, 1}), InputError);
+    EXPECT_THROW(refuse_fine_resolution({1, cells, 1}), InputError);
+    try {
+      make_lattice(test::unit_box_mesh(1), {1, 1, cells}, 0.02);
+      FAIL() << "no error";
+    } catch (const InputError& e) {
+      EXPECT_THAT(e.what(), ::testing::HasSubstr(std::to_string(cells) + " cells along axis z"));
+    }
+  }
+}
+
 TEST(Lattice, OverflowingMeshIsRefused) {
   const TriangleMesh mesh = test::triangle_mesh({-1.7e308, 0, 0}, {1.7e308, 0, 0}, {0, 1, 0});
   EXPECT_THROW(make_lattice(mesh, {2, 2, 2}, 0.02), InputError);

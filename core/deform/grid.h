@@ -36,7 +36,8 @@ class Grid {
   }
 
   /// Calls `visit(GridIndex)` for every cell whose closed box meets the closed triangle, exactly,
-  /// in ascending (z, y, x) order, until it returns false.
+  /// in ascending (z, y, x) order, until it returns false. Its time grows with the cells that are
+  /// met, not with those of the triangle's box: a needle may lie across a grid of any size.
   template <typename Visit>
   void for_cells_meeting(const TrianglePoints& triangle, Visit&& visit) const {
     Aabb box;
@@ -48,15 +49,31 @@ class Grid {
       // On a line, the interval below is met too.
       if (lo[k] > 0 && lines_[k][lo[k]] == box.lo[k]) --lo[k];
     }
-    for (std::uint32_t z = lo[2]; z <= hi[2]; ++z)
-      for (std::uint32_t y = lo[1]; y <= hi[1]; ++y)
-        for (std::uint32_t x = lo[0]; x <= hi[0]; ++x) {
-          const GridIndex cell{x, y, z};
-          if (triangle_meets_box(triangle, cell_box(cell)) && !visit(cell)) return;
-        }
+    visit_part(triangle, lo, hi, visit);
   }
 
  private:
+  /// The cells from `lo` to `hi` of which some are met; false: `visit` said so.
+  template <typename Visit>
+  bool visit_part(const TrianglePoints& triangle, const GridIndex& lo, const GridIndex& hi,
+                  Visit& visit) const {
+    // Halves of z, then of y, then of x: so cells come in their order.
+    const std::size_t axis = lo[2] < hi[2] ? 2 : lo[1] < hi[1] ? 1 : 0;
+    if (lo[axis] == hi[axis]) return !triangle_meets_box(triangle, cell_box(lo)) || visit(lo);
+    GridIndex last = hi, first = lo;
+    last[axis] = lo[axis] + (hi[axis] - lo[axis]) / 2;
+    first[axis] = last[axis] + 1;
+    return visit_half(triangle, lo, last, visit) && visit_half(triangle, first, hi, visit);
+  }
+  template <typename Visit>
+  bool visit_half(const TrianglePoints& triangle, const GridIndex& lo, const GridIndex& hi,
+                  Visit& visit) const {
+    Aabb box = cell_box(lo);
+    box.extend(cell_box(hi));
+    // One cell is tested where it is visited.
+    return (lo != hi && !triangle_meets_box(triangle, box)) || visit_part(triangle, lo, hi, visit);
+  }
+
   const std::array<std::vector<double>, 3>& lines_;
 };
 

@@ -171,6 +171,14 @@ TEST(Lattice, MoreCellsOfAnAxisThanAreMadeAreRefused) {
   }
 }
 
+// Its box has 5e8 cells.
+TEST(Lattice, NeedleAcrossAFineGridTakesTheTimeOfTheCellsThatItMeets) {
+  const Lattice lattice = make_lattice(
+      test::triangle_mesh({0, 0, 0}, {1, 0.83, 0.71}, {0.5, 0.42, 0.35}), {1000, 900, 800}, 0.02);
+  EXPECT_GT(lattice.cells.size(), 900u);
+  EXPECT_LT(lattice.cells.size(), 50'000u);
+}
+
 TEST(Lattice, OverflowingMeshIsRefused) {
   const TriangleMesh mesh = test::triangle_mesh({-1.7e308, 0, 0}, {1.7e308, 0, 0}, {0, 1, 0});
   EXPECT_THROW(make_lattice(mesh, {2, 2, 2}, 0.02), InputError);

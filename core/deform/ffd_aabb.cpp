@@ -58,6 +58,11 @@ Aabb clipped_bounds(std::array<Vec3, 3> local) {
     polygon.push(p);
     whole.extend(p);
   }
+  // A cut rounds by 2^-52 of the triangle. Of one that is huge beside the cell, as beside a
+  // recorded cell that is thin, the place of a cut would be anything, or no number.
+  constexpr double kLargest = 0x1p20;
+  if (!(whole.lo.cwiseAbs().maxCoeff() <= kLargest && whole.hi.cwiseAbs().maxCoeff() <= kLargest))
+    return clamp_to_unit(whole);
   for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) {
     polygon = clip(polygon, axis, 0.0, -1.0);
     if (polygon.size > 0) polygon = clip(polygon, axis, 1.0, 1.0);

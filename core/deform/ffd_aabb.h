@@ -13,7 +13,8 @@ namespace contactcheck {
 
 /// Per kept cell, at rest: bounds in (s, t, u), within [0, 1]^3, of every triangle of that label
 /// clipped to the cell. Never empty: a kept cell meets surface.
-/// The doubles returned here are the definition of the box (clipping rounds).
+/// The doubles returned here are the definition of the box (clipping rounds). A triangle that
+/// reaches more than 2^20 sides of the cell beyond it counts as its own box, clipped to the cell.
 std::vector<Aabb> ffd_aabbs(const TriangleMesh& mesh, const Lattice& lattice,
                             const Embedding& embedding);
 

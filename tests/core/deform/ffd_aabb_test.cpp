@@ -109,6 +109,28 @@ TEST(FfdAabb, OfATouchedCellIsThePointOfTouch) {
   EXPECT_EQ(boxes[1].hi, Vec3(0.0, 0.5, 0.5));
 }
 
+// One cell is thin: the triangle reaches far beyond it, and crosses it from corner to corner.
+std::vector<Aabb> boxes_with_a_thin_cell(double thin, double far) {
+  Lattice lattice;
+  lattice.lines = {std::vector<double>{0.0, thin, far}, {0.0, thin, far}, {0.0, 1.0}};
+  lattice.cells = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  return boxes_of(test::triangle_mesh({0, 0, 0}, {far, far, 0}, {far, far, 1}), lattice);
+}
+
+TEST(FfdAabb, OfAThinCellHoldsWhatCrossesIt) {
+  // Below and above the limit beyond which nothing is cut, and where a cut would be no number.
+  for (const double far : {0x1p20 - 1, 0x1p20, 0x1p20 + 1, 1e30, 1e150}) {
+    const Aabb box = boxes_with_a_thin_cell(1.0, far)[0];
+    EXPECT_EQ(box.lo, Vec3(0, 0, 0)) << far;
+    EXPECT_EQ(box.hi.head<2>(), Eigen::Vector2d(1, 1)) << far;
+    EXPECT_GE(box.hi.z(), 0.99 / far) << far;
+    EXPECT_LE(box.hi.z(), far > 0x1p20 ? 1.0 : 1.01 / far) << far;
+  }
+  const Aabb box = boxes_with_a_thin_cell(1e-200, 1e150)[0];
+  EXPECT_EQ(box.lo, Vec3(0, 0, 0));
+  EXPECT_EQ(box.hi, Vec3(1, 1, 1));
+}
+
 TEST(MappedBox, TakesTheCornersThroughTheCellsNodes) {
   const auto shape = make_shape(test::unit_box_mesh(1), {1, 1, 1}, 0.5);  // [-1/2, 3/2]^3
   std::vector<Vec3> nodes = shape->lattice->rest_nodes();

@@ -8,6 +8,7 @@
 #include "core/broad/sphere.h"
 #include "core/deform/mapping.h"
 #include "core/types/check.h"
+#include "core/types/count.h"
 
 namespace contactcheck {
 namespace {
@@ -71,6 +72,8 @@ class Builder {
     collect_support();
     find_center();
     BdSphere sphere;
+    in_32_bits<RefusedInput>(model_.influences.size() + support_.size(),
+                             "lattice nodes of all spheres of the BD-tree together");
     sphere.first = static_cast<std::uint32_t>(model_.influences.size());
     sphere.count = static_cast<std::uint32_t>(support_.size());
     find_spreads();

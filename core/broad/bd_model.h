@@ -57,12 +57,12 @@ inline double blend_error_bound(std::size_t count, double largest) {
   return static_cast<double>(count) * 0x1p-52 * largest + 0x1p-1000;
 }
 
-/// @throws RefusedInput when the shape has no lattice
+/// @throws RefusedInput when the shape has no lattice, or more influences than 32 bits number
 /// @pre leaf_size >= 1, the mesh has a triangle
 std::shared_ptr<const BdModel> make_bd_model(const BodyShape& shape, std::uint32_t leaf_size);
 
 /// One model per body; bodies of one shape share theirs.
-/// @throws RefusedInput naming the first body without a lattice
+/// @throws RefusedInput naming the first body that make_bd_model() refuses
 std::vector<std::shared_ptr<const BdModel>> make_bd_models(const std::vector<Body>& bodies,
                                                            std::uint32_t leaf_size);
 

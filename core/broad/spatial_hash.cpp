@@ -4,15 +4,20 @@
 #include <bit>
 #include <numeric>
 
+#include "core/types/check.h"
+#include "core/types/count.h"
+
 namespace contactcheck {
 
+std::uint32_t hash_table_size(std::uint32_t wanted, std::uint64_t entries) {
+  const std::uint32_t count = in_32_bits<RefusedInput>(entries, "entries of the spatial hash");
+  return std::bit_ceil(std::min(wanted > 0 ? wanted : std::max(1u, count), kLargestHashTable));
+}
+
 void SpatialHash::build() {
-  const auto wanted = wanted_size_ > 0
-                          ? wanted_size_
-                          : static_cast<std::uint32_t>(std::max<std::size_t>(1, entries_.size()));
-  const std::uint32_t size = std::bit_ceil(wanted);
+  const std::uint32_t size = hash_table_size(wanted_size_, entries_.size());
   mask_ = size - 1;
-  begin_.assign(size + 1, 0);
+  begin_.assign(std::size_t{size} + 1, 0);
   for (const Entry& e : entries_) ++begin_[slot(e.key) + 1];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   sorted_.resize(entries_.size());

@@ -35,6 +35,14 @@ GridKey grid_key(const Vec3Of<T>& p, T cell_size) {
           grid_coordinate(p.z(), cell_size)};
 }
 
+/// The largest power of two that 32 bits hold.
+inline constexpr std::uint32_t kLargestHashTable = std::uint32_t{1} << 31;
+
+/// Buckets of a table: `wanted`, or as many as entries (0), rounded up to a power of two, at least
+/// one and at most kLargestHashTable.
+/// @throws RefusedInput for more entries than 32 bits number
+std::uint32_t hash_table_size(std::uint32_t wanted, std::uint64_t entries);
+
 /// A table built once per frame. Keys that fall into one bucket are told apart by their
 /// coordinates, so what lookups find does not depend on the table's size.
 class SpatialHash {
@@ -44,8 +52,7 @@ class SpatialHash {
     std::uint32_t id = 0;
   };
 
-  /// `table_size` 0: the smallest power of two that is at least the number of entries; otherwise
-  /// rounded up to a power of two.
+  /// `table_size`: see hash_table_size().
   explicit SpatialHash(std::uint32_t table_size = 0) : wanted_size_(table_size) {}
 
   /// Keeps the memory, so a table reused from frame to frame does not allocate.
@@ -55,7 +62,7 @@ class SpatialHash {
     wanted_size_ = table_size;
   }
   void insert(const GridKey& key, std::uint32_t id) { entries_.push_back({key, id}); }
-  /// To be called between the last insert and the first lookup.
+  /// To be called between the last insert and the first lookup. @throws as hash_table_size() does
   void build();
   /// Entries of one bucket: those with other keys are the caller's to skip.
   std::span<const Entry> bucket(const GridKey& key) const { return bucket_at(slot(key)); }

@@ -9,6 +9,7 @@
 #include "core/broad/sphere.h"
 #include "core/deform/ffd_aabb.h"
 #include "core/types/check.h"
+#include "core/types/count.h"
 
 namespace contactcheck {
 namespace {
@@ -18,6 +19,7 @@ Aabb unit_box() { return {Vec3::Zero(), Vec3::Ones()}; }
 // Turns (row, value) pairs, given in ascending order of value per row, into rows.
 Rows make_rows(std::size_t rows,
                const std::vector<std::pair<std::uint32_t, std::uint32_t>>& items) {
+  in_32_bits<RefusedInput>(items.size(), "items of cells or nodes");
   Rows out;
   out.begin.assign(rows + 1, 0);
   for (const auto& [row, value] : items) ++out.begin[row + 1];
@@ -52,6 +54,8 @@ void add_safe_pieces(const BodyShape& shape, CellVolume volume, std::uint32_t ce
 }
 
 void index_pieces(std::size_t kept, FfdModel& model) {
+  // As many as probes: eight corners each (hash_stage.h).
+  in_32_bits<RefusedInput>(8 * model.pieces.size(), "corners of the boxes of cells");
   model.piece_begin.assign(kept + 1, 0);
   for (const FfdPiece& p : model.pieces) {
     ++model.piece_begin[p.cell + 1];

@@ -86,7 +86,7 @@ using FfdModel = FfdModelOf<double>;
 /// hold the rounded local coordinates of their vertices as they held the doubles.
 FfdModelOf<float> rounded_model(FfdModel model);
 
-/// @throws RefusedInput when the shape has no lattice
+/// @throws RefusedInput when the shape has no lattice, or more of anything than 32 bits number
 FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config);
 
 }  // namespace contactcheck

@@ -8,9 +8,18 @@
 
 #include "core/lazy/partition.h"
 #include "core/types/check.h"
+#include "core/types/count.h"
+#include "core/types/mesh_topology.h"
 
 namespace contactcheck {
 namespace {
+
+// What a mesh may have at most is what the narrow numbers of a tree hold
+// (core/types/mesh_topology.h).
+static_assert(3 * kMostMeshTriangles <= kMostNumbered, "vertices and runs of leaves, with repeats");
+static_assert(kMostMeshTriangles <= TreeChild::kLeaf, "leaves");
+static_assert(kMostMeshTriangles * kBlockWidth <= kMostNumbered + 1, "children of blocks");
+static_assert(3 * kLeafTriangles <= 256, "vertices of a leaf, in LeafCorners");
 
 // A piece of a child: what it has in one home cell.
 struct Piece {
@@ -63,12 +72,12 @@ class TreeBuilder {
       others.insert(others.end(), pieces.begin() + 1, pieces.end());
     }
     out_.slabs.push_back(slabs);
-    block.begin = static_cast<std::uint32_t>(out_.pieces.size());
+    block.begin = in_32_bits<RefusedInput>(out_.pieces.size(), "pieces of blocks");
     put_lanes(first);
     for (std::size_t i = 0; i < others.size(); i += kBlockWidth)
       put_lanes(
           std::span(others).subspan(i, std::min<std::size_t>(kBlockWidth, others.size() - i)));
-    block.end = static_cast<std::uint32_t>(out_.pieces.size());
+    block.end = in_32_bits<RefusedInput>(out_.pieces.size(), "pieces of blocks");
   }
 
   template <typename Visit>

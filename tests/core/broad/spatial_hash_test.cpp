@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/types/check.h"
 #include "tests/support/random_triangles.h"
 
 namespace contactcheck {
@@ -156,6 +157,22 @@ TEST(SpatialHash, EmptyTableFindsNothing) {
     hash.build();
     EXPECT_TRUE(owners_at(hash, {0, 0, 0}).empty());
   }
+}
+
+TEST(HashTableSize, IsAPowerOfTwoUpToTheLargestOf32Bits) {
+  EXPECT_EQ(hash_table_size(0, 0), 1u);
+  EXPECT_EQ(hash_table_size(0, 5), 8u);
+  EXPECT_EQ(hash_table_size(3, 5), 4u);
+  EXPECT_EQ(hash_table_size(0, kLargestHashTable - 1), kLargestHashTable);
+  EXPECT_EQ(hash_table_size(0, kLargestHashTable), kLargestHashTable);
+  EXPECT_EQ(hash_table_size(0, std::uint64_t{kLargestHashTable} + 1), kLargestHashTable);
+  EXPECT_EQ(hash_table_size(kLargestHashTable + 1, 5), kLargestHashTable);
+  EXPECT_EQ(hash_table_size(~0u, ~0u), kLargestHashTable);
+}
+
+TEST(HashTableSize, MoreEntriesThan32BitsNumberAreRefused) {
+  EXPECT_NO_THROW(hash_table_size(1, 0xffffffff));
+  EXPECT_THROW(hash_table_size(1, 0x100000000), RefusedInput);
 }
 
 }  // namespace

@@ -128,8 +128,9 @@ class TreeBuilder {
       sum += (rest(b) - rest(a)).cross(rest(c) - rest(a));
     }
     const Vec3 normal = sum.cwiseProduct(sides);
+    // All of it: what the largest of numbers with a NaN among them is, nobody promises.
     const double largest = normal.cwiseAbs().maxCoeff();
-    if (!(largest > 0.0) || !std::isfinite(largest)) return {1, 0, 0};
+    if (!normal.allFinite() || !(largest > 0.0)) return {1, 0, 0};
     return (normal / largest * BlockSlabs::kNormalSteps).array().round().cast<int>();
   }
 

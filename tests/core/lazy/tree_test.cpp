@@ -207,6 +207,49 @@ TEST(LatticeTree, QuantisesLocalCoordinatesOutward) {
   EXPECT_GT(vertices, 10000);
 }
 
+// Along the normal that is stored, which is what the bounds are made with.
+void expect_slabs_hold(const BodyShape& shape, const LatticeTree& tree) {
+  for (std::size_t b = 0; b < tree.blocks.size(); ++b)
+    for (std::uint32_t c = 0; c < tree.blocks[b].children; ++c) {
+      Vec3 m;
+      for (int k = 0; k < 3; ++k) m[k] = tree.slabs[b].normal[k][c];
+      EXPECT_EQ(m.cwiseAbs().maxCoeff() > 0.0, true);
+      for (std::uint32_t t : triangles_under(tree, tree.blocks[b].child[c]))
+        for (std::uint32_t v : shape.mesh.triangles[t])
+          for (const Lane& lane : lanes_of(tree, tree.blocks[b], c, shape.embedding.home_cell[v])) {
+            const double along = m.dot(centred(shape.embedding, v));
+            EXPECT_LE(lane.pieces.slab_lo[lane.lane], along);
+            EXPECT_GE(lane.pieces.slab_hi[lane.lane], along);
+          }
+    }
+}
+
+TEST(LatticeTree, SlabsHoldTheirVertices) {
+  for_each_tree([](const BodyShape& shape, const LatticeTree& tree) {
+    if (shape.lattice) expect_slabs_hold(shape, tree);
+  });
+}
+
+// Products of two sides overflow, and their difference is no number.
+TEST(LatticeTree, SlabsHoldVerticesWhoseNormalIsNoNumber) {
+  for (int axis = 0; axis < 3; ++axis) {
+    SCOPED_TRACE(axis);
+    const auto turned = [axis](double x, double flat, double z) {
+      Vec3 out;
+      out[(axis + 2) % 3] = x, out[axis] = flat, out[(axis + 1) % 3] = z;
+      return out;
+    };
+    TriangleMesh mesh = test::triangle_mesh(turned(-1e160, 1e-200, -1e160),
+                                            turned(1e160, -1e-200, 0), turned(0, 2e-200, 1e160));
+    mesh.vertices.push_back(turned(0, 3e160, 0));  // so that the triangle is at one end of its cell
+    const auto shape = make_shape(mesh, {1, 1, 1});
+    expect_slabs_hold(*shape, make_lattice_tree(*shape));
+    test::OneBody body(shape, false);
+    body.begin(test::rest_nodes_at(*shape, Vec3::Zero()));
+    EXPECT_EQ(body.broken(lazy_kernels()), "");
+  }
+}
+
 TEST(LatticeTree, QuantisesByAboutOneStep) {
   constexpr double kStep = 1.001 / PieceLanes::kSteps;
   const test::ShapePtr shape = make_shape(test::sphere_mesh(Vec3::Zero(), 1.0, 4), {1, 1, 1});

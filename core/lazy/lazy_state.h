@@ -65,13 +65,14 @@ class FrameArena {
 
 /// What was made in this frame, by index. Threads that miss an entry at the same time each make it
 /// in their own arena and store it. All make the same bits, so it does not matter whose entry
-/// stays, nor which one a reader sees.
-template <class T>
+/// stays, nor which one a reader sees. `Stamp`: an unsigned type that frames are counted in; when
+/// it is used up, all entries are made anew.
+template <class T, class Stamp = std::uint32_t>
 class FrameTable {
  public:
   /// Begins a frame: invalidates all entries. Not while others use the table.
   void begin_frame(std::size_t size) {
-    if (entries_.size() != size || frame_ == std::numeric_limits<std::uint32_t>::max()) {
+    if (entries_.size() != size || frame_ == std::numeric_limits<Stamp>::max()) {
       entries_ = std::vector<Entry>(size);
       frame_ = 0;
     }
@@ -94,10 +95,10 @@ class FrameTable {
  private:
   struct Entry {
     std::atomic<T*> made = nullptr;
-    std::atomic<std::uint32_t> frame = 0;
+    std::atomic<Stamp> frame = 0;
   };
   std::vector<Entry> entries_;
-  std::uint32_t frame_ = 0;
+  Stamp frame_ = 0;
 };
 
 using Float4 = Eigen::Array4f;  ///< the last is 0

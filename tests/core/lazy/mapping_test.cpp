@@ -104,5 +104,20 @@ TEST(MapLeaf, MapsOncePerFrameAndAnewInTheNext) {
   }
 }
 
+// As after 2^32 frames, with a stamp of eight bits: 255 frames, and the table is made anew.
+TEST(FrameTable, KnowsNothingOfAnEarlierFrameWhateverTheStampsSay) {
+  FrameTable<int, std::uint8_t> table;
+  int made = 0;
+  for (int frame = 1; frame <= 600; ++frame) {
+    table.begin_frame(2);
+    EXPECT_EQ(table.find(0), nullptr) << frame;
+    EXPECT_EQ(table.find(1), nullptr) << frame;
+    // One of the two is left out in most frames: its stamp grows old.
+    if (frame % 256 <= 1) table.put(0, &made);
+    table.put(1, &made);
+    EXPECT_EQ(table.find(1), &made) << frame;
+  }
+}
+
 }  // namespace
 }  // namespace contactcheck

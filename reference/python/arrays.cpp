@@ -68,11 +68,15 @@ std::vector<Triangle> read_indices(const py::array& array, const std::string& na
   return out;
 }
 
-// Beyond 2^53 a double rounds them.
+// Beyond 2^53 a double rounds them. Compared as the whole numbers that they are: as a double 2^53 +
+// 1 is 2^53, and as a signed number the largest unsigned one is -1.
+template <typename Number>
 void check_whole_numbers(const py::array& array, const std::string& name) {
-  const Plain<std::int64_t> numbers(array);
+  constexpr Number kLargest = Number{1} << 53;
+  const Plain<Number> numbers(array);
   for (py::ssize_t i = 0; i < numbers.size(); ++i)
-    if (std::abs(static_cast<double>(numbers.data()[i])) > 0x1p53)
+    if (numbers.data()[i] > kLargest ||
+        (std::is_signed_v<Number> && numbers.data()[i] < Number{0} - kLargest))
       throw InputError(
           place(name, static_cast<std::size_t>(i) / 3, static_cast<std::size_t>(i) % 3) + " is " +
           std::to_string(numbers.data()[i]) + "; a double would round it");
@@ -96,8 +100,10 @@ void read_points(const py::object& object, const std::string& name, std::vector<
                  bool any_value) {
   const py::array given = array_of(object, name, "fiu", "an (n, 3) array of numbers");
   check_shape(given, name, "(n, 3)");
-  if (given.dtype().kind() != 'f' && given.dtype().itemsize() == 8)
-    check_whole_numbers(given, name);
+  if (given.dtype().kind() == 'i' && given.dtype().itemsize() == 8)
+    check_whole_numbers<std::int64_t>(given, name);
+  if (given.dtype().kind() == 'u' && given.dtype().itemsize() == 8)
+    check_whole_numbers<std::uint64_t>(given, name);
   const Plain<double> doubles(given);
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const double* from = doubles.data();

@@ -17,6 +17,12 @@ def with_value(value, row=1, column=2):
     return out
 
 
+def whole(value, dtype=np.int64):
+    out = np.zeros(V.shape, dtype)
+    out[1, 2] = value
+    return out
+
+
 @pytest.mark.parametrize("vertices", [
     V.tolist(), np.asfortranarray(V), V[::-1][::-1], V.astype(np.float32), np.stack([V, V])[1],
     np.ma.array(V), V.view(type("TrackedArray", (np.ndarray,), {})), V.astype(">f8"),
@@ -28,6 +34,11 @@ def with_value(value, row=1, column=2):
 def test_arrays_of_any_kind_go_in_as_they_are(vertices, faces):
     pairs, shared = contactcheck.self_contacts(vertices, faces)
     assert pairs.tolist() == [[0, 1]] and shared.tolist() == [0]
+
+
+@pytest.mark.parametrize("vertices", [whole(2**53 - 1), whole(2**53), whole(-(2**53)), whole(2**53, np.uint64)])
+def test_whole_numbers_that_a_double_holds_go_in(vertices):
+    assert contactcheck.contacts(vertices, F, V + 1e6, F).tolist() == []
 
 
 def test_an_array_is_not_changed_and_may_be_read_only():
@@ -91,6 +102,10 @@ BAD = [
     (lambda: contactcheck.contacts(V.astype(object), F, V, F), "got dtype object"),
     (lambda: contactcheck.contacts(V.astype(str), F, V, F), "got dtype <U"),
     (lambda: contactcheck.contacts(V.astype(int) + 2**53 + 2, F, V, F), "Va[0, 0] is 9007199254740994; a double would round it"),
+    (lambda: contactcheck.contacts(whole(2**53 + 1), F, V, F), "Va[1, 2] is 9007199254740993; a double would round it"),
+    (lambda: contactcheck.contacts(whole(-(2**53) - 1), F, V, F), "Va[1, 2] is -9007199254740993; a double would round it"),
+    (lambda: contactcheck.contacts(whole(2**53 + 1, np.uint64), F, V, F), "Va[1, 2] is 9007199254740993; a double"),
+    (lambda: contactcheck.contacts(whole(2**64 - 1, np.uint64), F, V, F), "Va[1, 2] is 18446744073709551615; a double"),
     (lambda: contactcheck.contacts(None, F, V, F), "Va: an (n, 3) array of numbers wanted, got"),
     (lambda: contactcheck.contacts([[1, 2], [3]], F, V, F), "Va: an (n, 3) array of numbers wanted, got"),
     (lambda: contactcheck.contacts(V, np.zeros((0, 3), int), V, F), "Fa has no triangle"),

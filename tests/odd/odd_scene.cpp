@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -58,18 +59,38 @@ class Source {
 
   OddScene scene() {
     OddScene out;
-    const int kind = random_.below(12);
-    const int count = kind == 0 ? 100 + random_.below(150) : 1 + kind % 3;
+    theme_ = kThemes[random_.below(static_cast<int>(std::size(kThemes)))];
+    const int count = theme_ == Theme::kMany      ? 100 + random_.below(100)
+                      : theme_ == Theme::kAny     ? 1 + random_.below(3)
+                      : theme_ == Theme::kLargest ? 2
+                                                  : 1;
     out.description = std::to_string(count) + " bodies";
     // Of all bodies; frames have a size of their own.
     size_ = power_of_two(exponent());
-    for (int b = 0; b < count; ++b) add_body(count > 3, out);
-    const int frames = count > 3 ? 1 : 2;
-    while (static_cast<int>(out.frames.size()) < frames) add_frame(out);
+    if (theme_ == Theme::kLargest) size_ = power_of_two(1000);
+    // Whose squares are no floats; the patches of a stack are told apart by such.
+    if (theme_ == Theme::kStack && random_.below(2) == 0)
+      size_ = power_of_two(76 + random_.below(40));
+    if (size_ != 1.0) out.description += " of 2^" + std::to_string(std::ilogb(size_)) + " m";
+    for (int b = 0; b < count; ++b) add_body(out);
+    const std::size_t frames = theme_ == Theme::kMany ? 1 : 2;
+    while (out.frames.size() < frames) add_frame(out);
     return out;
   }
 
  private:
+  enum class Theme {
+    kAny,
+    kMany,     ///< small bodies
+    kStack,    ///< sheets on one another, bent by about their distance
+    kRow,      ///< pieces in two parts of a long row of cells
+    kLargest,  ///< two bodies at the largest double
+  };
+  using Lines = std::array<std::vector<double>, 3>;
+  static constexpr Theme kThemes[] = {Theme::kAny,   Theme::kAny, Theme::kAny,  Theme::kAny,
+                                      Theme::kAny,   Theme::kAny, Theme::kMany, Theme::kStack,
+                                      Theme::kStack, Theme::kRow, Theme::kRow,  Theme::kLargest};
+
   int exponent() {
     constexpr int kExponents[] = {0,   0,  0,    0,   0,    3,   -20,  20,
                                   -75, 76, -130, 130, -600, 600, -900, 1000};
@@ -80,7 +101,7 @@ class Source {
     switch (random_.below(9)) {
       case 0:
         name = "sphere";
-        return sphere_mesh(Vec3::Zero(), 1.0, 1 + random_.below(3));
+        return sphere_mesh(Vec3::Zero(), 1.0, 1 + random_.below(2));
       case 1:
         name = "box";
         return box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 1 + random_.below(5));
@@ -89,10 +110,11 @@ class Source {
         return sheet(1 + random_.below(12), 1 + random_.below(12), 0.0);
       case 3:
         name = "strip";
-        return sheet(40 + random_.below(200), 1, 0.0);
+        return sheet(20 + random_.below(60), 1, 0.0);
       case 4:
         name = "fan";
-        return fan(3 + static_cast<std::uint32_t>(random_.below(random_.below(4) == 0 ? 700 : 60)));
+        return fan(3 +
+                   static_cast<std::uint32_t>(random_.below(random_.below(10) == 0 ? 500 : 40)));
       case 5: {
         name = "long triangles";
         TriangleMesh out;
@@ -119,15 +141,39 @@ class Source {
         append(out, triangle_mesh(Vec3(-1, -1, 0.1), Vec3(1, -1, 0.1), Vec3(0, 1, -0.2)));
         return out;
       }
-      default: {
-        name = "sheets on one another";
-        TriangleMesh out;
-        const double gap = power_of_two(-random_.below(20));
-        for (int i = 0, sheets = 2 + random_.below(4); i < sheets; ++i)
-          append(out, sheet(2 + random_.below(5), 2 + random_.below(5), 0.25 * gap * i));
-        return out;
-      }
+      default:
+        return stack(name);
     }
+  }
+
+  TriangleMesh stack(std::string& name) {
+    name = "sheets on one another";
+    TriangleMesh out;
+    gap_ = power_of_two(-2 - random_.below(10));
+    for (int i = 0, sheets = 2 + random_.below(4); i < sheets; ++i)
+      append(out, sheet(1 + random_.below(5), 1 + random_.below(5), gap_ * i));
+    return out;
+  }
+
+  // Two pieces of a strip, in cells whose positions differ by what a narrow integer leaves out.
+  std::shared_ptr<const BodyShape> row(std::string& name) {
+    const int axis = random_.below(3);
+    const auto apart = static_cast<std::uint32_t>(random_.below(8) == 0 ? 65536 : 256);
+    const auto first = static_cast<std::uint32_t>(random_.below(30));
+    TriangleMesh mesh;
+    for (const std::uint32_t begin : {first, first + apart}) {
+      TriangleMesh piece = sheet(12, 1 + random_.below(3), 0.5);  // in three cells
+      for (Vec3& v : piece.vertices) {
+        const Vec3 at(begin + 1.5 * (v.x() + 1.0), 0.5 * (v.y() + 1.0), v.z());
+        for (int k = 0; k < 3; ++k) v[(axis + k) % 3] = at[k];
+      }
+      append(mesh, piece);
+    }
+    Lines lines{{{0, 1}, {0, 1}, {0, 1}}};
+    lines[axis].resize(first + apart + 4);
+    for (std::size_t i = 0; i < lines[axis].size(); ++i) lines[axis][i] = static_cast<double>(i);
+    name = "two pieces in a row of " + std::to_string(lines[axis].size() - 1) + " cells";
+    return make_shape_on_lines(std::move(mesh), std::move(lines));
   }
 
   // Thin along some axes, and not at the origin.
@@ -143,8 +189,6 @@ class Source {
     }
     for (Vec3& v : mesh.vertices) v = size_ * (v.cwiseProduct(factor) + offset);
   }
-
-  using Lines = std::array<std::vector<double>, 3>;
 
   // Cells of very different widths; or of a width to which the body is a point.
   std::optional<Lines> lines_about(const TriangleMesh& mesh, bool wide) {
@@ -201,26 +245,40 @@ class Source {
     }
   }
 
-  void add_body(bool small, OddScene& out) {
-    while (true) {
-      std::string name = "box";
-      TriangleMesh body = small ? box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 1) : mesh(name);
-      stretch(body, name);
-      std::shared_ptr<const BodyShape> made;
-      try {
-        made = shape(std::move(body), name);
-      } catch (const InputError&) {
-        continue;  // grid lines that doubles cannot tell apart, or a mesh without a proper triangle
+  // None where its grid lines cannot be told apart as doubles, or are not finite.
+  std::shared_ptr<const BodyShape> body(std::string& name) {
+    try {
+      if (theme_ == Theme::kRow) return row(name);
+      TriangleMesh out;
+      if (theme_ == Theme::kMany) {
+        name = "box";
+        out = box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1), 1);
+      } else {
+        out = theme_ == Theme::kStack ? stack(name) : mesh(name);
       }
-      if (!made) continue;
-      if (random_.below(6) == 0) {
-        made = welded(*made);
-        name += ", welded";
+      if (theme_ == Theme::kAny) {
+        stretch(out, name);
+      } else {
+        for (Vec3& v : out.vertices) v *= size_;
       }
-      if (!small || out.bodies.empty()) out.description += "; " + name;
-      out.bodies.push_back({"body" + std::to_string(out.bodies.size()), made});
-      return;
+      if (theme_ == Theme::kStack && random_.below(2) == 0)
+        return make_shape(std::move(out), {1, 1, 1});
+      return shape(std::move(out), name);
+    } catch (const InputError&) {
+      return nullptr;
     }
+  }
+
+  void add_body(OddScene& out) {
+    std::string name;
+    std::shared_ptr<const BodyShape> made;
+    while (!made) made = body(name);
+    if (random_.below(6) == 0) {
+      made = welded(*made);
+      name += ", welded";
+    }
+    if (out.bodies.size() < 3) out.description += "; " + name;
+    out.bodies.push_back({"body" + std::to_string(out.bodies.size()), made});
   }
 
   // Nodes in a frame of a metre: as at rest, about the body's middle.
@@ -236,7 +294,17 @@ class Source {
     return nodes;
   }
 
+  Vec3& random_node(std::vector<Vec3>& nodes) {
+    return nodes[static_cast<std::size_t>(random_.below(static_cast<int>(nodes.size())))];
+  }
+
   void bend(std::vector<Vec3>& nodes, std::string& name) {
+    if (theme_ == Theme::kStack && random_.below(3) > 0) {
+      const double strength = gap_ * power_of_two(random_.below(6) - 1);
+      name += " bent by about the distance of the sheets";
+      for (Vec3& n : nodes) n.z() += strength * n.x() * n.y();
+      return;
+    }
     const int axis = random_.below(3), other = (axis + 1) % 3, third = (axis + 2) % 3;
     switch (random_.below(10)) {
       case 0:
@@ -262,8 +330,8 @@ class Source {
         return;
       }
       case 3: {
-        // Beyond one plane all is turned by half a turn.
-        const double plane = random_.unit();
+        // Beyond one plane of nodes all is turned by half a turn.
+        const double plane = random_node(nodes)[axis];
         name += " twisted";
         for (Vec3& n : nodes)
           if (n[axis] > plane) n[other] = -n[other], n[third] = -n[third];
@@ -298,7 +366,7 @@ class Source {
       }
       default: {
         // One node alone: all else is as at rest.
-        Vec3& n = nodes[static_cast<std::size_t>(random_.below(static_cast<int>(nodes.size())))];
+        Vec3& n = random_node(nodes);
         name += " with a spike";
         n = random_.point(n, power_of_two(random_.below(6)));
         return;
@@ -309,27 +377,39 @@ class Source {
   void add_frame(OddScene& out) {
     std::string name = "; frame";
     const double size = power_of_two(exponent());
-    const double spread = out.bodies.size() > 3 ? 6.0 : power_of_two(-random_.below(6));
-    const Vec3 away = random_.below(4) == 0
-                          ? random_.point(Vec3::Zero(), power_of_two(random_.below(24)))
-                          : Vec3(Vec3::Zero());
+    const bool many = theme_ == Theme::kMany;
+    const double spread = many ? 6.0 : power_of_two(-random_.below(6));
+    const bool far = theme_ == Theme::kAny && random_.below(4) == 0;
+    const Vec3 away =
+        far ? random_.point(Vec3::Zero(), power_of_two(random_.below(24))) : Vec3(Vec3::Zero());
     std::vector<std::vector<Vec3>> nodes;
     for (const Body& body : out.bodies) {
       nodes.push_back(unit_nodes(*body.shape));
-      if (out.bodies.size() <= 3 || nodes.size() == 1) bend(nodes.back(), name);
+      if (!many || nodes.size() == 1) bend(nodes.back(), name);
       const Vec3 place = random_.point(away, spread);
       const double own = random_.below(5) == 0 ? power_of_two(random_.below(20)) : 1.0;
-      for (Vec3& n : nodes.back()) n = size * (own * n + place);
+      for (Vec3& n : nodes.back()) n = own * n + place;
     }
+    double largest = 0.0;
     for (const auto& body : nodes)
-      for (const Vec3& n : body)
-        if (!(n.cwiseAbs().maxCoeff() < power_of_two(1020))) return;
-    out.description += name + ", size " + std::to_string(std::ilogb(size));
+      for (const Vec3& n : body) largest = std::max(largest, n.cwiseAbs().maxCoeff());
+    const double most =
+        std::numeric_limits<double>::max() * (random_.below(2) == 0 ? 1.0 : 1 - 0x1p-30);
+    for (auto& body : nodes)
+      for (Vec3& n : body)
+        n = theme_ == Theme::kLargest
+                ? Vec3((2.0 * (n / largest)).cwiseMax(-1.0).cwiseMin(1.0) * most)
+                : Vec3(n * size);
+    if (theme_ != Theme::kLargest && !(largest * size < power_of_two(1020))) return;
+    out.description += name + ", size " +
+                       (theme_ == Theme::kLargest ? "of the largest double"
+                                                  : "2^" + std::to_string(std::ilogb(size)));
     out.frames.push_back(make_frame(out.bodies, std::move(nodes)));
   }
 
   TriangleSource random_;
-  double size_ = 1.0;
+  Theme theme_ = Theme::kAny;
+  double size_ = 1.0, gap_ = 1.0;
 };
 
 }  // namespace

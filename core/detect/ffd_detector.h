@@ -88,9 +88,8 @@ class FfdDetectorOf : public Detector {
   }
   void expect(const std::vector<Question>& questions) override;
   /// @throws RefusedInput when a body has no lattice, or where self-contact of triangles is
-  /// expected as refuse_many_adjacent_pairs() does; update() when a coordinate of a node is within
-  /// a few roundings of the largest double, or in single precision too far out for it
-  /// (round_to_local)
+  /// expected as refuse_many_adjacent_pairs() does; update() when nodes are so near the largest
+  /// double that a box overflows, or in single precision too far out for it (round_to_local)
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;

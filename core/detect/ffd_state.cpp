@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/deform/mapping.h"
@@ -15,6 +16,16 @@ T largest_coordinate(std::span<const Vec3Of<T>> points) {
   T largest = 0;
   for (const Vec3Of<T>& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   return largest;
+}
+
+// A blend of nodes in the last binade may round to infinity, and the next one to no number.
+template <typename T>
+void require_finite(const FfdStateOf<T>& state) {
+  for (const CornersOf<T>& box : state.corners)
+    for (const Vec3Of<T>& corner : box)
+      if (!corner.allFinite())
+        throw RefusedInput(
+            "a node's coordinate is so near the largest double that a box overflows");
 }
 
 template <typename T>
@@ -100,10 +111,7 @@ void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
   state.corners.resize(model.pieces.size());
   map_boxes(*model.shape->lattice, std::span(model.piece_boxes), nodes, std::span(state.corners));
   const T largest = largest_coordinate(nodes), error = mapping_error_bound(largest);
-  // A blend of such nodes could round to infinity, and the next one to no number.
-  if (!std::isfinite(largest + 16 * error))
-    throw RefusedInput(
-        "a node's coordinate is so near the largest double that its box could overflow");
+  if (!(largest <= std::numeric_limits<T>::max() / 2)) require_finite(state);
   find_hulls(model, state);
   if (config.bounds == BoundsReading::kSafe) bound_cells(model, error, state);
   place_spheres(model, config, error, state);

@@ -84,6 +84,31 @@ TEST(LargestDouble, IsAnsweredRightOrRefused) {
   }
 }
 
+// One triangle, twice in one place, in a cell whose nodes are drawn to corners of the range.
+TEST(LargestDouble, ATriangleWhoseBoxOverflowsIsFoundOrRefused) {
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  const TriangleMesh mesh =
+      test::triangle_mesh(Vec3(-1, 0, 0) * (kLargest / 2.2), Vec3(1, 1, 1) * (kLargest / 2.2),
+                          Vec3(-1, 0, 1) * (kLargest / 2.2));
+  Scene scene;
+  for (int body = 0; body < 2; ++body)
+    scene.bodies.push_back(test::make_body("a", mesh, {1, 1, 1}));
+  const std::vector<Vec3> corners = {{1, -1, 1},  {0, -1, 1}, {0, 0, 1},   {0, 0, 1},
+                                     {-1, -1, 1}, {1, 1, 1},  {-1, -1, 1}, {1, 0, 1}};
+  std::vector<Vec3> nodes;
+  for (const Vec3& corner : corners) nodes.push_back(corner * kLargest);
+  const FrameData frame = test::make_frame(scene.bodies, {nodes, nodes});
+  ASSERT_EQ(test::true_pairs(scene, frame).size(), 1u);
+  for (const std::string& name : test::exact_detectors()) {
+    const auto detector = test::prepared(name, scene);
+    try {
+      EXPECT_EQ(test::answer(*detector, frame).triangles.size(), 1u) << name;
+    } catch (const RefusedInput& e) {
+      EXPECT_THAT(e.what(), ::testing::HasSubstr("so near the largest double")) << name;
+    }
+  }
+}
+
 TEST(FrameDeathTest, OfAnotherSizeThanTheSceneBreaksAPromise) {
   const Scene scene = test::approach({603, 0.3}, 1);
   const auto detector = test::prepared("ffd-aabb+tri", scene);

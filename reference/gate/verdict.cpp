@@ -43,14 +43,17 @@ std::vector<std::string> GateResult::rules_with(Verdict verdict) const {
 }
 
 std::string counts_text(const GateResult& result) {
-  std::string out = std::to_string(result.checks.size()) + " checks of " +
-                    std::to_string(result.rules) + " rules:";
+  const auto counted = [](std::size_t n, const char* one) {
+    return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
+  };
+  std::string out =
+      counted(result.checks.size(), "check") + " of " + counted(result.rules, "rule") + ":";
   for (const Verdict v :
        {Verdict::kPass, Verdict::kFail, Verdict::kTooNoisy, Verdict::kCannotJudge})
     out += std::string(v == Verdict::kPass ? " " : ", ") + std::to_string(result.count(v)) + " " +
            name_of(v);
   if (const std::size_t open = result.rules_with(Verdict::kCannotJudge).size(); open > 0)
-    out += " (of " + std::to_string(open) + (open == 1 ? " rule)" : " rules)");
+    out += " (of " + counted(open, "rule") + ")";
   return out;
 }
 

@@ -84,8 +84,8 @@ std::vector<std::string> part_sentences(const results::Results& results) {
         results.shard->index, results.shard->of, results.scenes.size(),
         results.shard->scenes.size(), results.shard->command));
   else if (!results.merged.empty())
-    out.push_back(
-        fmt::format("Put together from {} shards (`contactcheck merge`).", results.merged.size()));
+    out.push_back(fmt::format("Put together from {} shard{} (`contactcheck merge`).",
+                              results.merged.size(), results.merged.size() == 1 ? "" : "s"));
   std::string resumed;
   for (const std::string& scene : results.resumed.value_or(std::vector<std::string>{}))
     resumed += (resumed.empty() ? "" : ", ") + scene;

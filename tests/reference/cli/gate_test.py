@@ -110,4 +110,4 @@ def test_accept_writes_a_valid_baseline_that_another_run_passes(tmp_path):
                             "unchanged": True, "unjudged": "fail"})
     passed = successful("gate", "out/results.json", "--policy", "policy.json", "--baseline", "base.json",
                         cwd=tmp_path)
-    assert "3 checks of 1 rules: 3 pass" in passed.out
+    assert "3 checks of 1 rule: 3 pass" in passed.out

@@ -39,7 +39,7 @@ def line_of(detector):
 
 def test_screen_of_a_green_gate_is_three_lines(run_gate, results):
     assert run_gate([MISSED], results, title="A fast run").out == (
-        "p  A fast run\n1 checks of 1 rules: 1 pass, 0 fail, 0 too noisy to judge, 0 cannot judge\n"
+        "p  A fast run\n1 check of 1 rule: 1 pass, 0 fail, 0 too noisy to judge, 0 cannot judge\n"
         "gate: green\n")
 
 
@@ -182,5 +182,5 @@ A fast run. 2 checks of 2 rules: 0 pass, 1 fail, 0 too noisy to judge, 1 cannot 
 
 def test_github_summary_of_a_green_gate_has_no_table(github, results):
     assert github([MISSED], results, title="A fast run")[1] == (
-        "## contactcheck gate p: green\n\nA fast run. 1 checks of 1 rules: 1 pass, 0 fail, 0 too noisy to "
+        "## contactcheck gate p: green\n\nA fast run. 1 check of 1 rule: 1 pass, 0 fail, 0 too noisy to "
         "judge, 0 cannot judge.\n\n")

@@ -51,6 +51,22 @@ class TruthfulDetector : public Detector {
   std::optional<oracle::Oracle> oracle_;
 };
 
+/// Reports bodies 0 and 1 in every frame, to every question. `solid`: takes bodies for solids.
+class ReportsFirstTwo : public TruthfulDetector {
+ public:
+  explicit ReportsFirstTwo(bool solid) : semantics_(TruthfulDetector::semantics()) {
+    semantics_.solid = solid;
+  }
+  const Semantics& semantics() const override { return semantics_; }
+  void query(Question question, ContactSet& out) override {
+    TruthfulDetector::query(question, out);
+    out.bodies = {{0, 1}};
+  }
+
+ private:
+  Semantics semantics_;
+};
+
 /// Drops the pairs 0, 10, 20, ... of every frame.
 class DropsEveryTenth : public TruthfulDetector {
   std::vector<ElementPair> spoiled_triangles(std::vector<ElementPair> truth) override {

@@ -70,6 +70,30 @@ TEST(ClosedLoop, BlindDriverLetsABallThroughOnce) {
   EXPECT_EQ(loop.levels.at(Level::kTriangle).hit, 0u);
 }
 
+// While it was wholly inside, it was taken to have left.
+TEST(ClosedLoop, SmallBallThroughALargeOneIsOnePassage) {
+  scene::Scene scene = shot(kShotFrames);
+  scene.bodies[1].shape =
+      test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.05, 1), {2, 2, 2}).shape;
+  EXPECT_EQ(drive<Blind>(scene).tunnelling_events, 1u);
+}
+
+TEST(ClosedLoop, ContainedPairDoesNotHoverForADetectorOfSolids) {
+  scene::Scene scene = two_balls({}, {{0.02, 0.0, 0.0}, {}}, 10);
+  scene.bodies[1].shape =
+      test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.05, 1), {2, 2, 2}).shape;
+  const results::ClosedLoop solid = drive<test::ReportsFirstTwo>(scene, true);
+  EXPECT_EQ(solid.hover_at_rest_max, 0.0);
+  EXPECT_TRUE(solid.levels.at(Level::kBody).perfect());
+  EXPECT_GT(*drive<test::ReportsFirstTwo>(scene, false).hover_at_rest_max, 0.1);
+}
+
+TEST(ClosedLoop, PenetrationIsUnknownWhereVerticesAreNotJudged) {
+  scene::Scene scene = shot(17);
+  scene.levels = {Level::kBody, Level::kTriangle};
+  EXPECT_EQ(drive<Blind>(scene).deepest_penetration, std::nullopt);
+}
+
 TEST(ClosedLoop, BallsThatAreStillInContactAtTheEndHaveNotTunnelled) {
   // 17 steps of 4/60 m: the centres have passed (1.13 m of 1 m), the surfaces have not separated.
   const results::ClosedLoop loop = drive<Blind>(shot(17));

@@ -6,6 +6,7 @@
 #include "reference/adapters/register.h"
 #include "reference/judge/accuracy.h"
 #include "reference/judge/hover.h"
+#include "tests/faults/broken_detectors.h"
 #include "tests/support/approach_scene.h"
 #include "tests/support/shapes.h"
 
@@ -26,19 +27,22 @@ scene::Scene boxes() {
                               {Level::kBody});
 }
 
-results::Run measured_hover(const scene::Scene& scene, const std::string& name) {
-  DetectorCatalog catalog;
-  register_core_detectors(catalog);
-  adapters::register_reference_detectors(catalog);
-  const auto detector = catalog.make(catalog.parse(name));
+results::Run measured_hover(const scene::Scene& scene, Detector& detector) {
   process::SharedProgress page;
   process::ProgressWriter progress(&page);
   const JudgedScene judged = judge_scene(scene, progress);
   results::Run result;
   JudgingTools tools(judged);
-  run_accuracy(tools, 0, *detector, progress, result);
-  measure_hover_gaps(tools, 0, *detector, progress, result);
+  run_accuracy(tools, 0, detector, progress, result);
+  measure_hover_gaps(tools, 0, detector, progress, result);
   return result;
+}
+
+results::Run measured_hover(const scene::Scene& scene, const std::string& name) {
+  DetectorCatalog catalog;
+  register_core_detectors(catalog);
+  adapters::register_reference_detectors(catalog);
+  return measured_hover(scene, *catalog.make(catalog.parse(name)));
 }
 
 TEST(HoverGap, OfFfdGridIsTwicePadding) {
@@ -74,6 +78,38 @@ TEST(HoverGap, OfARecordingIsTheDistanceInTheFirstReportedFrame) {
   const results::Run result = measured_hover(scene, "ffd-grid");
   ASSERT_TRUE(result.geometry.hover_gap_max);
   EXPECT_NEAR(*result.geometry.hover_gap_max, 1.53 - 7 * 0.05 - 1.0, 1e-9);
+}
+
+// It was judged by surfaces wherever a scene did not list containment: all of it was spurious.
+TEST(HoverGap, DetectorOfSolidsIsJudgedByContainmentWhereOnlyBodiesAreListed) {
+  const auto ball = test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 1), {2, 2, 2}).shape;
+  const auto shell = test::make_body("", test::sphere_mesh(Vec3::Zero(), 2.0, 1), {2, 2, 2}).shape;
+  const scene::Scene scene =
+      test::approach_scene(shell, ball, {{0.0, 0.0}}, 0, 0, 3, 1.0, {Level::kBody});
+  test::ReportsFirstTwo solids(true), surfaces(false);
+  const results::Run right = measured_hover(scene, solids), wrong = measured_hover(scene, surfaces);
+  EXPECT_EQ(right.levels.at(Level::kBody).truth, 3u);
+  EXPECT_TRUE(right.levels.at(Level::kBody).perfect());
+  ASSERT_EQ(right.geometry.episodes.size(), 1u);
+  EXPECT_EQ(right.geometry.episodes[0].first_true, 0u);
+  EXPECT_EQ(right.geometry.hover_gap_max, 0.0);
+  EXPECT_EQ(wrong.levels.at(Level::kBody).spurious, 3u);
+  ASSERT_TRUE(wrong.geometry.hover_gap_max);
+  EXPECT_GT(*wrong.geometry.hover_gap_max, 0.5);
+}
+
+TEST(HoverGap, DetectorOfSolidsIsToldWhereContainmentIsNotJudged) {
+  TriangleMesh open = test::sphere_mesh(Vec3::Zero(), 2.0, 1);
+  open.triangles.pop_back();
+  const auto ball = test::make_body("", test::sphere_mesh(Vec3::Zero(), 0.5, 1), {2, 2, 2}).shape;
+  const scene::Scene scene = test::approach_scene(test::make_body("", open, {2, 2, 2}).shape, ball,
+                                                  {{0.0, 0.0}}, 0, 0, 1, 1.0, {Level::kBody});
+  test::ReportsFirstTwo solids(true), surfaces(false);
+  const results::Run run = measured_hover(scene, solids);
+  ASSERT_EQ(run.notes.size(), 1u);
+  EXPECT_TRUE(run.notes[0].starts_with(
+      "containment not judged: open (body \"resting\", frame 0, edge of vertices "));
+  EXPECT_TRUE(measured_hover(scene, surfaces).notes.empty());
 }
 
 TEST(HoverGap, OfAContactFromTheFirstFrameIsTheDistanceThere) {

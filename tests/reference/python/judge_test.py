@@ -75,6 +75,42 @@ def test_inside_tells_what_lies_on_the_surface(bunnies):
     assert winding.tolist() == [0, 1] and on_surface.tolist() == [True, False]
 
 
+def welded(V, F):
+    """The same with one vertex for all that are at one place."""
+    V, at = np.unique(V + 0.0, axis=0, return_inverse=True)
+    return V, at.ravel()[F]
+
+
+def test_inside_answers_for_every_closed_chain():
+    V, F = (np.array(x, float if k == 0 else int) for k, x in enumerate(TETRAHEDRON))
+    points = [[0.1, 0.1, 0.1], [0.1, 0.1, 0.7], [2, 2, 2]]
+    corners = V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3)
+    minus = corners[0].copy()
+    minus[::2][minus[::2] == 0] = -0.0
+    wall = np.vstack([F, [[0, 1, 2], [0, 2, 1]]])
+    middle = np.vstack([V, (V[0] + V[1]) / 2])
+    filled = np.vstack([[t for t in F.tolist() if t != [0, 1, 3]], [[0, 4, 3], [4, 1, 3], [0, 1, 4]]])
+    for vertices, faces in ((V, F), corners, (minus, corners[1]), (V, wall), (middle, filled),
+                            (V, np.vstack([F, [[1, 1, 3], [2, 2, 2]]]))):
+        winding, on_surface = contactcheck.inside(points, vertices, faces)
+        assert winding.tolist() == [1, 1, 0] and not on_surface.any()
+    # Two that share an edge of four triangles, and two one upon the other.
+    faces = np.vstack([F, F + 4])
+    edge = welded(np.vstack([V, V * [-1, -1, 1]]), faces)
+    around = [[-0.1, -0.1, 0.1], [0.1, 0.1, 0.1], [0.1, -0.1, 0.1], [-0.1, 0.1, 0.1]]
+    assert contactcheck.inside(around, *edge).winding.tolist() == [1, 1, 0, 0]
+    assert contactcheck.inside(points, *welded(np.vstack([V, V]), faces)).winding.tolist() == [2, 2, 0]
+
+
+@pytest.mark.parametrize("change, edge", [
+    (lambda F: F[1:], "0 and 1"), (lambda F: np.vstack([F, F[:1]]), "0 and 2"),
+    (lambda F: np.vstack([F[:1, ::-1], F[1:]]), "1 and 2")], ids=["missing", "once_more", "turned"])
+def test_inside_names_the_first_open_edge(change, edge):
+    V, F = (np.array(x) for x in TETRAHEDRON)
+    with pytest.raises(contactcheck.InputError, match=rf"no inside: it is open \(edge of vertices {edge}\)"):
+        contactcheck.inside([[0, 0, 0]], V, change(F))
+
+
 def test_check_mesh_names_every_kind_of_defect():
     V, F = (np.array(x) for x in TETRAHEDRON)
     flat = np.vstack([V, [[2, 0, 0]]])

@@ -256,6 +256,21 @@ def test_a_detector_is_held_to_the_memory_limit():
     assert row(results, "greedy")["status"] == "ok", row(results, "greedy")["message"]
 
 
+@pytest.mark.parametrize("levels", [("body",), ("body", "triangle"), ("body", "containment")])
+def test_a_detector_of_solids_is_judged_by_containment(levels):
+    class Solids(Exact):
+        declares = {"id": "solids", "levels": ["body"], "questions": ["body"], "body": "solid"}
+
+        def query(self, question):
+            return {"bodies": [(0, 1)]}
+
+    V, F = np.array([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]], float), np.array(
+        [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    scene = contactcheck.Scene.from_frames([([V], F), ([1 + V / 90], F)], levels=levels)
+    row, = contactcheck.run(scene, [Solids()], timing=False).rows()
+    assert (row["body_missed"], row["body_spurious"]) == (0, 0)
+
+
 def test_memory_of_the_interpreter_is_not_the_detectors():
     many = np.ones((300 << 20) // 8)
 

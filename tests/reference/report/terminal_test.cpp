@@ -31,6 +31,7 @@ TEST(Terminal, IsThisText) {
 
 hello  Two | one bodies meet
   2 bodies, 140 triangles, 60 frames, 13 with contact
+  vertex not judged: open (body "a", frame 0, edge of vertices 4 and 5)
   detector              level      truth   recall  missed  spurious  hover mm  ms/frame  vs fcl-aabb
   fcl-aabb              triangle  200000        1       0         0         0      2.00        1.00x
   ffd-aabb-sphere2+tri  triangle  200000  0.99999       1         2      2.10     0.500        4.00x
@@ -206,7 +207,7 @@ TEST(Terminal, TellsRandomPairsInALine) {
   pairs.touching = 5'012'345;
   EXPECT_THAT(terminal_tables(results, false),
               HasSubstr("13 with contact\n  10,000,000 pairs, seed 7, 5,012,345 touch; oracle "
-                        "against rational arithmetic: 0 wrong\n  detector"));
+                        "against rational arithmetic: 0 wrong\n  vertex not judged: open"));
 }
 
 TEST(Terminal, ExplainsHowSteadyPassesWereBelowTheTables) {

@@ -12,8 +12,8 @@
 //    away. If p is inside, a segment that ends at no inner point leaves the solid on the way, so
 //    f(p) <= sum w_i |c_i - t_i|: a bound linear in w.
 //    a. T within a triangle of the surface: |c_i - t_i| are distances to that triangle.
-//    b. T parallel to the tangent plane at a nearest point, a little above it, shown to be outside
-//       by exact tests. One such T spans many triangles of a finely divided face.
+//    b. T parallel to the tangent plane at a nearest point, a little above it, or to the piece;
+//       shown to be outside by exact tests. One such T spans many triangles of a divided face.
 //    Several bounds u_k hold at once: f <= min_k sum_i w_i u_ki <= max_i sum_k l_k u_ki for any
 //    weights l_k >= 0 of sum 1. Good weights make the bound tight on ridges of f, where two sides
 //    of the solid are as near.
@@ -61,6 +61,13 @@ constexpr double kLooseShare = 1e-5, kLooseWidth = 1e-11;
 double up(double x) { return x * kOutward + kUnderflow; }
 
 double length_up(const Vec3& v) { return up(v.norm()); }
+
+// Zero where it is lost to rounding.
+Vec3 unit_normal(const TriangleCorners& t) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double length = normal.norm();
+  return length > 0x1p-400 ? Vec3(normal / length) : Vec3::Zero();
+}
 
 // The rounded centroid of three points is off by less than so many middles are.
 constexpr int kCentroidLevels = 4;
@@ -376,6 +383,13 @@ double DepthSearch::linear_bound(const TrianglePiece& piece, const Probe& center
     if (bounds.highest() <= lower_) break;
     add_tangents(piece, *at, bounds);
   }
+  // Off along its own normal, for a face that an edge of the solid touches or pierces no deeper
+  // than is known.
+  const Vec3 normal =
+      unit_normal({piece.corners[0].point, piece.corners[1].point, piece.corners[2].point});
+  for (const double height : {0.0, lower_})
+    for (const Vec3& way : {normal, Vec3(-normal)})
+      if (bounds.highest() > lower_) add_above(piece, center.point + height * way, way, bounds);
   return bounds.highest();
 }
 
@@ -386,11 +400,8 @@ void DepthSearch::add_tangents(const TrianglePiece& piece, const Probe& at,
   const double length = at.offset.norm();
   if (length > kLeastLift)
     return add_above(piece, base, at.offset * ((at.inside ? 1 : -1) / length), bounds);
-  const TriangleCorners t = solid_for(piece.side).corners(at.triangle);
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  if (!(normal.norm() > 0x1p-400)) return;
-  add_above(piece, base, normal.normalized(), bounds);
-  add_above(piece, base, -normal.normalized(), bounds);
+  const Vec3 normal = unit_normal(solid_for(piece.side).corners(at.triangle));
+  for (const Vec3& way : {normal, Vec3(-normal)}) add_above(piece, base, way, bounds);
 }
 
 void DepthSearch::add_above(const TrianglePiece& piece, const Vec3& base, const Vec3& normal,

@@ -1,5 +1,6 @@
 #include "reference/oracle/surface_depth.h"
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -130,48 +131,56 @@ TEST(SurfaceDepth, PiecesThatRunOutLeaveAWiderIntervalThatStillHolds) {
   }
 }
 
-// ---- crossed boxes: the depth follows from their coordinates
+// ---- crossed boxes: the depth follows from their coordinates, exactly
 
 // Of the points of [lo, hi], the largest distance to the nearer end of [of_lo, of_hi]; below 0: all
 // are outside.
-double deepest_within(double lo, double hi, double of_lo, double of_hi) {
-  const double x = std::clamp((of_lo + of_hi) / 2, lo, hi);
-  return std::min(x - of_lo, of_hi - x);
+mpq_class deepest_within(const mpq_class& lo, const mpq_class& hi, const mpq_class& of_lo,
+                         const mpq_class& of_hi) {
+  const mpq_class middle = (of_lo + of_hi) / 2;
+  const mpq_class x = middle < lo ? lo : middle > hi ? hi : middle;
+  return std::min<mpq_class>(x - of_lo, of_hi - x);
 }
 
-double depth_into(const Aabb& into, const Aabb& of) {
-  double depth = 0.0;
+mpq_class depth_into(const Aabb& into, const Aabb& of) {
+  mpq_class depth = 0;
   for (int axis = 0; axis < 3; ++axis)
     for (const double at : {of.lo[axis], of.hi[axis]}) {
-      double face = std::min(at - into.lo[axis], into.hi[axis] - at);
-      for (const int other : {(axis + 1) % 3, (axis + 2) % 3})
-        face = std::min(face,
-                        deepest_within(of.lo[other], of.hi[other], into.lo[other], into.hi[other]));
+      mpq_class face = deepest_within(at, at, into.lo[axis], into.hi[axis]);
+      for (const int k : {(axis + 1) % 3, (axis + 2) % 3})
+        face = std::min(face, deepest_within(of.lo[k], of.hi[k], into.lo[k], into.hi[k]));
       depth = std::max(depth, face);
     }
   return depth;
 }
 
-Aabb drawn_box(TriangleSource& source) {
+// On a coarse grid, where many touch, or anywhere, where differences of coordinates are rounded.
+TriangleMesh drawn_box(TriangleSource& source) {
   Aabb box;
+  const bool on_grid = source.below(2) == 0;
   do {
-    box = source.grid_box(24);
+    box = on_grid ? source.grid_box(24) : source.box(Vec3::Constant(0.3), 1.0);
   } while (!(box.extent().minCoeff() > 0));
-  return box;
+  const double scale = on_grid ? 0.0625 : 1.0;
+  return box_mesh(scale * box.lo, scale * box.hi, 1);
 }
 
 TEST(SurfaceDepth, OfTwoBoxesIsExactlyWithinTheInterval) {
   TriangleSource source(811);
   int deep = 0, zero = 0;
-  for (int i = 0; i < 400; ++i) {
-    const Aabb a = drawn_box(source), b = drawn_box(source);
-    const double depth = std::max(depth_into(a, b), depth_into(b, a));
+  for (int i = 0; i < 2000; ++i) {
+    const TriangleMesh mesh_a = drawn_box(source), mesh_b = drawn_box(source);
+    const Aabb a = bounding_box(mesh_a.vertices), b = bounding_box(mesh_b.vertices);
+    const mpq_class depth = std::max(depth_into(a, b), depth_into(b, a));
     SCOPED_TRACE(testing::Message() << "pair " << i);
-    expect_depth(box_mesh(a.lo, a.hi, 1 + source.below(2)), box_mesh(b.lo, b.hi, 1), depth);
+    const SurfaceDepth found = depth_of(mesh_a, mesh_b);
+    expect_width(found, largest(mesh_a, mesh_b));
+    EXPECT_LE(mpq_class(found.lower), depth);
+    EXPECT_GE(mpq_class(found.upper), depth);
     (depth > 0 ? deep : zero) += 1;
   }
-  EXPECT_GT(deep, 100);
-  EXPECT_GT(zero, 50);
+  EXPECT_GT(deep, 500);
+  EXPECT_GT(zero, 250);
 }
 
 TEST(SurfaceDepth, PowersOfTwoScaleTheIntervalExactly) {
@@ -308,9 +317,9 @@ Tally judge_pairs(std::uint64_t seed, int count) {
 }
 
 TEST(SurfaceDepthAgainstBruteForce, RandomSolids) {
-  const Tally tally = judge_pairs(812, 150);
-  EXPECT_GT(tally.deep, 60);
-  EXPECT_GT(tally.zero, 10);
+  const Tally tally = judge_pairs(812, 250);
+  EXPECT_GT(tally.deep, 100);
+  EXPECT_GT(tally.zero, 20);
   EXPECT_GT(tally.without_vertex, 1);
 }
 

@@ -68,6 +68,8 @@ std::shared_ptr<const BodyShape> welded(const BodyShape& shape) {
   out->welded = shape.mesh.triangles;
   for (Triangle& triangle : out->welded)
     for (std::uint32_t& vertex : triangle) vertex = first[vertex];
+  // Duplicates and open edges are those of the triangles as they are linked now.
+  out->topology = analyse_topology({vertices, out->welded});
   return out;
 }
 

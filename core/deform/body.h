@@ -16,8 +16,8 @@
 namespace contactcheck {
 
 struct BodyShape {
-  TriangleMesh mesh;  ///< at rest
-  MeshTopology topology;
+  TriangleMesh mesh;               ///< at rest
+  MeshTopology topology;           ///< of linked()
   std::optional<Lattice> lattice;  ///< none: nodes are vertices
   Embedding embedding;             ///< empty without a lattice
   /// Of a mesh that is welded: its triangles, each vertex replaced by the first one at its position

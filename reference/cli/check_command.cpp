@@ -20,6 +20,7 @@
 #include "reference/cli/run_and_report.h"
 #include "reference/judge/judge.h"
 #include "reference/judge/judged_scene.h"
+#include "reference/oracle/closed_chain.h"
 #include "reference/oracle/oracle.h"
 #include "reference/oracle/surface_geometry.h"
 #include "reference/process/exit_codes.h"
@@ -118,25 +119,21 @@ class FrameChecker {
     if (!allowed_.contact) detector_->query(Question::kTriangles, found);
     if (!allowed_.self) detector_->query(Question::kSelf, found);
     found.canonicalize();
-    const bool may_hold = !allowed_.contact && one_may_hold_another(position);
-    if (found.triangles.empty() && found.self.empty() && !may_hold) return std::nullopt;
+    // Surfaces that do not meet, one of them inside a solid: no pair of triangles tells.
+    oracle::Containment inside;
+    if (judges_containment()) inside = oracle_.containment(frame, found.bodies);
+    for (const oracle::OpenBody& open : inside.open) open_.try_emplace(open.body, f, open.edge);
+    if (found.triangles.empty() && found.self.empty() && inside.pairs.empty()) return std::nullopt;
     return confirmed(f, frame, found);
   }
 
- private:
-  // Surfaces that do not meet, one of them inside a solid: no pair of triangles tells.
-  bool one_may_hold_another(const scene::FramePosition& position) const {
-    std::vector<Aabb> boxes;
-    for (const std::vector<Vec3>& vertices : position.vertices)
-      boxes.push_back(bounding_box(vertices));
-    for (std::size_t a = 0; a < boxes.size(); ++a)
-      for (std::size_t b = 0; b < boxes.size(); ++b)
-        if (a != b && scene_.bodies[a].shape->topology.solid &&
-            (boxes[a].lo.array() <= boxes[b].lo.array()).all() &&
-            (boxes[b].hi.array() <= boxes[a].hi.array()).all())
-          return true;
-    return false;
+  /// By body: the first frame in which it is open, so that nothing is judged to lie inside it.
+  const std::map<std::uint32_t, std::pair<std::size_t, oracle::OpenEdge>>& open() const {
+    return open_;
   }
+
+ private:
+  bool judges_containment() const { return !allowed_.contact && scene_.bodies.size() > 1; }
 
   std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
     oracle::WantedTruth wanted;
@@ -187,6 +184,7 @@ class FrameChecker {
   std::unique_ptr<Detector> detector_;
   oracle::Oracle oracle_;
   oracle::SurfaceGeometry geometry_;
+  std::map<std::uint32_t, std::pair<std::size_t, oracle::OpenEdge>> open_;
 };
 
 /// What is said of the frames, to a person or to a program.
@@ -245,19 +243,28 @@ class CheckReport {
   results::Finding finding() const { return {count_text(), place(*first_) + ", " + first_words_}; }
   std::optional<std::size_t> first() const { return first_; }
 
-  void end(const CheckArguments& arguments, int exit_code, const std::string& page) const {
+  void end(const CheckArguments& arguments, const FrameChecker& checker, int exit_code,
+           const std::string& page) const {
+    Json not_judged = Json::array();
+    std::string unjudged;
+    for (const auto& [body, found] : checker.open()) {
+      const std::string why =
+          oracle::open_reason(found.second, "frame " + std::to_string(found.first));
+      not_judged.push_back({{"body", name(body)}, {"level", "containment"}, {"reason", why}});
+      unjudged += name(body) + ": containment and depth in it not judged: " + why + "\n";
+    }
     if (json_)
       return print({{"event", "end"},
                     {"out", arguments.out.string()},
                     {"bad_frames", bad_},
                     {"first", first_ ? Json(*first_) : Json(nullptr)},
+                    {"not_judged", not_judged},
                     {"exit_code", exit_code}});
     if (bad_ > kMostShown)
       std::printf("\n... and %s\n", counted(bad_ - kMostShown, "more frame").c_str());
-    if (bad_ == 0) {
-      std::printf("no frame has a contact that is not allowed\n");
-      return;
-    }
+    if (bad_ == 0) std::printf("no frame has a contact that is not allowed\n");
+    if (!unjudged.empty()) std::printf("%s", unjudged.c_str());
+    if (bad_ == 0) return;
     std::printf("\n%s, the first is %s\n", count_text().c_str(), place(*first_).c_str());
     if (deepest_)
       std::printf("%s: %s, %s\n", unknown_depth_ ? "deepest of known depth" : "deepest",
@@ -420,8 +427,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     std::erase_if(scene.levels, [](Level level) { return !is_self(level); });
   if (scene.levels.empty())
     throw InputError("--allow self leaves nothing to be checked of one body");
-  if (arguments.weld)
-    for (Body& body : scene.bodies) body.shape = welded(*body.shape);
+  if (arguments.weld) scene::weld(scene);
   scene::refuse_crowded_vertices(scene);
 
   CheckReport report(scene, files, arguments.json_lines);
@@ -457,7 +463,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     page = write_page(arguments, scene, words, *report.first(), report.finding(), catalog);
   }
   const int code = report.bad_frames() > 0 ? 1 : 0;
-  report.end(arguments, code, page.string());
+  report.end(arguments, checker, code, page.string());
   return code;
 }
 

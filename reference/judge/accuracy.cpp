@@ -63,6 +63,7 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
     const Frame frame = judged.frame(f);
     const oracle::Truth& truth =
         judged.truth.emplace_back(oracle.judge(frame, wanted_truth(scene)));
+    note_open_bodies(scene.bodies, f, truth.open, judged.open);
     judged.contact_frames.push_back(!truth.surface.bodies.empty() ||
                                     !truth.surface.self_bodies.empty());
     if (scene.pairs) {
@@ -101,7 +102,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
   const Question own = semantics.questions.front();
 
   const std::vector<Level> levels =
-      judged_levels(scene.bodies, semantics, scene.levels, &run.not_judged);
+      judged_levels(scene.bodies, tools.judged.open, semantics, scene.levels, &run.not_judged);
   RoundedScene* rounded = nullptr;
   std::vector<Level> rounded_levels;
   if (semantics.precision == Precision::kSingle && detector.needs_vertices())
@@ -155,7 +156,7 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
       for (const Count& count : counts) run.counters.emplace_back(count.name, 0);
     CONTACTCHECK_INVARIANT(counts.size() == run.counters.size(), "the same counts every frame");
     for (std::size_t i = 0; i < counts.size(); ++i) run.counters[i].second += counts[i].value;
-    true_pairs.push_back(truth.surface.bodies);
+    true_pairs.push_back(true_body_pairs(semantics.solid, truth));
     reported_pairs.push_back(contacts.bodies);
 
     // 2. Its other questions. Each level is judged by the answer to its question, depths and
@@ -233,6 +234,8 @@ AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detect
   run.geometry.depth_kind = semantics.depth;
   if (scene.follows_time()) run.geometry.episodes = find_episodes(true_pairs, reported_pairs);
   sum_up_episodes(run.geometry);  // once more when gaps are measured
+  for (const std::string& why : tools.judged.open)
+    if (semantics.solid && !why.empty()) run.notes.push_back("containment not judged: " + why);
   for (const std::string& note : notes.summary()) run.notes.push_back(note);
   if (const std::string note = exchanged.sentence(); !note.empty()) run.notes.push_back(note);
   return outcome;

@@ -105,7 +105,10 @@ void measure_hover_gaps(JudgingTools& tools, std::uint32_t position, Detector& d
     };
     if (!scene.bisects_time() || f == 0) {
       enter(process::Phase::kTruth);
-      e.hover_gap = tools.oracle.distance(tools.judged.frame(f), e.bodies).upper;
+      const std::vector<BodyPair> in_contact =
+          true_body_pairs(run.semantics.solid, tools.judged.truth[f]);
+      const bool touching = std::binary_search(in_contact.begin(), in_contact.end(), e.bodies);
+      e.hover_gap = touching ? 0.0 : tools.oracle.distance(tools.judged.frame(f), e.bodies).upper;
       continue;
     }
     PairProbe probe(tools, detector, e.bodies, enter);

@@ -7,14 +7,11 @@
 
 #include "core/types/check.h"
 #include "core/types/shared_corners.h"
+#include "reference/oracle/closed_chain.h"
+#include "reference/text/file_text.h"
 
 namespace contactcheck::judge {
 namespace {
-
-bool all_solid(const std::vector<Body>& bodies) {
-  return std::all_of(bodies.begin(), bodies.end(),
-                     [](const Body& b) { return b.shape->topology.solid; });
-}
 
 bool all_in_lattices(const std::vector<Body>& bodies) {
   return std::all_of(bodies.begin(), bodies.end(),
@@ -114,16 +111,29 @@ NamedElements elements_of(const std::string& level, const std::string& kind) {
   return known ? named_elements(*known, kind == "missed") : NamedElements{};
 }
 
-std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies) {
+void note_open_bodies(const std::vector<Body>& bodies, std::size_t frame,
+                      const std::vector<oracle::OpenBody>& found, std::vector<std::string>& open) {
+  open.resize(bodies.size());
+  for (const oracle::OpenBody& o : found)
+    if (open[o.body].empty())
+      open[o.body] = oracle::open_reason(o.edge, "body " + text::in_quotes(bodies[o.body].name) +
+                                                     ", frame " + std::to_string(frame));
+}
+
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies,
+                                const std::vector<std::string>& open) {
   const bool needs_solid = level == Level::kContainment || level == Level::kVertex;
-  if (needs_solid && !all_solid(bodies)) return "not judged: open";
+  const auto first =
+      std::find_if(open.begin(), open.end(), [](const auto& o) { return !o.empty(); });
+  if (needs_solid && first != open.end()) return "not judged: " + *first;
   const bool needs_lattice =
       level == Level::kCell || level == Level::kBox || level == Level::kSelfCell;
   if (needs_lattice && !all_in_lattices(bodies)) return "not judged: a body has no lattice";
   return "";
 }
 
-std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+std::vector<Level> judged_levels(const std::vector<Body>& bodies,
+                                 const std::vector<std::string>& open, const Semantics& semantics,
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged) {
   std::vector<Level> out;
@@ -131,7 +141,7 @@ std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantic
   levels.insert(levels.end(), semantics.informative.begin(), semantics.informative.end());
   for (Level level : levels) {
     if (!contains(wanted, level)) continue;
-    const std::string why = obstacle_to_judging(level, bodies);
+    const std::string why = obstacle_to_judging(level, bodies, open);
     if (why.empty()) {
       out.push_back(level);
     } else if (not_judged != nullptr) {
@@ -195,6 +205,14 @@ TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector
   return out;
 }
 
+std::vector<BodyPair> true_body_pairs(bool solid, const oracle::Truth& truth) {
+  std::vector<BodyPair> out = truth.surface.bodies;
+  if (!solid) return out;
+  out.insert(out.end(), truth.containment.begin(), truth.containment.end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const Semantics& semantics,
                            const oracle::Truth& truth, const ContactSet& reported,
                            const TrueNear& near) {
@@ -205,15 +223,9 @@ LevelComparison compare_at(Level level, const std::vector<Body>& bodies, const S
     out.counts.reported = reported_set.size();
   };
   switch (level) {
-    case Level::kBody: {
-      std::vector<BodyPair> in_contact = truth.surface.bodies;
-      if (semantics.solid) {
-        in_contact.insert(in_contact.end(), truth.containment.begin(), truth.containment.end());
-        std::sort(in_contact.begin(), in_contact.end());
-      }
-      compare(in_contact, reported.bodies);
+    case Level::kBody:
+      compare(true_body_pairs(semantics.solid, truth), reported.bodies);
       break;
-    }
     case Level::kContainment: {
       // A solid detector has one list for both kinds of contact. Level `body` judges the pairs
       // whose surfaces truly touch.

@@ -39,12 +39,20 @@ struct Disagreement : results::Disagreement {
 /// What the pair of a disagreement names; nothing where `level` is none.
 NamedElements elements_of(const std::string& level, const std::string& kind);
 
-/// Why a level cannot be judged on these bodies ("not judged: open"), or "".
-std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies);
+/// Of bodies that are open in this frame and were in none before: says so in `open`, one text a
+/// body, "open (body "cube", frame 3, edge of vertices 4 and 5)".
+void note_open_bodies(const std::vector<Body>& bodies, std::size_t frame,
+                      const std::vector<oracle::OpenBody>& found, std::vector<std::string>& open);
+
+/// Why a level cannot be judged on these bodies ("not judged: a body has no lattice"), or "".
+/// `open`: by body, as note_open_bodies() fills it; empty texts where it is closed.
+std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies,
+                                const std::vector<std::string>& open);
 
 /// The levels at which an answer is compared: claimed (or informative) and wanted by the scene.
 /// Levels that need a solid or a lattice and lack it are left out and named in `not_judged`.
-std::vector<Level> judged_levels(const std::vector<Body>& bodies, const Semantics& semantics,
+std::vector<Level> judged_levels(const std::vector<Body>& bodies,
+                                 const std::vector<std::string>& open, const Semantics& semantics,
                                  const std::vector<Level>& wanted,
                                  std::map<Level, std::string>* not_judged);
 
@@ -86,6 +94,10 @@ struct TrueNear {
 /// Of those of `levels` that ask for them. `margin`: in the coordinates of the frame.
 TrueNear true_near(oracle::Oracle& oracle, const Frame& frame, const std::vector<Level>& levels,
                    double margin);
+
+/// The pairs of bodies in contact, canonical; `solid`: with containment, for detectors that take
+/// bodies for solids.
+std::vector<BodyPair> true_body_pairs(bool solid, const oracle::Truth& truth);
 
 /// `near`: of the margin of the semantics, for the levels `near` and `self-near`.
 /// @pre all sets are canonical

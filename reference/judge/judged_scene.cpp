@@ -84,7 +84,7 @@ Frame make_frame(std::size_t index, double time, const std::vector<std::vector<V
 
 oracle::WantedTruth wanted_truth(const scene::Scene& scene) {
   oracle::WantedTruth wanted;
-  wanted.containment = scene.judges(Level::kContainment);
+  wanted.containment = scene.judges(Level::kContainment) || scene.judges(Level::kBody);
   wanted.vertices = scene.judges(Level::kVertex);
   wanted.boxes = scene.judges(Level::kBox);
   wanted.self = any_self(scene.levels);

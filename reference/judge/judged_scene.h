@@ -45,6 +45,7 @@ struct JudgedScene {
   const scene::Scene* scene = nullptr;
   scene::FramePositions positions;
   std::vector<oracle::Truth> truth;  ///< per frame
+  std::vector<std::string> open;     ///< per body, as note_open_bodies() says
   /// Per frame: length of each true triangle pair; empty where the scene does not grade lengths.
   std::vector<std::vector<double>> contour;
   std::vector<bool> contact_frames;  ///< some surfaces touch
@@ -55,7 +56,8 @@ struct JudgedScene {
   Frame frame(std::size_t index) const;
 };
 
-/// What the scene asks the oracle for.
+/// What the scene asks the oracle for. Containment also where only level `body` is judged:
+/// detectors that take bodies for solids are judged by it there.
 oracle::WantedTruth wanted_truth(const scene::Scene& scene);
 
 /// A frame of given nodes and vertices, which must outlive it.

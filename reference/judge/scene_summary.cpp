@@ -4,6 +4,7 @@
 #include <map>
 
 #include "reference/judge/judge.h"
+#include "reference/oracle/closed_chain.h"
 
 namespace contactcheck::judge {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 // Summed over frames; levels that the scene does not ask for are absent.
 std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedScene& judged) {
   const bool cells = judged.scene->judges(Level::kSelfCell) &&
-                     obstacle_to_judging(Level::kSelfCell, judged.scene->bodies).empty();
+                     obstacle_to_judging(Level::kSelfCell, judged.scene->bodies, {}).empty();
   std::map<Level, std::uint64_t> sums;
   for (const oracle::Truth& t : judged.truth) {
     sums[Level::kBody] += t.surface.bodies.size();
@@ -28,7 +29,7 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
   std::map<Level, std::variant<std::uint64_t, std::string>> out;
   for (const auto& [level, sum] : sums) {
     if (!judged.scene->judges(level)) continue;
-    const std::string why = obstacle_to_judging(level, judged.scene->bodies);
+    const std::string why = obstacle_to_judging(level, judged.scene->bodies, judged.open);
     if (why.empty()) {
       out[level] = sum;
     } else {
@@ -70,9 +71,11 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   out.truth_hash = results::hex(hash);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodyShape& shape = *scene.bodies[b].shape;
-    out.bodies.push_back({scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
-                          shape.mesh.vertices.size(), shape.mesh.triangles.size(),
-                          shape.lattice ? shape.lattice->cells.size() : 0, shape.topology.solid});
+    out.bodies.push_back(
+        {scene.bodies[b].name, scene.origins[b].source, scene.origins[b].notes,
+         shape.mesh.vertices.size(), shape.mesh.triangles.size(),
+         shape.lattice ? shape.lattice->cells.size() : 0,
+         oracle::surface_chain(shape.mesh.triangles, shape.mesh.vertices).closed()});
   }
   out.separation = separations;
   if (scene.family) {

@@ -12,6 +12,7 @@
 #include "core/types/contact_set.h"
 #include "core/types/vec3.h"
 #include "reference/oracle/cell_hulls.h"
+#include "reference/oracle/closed_chain.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/surface_distance.h"
@@ -42,9 +43,15 @@ struct Oracle::Impl {
   std::uint32_t size() const { return static_cast<std::uint32_t>(shapes.size()); }
   void check(const Frame& frame) const;
   std::vector<Aabb> vertex_boxes(const Frame& frame) const;
+  std::vector<OpenBody> update_chains(const Frame& frame);
+  bool contains(std::uint32_t outer, std::uint32_t inner, const Frame& frame) const;
+  std::vector<BodyPair> contained(const Frame& frame, const std::vector<BodyPair>& touching) const;
 
   std::vector<std::shared_ptr<const BodyShape>> shapes;
   std::vector<SurfaceTree> trees;
+  // Instances of one shape share what is known of it as written. Where that is closed it is the
+  // body's chain in every frame. Empty until first wanted.
+  std::vector<std::shared_ptr<const SurfaceChain>> written, chains;
   std::vector<CellHulls> hulls;  // empty until boxes are first wanted
   ScaledSurface scaled_a, scaled_b;
 };
@@ -79,6 +86,51 @@ std::vector<Aabb> Oracle::Impl::vertex_boxes(const Frame& frame) const {
   return boxes;
 }
 
+// The chains of this frame; those that are open.
+std::vector<OpenBody> Oracle::Impl::update_chains(const Frame& frame) {
+  if (written.empty())
+    for (const auto& shape : shapes) {
+      const auto first = std::find(shapes.begin(), shapes.end(), shape);
+      const auto index = static_cast<std::size_t>(first - shapes.begin());
+      const TriangleMesh& mesh = shape->mesh;
+      written.push_back(index < written.size()
+                            ? written[index]
+                            : std::make_shared<const SurfaceChain>(
+                                  surface_chain_as_written(mesh.triangles, mesh.vertices.size())));
+    }
+  chains = written;
+  std::vector<OpenBody> open;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (!written[i]->closed())
+      chains[i] = std::make_shared<const SurfaceChain>(
+          surface_chain(shapes[i]->mesh.triangles, frame.bodies[i].vertices));
+    if (!chains[i]->closed()) open.push_back({i, *chains[i]->open});
+  }
+  return open;
+}
+
+// @pre the surfaces share no point: all of a component lies inside where one of its vertices does
+bool Oracle::Impl::contains(std::uint32_t outer, std::uint32_t inner, const Frame& frame) const {
+  const std::vector<std::uint32_t>& component_vertex = chains[inner]->component_vertex;
+  return chains[outer]->closed() &&
+         std::any_of(component_vertex.begin(), component_vertex.end(), [&](std::uint32_t v) {
+           return strictly_inside(trees[outer], frame.bodies[inner].vertices[v]);
+         });
+}
+
+// @pre trees and chains are those of the frame
+std::vector<BodyPair> Oracle::Impl::contained(const Frame& frame,
+                                              const std::vector<BodyPair>& touching) const {
+  std::vector<BodyPair> out;
+  for (std::uint32_t a = 0; a < size(); ++a)
+    for (std::uint32_t b = a + 1; b < size(); ++b)
+      if (trees[a].bounds().overlaps(trees[b].bounds()) &&
+          !std::binary_search(touching.begin(), touching.end(), BodyPair{a, b}) &&
+          (contains(a, b, frame) || contains(b, a, frame)))
+        out.push_back({a, b});
+  return out;
+}
+
 Oracle::Oracle(const std::vector<Body>& bodies) : impl_(std::make_unique<Impl>(bodies)) {}
 Oracle::~Oracle() = default;
 
@@ -100,20 +152,16 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
   }
 
   Truth truth;
-  // @pre the surfaces share no point, so a component lies inside when one of its vertices does
-  const auto contains = [&](std::uint32_t outer, std::uint32_t inner) {
-    const std::vector<std::uint32_t>& component_vertex = shapes[inner]->topology.component_vertex;
-    return shapes[outer]->topology.solid &&
-           std::all_of(component_vertex.begin(), component_vertex.end(), [&](std::uint32_t v) {
-             return strictly_inside(trees[outer], frame.bodies[inner].vertices[v]);
-           });
-  };
+  if (wanted.containment || wanted.vertices) truth.open = impl_->update_chains(frame);
   const auto judge_vertices = [&](std::uint32_t body, std::uint32_t in) {
-    if (!shapes[in]->topology.solid) return;
+    if (!impl_->chains[in]->closed()) return;
     const auto vertices = frame.bodies[body].vertices;
+    const std::vector<std::uint32_t>& component = shapes[body]->topology.component_of_vertex;
     for (std::uint32_t v = 0; v < vertices.size(); ++v)
-      if (strictly_inside(trees[in], vertices[v])) truth.surface.vertices.push_back({body, in, v});
+      if (component[v] != kNoComponent && strictly_inside(trees[in], vertices[v]))
+        truth.surface.vertices.push_back({body, in, v});
   };
+  std::vector<BodyPair> touching;
   const auto judge_pair = [&](std::uint32_t a, std::uint32_t b) {
     if (!trees[a].bounds().overlaps(trees[b].bounds())) return;
     if (wanted.triangles || wanted.containment) {
@@ -125,8 +173,7 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
         if (wanted.triangles) truth.surface.triangles.push_back({a, b, i, j});
         return !wanted.triangles;
       });
-      if (wanted.containment && !contact && (contains(a, b) || contains(b, a)))
-        truth.containment.push_back({a, b});
+      if (contact) touching.push_back({a, b});
     }
     if (wanted.vertices) {
       judge_vertices(a, b);
@@ -152,9 +199,20 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
       overlapping_cells(hulls[a], hulls[b], cells);
       for (const CellPair& c : cells) truth.boxes.push_back({a, b, c.a, c.b});
     }
+  if (wanted.containment) truth.containment = impl_->contained(frame, touching);
   truth.surface.canonicalize();
   std::sort(truth.boxes.begin(), truth.boxes.end());
   return truth;
+}
+
+Containment Oracle::containment(const Frame& frame, const std::vector<BodyPair>& touching) {
+  const FloatingPointGuard guard;
+  impl_->check(frame);
+  for (std::uint32_t i = 0; i < impl_->size(); ++i) impl_->trees[i].refit(frame.bodies[i].vertices);
+  Containment out;
+  out.open = impl_->update_chains(frame);
+  out.pairs = impl_->contained(frame, touching);
+  return out;
 }
 
 DistanceInterval Oracle::distance(const Frame& frame, BodyPair pair) {

@@ -12,6 +12,7 @@
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
+#include "reference/oracle/closed_chain.h"
 
 namespace contactcheck::oracle {
 
@@ -24,13 +25,27 @@ struct WantedTruth {
   bool self = false;   ///< contacts of bodies with themselves
 };
 
+/// A body that encloses nothing in a frame.
+struct OpenBody {
+  std::uint32_t body = 0;
+  OpenEdge edge;
+  bool operator==(const OpenBody&) const = default;
+};
+
+/// Pairs of bodies whose surfaces share no point, though a component of one lies inside the other.
+struct Containment {
+  std::vector<BodyPair> pairs;  ///< canonical; inside an open body lies nothing
+  std::vector<OpenBody> open;   ///< in the order of the bodies
+};
+
 struct Truth {
   /// bodies: pairs whose surfaces share a point; triangles: pairs that share a point; vertices:
-  /// strictly inside a solid body; self: pairs of triangles of one body that meet in more than the
-  /// vertices they share, without duplicates (the same vertices). Canonical. `cells` stays empty:
-  /// cell truth is triangle truth read through labels.
+  /// strictly inside a solid body, of those that triangles use; self: pairs of triangles of one
+  /// body that meet in more than the vertices they share, without duplicates (the same vertices).
+  /// Canonical. `cells` stays empty: cell truth is triangle truth read through labels.
   ContactSet surface;
-  std::vector<BodyPair> containment;  ///< one solid holds the other, no surface contact
+  std::vector<BodyPair> containment;  ///< as Containment says
+  std::vector<OpenBody> open;         ///< told where containment or vertices are wanted
   std::vector<ElementPair> boxes;     ///< pairs of kept cells whose mapped FFD-AABB hulls overlap
 };
 
@@ -52,6 +67,8 @@ class Oracle {
   /// @pre frame has vertices for every body, all finite
   /// @throws RefusedInput for self-contact of a mesh as refuse_many_adjacent_pairs() does
   Truth judge(const Frame& frame, const WantedTruth& wanted);
+  /// The containment in `frame`, where it is known which surfaces share a point (canonical).
+  Containment containment(const Frame& frame, const std::vector<BodyPair>& touching);
   /// Distance between two surfaces (triangle against triangle), of the vertices of `frame`.
   DistanceInterval distance(const Frame& frame, BodyPair pair);
   /// The smallest distance between the surfaces of any two bodies: the contract of distance(), the

@@ -12,8 +12,10 @@ namespace {
 // ray in general position. Here the ray runs along +x from the point displaced by (0, e, e^2), e
 // infinitely small and positive: then no crossing is degenerate, no second ray is ever needed, and
 // the boxes that the ray meets are found by comparisons alone. The displacement does not change the
-// answer, for a point that is not on the surface has a neighbourhood free of it.
-// Source of the idea: Edelsbrunner & Muecke, Simulation of Simplicity, ACM TOG 1990.
+// answer, for a point that is not on the surface has a neighbourhood free of it. Both directions of
+// an edge get opposite sides, whoever uses it: sheets that share an edge leave no gap and no
+// overlap there, and what cancels in a closed chain cancels in the sum. Source of the idea:
+// Edelsbrunner & Muecke, Simulation of Simplicity, ACM TOG 1990.
 
 int sign(double a, double b) { return (a > b) - (a < b); }
 

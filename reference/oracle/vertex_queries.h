@@ -13,8 +13,8 @@ namespace contactcheck::oracle {
 
 /// The winding number of the surface around the point: how often it wraps it, outward-oriented
 /// wraps counted positive; none when the point lies on the surface. Exact.
-/// The surface may intersect itself and have degenerate triangles.
-/// @pre the surface is edge-manifold, closed and consistently oriented; the tree is refitted
+/// The surface may intersect itself, have any number of triangles on an edge and degenerate ones.
+/// @pre the surface is a closed chain (closed_chain.h); the tree is refitted
 std::optional<int> winding_number(const SurfaceTree& surface, const Vec3& point);
 
 /// Not on the surface, and its winding number is not 0.

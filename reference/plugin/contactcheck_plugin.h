@@ -48,7 +48,7 @@ enum {
 /* Levels of contact, as bits. */
 enum {
   CONTACTCHECK_LEVEL_BODY = 1 << 0,        /* pairs of bodies whose surfaces share a point */
-  CONTACTCHECK_LEVEL_CONTAINMENT = 1 << 1, /* one solid holds another, surfaces apart */
+  CONTACTCHECK_LEVEL_CONTAINMENT = 1 << 1, /* a part inside a solid, surfaces apart */
   CONTACTCHECK_LEVEL_CELL = 1 << 2,        /* pairs of lattice cells, by the triangles in them */
   CONTACTCHECK_LEVEL_BOX = 1 << 3,         /* pairs of mapped FFD-AABBs; reported as cells */
   CONTACTCHECK_LEVEL_TRIANGLE = 1 << 4,    /* pairs of triangles that share a point */
@@ -87,7 +87,7 @@ typedef struct contactcheck_semantics {
   uint32_t informative;    /* bits; shown, no claim */
   uint32_t question_count; /* 1 to 4 */
   uint32_t questions[4];   /* all different; the first one is the detector's own */
-  uint32_t solid;          /* 1: a body inside another is in contact with it */
+  uint32_t solid;          /* 1: a part inside another body is in contact */
   uint32_t touching_counts;
   uint32_t exact;     /* 1: no miss and nothing spurious at the levels claimed, ever */
   uint32_t precision; /* CONTACTCHECK_DOUBLE or _SINGLE */

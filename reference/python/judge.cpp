@@ -8,6 +8,7 @@
 
 #include "core/types/check.h"
 #include "core/types/shared_corners.h"
+#include "reference/oracle/closed_chain.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/oracle.h"
@@ -131,16 +132,17 @@ py::tuple depth(const Shape& a, const Shape& b) {
 
 py::tuple inside(const py::object& points_object, const Shape& shape) {
   const std::vector<Vec3> points = read_points(points_object, "points");
-  const MeshTopology& topology = shape.body->topology;
-  if (!topology.solid)
-    throw InputError("V, F has no inside: " + describe(topology) +
-                     "; a closed mesh is wanted, every edge with two triangles that run it in "
-                     "opposite directions");
   std::vector<std::optional<int>> winding(points.size());
   {
     const Released released;
-    oracle::SurfaceTree tree(shape.body->mesh);
-    tree.refit(shape.body->mesh.vertices);
+    const TriangleMesh& mesh = shape.body->mesh;
+    const auto chain = oracle::surface_chain(mesh.triangles, mesh.vertices);
+    if (!chain.closed())
+      throw InputError("V, F has no inside: it is " + oracle::open_reason(*chain.open) +
+                       "; a closed mesh is wanted, every edge run equally often in both "
+                       "directions, equal coordinates being one vertex");
+    oracle::SurfaceTree tree(mesh);
+    tree.refit(mesh.vertices);
     for (std::size_t i = 0; i < points.size(); ++i)
       winding[i] = oracle::winding_number(tree, points[i]);
   }

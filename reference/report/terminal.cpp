@@ -140,11 +140,25 @@ std::string text_of(const TitledTable& of, bool color) {
   return out + "\n";
 }
 
+// "containment, vertex not judged: open (...)"; empty where they are judged.
+std::string open_line(const results::Scene& scene) {
+  std::string levels, why;
+  for (const Level level : {Level::kContainment, Level::kVertex}) {
+    const auto found = scene.truth.find(level);
+    const auto* text =
+        found == scene.truth.end() ? nullptr : std::get_if<std::string>(&found->second);
+    if (text == nullptr) continue;
+    levels += (levels.empty() ? "" : ", ") + std::string(name_of(level));
+    why = *text;
+  }
+  return why.empty() ? "" : levels + " " + why;
+}
+
 std::string scene_head(const results::Scene& scene, bool color) {
   std::size_t triangles = 0;
   for (const results::SceneBody& body : scene.bodies) triangles += body.triangles;
   std::string more;
-  for (const std::string& line : {pairs_line(scene), fits_line(scene)})
+  for (const std::string& line : {pairs_line(scene), fits_line(scene), open_line(scene)})
     if (!line.empty()) more += "  " + line + "\n";
   return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n{}",
                      paint(scene.id, kBold, color), scene.title, scene.bodies.size(), triangles,

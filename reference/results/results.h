@@ -153,7 +153,8 @@ struct ClosedLoop {
   /// The true distance of every pair of bodies that the detector reports in the last tenth of the
   /// frames (0 where they touch or sink in); none without such a pair.
   std::optional<double> hover_at_rest_max, hover_at_rest_mean;
-  /// The deepest vertex inside another body, over all frames; none where no body is solid.
+  /// The deepest vertex inside another body, over all frames; none where no body is closed in all
+  /// of them, or level `vertex` is not judged.
   std::optional<double> deepest_penetration;
   /// (highest total energy - energy at the start) / highest kinetic energy: above 0 response or
   /// integrator put energy in.

@@ -15,6 +15,7 @@
 #include "core/types/semantics.h"
 #include "core/types/vec3.h"
 #include "reference/mesh/mesh_file.h"
+#include "reference/oracle/closed_chain.h"
 #include "reference/scene/approach.h"
 #include "reference/text/file_text.h"
 #include "reference/text/id_check.h"
@@ -268,10 +269,11 @@ std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
       note += ", scaled to " + digits(*request.size) + " m (--size file keeps it)";
     if (std::find(notes.begin(), notes.end(), note) != notes.end()) continue;
     notes.push_back(note);
-    const MeshTopology topology = analyse_topology(loaded.mesh);
-    for (const std::string& found : {loaded.notes, describe(topology)})
+    for (const std::string& found : {loaded.notes, describe(analyse_topology(loaded.mesh))})
       if (!found.empty()) notes.push_back(name + ": " + found);
-    if (!topology.solid) notes.push_back(name + ": not closed, so containment is not judged");
+    const auto chain = oracle::surface_chain(loaded.mesh.triangles, loaded.mesh.vertices);
+    if (!chain.closed())
+      notes.push_back(name + ": containment not judged: " + oracle::open_reason(*chain.open));
   }
   if (largest.first > kDoubtful * smallest.first)
     notes.push_back("warning: " + largest.second + " is " + digits(largest.first / smallest.first) +

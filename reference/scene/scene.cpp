@@ -5,6 +5,7 @@
 #include "core/deform/recording.h"
 #include "core/types/check.h"
 #include "core/types/mesh_topology.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/scene/drawn_scene.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/random_pairs.h"
@@ -85,6 +86,19 @@ Scene load_recording(const std::filesystem::path& file) {
     scene.origins.push_back({body.name, "recording", describe(body.shape->topology)});
   }
   return scene;
+}
+
+void weld(Scene& scene) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    std::shared_ptr<const BodyShape>& shape = scene.bodies[b].shape;
+    std::string& notes = scene.origins[b].notes;
+    // Whoever loads a mesh notes its defects last.
+    const std::string defects = describe(shape->topology);
+    if (notes.ends_with(defects)) notes.erase(notes.size() - defects.size());
+    if (notes.ends_with("; ")) notes.erase(notes.size() - 2);
+    shape = welded(*shape);
+    mesh::add_note(notes, describe(shape->topology));
+  }
 }
 
 void refuse_crowded_vertices(const Scene& scene) {

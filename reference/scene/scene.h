@@ -148,6 +148,9 @@ Scene make_pairs_scene(const PairSpec& spec);
 /// A scene out of a recording (.ccr), judged at the levels body, cell, box, triangle and near.
 Scene load_recording(const std::filesystem::path& file);
 
+/// Welds every body (core/deform/body.h); their defects are noted as those of the welded meshes.
+void weld(Scene& scene);
+
 /// Self-contact that would take too long to judge (refuse_many_adjacent_pairs).
 /// @throws InputError naming the first such body of a scene with levels of self-contact
 void refuse_crowded_vertices(const Scene& scene);

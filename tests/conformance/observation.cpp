@@ -12,8 +12,14 @@ namespace contactcheck::test {
 namespace {
 
 // The level `box` is made of nodes, which no detector in single precision is fed.
-std::vector<Level> judgeable_levels(const std::vector<Body>& bodies, const Semantics& semantics) {
-  std::vector<Level> levels = judge::judged_levels(bodies, semantics, semantics.levels, nullptr);
+std::vector<Level> judgeable_levels(const Case& scene, const Semantics& semantics) {
+  oracle::Oracle oracle(scene.bodies);
+  std::vector<std::string> open;
+  for (std::size_t f = 0; f < scene.frames.size(); ++f)
+    judge::note_open_bodies(scene.bodies, f, oracle.containment(scene.frames[f].frame(f), {}).open,
+                            open);
+  std::vector<Level> levels =
+      judge::judged_levels(scene.bodies, open, semantics, semantics.levels, nullptr);
   if (semantics.precision == Precision::kSingle)
     std::erase_if(levels, [](Level l) { return l == Level::kCell || l == Level::kBox; });
   return levels;
@@ -80,7 +86,7 @@ class Observer {
       : scene_(scene),
         detector_(prepared(make, scene.bodies)),
         semantics_(detector_->semantics()),
-        levels_(judgeable_levels(scene.bodies, semantics_)),
+        levels_(judgeable_levels(scene, semantics_)),
         wanted_(wanted_truth(levels_, semantics_)),
         oracle_(scene.bodies),
         totals_(semantics_, levels_) {}

@@ -145,8 +145,9 @@ def inside(points: Any, V: Any, F: Any) -> Inside:
     """How often a closed mesh winds round each of (n, 3) points, and which lie on it; exact.
 
     A point is inside where its winding number is not 0. Negative: the triangles run clockwise seen
-    from outside. The mesh may intersect itself. Raises InputError for one that is open, has an edge
-    with more than two triangles, or is not consistently oriented.
+    from outside. The mesh may intersect itself, have any number of triangles on an edge, triangles
+    of no area, and several vertices at one place, which are one. Raises InputError, naming the
+    first such edge, where the others do not run every edge equally often in both directions.
 
     >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     >>> F = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]

@@ -127,9 +127,9 @@ def test_says_what_the_mesh_check_found(folder):
     (folder / "cube.obj").write_text(meshes.obj_text((vertices, triangles[:-1])))
     err = run(folder).err
     assert "\ncube: 3 boundary-edge (first: triangle " in err
-    assert "\ncube: not closed, so containment is not judged\n" in err
+    assert "\ncube: containment not judged: open (edge of vertices " in err
     assert "\nball: 0 " not in err
-    assert "\nball: not closed" not in err
+    assert "\nball: containment" not in err
 
 
 def test_takes_the_detectors_of_a_suite(folder):

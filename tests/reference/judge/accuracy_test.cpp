@@ -205,8 +205,11 @@ TEST(JudgeScene, ComputesOnlyTheTruthThatTheSceneWants) {
   process::SharedProgress page;
   process::ProgressWriter progress(&page);
   EXPECT_TRUE(judge_scene(scene, progress).truth.at(0).containment.empty());
-  scene.levels = {Level::kContainment};
-  EXPECT_EQ(judge_scene(scene, progress).truth.at(0).containment.size(), 1u);
+  // Level body wants it too, for detectors that take bodies for solids.
+  for (const Level level : {Level::kContainment, Level::kBody}) {
+    scene.levels = {level};
+    EXPECT_EQ(judge_scene(scene, progress).truth.at(0).containment.size(), 1u);
+  }
 }
 
 }  // namespace

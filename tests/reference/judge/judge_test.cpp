@@ -282,7 +282,7 @@ TEST(JudgedLevels, HoldWhatIsInformativeToo) {
   semantics.levels = {Level::kBody};
   semantics.informative = {Level::kVertex};
   std::map<Level, std::string> not_judged;
-  EXPECT_THAT(judged_levels(labelled_bodies(), semantics,
+  EXPECT_THAT(judged_levels(labelled_bodies(), {}, semantics,
                             {Level::kBody, Level::kVertex, Level::kTriangle}, &not_judged),
               ElementsAre(Level::kBody, Level::kVertex));
 }
@@ -291,32 +291,36 @@ TEST(JudgedLevels, AreThoseClaimedAndWanted) {
   Semantics semantics;
   semantics.levels = {Level::kBody, Level::kTriangle};
   std::map<Level, std::string> not_judged;
-  EXPECT_THAT(
-      judged_levels(labelled_bodies(), semantics, {Level::kTriangle, Level::kCell}, &not_judged),
-      ElementsAre(Level::kTriangle));
+  EXPECT_THAT(judged_levels(labelled_bodies(), {}, semantics, {Level::kTriangle, Level::kCell},
+                            &not_judged),
+              ElementsAre(Level::kTriangle));
   EXPECT_THAT(not_judged, IsEmpty());
 }
 
 TEST(JudgedLevels, OneOpenBodyStopsContainmentAndVertexWithAReason) {
-  std::vector<Body> bodies = labelled_bodies();
-  bodies.push_back(labelled_body("open", false));
+  const std::vector<Body> bodies = labelled_bodies();
+  std::vector<std::string> open;
+  note_open_bodies(bodies, 2, {}, open);
+  note_open_bodies(bodies, 3, {{1, {7, 4, 5}}}, open);
+  note_open_bodies(bodies, 4, {{1, {0, 0, 1}}}, open);  // later
+  const std::string why = "not judged: open (body \"second\", frame 3, edge of vertices 4 and 5)";
   Semantics semantics;
   semantics.levels = {Level::kBody, Level::kContainment, Level::kVertex, Level::kCell};
   std::map<Level, std::string> not_judged;
-  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+  EXPECT_THAT(judged_levels(bodies, open, semantics, semantics.levels, &not_judged),
               ElementsAre(Level::kBody, Level::kCell));
   EXPECT_EQ(not_judged.size(), 2u);
-  EXPECT_EQ(not_judged[Level::kContainment], "not judged: open");
-  EXPECT_EQ(not_judged[Level::kVertex], "not judged: open");
+  EXPECT_EQ(not_judged[Level::kContainment], why);
+  EXPECT_EQ(not_judged[Level::kVertex], why);
 }
 
 TEST(JudgedLevels, OneBodyWithoutLatticeStopsCellAndBoxWithAReason) {
   std::vector<Body> bodies = labelled_bodies();
-  bodies.push_back(labelled_body("bare", true, false));
+  bodies.push_back(labelled_body("bare", false));
   Semantics semantics;
   semantics.levels = {Level::kCell, Level::kBox, Level::kTriangle};
   std::map<Level, std::string> not_judged;
-  EXPECT_THAT(judged_levels(bodies, semantics, semantics.levels, &not_judged),
+  EXPECT_THAT(judged_levels(bodies, {}, semantics, semantics.levels, &not_judged),
               ElementsAre(Level::kTriangle));
   EXPECT_EQ(not_judged[Level::kCell], "not judged: a body has no lattice");
   EXPECT_EQ(not_judged[Level::kBox], "not judged: a body has no lattice");

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <sstream>
@@ -65,6 +66,27 @@ inline TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
 /// The same surface with its inside out.
 inline TriangleMesh reversed(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// The boundaries of random tetrahedra with corners on one small grid, which share vertices: a
+/// closed chain with any number of sheets on an edge, duplicates in both directions, flat
+/// tetrahedra, and triangles of no area.
+inline TriangleMesh tetrahedra_on_a_grid(TriangleSource& source, int count, int side) {
+  TriangleMesh mesh;
+  const auto vertex = [&mesh](const Vec3& p) {
+    const auto found = std::find(mesh.vertices.begin(), mesh.vertices.end(), p);
+    const auto index = static_cast<std::uint32_t>(found - mesh.vertices.begin());
+    if (found == mesh.vertices.end()) mesh.vertices.push_back(p);
+    return index;
+  };
+  for (int i = 0; i < count; ++i) {
+    std::array<std::uint32_t, 4> v{};
+    for (std::uint32_t& corner : v) corner = vertex(source.grid_point(side));
+    for (const Triangle& t : {Triangle{v[0], v[2], v[1]}, Triangle{v[0], v[1], v[3]},
+                              Triangle{v[1], v[2], v[3]}, Triangle{v[0], v[3], v[2]}})
+      mesh.triangles.push_back(t);
+  }
   return mesh;
 }
 

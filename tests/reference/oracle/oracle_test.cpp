@@ -67,15 +67,93 @@ TEST(Oracle, HeldBodyIsContainmentAndAllItsVerticesAreInside) {
     EXPECT_EQ(truth.surface.vertices[v], (VertexInBody{0, 1, v}));
 }
 
-TEST(Oracle, EveryComponentMustBeHeld) {
+// It was asked that all lie inside: a part beside the solid hid one in it.
+TEST(Oracle, OneComponentInsideIsContainment) {
   const TriangleMesh one = box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1);
   const Body outer = test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 3));
   const TriangleMesh in = box_mesh(Vec3(3, 3, 3), Vec3(3.5, 3.5, 3.5), 1);
   const TriangleMesh out = box_mesh(Vec3(5, 3, 3), Vec3(6, 4, 4), 1);
-  EXPECT_THAT(judge_at_rest({outer, test::bare_body("both", joined(one, in))}).containment,
-              ElementsAre(BodyPair{0, 1}));
-  EXPECT_THAT(judge_at_rest({outer, test::bare_body("half", joined(one, out))}).containment,
-              IsEmpty());
+  for (const TriangleMesh& parts : {joined(one, in), joined(one, out), joined(out, one)})
+    for (const oracle::Truth& truth : {judge_at_rest({outer, test::bare_body("parts", parts)}),
+                                       judge_at_rest({test::bare_body("parts", parts), outer})}) {
+      EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1}));
+      EXPECT_THAT(truth.surface.bodies, IsEmpty());
+    }
+  EXPECT_THAT(judge_at_rest({outer, test::bare_body("out", out)}).containment, IsEmpty());
+  // Each has a part in the other, and one beside it.
+  const Body a = test::bare_body("a", joined(box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1),
+                                             box_mesh(Vec3(8, 1, 1), Vec3(9, 2, 2), 1)));
+  const Body b = test::bare_body("b", joined(box_mesh(Vec3(7, 0, 0), Vec3(11, 4, 4), 1),
+                                             box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1)));
+  EXPECT_THAT(judge_at_rest({a, b}).containment, ElementsAre(BodyPair{0, 1}));
+}
+
+TEST(Oracle, WallBetweenShellsHoldsAndTheirCavityDoesNot) {
+  const Body shell =
+      test::bare_body("shell", joined(box_mesh(Vec3(0, 0, 0), Vec3(9, 9, 9), 1),
+                                      reversed(box_mesh(Vec3(3, 3, 3), Vec3(6, 6, 6), 1))));
+  const TriangleMesh in_wall = box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1);
+  const TriangleMesh in_cavity = box_mesh(Vec3(4, 4, 4), Vec3(5, 5, 5), 1);
+  const TriangleMesh around_cavity = box_mesh(Vec3(2, 2, 2), Vec3(7, 7, 7), 1);
+  const auto contained = [&](const TriangleMesh& mesh) {
+    return !judge_at_rest({shell, test::bare_body("other", mesh)}).containment.empty();
+  };
+  EXPECT_TRUE(contained(in_wall));
+  EXPECT_FALSE(contained(in_cavity));
+  EXPECT_TRUE(contained(joined(in_cavity, in_wall)));
+  EXPECT_TRUE(contained(around_cavity));
+  // A cloth of two sides has no interior: it contains nothing.
+  const TriangleMesh sheet = triangle_mesh(Vec3(-9, -9, 4), Vec3(90, -9, 4), Vec3(-9, 90, 4));
+  const Body cloth = test::bare_body("cloth", joined(sheet, reversed(sheet)));
+  const Body small = test::bare_body("small", in_wall);
+  EXPECT_THAT(judge_at_rest({cloth, small}).open, IsEmpty());
+  EXPECT_THAT(judge_at_rest({cloth, small}).containment, IsEmpty());
+}
+
+TEST(Oracle, ContainmentWhereItIsKnownWhoTouches) {
+  const std::vector<Body> bodies = {
+      test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1)),
+      test::bare_body("inner", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1)),
+      test::bare_body("patch", triangle_mesh(Vec3(3, 3, 3), Vec3(3, 3, 5), Vec3(3, 5, 3)))};
+  oracle::Oracle oracle(bodies);
+  const FrameData data = rest_frame(bodies);
+  const oracle::Containment found = oracle.containment(data.frame(), {{0, 2}});
+  EXPECT_THAT(found.pairs, ElementsAre(BodyPair{0, 1}));
+  EXPECT_THAT(found.open, ElementsAre(oracle::OpenBody{2, {0, 0, 1}}));
+  EXPECT_THAT(oracle.containment(data.frame(), {{0, 1}, {0, 2}}).pairs, IsEmpty());
+}
+
+// A seam of doubled vertices is open in the frames in which it comes apart.
+TEST(Oracle, BodyIsOpenInTheFramesInWhichItsSeamIs) {
+  TriangleMesh lid = box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1);
+  const Triangle torn = lid.triangles.back();
+  for (std::uint32_t& v : lid.triangles.back()) {
+    lid.vertices.push_back(Vec3(lid.vertices[v]));
+    v = static_cast<std::uint32_t>(lid.vertices.size() - 1);
+  }
+  const std::vector<Body> bodies = {
+      test::bare_body("seam", lid),
+      test::bare_body("in", box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1))};
+  oracle::Oracle oracle(bodies);
+  FrameData data = rest_frame(bodies);
+  for (const bool apart : {false, true, false}) {
+    data.vertices[0][8] = lid.vertices[torn[0]] + Vec3(apart ? 0x1p-40 : 0.0, 0, 0);
+    const oracle::Truth truth = oracle.judge(data.frame(), kEverything);
+    EXPECT_EQ(truth.open.empty(), !apart);
+    EXPECT_EQ(truth.containment.size(), apart ? 0u : 1u);
+    EXPECT_EQ(truth.surface.vertices.size(), apart ? 0u : 8u);
+  }
+}
+
+TEST(Oracle, VerticesWithoutTrianglesAreNotInside) {
+  TriangleMesh stray = box_mesh(Vec3(7, 7, 7), Vec3(8, 8, 8), 1);
+  stray.vertices.emplace_back(1, 1, 1);
+  stray.vertices.emplace_back(9, 9, 9);
+  const oracle::Truth truth =
+      judge_at_rest({test::bare_body("box", box_mesh(Vec3(0, 0, 0), Vec3(7.5, 7.5, 7.5), 1)),
+                     test::bare_body("stray", stray)});
+  EXPECT_THAT(truth.surface.vertices, testing::Not(testing::Contains(VertexInBody{1, 0, 8})));
+  EXPECT_FALSE(truth.surface.vertices.empty());
 }
 
 TEST(Oracle, ContactRulesContainmentOut) {

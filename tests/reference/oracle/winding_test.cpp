@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "reference/oracle/closed_chain.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/rational_geometry.h"
 #include "tests/reference/oracle/meshes.h"
@@ -187,6 +188,76 @@ TEST(WindingAgainstRational, CrumpledSpheres) {
   EXPECT_GT(by_winding[3], 50);                  // outside
   EXPECT_GT(by_winding[4], 30);                  // once
   EXPECT_GT(by_winding[5] + by_winding[6], 10);  // more than once
+}
+
+// How often the surface wraps the point, by its solid angle: in doubles, far from deciding.
+int rounded_solid_angle(const TriangleMesh& mesh, const Vec3& p) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p,
+               c = mesh.vertices[t[2]] - p;
+    sum += 2 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                                 b.dot(c) * a.norm() + c.dot(a) * b.norm());
+  }
+  return static_cast<int>(std::lround(sum / (4 * std::acos(-1.0))));
+}
+
+// Any number of sheets on an edge, in both directions, one upon the other, with triangles of no
+// area: rays along the grid meet them in corners and edges.
+TEST(WindingAgainstRational, ClosedChainsThatAreNoManifolds) {
+  TriangleSource source(303);
+  int by_winding[9] = {}, on_surface = 0, shared = 0;
+  for (int round = 0; round < 24; ++round) {
+    const int count = 4 + round % 8;
+    const TriangleMesh mesh = tetrahedra_on_a_grid(source, count, 1 + round % 2);
+    const auto chain = oracle::surface_chain(mesh.triangles, mesh.vertices);
+    shared += chain.component_vertex.size() < static_cast<std::size_t>(count);
+    const Solid solid(mesh);
+    for (int i = 0; i < 20; ++i) {
+      // Halves run along the edges of the grid and of its diagonals.
+      const Vec3 p = i % 4 == 0 ? source.point(Vec3::Zero(), 1.5) : source.grid_point(3) / 2;
+      const auto expected =
+          slow_winding(solid.tree(), static_cast<std::uint32_t>(mesh.triangles.size()), p);
+      ASSERT_EQ(solid.winding(p), expected) << hex_points(mesh.vertices) << hex_points({&p, 1});
+      if (!expected) {
+        ++on_surface;
+        continue;
+      }
+      ASSERT_EQ(rounded_solid_angle(mesh, p), *expected);
+      if (std::abs(*expected) <= 4) ++by_winding[*expected + 4];
+    }
+  }
+  EXPECT_GT(shared, 10);  // some hang together by an edge
+  EXPECT_GT(on_surface, 50);
+  EXPECT_GT(by_winding[2] + by_winding[3], 15);
+  EXPECT_GT(by_winding[4], 200);
+  EXPECT_GT(by_winding[5] + by_winding[6], 15);
+}
+
+TEST(Winding, SheetsThatShareAnEdgeAndRepeatedCorners) {
+  TriangleMesh mesh =
+      joined(box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1), 1), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1), 1));
+  mesh.triangles.push_back({3, 3, 5});
+  const TriangleMesh wall = triangle_mesh(Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 1));
+  const Solid solid(joined(joined(mesh, wall), reversed(wall)));
+  EXPECT_EQ(solid.winding({0.5, 0.25, 0.5}), 1);
+  EXPECT_EQ(solid.winding({0.25, 0.5, 0.5}), 1);
+  EXPECT_EQ(solid.winding({0.5, 0.5, 0.25}), std::nullopt);  // on the wall
+  EXPECT_EQ(solid.winding({1.5, 1.5, 0.5}), 1);
+  EXPECT_EQ(solid.winding({1.5, 0.5, 0.5}), 0);
+  EXPECT_EQ(solid.winding({-1, 1, 0.5}), 0);  // its ray runs through the shared edge
+  EXPECT_EQ(solid.winding({1, 1, 0.5}), std::nullopt);
+}
+
+// An edge against two that run along it, and the triangle of no area between them.
+TEST(Winding, SeamThatASliverFills) {
+  const Solid solid({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+                     {{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 1, 4}}});
+  EXPECT_EQ(solid.winding({0.25, 0.25, 0.25}), 1);
+  EXPECT_EQ(solid.winding({-1, 0.25, 0.25}), 0);
+  EXPECT_EQ(solid.winding({-1, 0, 0}), 0);  // its ray runs along the seam
+  EXPECT_EQ(solid.winding({0.5, -1, 0}), 0);
+  EXPECT_EQ(solid.winding({1, 0, 0}), std::nullopt);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ void add_check(CommandLine& line) {
   check->add_flag("--quiet", arguments->quiet, "no progress bar");
   check->footer(
       "Exit code 1 when a frame has a contact that is not allowed.\n"
+      "depth=METRES allows a contact whose surface depth is certified to be at most that.\n"
       "Example:\n  contactcheck check cloth_*.obj ball.obj --allow depth=0.002");
   choose(*check, line, [arguments, &line] { return check_command(*arguments, line.catalog); });
 }

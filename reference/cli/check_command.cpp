@@ -5,10 +5,10 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
 
 #include "core/deform/recording.h"
@@ -75,7 +75,7 @@ struct BadFrame {
     BodyPair bodies;
     std::size_t triangles = 0;
     std::optional<std::array<std::uint32_t, 2>> first;  ///< none: one body is inside the other
-    std::optional<double> depth;  ///< metres, of the deepest vertex; none: neither is a solid
+    oracle::SurfaceDepth depth;
   };
   struct Self {
     std::uint32_t body = 0;
@@ -137,8 +137,7 @@ class FrameChecker {
 
   std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
     oracle::WantedTruth wanted;
-    wanted.containment = wanted.vertices = !allowed_.contact;
-    wanted.triangles = !allowed_.contact;
+    wanted.containment = wanted.triangles = !allowed_.contact;
     wanted.self = !allowed_.self;
     const oracle::Truth truth = oracle_.judge(frame, wanted);
     if (truth.surface.triangles != found.triangles || truth.surface.self != found.self)
@@ -171,19 +170,12 @@ class FrameChecker {
       if (!pair.first) pair.first = {p.a, p.b};
       ++pair.triangles;
     }
-    std::set<std::uint32_t> open;
-    for (const oracle::OpenBody& body : truth.open) open.insert(body.body);
-    for (auto& [bodies, pair] : pairs)
-      if (!open.contains(bodies.a) || !open.contains(bodies.b)) pair.depth = 0.0;
-    for (const VertexInBody& v : truth.surface.vertices) {
-      const auto pair = pairs.find({std::min(v.body, v.in), std::max(v.body, v.in)});
-      if (pair != pairs.end())
-        pair->second.depth =
-            std::max(pair->second.depth.value_or(0.0), geometry_.vertex_to_surface(v).depth);
-    }
-    for (const auto& [bodies, pair] : pairs)
-      if (!allowed_.depth || !pair.depth || *pair.depth > *allowed_.depth)
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    for (auto& [bodies, pair] : pairs) {
+      pair.depth = geometry_.surface_depth(bodies, allowed_.depth.value_or(kNone));
+      if (!allowed_.depth || pair.depth.unknown || pair.depth.upper > *allowed_.depth)
         out.pairs.push_back(pair);
+    }
   }
 
   const scene::Scene& scene_;
@@ -231,9 +223,13 @@ class CheckReport {
       first_ = bad.frame;
       first_words_ = bad.pairs.empty() ? sentence(bad.selfs.front()) : sentence(bad.pairs.front());
     }
-    for (const BadFrame::Pair& pair : bad.pairs)
-      if (pair.depth && (!deepest_ || *pair.depth > *deepest_->second.depth))
+    for (const BadFrame::Pair& pair : bad.pairs) {
+      if (pair.depth.unknown)
+        unknown_depth_ = true;
+      else if (pair.depth.lower > 0.0 &&
+               (!deepest_ || pair.depth.upper > deepest_->second.depth.upper))
         deepest_ = {bad.frame, pair};
+    }
     if (json_) return print(json_of(bad));
     if (bad_ > kMostShown) return;
     std::printf("\n%s\n", place(bad.frame).c_str());
@@ -270,9 +266,9 @@ class CheckReport {
     if (!unjudged.empty()) std::printf("%s", unjudged.c_str());
     if (bad_ == 0) return;
     std::printf("\n%s, the first is %s\n", count_text().c_str(), place(*first_).c_str());
-    if (deepest_ && *deepest_->second.depth > 0.0)
-      std::printf("deepest: %s, %s\n", place(deepest_->first).c_str(),
-                  sentence(deepest_->second).c_str());
+    if (deepest_)
+      std::printf("%s: %s, %s\n", unknown_depth_ ? "deepest of known depth" : "deepest",
+                  place(deepest_->first).c_str(), sentence(deepest_->second).c_str());
     std::printf("%s shows it\n", page.c_str());
   }
 
@@ -297,8 +293,20 @@ class CheckReport {
   std::string sentence(const BadFrame::Pair& pair) const {
     std::string out = name(pair.bodies.a) + " and " + name(pair.bodies.b) + ": ";
     out += pair.first ? pairs_text(pair.triangles, *pair.first) : "one is inside the other";
-    if (pair.depth) out += fmt::format(", {:.3g} mm deep", 1e3 * *pair.depth);
-    return out;
+    return out + ", " + depth_text(pair.depth);
+  }
+
+  std::string depth_text(const oracle::SurfaceDepth& depth) const {
+    if (depth.unknown)
+      return "depth unknown: " + name(depth.unknown->body) + ": " +
+             oracle::describe(depth.unknown->fault);
+    const auto [factor, unit] =
+        depth.upper < 1.0 ? std::pair(1e3, " mm deep") : std::pair(1.0, " m deep");
+    const std::string upper = fmt::format("{:.3g}", factor * depth.upper) + unit;
+    // Three digits say no more than an interval of a thousandth does.
+    if (depth.upper - depth.lower <= 1e-3 * depth.upper) return upper;
+    if (depth.lower == 0.0) return "at most " + upper;
+    return fmt::format("{:.3g} to ", factor * depth.lower) + upper;
   }
 
   std::string sentence(const BadFrame::Self& self) const {
@@ -314,13 +322,27 @@ class CheckReport {
     return name(self.body) + " with itself: " + pairs_text(all, self.first) + " (" + classes + ")";
   }
 
+  static Json depth_json(const oracle::SurfaceDepth& depth) {
+    if (depth.unknown) return nullptr;
+    return {{"lower", depth.lower}, {"upper", depth.upper}};
+  }
+
+  Json unknown_json(const oracle::SurfaceDepth& depth) const {
+    if (!depth.unknown) return nullptr;
+    const auto& [body, fault] = *depth.unknown;
+    Json out = {{"body", name(body)}, {"reason", oracle::name_of(fault.kind)}};
+    if (fault.kind == oracle::NotSimple::kOpen) out["edge"] = {fault.edge.from, fault.edge.to};
+    return out;
+  }
+
   Json json_of(const BadFrame& bad) const {
     Json contacts = Json::array(), selfs = Json::array();
     for (const BadFrame::Pair& pair : bad.pairs)
       contacts.push_back({{"bodies", {name(pair.bodies.a), name(pair.bodies.b)}},
                           {"triangle_pairs", pair.triangles},
                           {"first", pair.first ? Json(*pair.first) : Json(nullptr)},
-                          {"depth", pair.depth ? Json(*pair.depth) : Json(nullptr)}});
+                          {"depth", depth_json(pair.depth)},
+                          {"depth_unknown", unknown_json(pair.depth)}});
     for (const BadFrame::Self& self : bad.selfs) {
       Json one = {{"body", name(self.body)}};
       for (const Level level : kSelfLevels)
@@ -341,7 +363,8 @@ class CheckReport {
   std::size_t bad_ = 0;
   std::optional<std::size_t> first_;
   std::string first_words_;
-  std::optional<std::pair<std::size_t, BadFrame::Pair>> deepest_;
+  std::optional<std::pair<std::size_t, BadFrame::Pair>> deepest_;  // of known depth above 0
+  bool unknown_depth_ = false;                                     // of any pair
 };
 
 // The levels that are left to be judged.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/types/shared_corners.h"
+
 namespace contactcheck::oracle {
 namespace {
 
@@ -150,6 +152,19 @@ bool meet_beyond_edge(const TriangleCorners& p, const TriangleCorners& q) {
   if (point_on_segment(p[2], edge) || point_on_segment(q[2], edge)) return false;
   return point_on_segment(p[2], segment_of_degenerate(q)) ||
          point_on_segment(q[2], segment_of_degenerate(p));
+}
+
+bool meet_beyond_shared(const Triangle& p, const TriangleCorners& p_corners, const Triangle& q,
+                        const TriangleCorners& q_corners) {
+  const SharedCorners shared = shared_corners(p, q);
+  if (shared.duplicates) return false;
+  const auto arranged = [](const TriangleCorners& t, const std::array<std::uint8_t, 3>& order) {
+    return TriangleCorners{t[order[0]], t[order[1]], t[order[2]]};
+  };
+  const TriangleCorners a = arranged(p_corners, shared.p), b = arranged(q_corners, shared.q);
+  return shared.count == 0   ? triangles_intersect(a, b)
+         : shared.count == 1 ? meet_beyond_corner(a, b)
+                             : meet_beyond_edge(a, b);
 }
 
 Segment segment_of_degenerate(const TriangleCorners& t) {

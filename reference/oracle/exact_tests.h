@@ -4,6 +4,7 @@
 // whose ends coincide. No epsilon.
 #pragma once
 
+#include "core/types/mesh.h"
 #include "core/types/vec3.h"
 #include "reference/oracle/exact_predicates.h"
 
@@ -23,6 +24,11 @@ bool triangles_intersect(const TriangleCorners& p, const TriangleCorners& q);
 bool meet_beyond_corner(const TriangleCorners& p, const TriangleCorners& q);
 /// True when two triangles share a point off the segment from p[0] = q[0] to p[1] = q[1].
 bool meet_beyond_edge(const TriangleCorners& p, const TriangleCorners& q);
+
+/// True when two triangles of one body share more than the hull of the vertices that both name;
+/// false for duplicates.
+bool meet_beyond_shared(const Triangle& p, const TriangleCorners& p_corners, const Triangle& q,
+                        const TriangleCorners& q_corners);
 
 /// The segment (or point) that a degenerate triangle is: between its outermost corners.
 /// @pre the corners are collinear

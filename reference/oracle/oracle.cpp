@@ -10,7 +10,6 @@
 
 #include "core/types/check.h"
 #include "core/types/contact_set.h"
-#include "core/types/shared_corners.h"
 #include "core/types/vec3.h"
 #include "reference/oracle/cell_hulls.h"
 #include "reference/oracle/closed_chain.h"
@@ -31,10 +30,6 @@ double box_gap(const Aabb& a, const Aabb& b) {
   constexpr double kLargestDouble = std::numeric_limits<double>::max();
   const Vec3 gap = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0).cwiseMin(kLargestDouble);
   return std::max(0.0, std::nextafter(gap.stableNorm() * kGapRounding, -1.0));
-}
-
-TriangleCorners arranged(const TriangleCorners& t, const std::array<std::uint8_t, 3>& corners) {
-  return {t[corners[0]], t[corners[1]], t[corners[2]]};
 }
 
 // Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
@@ -190,13 +185,7 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
     const std::vector<Triangle>& linked = shapes[body]->linked();
     refuse_many_adjacent_pairs(linked);
     any_own_box_pair(tree, [&](std::uint32_t i, std::uint32_t j) {
-      const SharedCorners shared = shared_corners(linked[i], linked[j]);
-      if (shared.duplicates) return false;
-      const TriangleCorners p = arranged(tree.corners(i), shared.p),
-                            q = arranged(tree.corners(j), shared.q);
-      if (shared.count == 0   ? triangles_intersect(p, q)
-          : shared.count == 1 ? meet_beyond_corner(p, q)
-                              : meet_beyond_edge(p, q))
+      if (meet_beyond_shared(linked[i], tree.corners(i), linked[j], tree.corners(j)))
         truth.surface.self.push_back({body, i, j});
       return false;
     });

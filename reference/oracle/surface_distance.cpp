@@ -163,19 +163,6 @@ DistanceBounds DistanceSearch::refine() {
   return {std::min(lowest_refined, lowest_open), upper_};
 }
 
-// Back to metres, rounded outward where the result is subnormal or was of surfaces that scaling
-// brought together.
-DistanceInterval unscaled(const DistanceBounds& bounds, int exponent) {
-  if (bounds.upper == 0) return {};
-  const double lower = bounds.lower < 0x1p-1000 ? 0.0 : bounds.lower;
-  const double largest = std::numeric_limits<double>::max();
-  DistanceInterval out{std::ldexp(lower, exponent), std::ldexp(bounds.upper, exponent)};
-  if (out.lower < 0x1p-1020) out.lower = std::nextafter(out.lower, 0.0);
-  if (out.upper < 0x1p-1020) out.upper = std::nextafter(out.upper, largest);
-  out.lower = std::min(out.lower, largest);
-  return out;
-}
-
 }  // namespace
 
 DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
@@ -185,9 +172,8 @@ DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
   scale(a, -exponent);
   scale(b, -exponent);
   DistanceSearch search(a, b);
-  DistanceInterval out = unscaled(search.run(), exponent);
-  out.triangles = search.nearest();
-  return out;
+  const DistanceBounds bounds = unscaled(search.run(), exponent);
+  return {bounds.lower, bounds.upper, search.nearest()};
 }
 
 }  // namespace contactcheck::oracle

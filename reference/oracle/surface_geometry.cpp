@@ -12,6 +12,7 @@
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/intersection_length.h"
+#include "reference/oracle/surface_depth.h"
 #include "reference/oracle/surface_tree.h"
 #include "reference/oracle/triangle_distance.h"
 #include "reference/oracle/vertex_distance.h"
@@ -21,17 +22,11 @@ namespace {
 
 // In fractions of the size: what counts as equally near, and how wide bounds may be.
 constexpr double kAsNear = 1e-9, kBoundsWidth = 5e-13;
-// A rounded distance to a box exceeds the true one by less than 8 * 2^-53 of it.
-constexpr double kBoxDistanceRounding = 1 - 16 * 0x1p-53;
 
 struct Candidate {
   std::uint32_t triangle;
   NearestPoint point;
 };
-
-double distance_to(const Aabb& box, const Vec3& p) {
-  return (box.lo - p).cwiseMax(p - box.hi).cwiseMax(0.0).norm() * kBoxDistanceRounding;
-}
 
 // Depth: the distance from the vertex to the surface, off by less than 1e-12 of `size` or of the
 // depth. Directions: to the nearest point of every triangle that is as near within 1e-9 of `size`,
@@ -101,7 +96,7 @@ TriangleCorners scaled_corners(const TriangleCorners& t, int exponent) {
           scaled_by_two_to(exponent, t[2])};
 }
 
-Penetration unscaled(Penetration penetration, int exponent) {
+Penetration scaled_back(Penetration penetration, int exponent) {
   penetration.depth = std::ldexp(penetration.depth, exponent);
   return penetration;
 }
@@ -121,11 +116,14 @@ struct BodyGeometry {
   bool tree_fitted = false;
   std::optional<CellHulls> hulls;
   bool hulls_fitted = false;
+  std::optional<SolidFault> fault;
+  bool fault_known = false;
 
   void set(const BodyState& now);
   TriangleCorners corners(std::uint32_t triangle) const;
   const SurfaceTree& fitted_tree(int exponent);
   const ConvexHull& hull(std::uint32_t cell);
+  const std::optional<SolidFault>& not_simple();
 };
 
 void BodyGeometry::set(const BodyState& now) {
@@ -134,7 +132,7 @@ void BodyGeometry::set(const BodyState& now) {
   state = now;
   largest = largest_coordinate(now.vertices);
   side = std::min(largest_side(now.vertices), std::numeric_limits<double>::max());
-  tree_fitted = hulls_fitted = false;
+  tree_fitted = hulls_fitted = fault_known = false;
 }
 
 TriangleCorners BodyGeometry::corners(std::uint32_t triangle) const {
@@ -164,6 +162,12 @@ const ConvexHull& BodyGeometry::hull(std::uint32_t cell) {
   return hulls->hull(cell);
 }
 
+const std::optional<SolidFault>& BodyGeometry::not_simple() {
+  if (!fault_known) fault = solid_fault(fitted_tree(0), shape->mesh.triangles, state.vertices);
+  fault_known = true;
+  return fault;
+}
+
 struct SurfaceGeometry::Impl {
   std::vector<BodyGeometry> bodies;
 
@@ -189,7 +193,8 @@ Penetration SurfaceGeometry::Impl::penetration(PieceSurface a, PieceSurface b,
   std::vector<TriangleCorners> p, q;
   for (const TriangleCorners& t : a) p.push_back(scaled_corners(t, -exponent));
   for (const TriangleCorners& t : b) q.push_back(scaled_corners(t, -exponent));
-  return unscaled(convex_penetration(p, q, std::ldexp(kAsShort * body_side, -exponent)), exponent);
+  return scaled_back(convex_penetration(p, q, std::ldexp(kAsShort * body_side, -exponent)),
+                     exponent);
 }
 
 SurfaceGeometry::SurfaceGeometry(const std::vector<Body>& bodies)
@@ -234,7 +239,25 @@ Penetration SurfaceGeometry::vertex_to_surface(const VertexInBody& where) const 
   const int exponent = exponent_above(std::max(from.largest, to.largest));
   const double size = std::ldexp(impl_->side(where.body, where.in), -exponent);
   const Vec3 vertex = scaled_by_two_to(-exponent, from.state.vertices[where.vertex]);
-  return unscaled(nearest_points(vertex, to.fitted_tree(exponent), size), exponent);
+  return scaled_back(nearest_points(vertex, to.fitted_tree(exponent), size), exponent);
+}
+
+SurfaceDepth SurfaceGeometry::surface_depth(BodyPair pair, double limit) {
+  const FloatingPointGuard guard;
+  CONTACTCHECK_INVARIANT(pair.a != pair.b, "two bodies have a depth");
+  for (const std::uint32_t body : {pair.a, pair.b})
+    if (const auto& fault = impl_->body(body).not_simple())
+      return {0.0, 0.0, SurfaceDepth::Unknown{body, *fault}};
+  BodyGeometry &a = impl_->body(pair.a), &b = impl_->body(pair.b);
+  double largest = 0.0;
+  for (const Aabb& box : {a.fitted_tree(0).bounds(), b.fitted_tree(0).bounds()})
+    largest = std::max(largest, largest_coordinate(std::array{box.lo, box.hi}));
+  const int exponent = exponent_above(largest);
+  const DistanceBounds bounds =
+      unscaled(oracle::surface_depth(a.fitted_tree(exponent), b.fitted_tree(exponent),
+                                     {std::ldexp(limit, -exponent)}),
+               exponent);
+  return {bounds.lower, bounds.upper, std::nullopt};
 }
 
 std::optional<Penetration> SurfaceGeometry::triangle_penetration(

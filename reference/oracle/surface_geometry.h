@@ -3,6 +3,8 @@
 // pieces touch at all is decided exactly, as by the oracle.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
+#include "reference/oracle/simple_solid.h"
 
 namespace contactcheck::oracle {
 
@@ -18,6 +21,17 @@ namespace contactcheck::oracle {
 struct Penetration {
   double depth = 0.0;            ///< metres
   std::vector<Vec3> directions;  ///< unit; all as short, nearly equal ones (1e-9) given once
+};
+
+/// How deep two bodies are in each other (surface_depth.h).
+struct SurfaceDepth {
+  double lower = 0.0, upper = 0.0;  ///< metres; lower <= depth <= upper
+  /// Set where the depth is unknown, because a body is not a simple solid.
+  struct Unknown {
+    std::uint32_t body = 0;
+    SolidFault fault;
+  };
+  std::optional<Unknown> unknown;
 };
 
 /// Trees and hulls are fitted when a question first needs them: an object serves one thread.
@@ -44,6 +58,13 @@ class SurfaceGeometry {
   /// 1e-12 of the body size or of itself, with the directions from the vertex to its nearest points
   /// there; no directions when it lies on it.
   Penetration vertex_to_surface(const VertexInBody& where) const;
+  /// The surface depth of two bodies, or the first body of the two that is not a simple solid (told
+  /// once a frame). Both ends are 0 only where no point of either surface is inside the other body.
+  /// The interval is at most a thousandth of its upper end wide, or 1e-9 of the largest
+  /// |coordinate|, unless the search ends first (kMostDepthPieces); one that lies below `limit`, in
+  /// metres, may be as wide as it is, and one that holds it is narrowed to the latter.
+  SurfaceDepth surface_depth(BodyPair pair,
+                             double limit = -std::numeric_limits<double>::infinity());
   /// The shortest translation of piece b that leaves the two at most touching, by brute force over
   /// all face normals and products of edges, off by less than 1e-12 of the pieces' joint size;
   /// nothing when they are disjoint. Flat pieces in one plane have depth 0 along its normals; on

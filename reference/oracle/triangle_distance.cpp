@@ -132,4 +132,15 @@ DistanceBounds distance_bounds(const TriangleCorners& p, const TriangleCorners& 
   return {std::max(0.0, gap - kRounding), distance + kRounding};
 }
 
+DistanceBounds unscaled(const DistanceBounds& bounds, int exponent) {
+  if (bounds.upper == 0) return {};
+  const double lower = bounds.lower < 0x1p-1000 ? 0.0 : bounds.lower;
+  const double largest = std::numeric_limits<double>::max();
+  DistanceBounds out{std::ldexp(lower, exponent), std::ldexp(bounds.upper, exponent)};
+  if (out.lower < 0x1p-1020) out.lower = std::nextafter(out.lower, 0.0);
+  if (out.upper < 0x1p-1020) out.upper = std::nextafter(out.upper, largest);
+  out.lower = std::min(out.lower, largest);
+  return out;
+}
+
 }  // namespace contactcheck::oracle

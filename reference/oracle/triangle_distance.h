@@ -25,4 +25,8 @@ double slab_bound(const TriangleCorners& p, const TriangleCorners& q);
 /// @pre all |coordinates| <= 1
 DistanceBounds exact_distance_bounds(const TriangleCorners& p, const TriangleCorners& q);
 
+/// Bounds of scaled surfaces times 2^exponent. Rounded outward where the result is subnormal or was
+/// of surfaces that scaling brought together; [0, 0] stays.
+DistanceBounds unscaled(const DistanceBounds& bounds, int exponent);
+
 }  // namespace contactcheck::oracle

@@ -116,7 +116,14 @@ ExactNearest exact_nearest(const RelativeCorners& t) {
   return best;
 }
 
+// A rounded distance to a box exceeds the true one by less than 8 * 2^-53 of it.
+constexpr double kBoxDistanceRounding = 1 - 16 * 0x1p-53;
+
 }  // namespace
+
+double distance_to(const Aabb& box, const Vec3& point) {
+  return (box.lo - point).cwiseMax(point - box.hi).cwiseMax(0.0).norm() * kBoxDistanceRounding;
+}
 
 NearestPoint nearest_point(const Vec3& vertex, const TriangleCorners& triangle) {
   const TriangleCorners t{triangle[0] - vertex, triangle[1] - vertex, triangle[2] - vertex};

@@ -12,6 +12,7 @@
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/surface_geometry.h"
 #include "reference/oracle/vertex_queries.h"
 #include "reference/python/arrays.h"
 #include "reference/scene/lattice_spec.h"
@@ -114,6 +115,21 @@ py::tuple distance(const Shape& a, const Shape& b) {
   return py::make_tuple(found.lower, found.upper, points_table(points));
 }
 
+py::tuple depth(const Shape& a, const Shape& b) {
+  const AtRest scene({a, b});
+  oracle::SurfaceDepth found;
+  {
+    const Released released;
+    oracle::SurfaceGeometry geometry(scene.bodies);
+    geometry.set_frame(scene.frame);
+    found = geometry.surface_depth({0, 1});
+  }
+  if (found.unknown)
+    throw InputError(std::string(found.unknown->body == 0 ? "Va, Fa" : "Vb, Fb") +
+                     " is not a simple solid: " + oracle::describe(found.unknown->fault));
+  return py::make_tuple(found.lower, found.upper);
+}
+
 py::tuple inside(const py::object& points_object, const Shape& shape) {
   const std::vector<Vec3> points = read_points(points_object, "points");
   std::vector<std::optional<int>> winding(points.size());
@@ -214,6 +230,7 @@ void add_judge(py::module_& module) {
   module.def("contacts", &contacts, CleanNumbers());
   module.def("self_contacts", &self_contacts, CleanNumbers());
   module.def("distance", &distance, CleanNumbers());
+  module.def("depth", &depth, CleanNumbers());
   module.def("inside", &inside, CleanNumbers());
   module.def("check_mesh", &check_mesh, CleanNumbers());
 }

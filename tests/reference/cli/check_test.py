@@ -75,13 +75,14 @@ def test_refuses_what_cannot_be_allowed(folder, words, sentence):
 
 
 def test_allows_no_depth_between_open_surfaces(tmp_path):
-    """There no depth is defined."""
+    """There no depth is known."""
     for name, z, tilt in (("a.obj", 0.0, 0.0), ("b.obj", -0.1, 0.3)):
         mesh = [(0, 0, z), (1, 0, z + tilt), (0, 1, z)], [(0, 1, 2)]
         (tmp_path / name).write_text(obj_text(mesh), encoding="utf-8")
     outcome = check(tmp_path, ["a.obj", "b.obj"], "--allow", "depth=10")
     assert outcome.exit_code == 1, outcome.err
-    assert "a and b: 1 pair of triangles, first 0 and 0\n" in outcome.out
+    assert ("a and b: 1 pair of triangles, first 0 and 0, depth unknown: a: open (edge of vertices 0 and 1)\n"
+            in outcome.out)
 
 
 def test_sees_a_body_inside_another(folder):
@@ -195,7 +196,8 @@ def test_json_lines_say_it_to_programs(folder):
     bad, = (event for event in events if event["event"] == "frame")
     assert (bad["frame"], bad["file"]) == (3, "moving_11.obj")
     assert bad["contacts"][0]["bodies"] == ["moving", "rest"]
-    assert bad["contacts"][0]["depth"] == pytest.approx(0.1, abs=1e-9, rel=0)
+    assert bad["contacts"][0]["depth"]["lower"] == pytest.approx(0.1, abs=1e-9, rel=0)
+    assert bad["contacts"][0]["depth"]["upper"] == pytest.approx(0.1, abs=1e-9, rel=0)
     end = events[-1]
     assert (end["event"], end["bad_frames"], end["exit_code"]) == ("end", 1, 1)
 

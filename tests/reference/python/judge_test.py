@@ -47,6 +47,31 @@ def test_distance_is_that_of_the_command_line(bunnies, bunny_run):
             assert np.all(point >= V.min(axis=0) - 1e-12) and np.all(point <= V.max(axis=0) + 1e-12)
 
 
+def cube(low, high):
+    V = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    F = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+         [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    return np.array(low) + V * (np.array(high) - np.array(low)), np.array(F)
+
+
+def test_depth_of_crossed_bars_needs_no_vertex_inside():
+    along_x, along_y = cube((-6, -0.5, -0.5), (6, 0.5, 0.5)), cube((-1, -6, 0.25), (1, 6, 2))
+    for a, b in ((along_x, along_y), (along_y, along_x)):
+        lower, upper = contactcheck.depth(*a, *b)
+        assert lower <= 0.25 <= upper <= 1.001 * lower
+    assert contactcheck.depth(*along_x, along_y[0] + [0, 0, 9], along_y[1]) == (0, 0)
+
+
+@pytest.mark.parametrize("names", ["Va, Fa", "Vb, Fb"])
+def test_depth_into_what_is_no_simple_solid_raises_with_the_reason(names):
+    V, F = cube((0, 0, 0), (1, 1, 1))
+    for faces, reason in ((F[1:], r"open \(edge of vertices \d+ and \d+\)"),
+                          (np.vstack([F, F[:, ::-1]]), "no interior"), (np.vstack([F, F]), "nested")):
+        meshes = [(V, faces), (V + 0.5, F)]
+        with pytest.raises(contactcheck.InputError, match=f"{names} is not a simple solid: {reason}"):
+            contactcheck.depth(*meshes[names != "Va, Fa"], *meshes[names == "Va, Fa"])
+
+
 def solid_angles(points, V, F):
     """The winding number by solid angles (van Oosterom & Strackee 1983): another way, in doubles."""
     a, b, c = (V[F[:, k]][None] - points[:, None] for k in range(3))

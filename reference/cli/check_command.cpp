@@ -137,12 +137,20 @@ class FrameChecker {
     return false;
   }
 
+  oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted) {
+    try {
+      return oracle_.judge(frame, wanted);
+    } catch (const RefusedInput& e) {
+      throw InputError("frame " + std::to_string(f) + ": " + e.what());
+    }
+  }
+
   std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
     oracle::WantedTruth wanted;
     wanted.containment = wanted.vertices = !allowed_.contact;
     wanted.triangles = !allowed_.contact;
     wanted.self = !allowed_.self;
-    const oracle::Truth truth = oracle_.judge(frame, wanted);
+    const oracle::Truth truth = judged(f, frame, wanted);
     if (truth.surface.triangles != found.triangles || truth.surface.self != found.self)
       throw std::runtime_error("frame " + std::to_string(f) + ": " + kDetector +
                                " and the oracle disagree; that is an error of contactcheck");

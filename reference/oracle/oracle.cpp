@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,10 +37,21 @@ TriangleCorners arranged(const TriangleCorners& t, const std::array<std::uint8_t
   return {t[corners[0]], t[corners[1]], t[corners[2]]};
 }
 
+template <typename Pair>
+void add_contact(std::vector<Pair>& contacts, const Pair& pair, std::size_t most) {
+  if (contacts.size() == most) refuse_many_contacts(most);
+  contacts.push_back(pair);
+}
+
 // Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
 constexpr double kSeparationWidth = 9e-10;
 
 }  // namespace
+
+void refuse_many_contacts(std::size_t most) {
+  throw RefusedInput("more than " + std::to_string(most) +
+                     " pairs of triangles are in contact; at most that many can be judged");
+}
 
 struct Oracle::Impl {
   explicit Impl(const std::vector<Body>& bodies);
@@ -127,7 +139,8 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
       any_box_pair(trees[a], trees[b], [&](std::uint32_t i, std::uint32_t j) {
         if (!triangles_intersect(trees[a].corners(i), trees[b].corners(j))) return false;
         contact = true;
-        if (wanted.triangles) truth.surface.triangles.push_back({a, b, i, j});
+        if (wanted.triangles)
+          add_contact(truth.surface.triangles, {a, b, i, j}, wanted.most_contacts);
         return !wanted.triangles;
       });
       if (wanted.containment && !contact && (contains(a, b) || contains(b, a)))
@@ -150,7 +163,7 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
       if (shared.count == 0   ? triangles_intersect(p, q)
           : shared.count == 1 ? meet_beyond_corner(p, q)
                               : meet_beyond_edge(p, q))
-        truth.surface.self.push_back({body, i, j});
+        add_contact(truth.surface.self, {body, i, j}, wanted.most_contacts);
       return false;
     });
   };

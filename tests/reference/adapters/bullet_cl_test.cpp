@@ -117,7 +117,8 @@ TEST(BulletCl, HundredThousandVerticesAreDividedWithoutGaps) {
   }
   ASSERT_GT(expected.size(), 500u);
   meshes.push_back(sphere_mesh(Vec3(0, 0, 0), 0.1, 2));  // the clusters follow the surface
-  const auto detector = prepared("bullet-cl:margin=0.0001", World(meshes));
+  const World world(meshes);
+  const auto detector = prepared("bullet-cl:margin=0.0001", world);
   EXPECT_EQ(ask(*detector, Question::kBody).bodies, expected);
   EXPECT_THAT(ask(*detector, Question::kSelf).self_bodies, IsEmpty());  // neighbours share some
   EXPECT_THAT(detector->notes(), SizeIs(1));

@@ -88,7 +88,7 @@ void Oracle::Impl::check(const Frame& frame) const {
   }
 }
 
-// Of all vertices: the trees know only those of triangles.
+// Without fitting the trees, which few of the pairs need.
 std::vector<Aabb> Oracle::Impl::vertex_boxes(const Frame& frame) const {
   std::vector<Aabb> boxes(size());
   for (std::uint32_t i = 0; i < size(); ++i)

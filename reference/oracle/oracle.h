@@ -67,8 +67,7 @@ class Oracle {
   /// scale being that of all bodies. @pre at least two bodies
   DistanceInterval separation(const Frame& frame);
   /// Every vertex nearer than `margin` (strictly) to a triangle of another body: exact, canonical.
-  /// Vertices without a triangle count too; a degenerate triangle is the segment or point that it
-  /// is. A margin of 0 gives nothing.
+  /// A degenerate triangle is the segment or point that it is. A margin of 0 gives nothing.
   std::vector<NearPair> near(const Frame& frame, double margin);
   /// The same of every body with itself: of triangles that do not use the vertex or one welded to
   /// it (BodyShape::uses).

@@ -206,12 +206,12 @@ py::array deform(const Shape& shape, const py::object& nodes_object) {
     const Released released;
     map_body(*shape.body, nodes, out);
   }
-  return points_table(out);
+  return points_table(shape.body->given.spread(out));
 }
 
 py::array fit(const Shape& shape, const py::object& vertices_object) {
-  const std::vector<Vec3> vertices = read_positions(
-      vertices_object, "V", shape.body->mesh.vertices.size(), "vertices of the mesh");
+  const std::vector<Vec3> vertices = shape.body->given.kept(read_positions(
+      vertices_object, "V", shape.body->given_vertex_count(), "vertices of the mesh"));
   std::vector<Vec3> out;
   {
     const Released released;
@@ -239,14 +239,14 @@ void add_judge(py::module_& module) {
       .def_property_readonly("faces",
                              [](const Shape& shape) {
                                return table<std::int32_t, 3>(
-                                   shape.body->mesh.triangles,
+                                   shape.body->given.numbered(shape.body->mesh.triangles),
                                    [](const Triangle& t) { return t; });
                              })
       .def_property_readonly("cells",
                              [](const Shape& shape) { return shape.body->lattice->cells.size(); })
       .def("positions",
            [](const Shape& shape, const py::object& object, const std::string& name) {
-             return points_table(read_positions(object, name, shape.body->mesh.vertices.size(),
+             return points_table(read_positions(object, name, shape.body->given_vertex_count(),
                                                 "vertices of the mesh"));
            })
       .def("deform", &deform, CleanNumbers())

@@ -3,7 +3,8 @@
 A mesh is two arrays: V, (n, 3) coordinates in metres, and F, (m, 3) indices of vertices. What
 trimesh calls vertices and faces, meshio points and cells, Open3D vertices and triangles and pyvista
 points and faces goes in as it is. Coordinates of any type become float64, indices int32. Triangles
-are closed sets of points: touching is contact.
+are closed sets of points: touching is contact. A vertex that no triangle uses is no part of a mesh:
+it counts nowhere, and the others keep their numbers.
 
 Bad arguments raise InputError, a ValueError, whose sentence names argument, place and value. Long
 calls release the interpreter's lock.
@@ -247,7 +248,10 @@ class Lattice:
         return self._shape.cells
 
     def deform(self, nodes: Any) -> np.ndarray:
-        """The mesh's vertices for (n, 3) moved nodes: the very doubles that detectors are given."""
+        """The mesh's vertices for (n, 3) moved nodes: the very doubles that detectors are given.
+
+        A vertex that no triangle uses is at the place of the last one before it that is used.
+        """
         return self._shape.deform(nodes)
 
     def fit(self, V: Any) -> np.ndarray:

@@ -87,6 +87,25 @@ TEST(Oracle, RefusesMoreContactsThanItMayList) {
   EXPECT_EQ(refusal(three, pairs), sentence);
 }
 
+// A box 1 m from another one, with a vertex that no triangle uses on, in and far from the other.
+TEST(Oracle, VertexThatNoTriangleUsesIsNotJudged) {
+  const Body wall = bare_body("wall", box_mesh(Vec3(-3, -2, -2), Vec3(-1, 2, 2), 2));
+  for (const Vec3& place : {Vec3(-1, 0, 0), Vec3(-2, 0, 0), Vec3(1e12, 0, 0)}) {
+    TriangleMesh mesh = unit_box_mesh(2);
+    mesh.vertices.push_back(place);
+    const std::vector<Body> bodies = {wall, bare_body("box", mesh)},
+                            plain = {wall, bare_body("box", unit_box_mesh(2))};
+    const FrameData data = rest_frame(bodies);
+    oracle::Oracle oracle(bodies), expected(plain);
+    EXPECT_THAT(oracle.judge(data.frame(), kEverything).surface.vertices, IsEmpty());
+    EXPECT_THAT(oracle.near(data.frame(), 0.5), IsEmpty());
+    EXPECT_EQ(oracle.near(data.frame(), 1.5), expected.near(data.frame(), 1.5));
+    EXPECT_EQ(oracle.separation(data.frame()).upper, expected.separation(data.frame()).upper);
+    EXPECT_EQ(oracle.distance(data.frame(), {0, 1}).lower,
+              expected.distance(data.frame(), {0, 1}).lower);
+  }
+}
+
 TEST(Oracle, OneUlpGapIsNoContact) {
   const double next = std::nextafter(1.0, 2.0);
   const oracle::Truth truth =

@@ -1,12 +1,12 @@
 #include "core/deform/body.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "core/deform/mapping.h"
 #include "core/types/check.h"
+#include "core/types/vertex_places.h"
 
 namespace contactcheck {
 namespace {
@@ -20,10 +20,21 @@ std::shared_ptr<BodyShape> checked_shape(TriangleMesh mesh) {
   if (shape->topology.fatal) {
     throw InputError("the mesh cannot be used: " + describe(shape->topology));
   }
+  drop_unused_vertices(*shape);
   return shape;
 }
 
 }  // namespace
+
+void drop_unused_vertices(BodyShape& shape) {
+  shape.given = drop_unused_vertices(shape.mesh);
+  if (shape.given.dropped == 0) return;
+  shape.topology = analyse_topology(shape.mesh);
+  if (!shape.lattice) return;
+  Embedding& embedding = shape.embedding;
+  embedding.home_cell = shape.given.kept(std::move(embedding.home_cell));
+  embedding.local = shape.given.kept(std::move(embedding.local));
+}
 
 std::shared_ptr<const BodyShape> make_shape(TriangleMesh mesh, const Resolution& resolution,
                                             double padding) {
@@ -53,23 +64,12 @@ bool BodyShape::uses(std::uint32_t triangle, std::uint32_t vertex) const {
 
 std::shared_ptr<const BodyShape> welded(const BodyShape& shape) {
   auto out = std::make_shared<BodyShape>(shape);
-  const std::vector<Vec3>& vertices = shape.mesh.vertices;
-  std::vector<std::uint32_t> order(vertices.size()), first(vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t v) {
-    return std::tuple(vertices[v].x(), vertices[v].y(), vertices[v].z());
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && place(order[i]) == place(order[i - 1]);
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
+  const std::vector<std::uint32_t> first = first_at_place(shape.mesh.vertices);
   out->welded = shape.mesh.triangles;
   for (Triangle& triangle : out->welded)
     for (std::uint32_t& vertex : triangle) vertex = first[vertex];
   // Duplicates and open edges are those of the triangles as they are linked now.
-  out->topology = analyse_topology({vertices, out->welded});
+  out->topology = analyse_topology({shape.mesh.vertices, out->welded});
   return out;
 }
 
@@ -78,7 +78,8 @@ std::optional<std::array<std::uint32_t, 2>> torn_weld(const BodyShape& shape,
   for (std::size_t t = 0; t < shape.welded.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t own = shape.mesh.triangles[t][c], first = shape.welded[t][c];
-      if (vertices[own] != vertices[first]) return std::array{first, own};
+      if (vertices[own] != vertices[first])
+        return std::array{shape.given.number_of(first), shape.given.number_of(own)};
     }
   return std::nullopt;
 }

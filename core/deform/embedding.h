@@ -44,7 +44,7 @@ void sort_by_cell(std::size_t cells, Embedding& out);
 using SingleLocal = std::array<std::vector<float>, 3>;
 SingleLocal single_local(const Embedding& embedding);
 
-/// @pre the lattice was made for this mesh by make_lattice
+/// @pre the lattice was made for this mesh by make_lattice, and a triangle uses each vertex
 /// @throws InputError when the labels have more cells together than 32 bits number
 Embedding embed(const TriangleMesh& mesh, const Lattice& lattice);
 

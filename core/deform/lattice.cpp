@@ -39,7 +39,7 @@ void check_lines(const std::vector<double>& lines, int axis) {
 
 std::array<std::vector<double>, 3> make_lines(const TriangleMesh& mesh,
                                               const Resolution& resolution, double padding) {
-  const Aabb box = bounding_box(mesh.vertices);
+  const Aabb box = bounding_box(mesh);
   const double largest = box.extent().maxCoeff();
   // A flat mesh still gets cells of positive size, and so does one that is a single point.
   const double pad = largest > 0.0 ? std::max(padding, kLeastPadding) * largest
@@ -69,8 +69,6 @@ std::vector<GridIndex> kept_cells(const Grid& grid, const TriangleMesh& mesh) {
                              cells.push_back(cell);
                              return true;
                            });
-  // A vertex without a triangle still needs a home.
-  for (const Vec3& v : mesh.vertices) cells.push_back(grid.cell_of(v));
   sort_in_grid(cells);
   return cells;
 }
@@ -148,7 +146,7 @@ Lattice make_lattice_on_lines(const TriangleMesh& mesh, std::array<std::vector<d
 }
 
 Resolution resolution_for_cells(const TriangleMesh& mesh, std::size_t wanted, double padding) {
-  const Vec3 extent = bounding_box(mesh.vertices).extent();
+  const Vec3 extent = bounding_box(mesh).extent();
   const double largest = extent.maxCoeff();
   const auto resolution_at = [&](int divisions) {
     const auto cells = [&](double side) {

@@ -65,8 +65,7 @@ inline constexpr std::uint32_t kMostCellsOfAxis = std::uint32_t{1} << 24;
 void refuse_fine_resolution(const Resolution& resolution);
 
 /// A regular lattice round `mesh` (padding: fraction of the largest side added on each side), with
-/// the cells kept that hold surface: whose closed box meets a triangle (exactly), or that are the
-/// home of a vertex.
+/// the cells kept that hold surface: whose closed box meets a triangle (exactly).
 /// @pre the mesh has no fatal defect; each resolution is at least 1
 /// @throws InputError when the mesh lies too far out for grid lines that differ as doubles, as
 /// refuse_fine_resolution() does, and when the kept cells have more nodes than 32 bits number

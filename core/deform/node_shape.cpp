@@ -27,7 +27,7 @@ std::vector<Vec3> rest_vertices(std::size_t count, std::size_t lines) {
 }
 
 std::vector<std::uint32_t> vertices_of_nodes(const BodyShape& shape, std::size_t lines) {
-  const std::size_t last = shape.mesh.vertices.size() - 1;
+  const std::size_t last = shape.given_vertex_count() - 1;
   std::vector<std::uint32_t> out;
   for (const GridIndex& n : shape.lattice->nodes) {
     const std::size_t place = (n[2] * lines + n[1]) * lines + n[0];
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> vertices_of_nodes(const BodyShape& shape, std::size_t
 }  // namespace
 
 std::vector<Vec3> NodeShape::nodes_for(std::span<const Vec3> vertices) const {
-  CONTACTCHECK_INVARIANT(vertices.size() == shape->mesh.vertices.size(), "one position per vertex");
+  CONTACTCHECK_INVARIANT(vertices.size() == shape->given_vertex_count(), "one position per vertex");
   std::vector<Vec3> nodes;
   for (std::uint32_t v : vertex_of_node) nodes.push_back(vertices[v]);
   return nodes;

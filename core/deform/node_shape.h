@@ -16,7 +16,8 @@ struct NodeShape {
   /// Per lattice node: the vertex that it is; a node that is no vertex follows the last vertex.
   std::vector<std::uint32_t> vertex_of_node;
 
-  /// The nodes that put the vertices where they are wanted. @pre one position per vertex
+  /// The nodes that put the vertices where they are wanted. @pre one position per vertex as given:
+  /// one that no triangle uses is no vertex of the shape, but still a node
   std::vector<Vec3> nodes_for(std::span<const Vec3> vertices) const;
 };
 

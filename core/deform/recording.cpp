@@ -40,7 +40,8 @@ std::string scene_fault(std::string_view scene) {
 
 // --- writing ---
 
-void write_lattice(const Lattice& lattice, const Embedding& embedding, ByteWriter& out) {
+void write_lattice(const Lattice& lattice, const Embedding& embedding, const GivenVertices& given,
+                   ByteWriter& out) {
   for (const std::vector<double>& lines : lattice.lines) {
     out.u64(lines.size());
     out.doubles(lines);
@@ -50,8 +51,8 @@ void write_lattice(const Lattice& lattice, const Embedding& embedding, ByteWrite
   out.u64(lattice.nodes.size());
   out.u32_rows(lattice.nodes);
   out.u32_rows(lattice.cell_nodes);
-  out.u32s(embedding.home_cell);
-  out.points(embedding.local);
+  out.u32s(given.spread(embedding.home_cell));
+  out.points(given.spread(embedding.local));
   out.u32s(embedding.label_begin);
   out.u64(embedding.label_cells.size());
   out.u32s(embedding.label_cells);
@@ -59,12 +60,12 @@ void write_lattice(const Lattice& lattice, const Embedding& embedding, ByteWrite
 
 std::string shape_bytes(const BodyShape& shape) {
   ByteWriter out;
-  out.u64(shape.mesh.vertices.size());
-  out.points(shape.mesh.vertices);
+  out.u64(shape.given_vertex_count());
+  out.points(shape.given.spread(shape.mesh.vertices));
   out.u64(shape.mesh.triangles.size());
-  out.u32_rows(shape.mesh.triangles);
+  out.u32_rows(shape.given.numbered(shape.mesh.triangles));
   out.u64((shape.lattice ? kHasLattice : 0) | (shape.welded.empty() ? 0 : kIsWelded));
-  if (shape.lattice) write_lattice(*shape.lattice, shape.embedding, out);
+  if (shape.lattice) write_lattice(*shape.lattice, shape.embedding, shape.given, out);
   return out.bytes();
 }
 
@@ -154,7 +155,13 @@ std::string recording_content(const Recording& recording) {
   }
   out.u64(recording.frames.size());
   for (const auto& frame : recording.frames)
-    for (const std::vector<Vec3>& nodes : frame) out.points(nodes);
+    for (std::size_t b = 0; b < frame.size(); ++b) {
+      const BodyShape& shape = *recording.bodies[b].shape;
+      if (shape.lattice || shape.given.dropped == 0)
+        out.points(frame[b]);
+      else
+        out.points(shape.given.spread(frame[b]));
+    }
   return out.bytes();
 }
 
@@ -252,6 +259,7 @@ std::shared_ptr<const BodyShape> read_shape(ByteReader& in, std::size_t number,
   shape->topology = analyse_topology(shape->mesh);
   fault = shape_fault(*shape);
   if (!fault.empty()) in.fail("shape " + std::to_string(number) + ": " + fault, begin);
+  drop_unused_vertices(*shape);
   if (shape->lattice) sort_by_cell(shape->lattice->cells.size(), shape->embedding);
   if ((flags & kIsWelded) != 0) return welded(*shape);
   return shape;
@@ -297,12 +305,18 @@ std::vector<Body> read_bodies(ByteReader& in,
 
 void read_frames(ByteReader& in, Recording& out) {
   std::size_t nodes = 0;
-  for (const Body& body : out.bodies) nodes += body.shape->node_count();
+  const auto count = [](const BodyShape& shape) {
+    return shape.lattice ? shape.node_count() : shape.given_vertex_count();
+  };
+  for (const Body& body : out.bodies) nodes += count(*body.shape);
   // No overflow: each shape's nodes were read from this file, and bodies are fewer than 2^32.
   out.frames.resize(in.count("frames", 24 * nodes));
   for (auto& frame : out.frames)
-    for (const Body& body : out.bodies)
-      frame.push_back(in.points(body.shape->node_count(), "nodes"));
+    for (const Body& body : out.bodies) {
+      std::vector<Vec3> nodes = in.points(count(*body.shape), "nodes");
+      frame.push_back(body.shape->lattice ? std::move(nodes)
+                                          : body.shape->given.kept(std::move(nodes)));
+    }
 }
 
 }  // namespace

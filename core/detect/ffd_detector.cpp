@@ -217,8 +217,10 @@ void FfdDetectorOf<T>::query(Question question, ContactSet& out) {
 // A body against itself, as two bodies are tested.
 template <typename T>
 void FfdDetectorOf<T>::find_self(ContactSet& out) {
-  find_candidates(true);
   const bool triangles = config_.element == ElementTest::kTriangle;
+  for (std::size_t body = 0; triangles && !expects_self_ && body < models_.size(); ++body)
+    refuse_many_adjacent_pairs(models_[body].shape->linked());
+  find_candidates(true);
   // Cells that share a node always meet there.
   const auto skipped = [&](const ElementPair& p) {
     return !triangles && share_node(*models_[p.body_a].shape->lattice, p.a, p.b);

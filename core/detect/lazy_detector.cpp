@@ -163,6 +163,7 @@ void LazyDetector::find_self(std::vector<SelfPair>& out) {
   LazyScratch& scratch = team_.scratch()[0];
   std::vector<ElementPair> found;
   for (std::uint32_t body = 0; body < states_.size(); ++body) {
+    if (!expects_self_) refuse_many_adjacent_pairs(states_[body].shape->linked());
     know_patches(body);
     if (!bounded_[body]) bound(body, scratch);
     bounded_[body] = true;

@@ -39,7 +39,8 @@ class LazyDetector : public Detector {
   /// In single precision it maps its own vertices.
   bool needs_vertices() const override { return bounds_all() && !single(); }
   void expect(const std::vector<Question>& questions) override;
-  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected
+  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected;
+  /// elsewhere query() does
   void prepare(const std::vector<Body>& bodies) override;
   void update(const Frame& frame) override;
   void query(Question question, ContactSet& out) override;

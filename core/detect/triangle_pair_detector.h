@@ -91,7 +91,8 @@ class TrianglePairDetector : public Detector {
         std::find(questions.begin(), questions.end(), Question::kSelf) != questions.end();
   }
 
-  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected
+  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected;
+  /// elsewhere query() does
   void prepare(const std::vector<Body>& bodies) override {
     shapes_.clear();
     for (const Body& body : bodies) {
@@ -194,7 +195,9 @@ class TrianglePairDetector : public Detector {
   }
 
   void find_self(std::vector<SelfPair>& out) {
-    if constexpr (kFindsSelf<Broad>)
+    if constexpr (kFindsSelf<Broad>) {
+      if (!expects_self_)
+        for (const BodyShape* shape : shapes_) refuse_many_adjacent_pairs(shape->linked());
       broad_.visit_own_candidates([&](const SelfPair& pair) {
         const BodyShape& shape = *shapes_[pair.body];
         if (meet_beyond_shared(shared_corners(shape.linked()[pair.a], shape.linked()[pair.b]),
@@ -202,6 +205,7 @@ class TrianglePairDetector : public Detector {
           out.push_back(pair);
         return false;
       });
+    }
   }
 
   Broad broad_;

@@ -1,5 +1,8 @@
 #include "core/types/mesh.h"
 
+#include <algorithm>
+
+#include "core/types/given_vertices.h"
 #include "core/types/hash.h"
 
 namespace contactcheck {
@@ -8,6 +11,33 @@ Aabb bounding_box(const std::vector<Vec3>& points) {
   Aabb box;
   for (const Vec3& p : points) box.extend(p);
   return box;
+}
+
+Aabb bounding_box(const TriangleMesh& mesh) {
+  Aabb box;
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.extend(mesh.vertices[v]);
+  return box;
+}
+
+GivenVertices drop_unused_vertices(TriangleMesh& mesh) {
+  GivenVertices out;
+  const auto count = static_cast<std::uint32_t>(mesh.vertices.size());
+  std::vector<std::uint32_t> index(count, 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) index[v] = 1;
+  if (std::find(index.begin(), index.end(), 0u) == index.end()) return out;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    if (index[v] == 0) continue;
+    index[v] = static_cast<std::uint32_t>(out.numbers.size());
+    mesh.vertices[out.numbers.size()] = mesh.vertices[v];
+    out.numbers.push_back(v);
+  }
+  out.dropped = count - out.numbers.size();
+  mesh.vertices.resize(out.numbers.size());
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v = index[v];
+  return out;
 }
 
 std::uint64_t content_hash(const TriangleMesh& mesh) {

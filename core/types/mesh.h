@@ -19,6 +19,8 @@ struct TriangleMesh {
 };
 
 Aabb bounding_box(const std::vector<Vec3>& points);
+/// Of the vertices that triangles use: others are no part of a body. @pre indices are in range
+Aabb bounding_box(const TriangleMesh& mesh);
 
 /// 64-bit FNV-1a over the bits of vertices and indices: the same mesh, the same hash, everywhere.
 std::uint64_t content_hash(const TriangleMesh& mesh);

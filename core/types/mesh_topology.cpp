@@ -126,16 +126,8 @@ void find_components(const TriangleMesh& mesh, MeshTopology& out) {
   }
   std::vector<bool> used(mesh.vertices.size(), false);
   for (const Triangle& t : mesh.triangles) used[find_root(parent, t[0])] = true;
-  out.component_of_vertex.assign(mesh.vertices.size(), kNoComponent);
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kNoComponent);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    const std::uint32_t root = find_root(parent, v);
-    if (root == v && used[v]) {
-      number[v] = static_cast<std::uint32_t>(out.component_vertex.size());
-      out.component_vertex.push_back(v);
-    }
-    out.component_of_vertex[v] = number[root];
-  }
+  for (std::uint32_t v = 0; v < used.size(); ++v)
+    if (used[v]) out.component_vertex.push_back(v);
 }
 
 }  // namespace

@@ -32,12 +32,8 @@ const char* name_of(MeshDefectKind kind);
 /// True for defects no detector can be given: empty, non-finite, index out of range.
 bool is_fatal(MeshDefectKind kind);
 
-/// Of a vertex without a triangle.
-inline constexpr std::uint32_t kNoComponent = ~0u;
-
 struct MeshTopology {
   std::vector<MeshDefect> defects;  ///< all of them, in the order of the kinds, then index
-  std::vector<std::uint32_t> component_of_vertex;  ///< connected component, or kNoComponent
   std::vector<std::uint32_t> component_vertex;  ///< one vertex of each component that has triangles
   bool fatal = false;
   /// Edge-manifold, closed, consistently oriented: inside is defined.

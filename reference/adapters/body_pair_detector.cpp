@@ -42,7 +42,10 @@ void BodyPairDetector::set_bodies(const std::vector<Body>& bodies, double margin
   margin_ = margin;
   rounding_ = rounding;
   shapes_.clear();
-  for (const Body& body : bodies) shapes_.push_back(body.shape.get());
+  for (const Body& body : bodies) {
+    if (expects_self_) refuse_many_adjacent_pairs(body.shape->linked());
+    shapes_.push_back(body.shape.get());
+  }
   boxes_.assign(bodies.size(), {});
   vertices_.assign(bodies.size(), {});
   mapped_.assign(bodies.size(), {});
@@ -102,6 +105,8 @@ void BodyPairDetector::update(const Frame& frame) {
 void BodyPairDetector::query(Question question, ContactSet& out) {
   CONTACTCHECK_INVARIANT(semantics().answers(question), "only claimed questions are asked");
   if (question == Question::kSelf) {
+    for (std::size_t b = 0; !expects_self_ && b < shapes_.size(); ++b)
+      refuse_many_adjacent_pairs(shapes_[b]->linked());
     if (!moved_all_) move_others();
     for (std::uint32_t b = 0; b < shapes_.size(); ++b) collide_self(b, out);
     return;

@@ -53,6 +53,8 @@ class BodyPairDetector : public Detector {
 
   /// For prepare(). `margin`: metres by which the library's own boxes are wider than the vertices;
   /// `rounding`: by how much of a coordinate they may be, too.
+  /// @throws RefusedInput as refuse_many_adjacent_pairs() does, where self-contact is expected;
+  /// elsewhere query() does
   void set_bodies(const std::vector<Body>& bodies, double margin = 0.0, double rounding = 0.0);
   /// Of every body in every frame: what the library cannot take.
   /// @throws RefusedInput

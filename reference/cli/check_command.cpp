@@ -135,11 +135,19 @@ class FrameChecker {
  private:
   bool judges_containment() const { return !allowed_.contact && scene_.bodies.size() > 1; }
 
+  oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted) {
+    try {
+      return oracle_.judge(frame, wanted);
+    } catch (const RefusedInput& e) {
+      throw InputError("frame " + std::to_string(f) + ": " + e.what());
+    }
+  }
+
   std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
     oracle::WantedTruth wanted;
     wanted.containment = wanted.triangles = !allowed_.contact;
     wanted.self = !allowed_.self;
-    const oracle::Truth truth = oracle_.judge(frame, wanted);
+    const oracle::Truth truth = judged(f, frame, wanted);
     if (truth.surface.triangles != found.triangles || truth.surface.self != found.self)
       throw std::runtime_error("frame " + std::to_string(f) + ": " + kDetector +
                                " and the oracle disagree; that is an error of contactcheck");
@@ -248,8 +256,8 @@ class CheckReport {
     Json not_judged = Json::array();
     std::string unjudged;
     for (const auto& [body, found] : checker.open()) {
-      const std::string why =
-          oracle::open_reason(found.second, "frame " + std::to_string(found.first));
+      const std::string why = oracle::open_reason(found.second, scene_.bodies[body].shape->given,
+                                                  "frame " + std::to_string(found.first));
       not_judged.push_back({{"body", name(body)}, {"level", "containment"}, {"reason", why}});
       unjudged += name(body) + ": containment and depth in it not judged: " + why + "\n";
     }
@@ -299,7 +307,8 @@ class CheckReport {
   std::string depth_text(const oracle::SurfaceDepth& depth) const {
     if (depth.unknown)
       return "depth unknown: " + name(depth.unknown->body) + ": " +
-             oracle::describe(depth.unknown->fault);
+             oracle::describe(depth.unknown->fault,
+                              scene_.bodies[depth.unknown->body].shape->given);
     const auto [factor, unit] =
         depth.upper < 1.0 ? std::pair(1e3, " mm deep") : std::pair(1.0, " m deep");
     const std::string upper = fmt::format("{:.3g}", factor * depth.upper) + unit;

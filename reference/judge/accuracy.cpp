@@ -61,8 +61,13 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
       }
 
     const Frame frame = judged.frame(f);
-    const oracle::Truth& truth =
-        judged.truth.emplace_back(oracle.judge(frame, wanted_truth(scene)));
+    try {
+      judged.truth.push_back(oracle.judge(frame, wanted_truth(scene)));
+    } catch (const RefusedInput& e) {
+      judged.refused = "frame " + std::to_string(f) + ": " + e.what();
+      return judged;
+    }
+    const oracle::Truth& truth = judged.truth.back();
     note_open_bodies(scene.bodies, f, truth.open, judged.open);
     judged.contact_frames.push_back(!truth.surface.bodies.empty() ||
                                     !truth.surface.self_bodies.empty());

@@ -101,6 +101,10 @@ results::ClosedLoop run_closed_loop(const scene::Scene& scene, std::uint32_t pos
   scene::Scene own = scene;
   own.recorded = motion.frames;
   const JudgedScene judged = judge_scene(own, progress);
+  if (!judged.refused.empty()) {
+    out.error = judged.refused;
+    return out;
+  }
   JudgingTools tools(judged);
   const double highest = *std::max_element(motion.energy.begin(), motion.energy.end());
   if (motion.highest_kinetic > 0.0)

@@ -13,9 +13,10 @@ constexpr const char* kSchema = "contactcheck-contacts/1";
 // Where a level counts whole bodies, or a vertex with a body, -1 stands for the element.
 constexpr int kNoElement = -1;
 
-Json to_json(const ListedPairs& listed, NamedElements elements) {
+Json to_json(const ListedPairs& listed, NamedElements elements, const std::vector<Body>& bodies) {
   Json flat = Json::array();
   const auto add = [&](std::uint32_t body, Element kind, std::uint32_t element) {
+    if (kind == Element::kVertex) element = bodies[body].shape->given.number_of(element);
     flat.push_back(body);
     flat.push_back(kind == Element::kNone ? Json(kNoElement) : Json(element));
   };
@@ -41,21 +42,21 @@ std::string truth_contacts(const JudgedScene& judged) {
       triangles.push_back({p.body, p.body, p.a, p.b});
     if (triangles.empty()) continue;
     Json frame = {{"frame", f}};
-    frame.update(to_json(first_of(triangles), named_elements(Level::kTriangle, true)));
+    frame.update(to_json(first_of(triangles), named_elements(Level::kTriangle, true), {}));
     frames.push_back(std::move(frame));
   }
   return frames.dump();
 }
 
-std::string detector_contacts(const results::Run& run,
+std::string detector_contacts(const results::Run& run, const std::vector<Body>& bodies,
                               const std::vector<FrameDifferences>& differences) {
   if (run.per_frame.truth.empty()) return "";
   const Level level = run.per_frame.level.value();
   Json frames = Json::array();
   for (const FrameDifferences& d : differences)
     frames.push_back({{"frame", d.frame},
-                      {"missed", to_json(d.missed, named_elements(level, true))},
-                      {"spurious", to_json(d.spurious, named_elements(level, false))}});
+                      {"missed", to_json(d.missed, named_elements(level, true), bodies)},
+                      {"spurious", to_json(d.spurious, named_elements(level, false), bodies)}});
   const Json out = {
       {"detector", run.detector}, {"level", name_of(level)}, {"frames", std::move(frames)}};
   return out.dump();

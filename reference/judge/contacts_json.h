@@ -14,8 +14,9 @@ namespace contactcheck::judge {
 /// The true pairs of triangles of every frame that has any.
 std::string truth_contacts(const JudgedScene& judged);
 
-/// What a detector missed and made up, frame by frame; "" where it was judged at no level.
-std::string detector_contacts(const results::Run& run,
+/// What a detector missed and made up, frame by frame; "" where it was judged at no level. Vertices
+/// by the numbers that they have in the meshes as they were given.
+std::string detector_contacts(const results::Run& run, const std::vector<Body>& bodies,
                               const std::vector<FrameDifferences>& differences);
 
 /// The file's text. `truth`: truth_contacts(); `detectors`: detector_contacts(), none empty.

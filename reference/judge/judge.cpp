@@ -116,8 +116,9 @@ void note_open_bodies(const std::vector<Body>& bodies, std::size_t frame,
   open.resize(bodies.size());
   for (const oracle::OpenBody& o : found)
     if (open[o.body].empty())
-      open[o.body] = oracle::open_reason(o.edge, "body " + text::in_quotes(bodies[o.body].name) +
-                                                     ", frame " + std::to_string(frame));
+      open[o.body] = oracle::open_reason(
+          o.edge, bodies[o.body].shape->given,
+          "body " + text::in_quotes(bodies[o.body].name) + ", frame " + std::to_string(frame));
 }
 
 std::string obstacle_to_judging(Level level, const std::vector<Body>& bodies,

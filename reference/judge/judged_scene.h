@@ -50,7 +50,7 @@ struct JudgedScene {
   std::vector<std::vector<double>> contour;
   std::vector<bool> contact_frames;  ///< some surfaces touch
   std::optional<PairTally> pairs;    ///< of a scene of random pairs
-  std::string refused;  ///< not empty: which body and frame have a NaN or infinite node
+  std::string refused;  ///< not empty: which frame cannot be judged, and why: a node that is NaN
 
   /// Valid until another frame is asked for.
   Frame frame(std::size_t index) const;

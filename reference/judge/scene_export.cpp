@@ -161,11 +161,12 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     make_folder(body_folder);
     bodies.push_back({{"name", body.name},
                       {"folder", body_folder},
-                      {"vertices", body.shape->mesh.vertices.size()},
+                      {"vertices", body.shape->given_vertex_count()},
                       {"triangles", body.shape->mesh.triangles.size()},
                       {"welded", !body.shape->welded.empty()}});
     if (!body.shape->welded.empty())
-      write(body_folder + "/welded.json", Json(body.shape->welded).dump() + "\n");
+      write(body_folder + "/welded.json",
+            Json(body.shape->given.numbered(body.shape->welded)).dump() + "\n");
     write(body_folder + "/order.json", Json(certifier.order(b)).dump() + "\n");
   }
   write_file_atomically(folder / "check.py", kCheckScript);
@@ -185,10 +186,12 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     const ContactSet truth = oracle.judge(frame, wanted).surface;
     const oracle::certify::FrameCertificate certificate =
         certifier.certify(frame, truth.triangles, own ? &truth.self : nullptr);
-    for (std::size_t b = 0; b < vertices.size(); ++b)
+    for (std::size_t b = 0; b < vertices.size(); ++b) {
+      const BodyShape& shape = *scene.bodies[b].shape;
       write(bodies[b].at("folder").get<std::string>() + "/" + frame_name(f) + ".ply",
-            ply_bytes(vertices[b], scene.bodies[b].shape->mesh.triangles,
+            ply_bytes(shape.given.spread(vertices[b]), shape.given.numbered(shape.mesh.triangles),
                       "contactcheck export: vertices in metres"));
+    }
     write("truth/" + frame_name(f) + ".json", frame_text(f, truth.bodies, certificate));
 
     summary.frames += 1;

@@ -187,6 +187,12 @@ void add_note(std::string& notes, const std::string& note) {
   notes += (notes.empty() ? "" : "; ") + note;
 }
 
+void add_note_of_dropped(std::string& notes, std::size_t vertices) {
+  if (vertices == 0) return;
+  add_note(notes, std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+                      " that no triangle uses, dropped");
+}
+
 namespace {
 
 LoadedMesh triangulated(const PolygonSoup& soup, const std::string& name) {

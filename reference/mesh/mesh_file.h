@@ -1,6 +1,7 @@
 // Meshes out of files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -16,6 +17,8 @@ struct LoadedMesh {
 
 /// Appends a remark to notes that are joined by "; ".
 void add_note(std::string& notes, const std::string& note);
+/// "2 vertices that no triangle uses, dropped"; nothing where there were none.
+void add_note_of_dropped(std::string& notes, std::size_t vertices);
 
 /// Reads OBJ, OFF, PLY and STL by their extension (any case) with doubles and indices kept, and
 /// every other extension through assimp as floats. Polygons become triangles (polygon_split.h); for

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/types/check.h"
+#include "core/types/given_vertices.h"
 #include "reference/mesh/datasets.h"
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/tessellation.h"
@@ -84,7 +85,9 @@ LoadedMesh load_source(const MeshSpec& spec) {
   return {make_teapot(spec.divisions, data_roots(), spec.seams), ""};
 }
 
+// Vertices that no triangle uses keep their numbers; they count in no box and overflow nowhere.
 void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mesh) {
+  const GivenVertices given = drop_unused_vertices(mesh);
   const double side = bounding_box(mesh.vertices).extent().maxCoeff();
   if (spec.size && !(side > 0.0)) field.at("size").fail("cannot be reached: the mesh is a point");
   const double factor = spec.size ? *spec.size / side : spec.scale.value_or(1.0);
@@ -97,8 +100,11 @@ void place(const MeshSpec& spec, const text::JsonField& field, TriangleMesh& mes
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].allFinite()) continue;
-    field.fail("makes vertex " + std::to_string(i) + " overflow; coordinates must stay finite");
+    field.fail("makes vertex " + std::to_string(given.number_of(static_cast<std::uint32_t>(i))) +
+               " overflow; coordinates must stay finite");
   }
+  if (given.dropped > 0)
+    mesh = {given.spread(mesh.vertices), given.numbered(std::move(mesh.triangles))};
 }
 
 }  // namespace
@@ -143,6 +149,7 @@ LoadedMesh build_mesh(const MeshSpec& spec, const text::JsonField& field) {
     const std::size_t given = loaded.mesh.triangles.size(), wanted = *spec.triangles;
     if (wanted > given)
       field.at("triangles").refuse("at most " + std::to_string(given) + ", the mesh's own number");
+    add_note_of_dropped(loaded.notes, drop_unused_vertices(loaded.mesh).dropped);
     loaded.mesh = simplify(loaded.mesh, wanted);
     const std::size_t reached = loaded.mesh.triangles.size();
     if (reached != wanted)

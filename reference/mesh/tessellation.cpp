@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/types/given_vertices.h"
 #include "core/types/mesh_topology.h"
+#include "core/types/vertex_places.h"
 
 namespace contactcheck::mesh {
 namespace {
@@ -20,7 +22,7 @@ TriangleMesh collapsed(const TriangleMesh& mesh, std::size_t triangles) {
   indices.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
   // Relative to the box: far from the origin floats would lose the shape.
-  const Aabb box = bounding_box(mesh.vertices);
+  const Aabb box = bounding_box(mesh);
   const double size = box.extent().maxCoeff();
   const double scale = size > 0.0 ? 1.0 / size : 1.0;
   std::vector<float> floats;
@@ -33,24 +35,33 @@ TriangleMesh collapsed(const TriangleMesh& mesh, std::size_t triangles) {
                                mesh.vertices.size(), 3 * sizeof(float), 3 * triangles,
                                std::numeric_limits<float>::max()));
 
-  // Vertices that are still used, in their order.
-  constexpr std::uint32_t kUnused = UINT32_MAX;
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
-  for (const std::uint32_t i : kept) number[i] = 0;
   TriangleMesh out;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kUnused) continue;
-    number[v] = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.push_back(mesh.vertices[v]);
-  }
+  out.vertices = mesh.vertices;
   for (std::size_t i = 0; i + 2 < kept.size(); i += 3)
-    out.triangles.push_back({number[kept[i]], number[kept[i + 1]], number[kept[i + 2]]});
+    out.triangles.push_back({kept[i], kept[i + 1], kept[i + 2]});
+  drop_unused_vertices(out);
   return out;
 }
 
 }  // namespace
 
-TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles) {
+namespace {
+
+// Vertices at one place are one; without the triangles that are a segment or a point by that.
+TriangleMesh without_copies(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> first = first_at_place(mesh.vertices);
+  TriangleMesh out;
+  out.vertices = mesh.vertices;
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle joined = {first[t[0]], first[t[1]], first[t[2]]};
+    if (joined[0] != joined[1] && joined[1] != joined[2] && joined[2] != joined[0])
+      out.triangles.push_back(joined);
+  }
+  drop_unused_vertices(out);
+  return out;
+}
+
+TriangleMesh simplified_as_given(const TriangleMesh& mesh, std::size_t triangles) {
   if (mesh.triangles.size() <= triangles) return mesh;
   TriangleMesh direct = collapsed(mesh, triangles);
   if (analyse_topology(direct).solid || !analyse_topology(mesh).solid) return direct;
@@ -63,6 +74,19 @@ TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles) {
       return detour;
   }
   return direct;
+}
+
+}  // namespace
+
+TriangleMesh simplify(const TriangleMesh& mesh, std::size_t triangles) {
+  TriangleMesh direct = simplified_as_given(mesh, triangles);
+  if (direct.triangles.size() <= triangles) return direct;
+  const TriangleMesh whole = without_copies(mesh);
+  if (whole.vertices.size() == mesh.vertices.size()) return direct;
+  TriangleMesh joined = simplified_as_given(whole, triangles);
+  const bool better =
+      !joined.triangles.empty() && joined.triangles.size() < direct.triangles.size();
+  return better ? joined : direct;
 }
 
 TriangleMesh subdivide(TriangleMesh mesh, std::size_t times) {

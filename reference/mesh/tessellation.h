@@ -12,6 +12,9 @@ namespace contactcheck::mesh {
 /// among the given vertices, and floats serve its error measure alone. Vertices without a triangle
 /// are dropped; the order of the rest is kept. Deterministic.
 ///
+/// Where copies of a vertex, such as those of texture seams, keep it above the wish, vertices with
+/// equal coordinates are one: the result has fewer triangles then, and no copies.
+///
 /// meshoptimizer 0.18 may fold thin parts together into a non-manifold edge. For a solid mesh, when
 /// a direct simplification does so, a few that stop at a larger count in between are tried, and the
 /// first solid result of the same size is taken; without one, the direct result stands.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/types/vertex_places.h"
 #include "reference/oracle/exact_predicates.h"
 #include "reference/oracle/floating_point.h"
 
@@ -164,37 +165,19 @@ OpenEdge edge_at(std::span<const Triangle> triangles, std::uint32_t corner) {
   return {corner / 3, triangle[corner % 3], triangle[(corner + 1) % 3]};
 }
 
-// Vertices without a triangle are not looked at: they may be anywhere, or not a number.
-std::vector<std::uint32_t> welded_vertices(std::span<const Triangle> triangles,
-                                           std::span<const Vec3> vertices) {
-  std::vector<char> used(vertices.size(), 0);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) used[v] = 1;
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < vertices.size(); ++v)
-    if (used[v]) order.push_back(v);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3 &p = vertices[a], &q = vertices[b];
-    return p == q ? a < b : lexicographically_less(p, q);
-  });
-  std::vector<std::uint32_t> welded(vertices.size());
-  std::iota(welded.begin(), welded.end(), 0u);
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (vertices[order[i]] == vertices[order[i - 1]]) welded[order[i]] = welded[order[i - 1]];
-  return welded;
-}
-
 }  // namespace
 
-std::string open_reason(const OpenEdge& edge, const std::string& where) {
+std::string open_reason(const OpenEdge& edge, const GivenVertices& given,
+                        const std::string& where) {
   return "open (" + where + (where.empty() ? "" : ", ") + "edge of vertices " +
-         std::to_string(edge.from) + " and " + std::to_string(edge.to) + ")";
+         std::to_string(given.number_of(edge.from)) + " and " +
+         std::to_string(given.number_of(edge.to)) + ")";
 }
 
 SurfaceChain surface_chain(std::span<const Triangle> triangles, std::span<const Vec3> vertices) {
   const FloatingPointGuard guard;
   SurfaceChain out;
-  out.welded = welded_vertices(triangles, vertices);
+  out.welded = first_at_place(vertices);
   const std::vector<HalfEdge> edges = sorted_half_edges(triangles, out.welded);
   number_components(triangles, edges, out);
   // Where all edges cancel, those of triangles of no area cancel along their lines, and so do the

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/given_vertices.h"
 #include "core/types/mesh.h"
 #include "core/types/vec3.h"
 
@@ -27,9 +28,10 @@ struct OpenEdge {
   bool operator==(const OpenEdge&) const = default;
 };
 
-/// "open (edge of vertices 4 and 5)"; with `where`, "open (body "cube", frame 3, edge of vertices 4
-/// and 5)". The one form of this reason.
-std::string open_reason(const OpenEdge& edge, const std::string& where = "");
+/// "open (edge of vertices 4 and 5)", with the numbers of given vertices; with `where`, "open (body
+/// "cube", frame 3, edge of vertices 4 and 5)". The one form of this reason.
+std::string open_reason(const OpenEdge& edge, const GivenVertices& given,
+                        const std::string& where = "");
 
 /// A surface in one frame, its vertices welded.
 struct SurfaceChain {
@@ -44,7 +46,7 @@ struct SurfaceChain {
   bool closed() const { return !open.has_value(); }
 };
 
-/// @pre indices in range, the vertices that triangles use are finite
+/// @pre indices in range, vertices finite
 SurfaceChain surface_chain(std::span<const Triangle> triangles, std::span<const Vec3> vertices);
 
 /// The same without positions: every vertex is itself, and every triangle counts. Where this is

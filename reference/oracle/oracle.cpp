@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,10 +33,21 @@ double box_gap(const Aabb& a, const Aabb& b) {
   return std::max(0.0, std::nextafter(gap.stableNorm() * kGapRounding, -1.0));
 }
 
+template <typename Pair>
+void add_contact(std::vector<Pair>& contacts, const Pair& pair, std::size_t most) {
+  if (contacts.size() == most) refuse_many_contacts(most);
+  contacts.push_back(pair);
+}
+
 // Of the scale; below the 1e-9 that DistanceInterval promises, which pays for rounding.
 constexpr double kSeparationWidth = 9e-10;
 
 }  // namespace
+
+void refuse_many_contacts(std::size_t most) {
+  throw RefusedInput("more than " + std::to_string(most) +
+                     " pairs of triangles are in contact; at most that many can be judged");
+}
 
 struct Oracle::Impl {
   explicit Impl(const std::vector<Body>& bodies);
@@ -78,7 +90,7 @@ void Oracle::Impl::check(const Frame& frame) const {
   }
 }
 
-// Of all vertices: the trees know only those of triangles.
+// Without fitting the trees, which few of the pairs need.
 std::vector<Aabb> Oracle::Impl::vertex_boxes(const Frame& frame) const {
   std::vector<Aabb> boxes(size());
   for (std::uint32_t i = 0; i < size(); ++i)
@@ -156,10 +168,8 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
   const auto judge_vertices = [&](std::uint32_t body, std::uint32_t in) {
     if (!impl_->chains[in]->closed()) return;
     const auto vertices = frame.bodies[body].vertices;
-    const std::vector<std::uint32_t>& component = shapes[body]->topology.component_of_vertex;
     for (std::uint32_t v = 0; v < vertices.size(); ++v)
-      if (component[v] != kNoComponent && strictly_inside(trees[in], vertices[v]))
-        truth.surface.vertices.push_back({body, in, v});
+      if (strictly_inside(trees[in], vertices[v])) truth.surface.vertices.push_back({body, in, v});
   };
   std::vector<BodyPair> touching;
   const auto judge_pair = [&](std::uint32_t a, std::uint32_t b) {
@@ -170,7 +180,8 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
       any_box_pair(trees[a], trees[b], [&](std::uint32_t i, std::uint32_t j) {
         if (!triangles_intersect(trees[a].corners(i), trees[b].corners(j))) return false;
         contact = true;
-        if (wanted.triangles) truth.surface.triangles.push_back({a, b, i, j});
+        if (wanted.triangles)
+          add_contact(truth.surface.triangles, {a, b, i, j}, wanted.most_contacts);
         return !wanted.triangles;
       });
       if (contact) touching.push_back({a, b});
@@ -186,7 +197,7 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
     refuse_many_adjacent_pairs(linked);
     any_own_box_pair(tree, [&](std::uint32_t i, std::uint32_t j) {
       if (meet_beyond_shared(linked[i], tree.corners(i), linked[j], tree.corners(j)))
-        truth.surface.self.push_back({body, i, j});
+        add_contact(truth.surface.self, {body, i, j}, wanted.most_contacts);
       return false;
     });
   };

@@ -163,8 +163,8 @@ const char* name_of(NotSimple kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string describe(const SolidFault& fault) {
-  return fault.kind == NotSimple::kOpen ? open_reason(fault.edge) : name_of(fault.kind);
+std::string describe(const SolidFault& fault, const GivenVertices& given) {
+  return fault.kind == NotSimple::kOpen ? open_reason(fault.edge, given) : name_of(fault.kind);
 }
 
 std::optional<SolidFault> solid_fault(const SurfaceTree& tree, std::span<const Triangle> triangles,

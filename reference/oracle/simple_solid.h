@@ -30,7 +30,7 @@ struct SolidFault {
 /// "open", "self-contact", "no interior", "nested".
 const char* name_of(NotSimple kind);
 /// The same in a sentence, with the edge where it is open (open_reason).
-std::string describe(const SolidFault& fault);
+std::string describe(const SolidFault& fault, const GivenVertices& given);
 
 /// The first fault, in the order of the enumeration; none: the body is a simple solid.
 /// @pre the tree is of these triangles, fitted to these vertices, not scaled

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point.h"
@@ -163,17 +165,53 @@ DistanceBounds DistanceSearch::refine() {
   return {std::min(lowest_refined, lowest_open), upper_};
 }
 
-}  // namespace
+// Of a power of two above it.
+int exponent_of(double largest) {
+  return std::ilogb(std::max(largest, std::numeric_limits<double>::denorm_min())) + 1;
+}
 
-DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
-  const double largest = std::max({largest_coordinate(a.vertices), largest_coordinate(b.vertices),
-                                   std::numeric_limits<double>::denorm_min()});
-  const int exponent = std::ilogb(largest) + 1;
-  scale(a, -exponent);
-  scale(b, -exponent);
+// @pre both are scaled by two to the -exponent
+DistanceInterval scaled_distance(const ScaledSurface& a, const ScaledSurface& b, int exponent) {
   DistanceSearch search(a, b);
   const DistanceBounds bounds = unscaled(search.run(), exponent);
   return {bounds.lower, bounds.upper, search.nearest()};
+}
+
+}  // namespace
+
+DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
+  const int exponent =
+      exponent_of(std::max(largest_coordinate(a.vertices), largest_coordinate(b.vertices)));
+  scale(a, -exponent);
+  scale(b, -exponent);
+  return scaled_distance(a, b, exponent);
+}
+
+std::vector<DistanceInterval> point_distances(std::span<const Vec3> points,
+                                              ScaledSurface& surface) {
+  const FloatingPointGuard guard;
+  const double largest = largest_coordinate(surface.vertices);
+  std::vector<int> exponents;
+  for (const Vec3& p : points)
+    exponents.push_back(exponent_of(std::max(largest, p.cwiseAbs().maxCoeff())));
+  // Each point with the surface in its own scale: one that is far away widens no other interval.
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return exponents[i] < exponents[j]; });
+  SurfaceTree point_tree(TriangleMesh{{Vec3::Zero()}, {{0, 0, 0}}});
+  ScaledSurface point;
+  point.tree = &point_tree;
+  std::vector<DistanceInterval> out(points.size());
+  std::optional<int> fitted;
+  for (const std::size_t i : order) {
+    if (fitted != exponents[i]) scale(surface, -exponents[i]);
+    fitted = exponents[i];
+    point.vertices = points.subspan(i, 1);
+    scale(point, -exponents[i]);
+    out[i] = scaled_distance(point, surface, exponents[i]);
+  }
+  return out;
 }
 
 }  // namespace contactcheck::oracle

@@ -18,4 +18,8 @@ struct ScaledSurface {
 /// wide. Leaves both trees fitted to the scaled vertices.
 DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b);
 
+/// That of each of the points, as a surface of its own, to the surface; `triangles` names the
+/// surface's second. Points that do not exceed the surface's coordinates share one fit of its tree.
+std::vector<DistanceInterval> point_distances(std::span<const Vec3> points, ScaledSurface& surface);
+
 }  // namespace contactcheck::oracle

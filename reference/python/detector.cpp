@@ -111,11 +111,13 @@ class PyDetector {
       frame_.bodies.resize(bodies_.size());
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const BodyShape& shape = *bodies_[i].shape;
-        if (positions[i].size() != shape.node_count())
+        const std::size_t wanted = shape.lattice ? shape.node_count() : shape.given_vertex_count();
+        if (positions[i].size() != wanted)
           throw InputError("positions[" + std::to_string(i) + "] has " +
                            std::to_string(positions[i].size()) + " rows; \"" + bodies_[i].name +
-                           "\" has " + std::to_string(shape.node_count()) +
+                           "\" has " + std::to_string(wanted) +
                            (shape.lattice ? " nodes" : " vertices"));
+        if (!shape.lattice) positions[i] = shape.given.kept(std::move(positions[i]));
       }
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const BodyShape& shape = *bodies_[i].shape;
@@ -146,6 +148,7 @@ class PyDetector {
       out.clear();
       made().query(question, out);
       out.canonicalize();
+      number_vertices(out);
     });
   }
 
@@ -159,6 +162,17 @@ class PyDetector {
   Detector& made() {
     if (!detector_) throw InputError(spec_.name + " failed before; prepare() begins anew");
     return *detector_;
+  }
+
+  // As the meshes were given.
+  void number_vertices(ContactSet& out) const {
+    const auto number = [&](std::uint32_t body, std::uint32_t& vertex) {
+      vertex = bodies_[body].shape->given.number_of(vertex);
+    };
+    for (VertexInBody& v : out.vertices) number(v.body, v.vertex);
+    for (NearPair& p : out.near) number(p.body, p.vertex);
+    for (NearPair& p : out.self_near) number(p.body, p.vertex);
+    for (VertexContact& c : out.vertex_contacts) number(c.where.body, c.where.vertex);
   }
 
   void require(State state, const char* order) {

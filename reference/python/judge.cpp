@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -9,9 +10,11 @@
 #include "core/types/check.h"
 #include "core/types/shared_corners.h"
 #include "reference/oracle/closed_chain.h"
+#include "reference/oracle/exact_tests.h"
 #include "reference/oracle/floating_point.h"
 #include "reference/oracle/frame_certificate.h"
 #include "reference/oracle/oracle.h"
+#include "reference/oracle/surface_distance.h"
 #include "reference/oracle/surface_geometry.h"
 #include "reference/oracle/vertex_queries.h"
 #include "reference/python/arrays.h"
@@ -70,14 +73,30 @@ struct AtRest {
   Frame frame;
 };
 
-py::array contacts(const Shape& a, const Shape& b) {
-  const AtRest scene({a, b});
-  std::vector<ElementPair> found;
+oracle::SurfaceTree tree_at_rest(const Shape& shape) {
+  oracle::SurfaceTree tree(shape.body->mesh);
+  tree.refit(shape.body->mesh.vertices);
+  return tree;
+}
+
+// The first pairs that are found, ascending, and whether there are more.
+py::tuple contacts(const Shape& a, const Shape& b, std::size_t most) {
+  std::vector<std::array<std::uint32_t, 2>> found;
+  bool more = false;
   {
     const Released released;
-    found = oracle::Oracle(scene.bodies).judge(scene.frame, {}).surface.triangles;
+    const oracle::SurfaceTree tree_a = tree_at_rest(a), tree_b = tree_at_rest(b);
+    more = any_box_pair(tree_a, tree_b, [&](std::uint32_t i, std::uint32_t j) {
+      if (!oracle::triangles_intersect(tree_a.corners(i), tree_b.corners(j))) return false;
+      if (found.size() == most) return true;
+      if (found.size() == oracle::kMostContacts)
+        oracle::refuse_many_contacts(oracle::kMostContacts);
+      found.push_back({i, j});
+      return false;
+    });
+    std::sort(found.begin(), found.end());
   }
-  return table<std::int32_t, 2>(found, [](const ElementPair& p) { return std::array{p.a, p.b}; });
+  return py::make_tuple(table<std::int32_t, 2>(found, [](const auto& pair) { return pair; }), more);
 }
 
 py::tuple self_contacts(const Shape& shape) {
@@ -115,6 +134,29 @@ py::tuple distance(const Shape& a, const Shape& b) {
   return py::make_tuple(found.lower, found.upper, points_table(points));
 }
 
+py::tuple point_distances(const py::object& points_object, const Shape& shape) {
+  const std::vector<Vec3> points = read_points(points_object, "points");
+  std::vector<oracle::DistanceInterval> found;
+  std::vector<Vec3> nearest;
+  {
+    const Released released;
+    const AtRest scene({shape});
+    oracle::SurfaceTree tree(shape.body->mesh);
+    oracle::ScaledSurface surface;
+    surface.tree = &tree;
+    surface.vertices = shape.body->mesh.vertices;
+    found = oracle::point_distances(points, surface);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      nearest.push_back(oracle::certify::nearest_points_rounded(
+          {points[i], points[i], points[i]}, scene.corners(0, found[i].triangles[1]))[1]);
+  }
+  const auto lower = [](const oracle::DistanceInterval& d) { return d.lower; };
+  const auto upper = [](const oracle::DistanceInterval& d) { return d.upper; };
+  const auto triangle = [](const oracle::DistanceInterval& d) { return d.triangles[1]; };
+  return py::make_tuple(column<double>(found, lower), column<double>(found, upper),
+                        points_table(nearest), column<std::int32_t>(found, triangle));
+}
+
 py::tuple depth(const Shape& a, const Shape& b) {
   const AtRest scene({a, b});
   oracle::SurfaceDepth found;
@@ -125,8 +167,9 @@ py::tuple depth(const Shape& a, const Shape& b) {
     found = geometry.surface_depth({0, 1});
   }
   if (found.unknown)
-    throw InputError(std::string(found.unknown->body == 0 ? "Va, Fa" : "Vb, Fb") +
-                     " is not a simple solid: " + oracle::describe(found.unknown->fault));
+    throw InputError(
+        std::string(found.unknown->body == 0 ? "Va, Fa" : "Vb, Fb") + " is not a simple solid: " +
+        oracle::describe(found.unknown->fault, scene.bodies[found.unknown->body].shape->given));
   return py::make_tuple(found.lower, found.upper);
 }
 
@@ -138,11 +181,11 @@ py::tuple inside(const py::object& points_object, const Shape& shape) {
     const TriangleMesh& mesh = shape.body->mesh;
     const auto chain = oracle::surface_chain(mesh.triangles, mesh.vertices);
     if (!chain.closed())
-      throw InputError("V, F has no inside: it is " + oracle::open_reason(*chain.open) +
+      throw InputError("V, F has no inside: it is " +
+                       oracle::open_reason(*chain.open, shape.body->given) +
                        "; a closed mesh is wanted, every edge run equally often in both "
                        "directions, equal coordinates being one vertex");
-    oracle::SurfaceTree tree(mesh);
-    tree.refit(mesh.vertices);
+    const oracle::SurfaceTree tree = tree_at_rest(shape);
     for (std::size_t i = 0; i < points.size(); ++i)
       winding[i] = oracle::winding_number(tree, points[i]);
   }
@@ -183,12 +226,12 @@ py::array deform(const Shape& shape, const py::object& nodes_object) {
     const Released released;
     map_body(*shape.body, nodes, out);
   }
-  return points_table(out);
+  return points_table(shape.body->given.spread(out));
 }
 
 py::array fit(const Shape& shape, const py::object& vertices_object) {
-  const std::vector<Vec3> vertices = read_positions(
-      vertices_object, "V", shape.body->mesh.vertices.size(), "vertices of the mesh");
+  const std::vector<Vec3> vertices = shape.body->given.kept(read_positions(
+      vertices_object, "V", shape.body->given_vertex_count(), "vertices of the mesh"));
   std::vector<Vec3> out;
   {
     const Released released;
@@ -215,14 +258,15 @@ void add_judge(py::module_& module) {
                              })
       .def_property_readonly("faces",
                              [](const Shape& shape) {
-                               return table<std::int32_t, 3>(shape.body->mesh.triangles,
-                                                             [](const Triangle& t) { return t; });
+                               return table<std::int32_t, 3>(
+                                   shape.body->given.numbered(shape.body->mesh.triangles),
+                                   [](const Triangle& t) { return t; });
                              })
       .def_property_readonly("cells",
                              [](const Shape& shape) { return shape.body->lattice->cells.size(); })
       .def("positions",
            [](const Shape& shape, const py::object& object, const std::string& name) {
-             return points_table(read_positions(object, name, shape.body->mesh.vertices.size(),
+             return points_table(read_positions(object, name, shape.body->given_vertex_count(),
                                                 "vertices of the mesh"));
            })
       .def("deform", &deform, CleanNumbers())
@@ -230,6 +274,7 @@ void add_judge(py::module_& module) {
   module.def("contacts", &contacts, CleanNumbers());
   module.def("self_contacts", &self_contacts, CleanNumbers());
   module.def("distance", &distance, CleanNumbers());
+  module.def("point_distances", &point_distances, CleanNumbers());
   module.def("depth", &depth, CleanNumbers());
   module.def("inside", &inside, CleanNumbers());
   module.def("check_mesh", &check_mesh, CleanNumbers());

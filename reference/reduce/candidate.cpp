@@ -6,29 +6,11 @@
 #include "core/deform/lattice.h"
 #include "core/deform/node_shape.h"
 #include "core/types/check.h"
+#include "core/types/given_vertices.h"
 #include "reference/oracle/exact_predicates.h"
 
 namespace contactcheck::reduce {
 namespace {
-
-constexpr std::uint32_t kUnused = ~0u;
-
-/// The vertices that `triangles` name, in their order, and the triangles renumbered.
-TriangleMesh without_unused_vertices(const TriangleMesh& mesh, std::vector<Triangle> triangles) {
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) number[v] = 0;
-  TriangleMesh out;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kUnused) continue;
-    number[v] = static_cast<std::uint32_t>(out.vertices.size());
-    out.vertices.push_back(mesh.vertices[v]);
-  }
-  for (Triangle& t : triangles)
-    for (std::uint32_t& v : t) v = number[v];
-  out.triangles = std::move(triangles);
-  return out;
-}
 
 // Of a cell whose corner c is at the high end of x, y, z where bit 0, 1, 2 of c is set, which is
 // also the order of nodes in make_node_shape.
@@ -65,7 +47,7 @@ Snapshot snapshot_of(const CaseCandidate& candidate) {
       out.nodes.push_back(on_nodes.nodes_for(mesh.vertices));
     } else {
       out.bodies.push_back({candidate.names[m], make_bare_shape(mesh)});
-      out.nodes.push_back(mesh.vertices);
+      out.nodes.push_back(out.bodies.back().shape->given.kept(mesh.vertices));
     }
   }
   return out;
@@ -110,8 +92,10 @@ CaseCandidate with_pieces(const CaseCandidate& candidate, const std::vector<Piec
   std::vector<std::vector<Triangle>> triangles(candidate.meshes.size());
   for (const Piece& p : pieces)
     triangles[p.mesh].push_back(candidate.meshes[p.mesh].triangles[p.triangle]);
-  for (std::size_t m = 0; m < triangles.size(); ++m)
-    out.meshes.push_back(without_unused_vertices(candidate.meshes[m], std::move(triangles[m])));
+  for (std::size_t m = 0; m < triangles.size(); ++m) {
+    out.meshes.push_back({candidate.meshes[m].vertices, std::move(triangles[m])});
+    drop_unused_vertices(out.meshes.back());
+  }
   return out;
 }
 

@@ -104,6 +104,7 @@ int run_probe_worker(const std::string& detector, const DetectorCatalog& catalog
     while (const std::optional<std::string> request = channel.receive()) {
       const scene::Scene scene = scene_of(*request);
       const judge::JudgedScene judged = judge::judge_scene(scene, progress);
+      if (!judged.refused.empty()) throw RefusedInput(judged.refused);
       judge::JudgingTools tools(judged);
       if (!channel.send("")) break;
       const ProbeVerdict verdict = verdict_on(tools, catalog, spec, progress);

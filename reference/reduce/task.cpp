@@ -46,9 +46,12 @@ class CaseElement {
   /// The triangle that it names, or one of the vertex that it names.
   std::optional<std::uint32_t> triangle() const {
     if (field_.has("triangle")) return checked_triangle();
-    if (field_.has("vertex"))
-      return triangle_with(shape_->mesh, field_.at("vertex").whole(0, vertices_.size() - 1));
-    return std::nullopt;
+    if (!field_.has("vertex")) return std::nullopt;
+    const text::JsonField number = field_.at("vertex");
+    const auto vertex = shape_->given.vertex_of(
+        static_cast<std::uint32_t>(number.whole(0, shape_->given_vertex_count() - 1)));
+    if (!vertex) number.refuse("a vertex that a triangle uses");
+    return triangle_with(shape_->mesh, *vertex);
   }
 
   std::optional<std::uint32_t> cell() const {

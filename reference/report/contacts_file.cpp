@@ -21,6 +21,7 @@ NamedElements elements_at(const std::string& level, bool missed) {
   return named_elements(*known, missed);
 }
 
+// Vertices are numbered as they were given.
 std::int64_t element_count(const BodyShape& shape, Element kind) {
   switch (kind) {
     case Element::kTriangle:
@@ -28,7 +29,7 @@ std::int64_t element_count(const BodyShape& shape, Element kind) {
     case Element::kCell:
       return shape.lattice ? static_cast<std::int64_t>(shape.lattice->cells.size()) : 0;
     case Element::kVertex:
-      return static_cast<std::int64_t>(shape.mesh.vertices.size());
+      return static_cast<std::int64_t>(shape.given_vertex_count());
     case Element::kNone:
       break;
   }
@@ -56,7 +57,12 @@ void check_contacts(const Json& contacts, const Recording& recording) {
     if (body < 0 || body >= static_cast<std::int64_t>(recording.bodies.size()))
       throw InputError("body " + std::to_string(body) + " is not recorded");
     if (kind == Element::kNone && element == -1) return;
-    if (element < 0 || element >= element_count(*recording.bodies[body].shape, kind))
+    const BodyShape& shape = *recording.bodies[static_cast<std::size_t>(body)].shape;
+    const auto dropped = [&] {
+      return kind == Element::kVertex &&
+             !shape.given.vertex_of(static_cast<std::uint32_t>(element)).has_value();
+    };
+    if (element < 0 || element >= element_count(shape, kind) || dropped())
       throw InputError("body " + std::to_string(body) + " has no element " +
                        std::to_string(element));
   });

@@ -54,8 +54,8 @@ bool was_asked(const Index& index, const Run& run) {
   return scene == nullptr || scene->unjudged.empty();
 }
 
-// Of detectors that had something to find, reported something or ended in an error; in the order of
-// their first runs.
+// Of detectors that were judged, also where there was nothing to find, or ended in an error; in the
+// order of their first runs.
 std::vector<Verdict> verdicts_of(const Index& index) {
   std::vector<Verdict> all;
   std::set<std::string> families;
@@ -72,12 +72,8 @@ std::vector<Verdict> verdicts_of(const Index& index) {
     for (const auto& [level, counts] : run.levels)
       if (!counts.informative) own.levels[level].add(run, level);
   }
-  std::erase_if(all, [](const Verdict& verdict) {
-    return !verdict.failed &&
-           std::none_of(verdict.levels.begin(), verdict.levels.end(), [](const auto& level) {
-             return level.second.truth > 0 || level.second.reported > 0;
-           });
-  });
+  std::erase_if(all,
+                [](const Verdict& verdict) { return !verdict.failed && verdict.levels.empty(); });
   return all;
 }
 

@@ -114,7 +114,8 @@ KeptShapes kept_near_contacts(const Recording& recording, const Json& contacts) 
   visit_elements(contacts, [&](std::int64_t body, std::int64_t element, Element kind) {
     const BodyShape& shape = *recording.bodies[static_cast<std::size_t>(body)].shape;
     const auto id = static_cast<std::size_t>(element);
-    if (kind == Element::kVertex) near[&shape][id] = 1;
+    if (kind == Element::kVertex)
+      near[&shape][*shape.given.vertex_of(static_cast<std::uint32_t>(id))] = 1;
     if (kind != Element::kTriangle) return;
     for (const std::uint32_t v : shape.mesh.triangles[id]) near[&shape][v] = 1;
   });
@@ -172,9 +173,15 @@ Json shape_view(const BodyShape& shape, const KeptParts* kept, std::string& arra
   }
   Json out = {{"vertices", vertices}, {"nodes", shape.lattice ? shape.node_count() : vertices}};
   out["triangles"] = add_ids(flat(triangles), arrays);
-  if (kept != nullptr)
+  // Contacts name vertices by the numbers that they were given.
+  if (kept != nullptr) {
+    std::vector<std::uint32_t> numbers = kept->vertices;
+    for (std::uint32_t& vertex : numbers) vertex = shape.given.number_of(vertex);
     out["kept"] = {{"triangles", add_ids(kept->triangles, arrays)},
-                   {"vertices", add_ids(kept->vertices, arrays)}};
+                   {"vertices", add_ids(numbers, arrays)}};
+  } else if (shape.given.dropped > 0) {
+    out["numbers"] = add_ids(shape.given.numbers, arrays);
+  }
   if (!shape.lattice) return out;
   FfdConfig config;
   config.sphere_levels = 2;

@@ -18,6 +18,7 @@
 //        what
 //                                          is here, near its contacts, by the numbers that pairs
 //                                          name, ascending; absent where all is here
+//        "numbers": ids[V]                by which pairs name the vertices; absent where from 0 on
 //        "lattice": {                     absent without one: then nodes are vertices
 //          "cell_nodes": ids[C][8]        corner c is at the high end of s, t, u by its bits 0, 1,
 //          2 "home": ids[V], "local": f32[V][3]     cell of each vertex, and (s, t, u) in it

@@ -13,6 +13,7 @@ namespace contactcheck::scene {
 /// Two rigid bodies, one of which is moved: their distance, and whether they touch.
 class RigidPair {
  public:
+  /// @pre a triangle uses each vertex
   /// @throws InputError when a mesh has a fatal defect
   RigidPair(const TriangleMesh& resting, const TriangleMesh& moved);
 
@@ -54,7 +55,8 @@ struct Approach {
 /// foremost point) and turns, with the largest depth that one allows: 8 % of the smaller
 /// body's largest side, or 2 %, 0.5 %, 0.125 %. One that is not robust where no other is found, and
 /// nothing where the surfaces do not meet over any of these depths.
-/// @pre the centre of each mesh's box is the origin, and no box is a point; at least one direction
+/// @pre the centre of each mesh's box is the origin, and no box is a point; a triangle uses each
+/// vertex; at least one direction
 /// @throws InputError when a mesh has a fatal defect
 std::optional<Approach> find_approach(const TriangleMesh& resting, const TriangleMesh& moved,
                                       const std::vector<AxisDirection>& directions);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/deform/name_check.h"
+#include "reference/mesh/mesh_file.h"
 
 namespace contactcheck::scene {
 
@@ -16,6 +17,12 @@ std::vector<Level> parse_levels(const text::JsonField& field) {
     levels.push_back(level);
   }
   return levels;
+}
+
+std::string shape_notes(const BodyShape& shape, std::string notes) {
+  mesh::add_note_of_dropped(notes, shape.given.dropped);
+  mesh::add_note(notes, describe(shape.topology));
+  return notes;
 }
 
 std::string parse_body_name(const text::JsonField& field, const std::vector<Body>& bodies) {

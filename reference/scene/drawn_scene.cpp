@@ -605,7 +605,7 @@ DrawnScene draw_scene(const DrawnSpec& spec, const fs::path& folder) {
 void check_drawn_mesh(const fs::path& file) {
   const mesh::LoadedMesh loaded = mesh::read_mesh_file(file);
   const std::string what = "--mesh " + text::in_quotes(file.string());
-  if (!(bounding_box(loaded.mesh.vertices).extent().maxCoeff() > 0.0))
+  if (!(bounding_box(loaded.mesh).extent().maxCoeff() > 0.0))
     throw InputError(what + " is a point and can meet nothing");
   LatticeSpec lattice;
   lattice.kind = LatticeSpec::Kind::kKept;

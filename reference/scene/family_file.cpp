@@ -222,13 +222,20 @@ class FamilyBody {
 
   const std::shared_ptr<const BodyShape>& shape() const { return shape_; }
   const BaseMesh& base() const { return base_; }
+  // On nodes, a vertex that no triangle uses still moves one.
+  std::string notes() const {
+    std::string out = base_.notes;
+    if (!on_nodes_.shape) mesh::add_note_of_dropped(out, shape_->given.dropped);
+    return out;
+  }
 
   std::vector<Vec3> nodes(double parameter) const {
     std::vector<Vec3> positions =
         moves_nodes() ? shape_->lattice->rest_nodes() : base_.vertices(parameter);
     for (const FamilyStep& step : steps_)
       apply(step, parameter, moves_nodes() ? &*shape_->lattice : nullptr, positions);
-    return on_nodes_.shape ? on_nodes_.nodes_for(positions) : positions;
+    if (on_nodes_.shape) return on_nodes_.nodes_for(positions);
+    return moves_nodes() ? positions : shape_->given.kept(std::move(positions));
   }
 
  private:
@@ -257,7 +264,7 @@ class FamilyBody {
       if (steps_[i].kind == FamilyStep::Kind::kMoveNode && !has_node(steps_[i].node))
         fields[i].at("node").refuse("a node of a kept cell of this body's lattice");
       if (steps_[i].kind == FamilyStep::Kind::kMoveVertex &&
-          (moves_nodes() || steps_[i].vertex >= shape_->mesh.vertices.size()))
+          (moves_nodes() || steps_[i].vertex >= shape_->given_vertex_count()))
         fields[i].at("vertex").refuse("a vertex of a body without a lattice or on its nodes");
     }
   }
@@ -313,7 +320,7 @@ Scene parse_family(const text::JsonField& root, const std::filesystem::path& fol
     const std::string name = parse_body_name(field.at("name"), scene.bodies);
     const FamilyBody body(field, folder, values[0]);
     scene.bodies.push_back({name, body.shape()});
-    scene.origins.push_back({name, body.base().source, body.base().notes});
+    scene.origins.push_back({name, body.base().source, body.notes()});
     for (std::size_t f = 0; f < values.size(); ++f) {
       scene.recorded[f].push_back(body.nodes(values[f]));
       for (const Vec3& n : scene.recorded[f].back())

@@ -190,9 +190,7 @@ void check(const MeshSceneRequest& request) {
                      std::to_string(most));
 }
 
-double half_side(const TriangleMesh& mesh) {
-  return 0.5 * bounding_box(mesh.vertices).extent().maxCoeff();
-}
+double half_side(const TriangleMesh& mesh) { return 0.5 * bounding_box(mesh).extent().maxCoeff(); }
 
 // As every other scene gets them: from the text of the scene, here without lattices and motions.
 std::vector<TriangleMesh> load_meshes(ScenePlan plan, const fs::path& folder) {
@@ -260,7 +258,7 @@ std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
   std::pair<double, std::string> smallest, largest;
   for (const fs::path& file : request.meshes) {
     const std::string name = stem_of(file);
-    const mesh::LoadedMesh loaded = mesh::read_mesh_file(file);
+    mesh::LoadedMesh loaded = mesh::read_mesh_file(file);
     const double side = 2.0 * half_side(loaded.mesh);
     if (smallest.second.empty() || side < smallest.first) smallest = {side, name};
     if (largest.second.empty() || side > largest.first) largest = {side, name};
@@ -269,11 +267,16 @@ std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
       note += ", scaled to " + digits(*request.size) + " m (--size file keeps it)";
     if (std::find(notes.begin(), notes.end(), note) != notes.end()) continue;
     notes.push_back(note);
-    for (const std::string& found : {loaded.notes, describe(analyse_topology(loaded.mesh))})
+    const std::string defects = describe(analyse_topology(loaded.mesh));
+    std::string dropped;
+    const GivenVertices given = drop_unused_vertices(loaded.mesh);
+    mesh::add_note_of_dropped(dropped, given.dropped);
+    for (const std::string& found : {loaded.notes, dropped, defects})
       if (!found.empty()) notes.push_back(name + ": " + found);
     const auto chain = oracle::surface_chain(loaded.mesh.triangles, loaded.mesh.vertices);
     if (!chain.closed())
-      notes.push_back(name + ": containment not judged: " + oracle::open_reason(*chain.open));
+      notes.push_back(name +
+                      ": containment not judged: " + oracle::open_reason(*chain.open, given));
   }
   if (largest.first > kDoubtful * smallest.first)
     notes.push_back("warning: " + largest.second + " is " + digits(largest.first / smallest.first) +
@@ -299,7 +302,7 @@ SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
   const std::vector<TriangleMesh> meshes = load_meshes(plan, folder);
   if (request.meets_itself()) {
     int longest = 0, shortest = 0;
-    const Vec3 extent = bounding_box(meshes[0].vertices).extent();
+    const Vec3 extent = bounding_box(meshes[0]).extent();
     extent.maxCoeff(&longest);
     extent.minCoeff(&shortest);
     if (shortest == longest) shortest = (longest + 1) % 3;

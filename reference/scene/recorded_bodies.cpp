@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/types/check.h"
+#include "core/types/given_vertices.h"
 #include "reference/mesh/mesh_spec.h"
+#include "reference/scene/common_fields.h"
 #include "reference/scene/lattice_fit.h"
 #include "reference/text/file_text.h"
 #include "reference/text/words.h"
@@ -57,21 +59,22 @@ std::size_t triangles_in(const mesh::PolygonSoup& frame) {
 
 // Where faces are polygons, a later frame might split them otherwise by itself: what it must have
 // are the same faces, which the mesh's triangles fill, one face after the other.
-std::string topology_fault(const mesh::PolygonSoup& frame, const TriangleMesh& mesh) {
+std::string topology_fault(const mesh::PolygonSoup& frame, const BodyShape& shape) {
+  const std::vector<Triangle> given = shape.given.numbered(shape.mesh.triangles);
   const auto counts = [](std::size_t vertices, std::size_t triangles) {
     return std::to_string(vertices) + " vertices and " + std::to_string(triangles) + " triangles";
   };
   const std::size_t triangles = triangles_in(frame);
-  if (frame.points.size() != mesh.vertices.size() || triangles != mesh.triangles.size())
+  if (frame.points.size() != shape.given_vertex_count() || triangles != given.size())
     return "has " + counts(frame.points.size(), triangles) + ", the body's mesh has " +
-           counts(mesh.vertices.size(), mesh.triangles.size());
+           counts(shape.given_vertex_count(), given.size());
   std::size_t t = 0;
   for (const std::vector<std::uint32_t>& face : frame.polygons)
     for (std::size_t k = 2; k < face.size(); ++k, ++t)
-      if (!fills(mesh.triangles[t], face))
+      if (!fills(given[t], face))
         return "has other triangles than the body's mesh: triangle " + std::to_string(t) + " is " +
                triangle_text({face[0], face[k - 1], face[k]}) + ", there " +
-               triangle_text(mesh.triangles[t]);
+               triangle_text(given[t]);
   return "";
 }
 
@@ -190,33 +193,35 @@ mesh::LoadedMesh RecordedFrames::first_mesh() const {
   }
 }
 
-std::vector<Vec3> RecordedFrames::positions(std::size_t frame, const TriangleMesh& mesh) const {
-  std::vector<Vec3> out = cache_ ? cached_positions(frame, mesh) : numbered_positions(frame, mesh);
+std::vector<Vec3> RecordedFrames::positions(std::size_t frame, const BodyShape& shape) const {
+  std::vector<Vec3> out =
+      shape.given.kept(cache_ ? cached_positions(frame, shape) : numbered_positions(frame, shape));
   spec_.place(out);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (!out[i].allFinite()) fail_at(frame, "overflows at vertex " + std::to_string(i));
+  for (std::uint32_t i = 0; i < out.size(); ++i)
+    if (!out[i].allFinite())
+      fail_at(frame, "overflows at vertex " + std::to_string(shape.given.number_of(i)));
   return out;
 }
 
 std::vector<Vec3> RecordedFrames::numbered_positions(std::size_t frame,
-                                                     const TriangleMesh& mesh) const {
+                                                     const BodyShape& shape) const {
   mesh::PolygonSoup loaded;
   try {
     loaded = mesh::read_polygons(spec_.file_of(frame));
   } catch (const InputError& error) {
     fail_at(frame, "cannot be read: " + text::without_full_stop(error.what()));
   }
-  const std::string fault = topology_fault(loaded, mesh);
+  const std::string fault = topology_fault(loaded, shape);
   if (!fault.empty()) fail_at(frame, fault);
   return std::move(loaded.points);
 }
 
 std::vector<Vec3> RecordedFrames::cached_positions(std::size_t frame,
-                                                   const TriangleMesh& mesh) const {
-  if (cache_->points() != mesh.vertices.size())
+                                                   const BodyShape& shape) const {
+  if (cache_->points() != shape.given_vertex_count())
     field_.at("cache").fail("has " + std::to_string(cache_->points()) +
-                            " points, the body's mesh has " + std::to_string(mesh.vertices.size()) +
-                            " vertices");
+                            " points, the body's mesh has " +
+                            std::to_string(shape.given_vertex_count()) + " vertices");
   try {
     return cache_->sample(spec_.number_of(frame));
   } catch (const InputError& error) {
@@ -260,8 +265,11 @@ void RecordedBodies::add(const text::JsonField& body, const std::string& name,
   const LatticeSpec lattice =
       body.has("lattice") ? parse_lattice_spec(body.at("lattice"), true) : LatticeSpec{};
   mesh::LoadedMesh loaded = mesh_of(body, frames, folder);
+  // What no triangle uses keeps its number and overflows nowhere.
+  const GivenVertices given = drop_unused_vertices(loaded.mesh);
   frames.spec().place(loaded.mesh.vertices);
-  std::string notes = loaded.notes;
+  loaded.mesh = {given.spread(loaded.mesh.vertices),
+                 given.numbered(std::move(loaded.mesh.triangles))};
   try {
     std::shared_ptr<const BodyShape> shape = build_shape(std::move(loaded.mesh), lattice);
     if (body.has("mesh") && mesh::parse_mesh_spec(body.at("mesh"), folder).weld)
@@ -270,8 +278,8 @@ void RecordedBodies::add(const text::JsonField& body, const std::string& name,
   } catch (const InputError& error) {
     field.fail("has a mesh that cannot be used: " + text::without_full_stop(error.what()));
   }
-  mesh::add_note(notes, describe(scene.bodies.back().shape->topology));
-  scene.origins.push_back({name, frames.described(), notes});
+  scene.origins.push_back(
+      {name, frames.described(), shape_notes(*scene.bodies.back().shape, std::move(loaded.notes))});
   scene.motions.emplace_back();
   bodies_.push_back({scene.bodies.size() - 1, lattice, std::move(frames)});
 }
@@ -295,7 +303,7 @@ void RecordedBodies::fill(Scene& scene) const {
     if (recorded.lattice.fit) fit.emplace(shape, recorded.lattice.smoothing);
     FitError error{recorded.body, {}, {}};
     for (std::size_t f = 0; f < scene.frames; ++f) {
-      std::vector<Vec3> positions = recorded.frames.positions(f, shape.mesh);
+      std::vector<Vec3> positions = recorded.frames.positions(f, shape);
       try {
         frames[f][recorded.body] = fit ? fit->fitted(positions, error) : std::move(positions);
       } catch (const InputError& overflow) {

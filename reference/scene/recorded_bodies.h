@@ -56,9 +56,9 @@ class RecordedFrames {
   std::size_t available(std::size_t most) const;
   /// The mesh of the first of the numbered files. @pre the spec is numbered
   mesh::LoadedMesh first_mesh() const;
-  /// Where the vertices of `mesh` are, placed. @throws InputError where the frame has other
-  /// vertices or triangles than the mesh, or is none
-  std::vector<Vec3> positions(std::size_t frame, const TriangleMesh& mesh) const;
+  /// Where the vertices of the shape are, placed. @throws InputError where the frame has other
+  /// vertices or triangles than the mesh as it was given, or is none
+  std::vector<Vec3> positions(std::size_t frame, const BodyShape& shape) const;
 
   /// @throws InputError that names the frame and its file
   [[noreturn]] void fail_at(std::size_t frame, const std::string& what) const;
@@ -68,8 +68,9 @@ class RecordedFrames {
   std::string described() const;
 
  private:
-  std::vector<Vec3> numbered_positions(std::size_t frame, const TriangleMesh& mesh) const;
-  std::vector<Vec3> cached_positions(std::size_t frame, const TriangleMesh& mesh) const;
+  // Of all vertices as they were given.
+  std::vector<Vec3> numbered_positions(std::size_t frame, const BodyShape& shape) const;
+  std::vector<Vec3> cached_positions(std::size_t frame, const BodyShape& shape) const;
   void refuse_gap(std::size_t missing, std::size_t most) const;
 
   RecordingSpec spec_;

@@ -6,6 +6,7 @@
 #include "core/types/check.h"
 #include "core/types/mesh_topology.h"
 #include "reference/mesh/mesh_file.h"
+#include "reference/scene/common_fields.h"
 #include "reference/scene/drawn_scene.h"
 #include "reference/scene/motion_spec.h"
 #include "reference/scene/random_pairs.h"
@@ -83,7 +84,7 @@ Scene load_recording(const std::filesystem::path& file) {
   if (!recording.levels.empty()) scene.levels = recording.levels;
   scene.recorded = std::move(recording.frames);
   for (const Body& body : scene.bodies) {
-    scene.origins.push_back({body.name, "recording", describe(body.shape->topology)});
+    scene.origins.push_back({body.name, "recording", shape_notes(*body.shape)});
   }
   return scene;
 }

@@ -50,7 +50,7 @@ class Workshop {
     } catch (const InputError& error) {
       body.at("mesh").fail("cannot be used: " + text::without_full_stop(error.what()));
     }
-    mesh::add_note(made.notes, describe(made.shape->topology));
+    made.notes = shape_notes(*made.shape, std::move(made.notes));
     return made_.emplace_back(std::move(made));
   }
 

@@ -36,7 +36,7 @@ Json element(const judge::JudgedScene& judged, const judge::Disagreement& d, Ele
   Json out = {{"body", judged.scene->bodies[body].name}};
   if (kind == Element::kVertex) {
     const Vec3& place = positions.vertices[body][id];
-    out["vertex"] = id;
+    out["vertex"] = shape.given.number_of(id);
     out["position"] = point(place);
     out["position_decimal"] = decimal(place);
   } else if (kind == Element::kTriangle) {

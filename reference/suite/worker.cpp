@@ -171,7 +171,8 @@ SceneAnswer judged_answer(const WorkerState& worker) {
     out.run = entry.run;
     if (job.settings.timing) out.answers = entry.accuracy.answers;
     if (lists_contacts)
-      out.contacts = judge::detector_contacts(entry.run, entry.accuracy.differences);
+      out.contacts =
+          judge::detector_contacts(entry.run, worker.scene.bodies, entry.accuracy.differences);
     add_cases(entry.spec.name, entry.accuracy.disagreements);
   }
   return answer;

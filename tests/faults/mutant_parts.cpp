@@ -118,17 +118,16 @@ void check_candidate_bodies(MutantFindings& out) {
 }
 
 // A triangle alone, with corners on planes between cells: a cell's box holds every corner that the
-// closed cell holds. (Lines lie at -2, -1, 0, 1, 2: all these coordinates are short.)
+// closed cell holds. (All these coordinates are short.)
 void check_ffd_aabbs(MutantFindings& out) {
   TriangleSource random(55);
   for (std::size_t i = 0; i < 60; ++i) {
     out.enter({"corners-on-planes", i, "ffd_aabbs", "box"});
-    TriangleMesh mesh = triangle_mesh(0.25 * random.grid_point(4), 0.25 * random.grid_point(4),
-                                      0.25 * random.grid_point(4));
-    // No triangle has these; they give the lattice its size.
-    mesh.vertices.push_back(Vec3::Constant(-1));
-    mesh.vertices.push_back(Vec3::Ones());
-    const auto shape = make_shape(mesh, {4, 4, 4}, 0.5);
+    const TriangleMesh mesh = triangle_mesh(
+        0.25 * random.grid_point(4), 0.25 * random.grid_point(4), 0.25 * random.grid_point(4));
+    std::array<std::vector<double>, 3> lines;
+    lines.fill({-2, -1, 0, 1, 2});
+    const auto shape = make_shape_on_lines(mesh, lines);
     const std::vector<Aabb> boxes = ffd_aabbs(mesh, *shape->lattice, shape->embedding);
     for (std::uint32_t cell = 0; cell < boxes.size(); ++cell) {
       const Aabb of_cell = shape->lattice->cell_box(cell);

@@ -3,7 +3,8 @@
 A mesh is two arrays: V, (n, 3) coordinates in metres, and F, (m, 3) indices of vertices. What
 trimesh calls vertices and faces, meshio points and cells, Open3D vertices and triangles and pyvista
 points and faces goes in as it is. Coordinates of any type become float64, indices int32. Triangles
-are closed sets of points: touching is contact.
+are closed sets of points: touching is contact. A vertex that no triangle uses is no part of a mesh:
+it counts nowhere, and the others keep their numbers.
 
 Bad arguments raise InputError, a ValueError, whose sentence names argument, place and value. Long
 calls release the interpreter's lock.
@@ -19,7 +20,9 @@ array([[0, 0]], dtype=int32)
 from __future__ import annotations
 
 import json
-from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+import operator
+import sys
+from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 
@@ -29,14 +32,22 @@ from ._run import Results, Scene, Verdict, gate, run
 from ._serve import Body, Frame, LatticeArrays
 
 __all__ = [
-    "Body", "Depth", "Detector", "Distance", "Frame", "InputError", "Inside", "Lattice", "LatticeArrays",
-    "RefusedInput", "Results", "Scene", "SelfContacts", "Unavailable", "Verdict", "__version__",
-    "check_mesh", "contacts", "depth", "detectors", "distance", "gate", "inside", "run", "self_contacts",
+    "Body", "Depth", "Detector", "Distance", "FirstContacts", "Frame", "InputError", "Inside",
+    "Lattice", "LatticeArrays", "PointDistances", "RefusedInput", "Results", "Scene", "SelfContacts",
+    "Unavailable", "Verdict", "__version__", "check_mesh", "contacts", "depth", "detectors",
+    "distance", "gate", "inside", "point_distances", "run", "self_contacts",
 ]
 
 for _public in (Body, Frame, InputError, LatticeArrays, RefusedInput, Results, Scene, Unavailable,
                 Verdict, gate, run):
     _public.__module__ = __name__
+
+
+class FirstContacts(NamedTuple):
+    """What contacts() answers where it stops early."""
+
+    pairs: np.ndarray  #: (k, 2) int32, triangles, ascending
+    more: bool  #: there are others
 
 
 class SelfContacts(NamedTuple):
@@ -61,6 +72,15 @@ class Depth(NamedTuple):
     upper: float  #: metres
 
 
+class PointDistances(NamedTuple):
+    """What point_distances() answers: lower <= true distance <= upper, of each point."""
+
+    lower: np.ndarray  #: (n,) float64, metres
+    upper: np.ndarray  #: (n,) float64, metres
+    points: np.ndarray  #: (n, 3) float64, the nearest point of the surface
+    triangles: np.ndarray  #: (n,) int32, the triangle that it is on
+
+
 class Inside(NamedTuple):
     """What inside() answers."""
 
@@ -68,11 +88,22 @@ class Inside(NamedTuple):
     on_surface: np.ndarray  #: (n,) bool
 
 
-def contacts(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> np.ndarray:
+@overload
+def contacts(Va: Any, Fa: Any, Vb: Any, Fb: Any, first: None = None) -> np.ndarray: ...
+@overload
+def contacts(Va: Any, Fa: Any, Vb: Any, Fb: Any, first: int) -> FirstContacts: ...
+
+
+def contacts(
+    Va: Any, Fa: Any, Vb: Any, Fb: Any, first: Optional[int] = None
+) -> Union[np.ndarray, FirstContacts]:
     """All pairs of triangles of two meshes that share a point: (k, 2) int32, ascending.
 
     Exact for every finite input, degenerate triangles too, which are the segment or point that they
     are. It is the oracle that judges detectors; a Detector is faster.
+
+    `first`: stop after so many pairs, 0 or more, which are not always the lowest; the answer is
+    FirstContacts, which says whether there are more. Raises RefusedInput beyond 20 million pairs.
 
     >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
     >>> touching = [[1, 0, 0], [2, 0, 0], [2, 1, 0]]
@@ -81,10 +112,22 @@ def contacts(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> np.ndarray:
     >>> apart = [[np.nextafter(1, 2), 0, 0], [2, 0, 0], [2, 1, 0]]
     >>> len(contacts(V, F, apart, F))
     0
+    >>> some = contacts(V, [[0, 1, 2]] * 3, V, F, first=2)
+    >>> len(some.pairs), some.more
+    (2, True)
     """
-    return _binding.contacts(
-        _binding.Shape(Va, Fa, "Va", "Fa"), _binding.Shape(Vb, Fb, "Vb", "Fb")
+    most = sys.maxsize
+    if first is not None:
+        try:
+            most = operator.index(first)
+        except TypeError:
+            most = -1
+        if not 0 <= most <= sys.maxsize:
+            raise InputError(f"first={first!r} must be a whole number from 0 on")
+    pairs, more = _binding.contacts(
+        _binding.Shape(Va, Fa, "Va", "Fa"), _binding.Shape(Vb, Fb, "Vb", "Fb"), most
     )
+    return pairs if first is None else FirstContacts(pairs, more)
 
 
 def self_contacts(V: Any, F: Any, weld: bool = False) -> SelfContacts:
@@ -92,7 +135,7 @@ def self_contacts(V: Any, F: Any, weld: bool = False) -> SelfContacts:
 
     `weld`: vertices with equal coordinates are one, as in files that store each corner anew. Two
     triangles that name the same three vertices are duplicates (check_mesh), no contact. Raises
-    RefusedInput where more than 40 million pairs share a vertex.
+    RefusedInput where more than 40 million pairs share a vertex, or more than 20 million meet.
 
     >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.25, 0.25, -1], [0.25, 0.25, 1], [2, 2, 0]]
     >>> pairs, shared = self_contacts(V, [[0, 1, 2], [3, 4, 5]])
@@ -118,6 +161,22 @@ def distance(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> Distance:
     return Distance(
         *_binding.distance(_binding.Shape(Va, Fa, "Va", "Fa"), _binding.Shape(Vb, Fb, "Vb", "Fb"))
     )
+
+
+def point_distances(points: Any, V: Any, F: Any) -> PointDistances:
+    """The distance of each of (n, 3) points to a surface, bounded as by distance(); any n.
+
+    As distance([p, p, p], [[0, 1, 2]], V, F) of each point p, in one call. A point within a body
+    has a distance to its surface: see inside().
+
+    >>> V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    >>> near = point_distances([[0.25, 0.25, 3], [0, 0.5, 0]], V, F)
+    >>> (near.lower <= [3, 0]).all(), (near.upper >= [3, 0]).all(), near.upper[1]
+    (True, True, 0.0)
+    >>> near.points.tolist(), near.triangles.tolist()
+    ([[0.25, 0.25, 0.0], [0.0, 0.5, 0.0]], [0, 0])
+    """
+    return PointDistances(*_binding.point_distances(points, _binding.Shape(V, F, "V", "F")))
 
 
 def depth(Va: Any, Fa: Any, Vb: Any, Fb: Any) -> Depth:
@@ -218,7 +277,10 @@ class Lattice:
         return self._shape.cells
 
     def deform(self, nodes: Any) -> np.ndarray:
-        """The mesh's vertices for (n, 3) moved nodes: the very doubles that detectors are given."""
+        """The mesh's vertices for (n, 3) moved nodes: the very doubles that detectors are given.
+
+        A vertex that no triangle uses is at the place of the last one before it that is used.
+        """
         return self._shape.deform(nodes)
 
     def fit(self, V: Any) -> np.ndarray:

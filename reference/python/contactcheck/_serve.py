@@ -68,7 +68,7 @@ class Body:
     """A body at rest, as prepare() of a detector of one's own is given it."""
 
     name: str
-    vertices: np.ndarray  #: (n, 3) float64, metres
+    vertices: np.ndarray  #: (n, 3) float64, metres; without those that no triangle uses
     faces: np.ndarray  #: (m, 3) uint32
     lattice: Optional[LatticeArrays]
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <utility>
 
 #include "core/types/check.h"
 #include "tests/support/shapes.h"
@@ -48,6 +49,56 @@ TEST(Body, MeshWithAFatalDefectIsRefusedByNameAndIndex) {
   EXPECT_EQ(error_of(range), "the mesh cannot be used: 1 index-out-of-range (triangle 4)");
   EXPECT_EQ(error_of({}), "the mesh cannot be used: 1 empty-mesh");
   EXPECT_THROW(make_bare_shape(range), InputError);
+}
+
+// The unit box with vertices that no triangle uses before, among and after its own.
+TriangleMesh strewn_box() {
+  TriangleMesh mesh = test::unit_box_mesh(1);
+  mesh.vertices.insert(mesh.vertices.begin() + 3, Vec3(0.5, 0.5, 0.5));
+  mesh.vertices.insert(mesh.vertices.begin(), Vec3(-50, 0, 7));
+  mesh.vertices.push_back({1e300, 0, 0});
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v += v < 3 ? 1 : 2;
+  return mesh;
+}
+
+TEST(Body, VertexThatNoTriangleUsesIsNoPartOfIt) {
+  const TriangleMesh box = test::unit_box_mesh(1);
+  for (const auto& [shape, plain] :
+       {std::pair{make_bare_shape(strewn_box()), make_bare_shape(box)},
+        std::pair{make_shape(strewn_box(), {3, 2, 4}), make_shape(box, {3, 2, 4})}}) {
+    EXPECT_EQ(shape->mesh.vertices, plain->mesh.vertices);
+    EXPECT_EQ(shape->mesh.triangles, plain->mesh.triangles);
+    EXPECT_EQ(shape->node_count(), plain->node_count());
+    EXPECT_EQ(shape->given_vertex_count(), 11u);
+    EXPECT_EQ(shape->given.dropped, 3u);
+    EXPECT_EQ(shape->given.numbers, (std::vector<std::uint32_t>{1, 2, 3, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(shape->topology.component_vertex, plain->topology.component_vertex);
+    EXPECT_TRUE(shape->topology.solid);
+    EXPECT_EQ(shape->embedding.local, plain->embedding.local);
+    if (plain->lattice) EXPECT_EQ(shape->lattice->lines, plain->lattice->lines);
+    if (plain->lattice) EXPECT_EQ(shape->lattice->cells, plain->lattice->cells);
+  }
+}
+
+TEST(Body, DefectsOfVerticesKeepTheirNumbers) {
+  TriangleMesh nan = strewn_box();
+  nan.vertices[9].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of(nan), "the mesh cannot be used: 1 non-finite-vertex (vertex 9)");
+}
+
+TEST(Body, TornWeldNamesVerticesAsTheyWereGiven) {
+  TriangleMesh soup = strewn_box();  // the last triangle with corners of its own
+  for (std::uint32_t& v : soup.triangles.back()) {
+    soup.vertices.push_back(soup.vertices[v]);
+    v = static_cast<std::uint32_t>(soup.vertices.size() - 1);
+  }
+  const auto shape = welded(*make_bare_shape(soup));
+  std::vector<Vec3> moved = shape->mesh.vertices;
+  EXPECT_EQ(torn_weld(*shape, moved), std::nullopt);
+  moved.back().z() += 1.0;
+  ASSERT_TRUE(torn_weld(*shape, moved).has_value());
+  EXPECT_EQ((*torn_weld(*shape, moved))[1], 13u);
 }
 
 TEST(Body, OpenAndDegenerateMeshesAreAccepted) {

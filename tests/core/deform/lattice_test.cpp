@@ -109,11 +109,17 @@ TEST(Lattice, CellsTouchedFromOutsideAreKept) {
   EXPECT_EQ(lattice.cells.size(), 64u);
 }
 
-TEST(Lattice, HomeOfAVertexWithoutTriangleIsKept) {
-  TriangleMesh mesh = test::triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  mesh.vertices.push_back({9, 9, 9});
-  const Lattice lattice = make_lattice(mesh, {5, 5, 5}, 0.02);
-  EXPECT_EQ(lattice.cells.back(), (GridIndex{4, 4, 4}));
+TEST(Lattice, VertexWithoutTriangleIsInNoBoxAndNoCell) {
+  const TriangleMesh mesh = test::triangle_mesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  TriangleMesh stray = mesh;
+  stray.vertices.push_back({9, 9, 9});
+  const Lattice lattice = make_lattice(stray, {5, 5, 5}, 0.02),
+                expected = make_lattice(mesh, {5, 5, 5}, 0.02);
+  EXPECT_EQ(lattice.lines, expected.lines);
+  EXPECT_EQ(lattice.cells, expected.cells);
+  const Resolution r = resolution_for_cells(stray, 20, 0.02),
+                   e = resolution_for_cells(mesh, 20, 0.02);
+  EXPECT_EQ((std::array{r.x, r.y, r.z}), (std::array{e.x, e.y, e.z}));
 }
 
 TEST(Lattice, NodesAreTheCornersOfKeptCellsInAscendingOrder) {

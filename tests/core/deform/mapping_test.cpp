@@ -65,7 +65,8 @@ TEST(Mapping, BatchIsRightForEveryNumberOfVerticesInACell) {
     for (int count = 3; count <= 20; ++count) {
       TriangleMesh mesh;
       for (int v = 0; v < count; ++v) mesh.vertices.push_back(random.point(Vec3::Zero(), 1.0));
-      mesh.triangles = {{0, 1, 2}};
+      for (std::uint32_t v = 2; v < mesh.vertices.size(); ++v)
+        mesh.triangles.push_back({v - 2, v - 1, v});
       const auto shape = make_shape(mesh, {1, 1, 1});
       const auto nodes = random_nodes(random, 8, Vec3::Zero(), 1.0);
       EXPECT_EQ(different_vertices(*shape, nodes), 0u) << simd_target() << " " << count;

@@ -21,10 +21,14 @@ void expect_near(const Vec3& actual, const Vec3& expected, double tolerance = kR
       << actual.transpose() << " is not " << expected.transpose();
 }
 
-// Where `points` of a body [-1, 1]^3 go. They are extra vertices of a bare shape.
+// Where `points` of a body [-1, 1]^3 go. They are points of a bare shape.
 std::vector<Vec3> moved(const std::vector<Vec3>& points, const Motion& motion, double time = 0.0) {
   TriangleMesh mesh = test::box_mesh(Vec3::Constant(-1), Vec3::Ones(), 1);
-  mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
+  for (const Vec3& p : points) {
+    const auto v = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(p);
+    mesh.triangles.push_back({v, v, v});
+  }
   const std::vector<Vec3> nodes = nodes_at(*make_bare_shape(mesh), motion, time);
   return {nodes.end() - static_cast<std::ptrdiff_t>(points.size()), nodes.end()};
 }

@@ -239,10 +239,12 @@ TEST(LatticeTree, SlabsHoldVerticesWhoseNormalIsNoNumber) {
       out[(axis + 2) % 3] = x, out[axis] = flat, out[(axis + 1) % 3] = z;
       return out;
     };
-    TriangleMesh mesh = test::triangle_mesh(turned(-1e160, 1e-200, -1e160),
-                                            turned(1e160, -1e-200, 0), turned(0, 2e-200, 1e160));
-    mesh.vertices.push_back(turned(0, 3e160, 0));  // so that the triangle is at one end of its cell
-    const auto shape = make_shape(mesh, {1, 1, 1});
+    const TriangleMesh mesh = test::triangle_mesh(
+        turned(-1e160, 1e-200, -1e160), turned(1e160, -1e-200, 0), turned(0, 2e-200, 1e160));
+    std::array<std::vector<double>, 3> lines;
+    lines.fill({-1.1e160, 1.1e160});
+    lines[axis] = {-1e159, 3e160};  // the triangle is at one end of its cell
+    const auto shape = make_shape_on_lines(mesh, lines);
     expect_slabs_hold(*shape, make_lattice_tree(*shape));
     test::OneBody body(shape, false);
     body.begin(test::rest_nodes_at(*shape, Vec3::Zero()));

@@ -29,7 +29,9 @@ void expect_same_shape(const BodyShape& a, const BodyShape& b) {
   expect_same_points(a.mesh.vertices, b.mesh.vertices);
   EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
   EXPECT_EQ(a.topology.solid, b.topology.solid);
-  EXPECT_EQ(a.topology.component_of_vertex, b.topology.component_of_vertex);
+  EXPECT_EQ(a.topology.component_vertex, b.topology.component_vertex);
+  EXPECT_EQ(a.given.numbers, b.given.numbers);
+  EXPECT_EQ(a.given.dropped, b.given.dropped);
   ASSERT_EQ(a.lattice.has_value(), b.lattice.has_value());
   if (a.lattice) {
     EXPECT_EQ(a.lattice->lines, b.lattice->lines);
@@ -120,6 +122,60 @@ TEST(Recording, KeepsLevelsAndWeldedMeshes) {
   EXPECT_NE(read.bodies[0].shape, read.bodies[1].shape);
   EXPECT_TRUE(read.bodies[0].shape->welded.empty());
   EXPECT_EQ(read.bodies[1].shape->welded, (std::vector<Triangle>{{0, 1, 2}, {1, 5, 2}}));
+}
+
+// A box in a lattice and a bare one, with a vertex that no triangle uses before the fourth.
+TriangleMesh strewn_box() {
+  TriangleMesh mesh = box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  mesh.vertices.insert(mesh.vertices.begin() + 3, Vec3(40, 0, 0));
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v += v < 3 ? 0 : 1;
+  return mesh;
+}
+
+TEST(Recording, KeepsTheNumbersOfVerticesWhereSomeWereDropped) {
+  Recording in;
+  in.scene = "strewn";
+  in.bodies = {{"bare", make_bare_shape(strewn_box())},
+               {"cells", make_shape(strewn_box(), {2, 3, 2})}};
+  in.frames = {{in.bodies[0].shape->mesh.vertices, in.bodies[1].shape->lattice->rest_nodes()}};
+  const Recording out = recording_of(bytes_of(in));
+  for (std::size_t b = 0; b < 2; ++b) {
+    EXPECT_EQ(out.bodies[b].shape->given.dropped, 1u);
+    expect_same_shape(*out.bodies[b].shape, *in.bodies[b].shape);
+    expect_same_points(out.frames[0][b], in.frames[0][b]);
+  }
+  EXPECT_EQ(bytes_of(out), bytes_of(in));
+}
+
+// As other programs and older versions write it: with the vertex, wherever it is.
+TEST(Recording, DropsVerticesThatNoTriangleUses) {
+  const auto with_stray = [](BodyShape shape) {
+    shape.mesh = strewn_box();
+    if (!shape.lattice) return std::make_shared<const BodyShape>(shape);
+    shape.mesh.vertices[3] = shape.mesh.vertices[2];
+    shape.embedding.home_cell.insert(shape.embedding.home_cell.begin() + 3,
+                                     shape.embedding.home_cell[2]);
+    shape.embedding.local.insert(shape.embedding.local.begin() + 3, shape.embedding.local[2]);
+    return std::make_shared<const BodyShape>(shape);
+  };
+  const TriangleMesh box = box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  const auto bare = make_bare_shape(box), cells = make_shape(box, {2, 3, 2});
+  Recording in;
+  in.scene = "strewn";
+  in.bodies = {{"bare", with_stray(*bare)}, {"cells", with_stray(*cells)}};
+  std::vector<Vec3> moved = strewn_box().vertices;
+  for (Vec3& v : moved) v.z() += 2.0;
+  in.frames = {{moved, cells->lattice->rest_nodes()}};
+  const Recording out = recording_of(bytes_of(in));
+  expect_same_points(out.bodies[0].shape->mesh.vertices, box.vertices);
+  expect_same_points(out.bodies[1].shape->embedding.local, cells->embedding.local);
+  EXPECT_EQ(out.bodies[1].shape->embedding.sorted_local, cells->embedding.sorted_local);
+  for (std::size_t b = 0; b < 2; ++b)
+    EXPECT_EQ(out.bodies[b].shape->given.numbers,
+              (std::vector<std::uint32_t>{0, 1, 2, 4, 5, 6, 7, 8}));
+  moved.erase(moved.begin() + 3);
+  expect_same_points(out.frames[0][0], moved);
 }
 
 TEST(Recording, WithoutFramesIsKept) {

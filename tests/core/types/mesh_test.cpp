@@ -37,10 +37,10 @@ TEST(ContentHash, SeesOneUlpOneIndexAndOneVertexMore) {
 }
 
 TEST(BoundingBox, HoldsExactlyTheExtremes) {
-  const Aabb box = bounding_box({{1, 5, -2}, {-3, 4, 8}, {0, 6, 0}});
+  const Aabb box = bounding_box(std::vector<Vec3>{{1, 5, -2}, {-3, 4, 8}, {0, 6, 0}});
   EXPECT_EQ(box.lo, Vec3(-3, 4, -2));
   EXPECT_EQ(box.hi, Vec3(1, 6, 8));
-  EXPECT_TRUE(bounding_box({}).empty());
+  EXPECT_TRUE(bounding_box(std::vector<Vec3>()).empty());
 }
 
 }  // namespace

@@ -237,25 +237,23 @@ TEST(BulletVf, CrossingEdgesAreMissed) {
 }
 
 TEST(BulletVf, DisconnectedAndDegenerateMeshKeepsItsIds) {
-  // A triangle that repeats an index, one without area, a real one, a vertex without triangles and
-  // another component.
-  const TriangleMesh mesh = {{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0), Vec3(2, 2, 9),
-                              Vec3(20, 0, 0), Vec3(24, 0, 0), Vec3(20, 4, 0)},
-                             {{0, 0, 1}, {0, 1, 1}, {0, 1, 2}, {4, 4, 5}, {4, 5, 6}}};
+  // A triangle that repeats an index, one without area, a real one and another component.
+  const TriangleMesh mesh = {
+      {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0), Vec3(20, 0, 0), Vec3(24, 0, 0), Vec3(20, 4, 0)},
+      {{0, 0, 1}, {0, 1, 1}, {0, 1, 2}, {3, 3, 4}, {3, 4, 5}}};
   TriangleMesh collapsed = mesh;
   collapsed.vertices.push_back(Vec3(2, 0, 0));
-  collapsed.triangles.insert(collapsed.triangles.begin(), {0, 7, 1});
-  const TriangleMesh probes = {
-      {Vec3(1, 1, 0.001), Vec3(21, 1, 0.001), Vec3(2, 2, 9.001), Vec3(1, 9, 5)}, {{0, 1, 3}}};
+  collapsed.triangles.insert(collapsed.triangles.begin(), {0, 6, 1});
+  const TriangleMesh probes = {{Vec3(1, 1, 0.001), Vec3(21, 1, 0.001), Vec3(1, 9, 5)}, {{0, 1, 2}}};
   const auto detector = prepared("bullet-vf:scale=1", World({collapsed, probes}));
   EXPECT_THAT(ask(*detector, Question::kContacts).near,
               ElementsAre(NearPair{1, 0, 0, 3}, NearPair{1, 0, 1, 5}));
 }
 
-TEST(BulletVf, VertexWithoutTrianglesIsANode) {
+TEST(BulletVf, VertexOfAPointIsANode) {
   const TriangleMesh plate = triangle_mesh(Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0));
   const TriangleMesh lone = {{Vec3(9, 9, 9), Vec3(1, 1, 0.001), Vec3(8, 9, 9), Vec3(9, 8, 9)},
-                             {{0, 2, 3}}};
+                             {{0, 2, 3}, {1, 1, 1}}};
   EXPECT_THAT(ask(*prepared("bullet-vf", World({plate, lone})), Question::kContacts).near,
               ElementsAre(NearPair{1, 0, 1, 0}));
 }

@@ -11,12 +11,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const std::vector<Body> kBodies(5, {"any", std::make_shared<BodyShape>()});
+
 // One pair of every number in frame 7, missed; nothing spurious.
-std::string missed_at(const std::string& level) {
+std::string missed_at(const std::string& level, const std::vector<Body>& bodies = kBodies) {
   results::Run run;
   run.detector = "any";
   run.per_frame = {level_from_name(level), {0}, {0}, {0}, {}, {}};
-  const Json contacts = Json::parse(detector_contacts(run, {{7, {1, {{2, 4, 3, 5}}}, {}}}));
+  const Json contacts = Json::parse(detector_contacts(run, bodies, {{7, {1, {{2, 4, 3, 5}}}, {}}}));
   EXPECT_EQ(contacts.at("level"), level);
   return contacts.at("frames").at(0).at("missed").at("pairs").dump();
 }
@@ -40,10 +42,19 @@ TEST(Contacts, WhatIsNoElementIsMinusOne) {
   EXPECT_EQ(missed_at("vertex"), "[2,3,4,-1]");
 }
 
+TEST(Contacts, VertexHasTheNumberThatItWasGiven) {
+  auto shape = std::make_shared<BodyShape>();
+  shape->given = {{0, 1, 2, 7}, 4};
+  const std::vector<Body> bodies(5, {"any", shape});
+  EXPECT_EQ(missed_at("vertex", bodies), "[2,7,4,-1]");
+  EXPECT_EQ(missed_at("near", bodies), "[2,7,4,5]");
+  EXPECT_EQ(missed_at("triangle", bodies), "[2,3,4,5]");
+}
+
 TEST(Contacts, DetectorJudgedAtNoLevelHasNone) {
   results::Run run;
   run.per_frame.level = Level::kBody;
-  EXPECT_EQ(detector_contacts(run, {}), "");
+  EXPECT_EQ(detector_contacts(run, {}, {}), "");
 }
 
 TEST(Contacts, TruthLeavesOutFramesWithoutContact) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/types/mesh_topology.h"
+#include "core/types/vertex_places.h"
 #include "reference/mesh/shapes.h"
 
 namespace contactcheck::mesh {
@@ -46,6 +47,71 @@ TEST(Simplify, LettersOfThePapersSizeStaySolid) {
     EXPECT_EQ(letter.triangles.size(), 2402u) << c;
     EXPECT_TRUE(analyse_topology(letter).solid) << c;
   }
+}
+
+// A sphere as textured ones are: its columns begin and end on vertices of their own, and each has
+// its own poles.
+TriangleMesh textured_sphere(std::uint32_t columns, std::uint32_t rows) {
+  TriangleMesh mesh;
+  for (std::uint32_t r = 0; r <= rows; ++r)
+    for (std::uint32_t c = 0; c <= columns; ++c) {
+      const CirclePoint along = circle_point(c % columns, columns), up = circle_point(r, 2 * rows);
+      mesh.vertices.push_back(Vec3(up.sine * along.cosine, up.sine * along.sine, up.cosine) * 0.5);
+    }
+  for (std::uint32_t r = 0; r < rows; ++r)
+    for (std::uint32_t c = 0; c < columns; ++c) {
+      const std::uint32_t a = r * (columns + 1) + c, b = a + columns + 1;
+      if (r > 0) mesh.triangles.push_back({a, b, a + 1});
+      if (r + 1 < rows) mesh.triangles.push_back({a + 1, b, b + 1});
+    }
+  return mesh;
+}
+
+// Each triangle with corners of its own.
+TriangleMesh soup(const TriangleMesh& mesh) {
+  TriangleMesh out;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) out.vertices.push_back(mesh.vertices[v]);
+    const auto end = static_cast<std::uint32_t>(out.vertices.size());
+    out.triangles.push_back({end - 3, end - 2, end - 1});
+  }
+  return out;
+}
+
+bool closed_when_joined(TriangleMesh mesh) {
+  const std::vector<std::uint32_t> first = first_at_place(mesh.vertices);
+  for (Triangle& t : mesh.triangles)
+    for (std::uint32_t& v : t) v = first[v];
+  std::erase_if(mesh.triangles,
+                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return analyse_topology(mesh).solid;
+}
+
+// Also where every part of the surface has a vertex of its own at its border.
+TEST(Simplify, CopiesOfVerticesDoNotKeepTriangles) {
+  for (const TriangleMesh& mesh :
+       {textured_sphere(48, 24), soup(make_sphere(3)), soup(make_torus(0.4, 12))}) {
+    const TriangleMesh less = simplify(mesh, 300);
+    EXPECT_LE(less.triangles.size(), 300u) << mesh.triangles.size();
+    EXPECT_GE(less.triangles.size(), 290u) << mesh.triangles.size();
+    EXPECT_TRUE(closed_when_joined(less)) << mesh.triangles.size();
+    const auto before = places(mesh), after = places(less);
+    EXPECT_TRUE(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+  }
+}
+
+TEST(Simplify, CopiesOfVerticesOfACubeDoNotKeepTriangles) {
+  EXPECT_EQ(simplify(soup(make_box(Vec3(1, 1, 1), 4)), 12).triangles.size(), 12u);
+}
+
+// Nothing but a segment is left of such a triangle.
+TEST(Simplify, SlitsOfCopiesDoNotHinder) {
+  TriangleMesh mesh = textured_sphere(48, 24);
+  mesh.vertices.push_back(mesh.vertices[100]);
+  mesh.triangles.push_back({100, 101, static_cast<std::uint32_t>(mesh.vertices.size() - 1)});
+  const TriangleMesh less = simplify(mesh, 300);
+  EXPECT_LE(less.triangles.size(), 300u);
+  EXPECT_TRUE(closed_when_joined(less));
 }
 
 TEST(Simplify, NoVertexIsLeftWithoutATriangle) {

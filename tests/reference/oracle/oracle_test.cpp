@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/deform/ffd_aabb.h"
+#include "core/types/check.h"
 #include "reference/oracle/exact_tests.h"
 #include "reference/oracle/hull_overlap.h"
 #include "reference/oracle/rational_geometry.h"
@@ -45,6 +46,64 @@ TEST(Oracle, TouchingBoxesShareAFaceAndHoldNothing) {
   EXPECT_THAT(truth.surface.vertices, IsEmpty());
   EXPECT_THAT(truth.surface.cells, IsEmpty());
   EXPECT_THAT(truth.containment, IsEmpty());
+}
+
+// Several triangles at one place, with corners of their own.
+TriangleMesh pile(std::uint32_t count) {
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const Vec3& v : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) mesh.vertices.push_back(v);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+std::string refusal(const std::vector<Body>& bodies, const oracle::WantedTruth& wanted) {
+  try {
+    judge_at_rest(bodies, wanted);
+  } catch (const RefusedInput& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Oracle, RefusesMoreContactsThanItMayList) {
+  const std::vector<Body> one = {bare_body("a", pile(7))},
+                          two = {bare_body("a", pile(7)), bare_body("b", pile(3))},
+                          three = {bare_body("a", pile(3)), bare_body("b", pile(3)),
+                                   bare_body("c", pile(2))};
+  oracle::WantedTruth pairs, self;
+  pairs.most_contacts = self.most_contacts = 21;
+  self.triangles = false;
+  self.self = true;
+  EXPECT_EQ(judge_at_rest(one, self).surface.self.size(), 21u);
+  EXPECT_EQ(judge_at_rest(two, pairs).surface.triangles.size(), 21u);
+  EXPECT_EQ(judge_at_rest(three, pairs).surface.triangles.size(), 21u);
+  const std::string sentence =
+      "more than 20 pairs of triangles are in contact; at most that many can be judged";
+  pairs.most_contacts = self.most_contacts = 20;
+  EXPECT_EQ(refusal(one, self), sentence);
+  EXPECT_EQ(refusal(two, pairs), sentence);
+  EXPECT_EQ(refusal(three, pairs), sentence);
+}
+
+// A box 1 m from another one, with a vertex that no triangle uses on, in and far from the other.
+TEST(Oracle, VertexThatNoTriangleUsesIsNotJudged) {
+  const Body wall = bare_body("wall", box_mesh(Vec3(-3, -2, -2), Vec3(-1, 2, 2), 2));
+  for (const Vec3& place : {Vec3(-1, 0, 0), Vec3(-2, 0, 0), Vec3(1e12, 0, 0)}) {
+    TriangleMesh mesh = unit_box_mesh(2);
+    mesh.vertices.push_back(place);
+    const std::vector<Body> bodies = {wall, bare_body("box", mesh)},
+                            plain = {wall, bare_body("box", unit_box_mesh(2))};
+    const FrameData data = rest_frame(bodies);
+    oracle::Oracle oracle(bodies), expected(plain);
+    EXPECT_THAT(oracle.judge(data.frame(), kEverything).surface.vertices, IsEmpty());
+    EXPECT_THAT(oracle.near(data.frame(), 0.5), IsEmpty());
+    EXPECT_EQ(oracle.near(data.frame(), 1.5), expected.near(data.frame(), 1.5));
+    EXPECT_EQ(oracle.separation(data.frame()).upper, expected.separation(data.frame()).upper);
+    EXPECT_EQ(oracle.distance(data.frame(), {0, 1}).lower,
+              expected.distance(data.frame(), {0, 1}).lower);
+  }
 }
 
 TEST(Oracle, OneUlpGapIsNoContact) {

@@ -17,7 +17,7 @@ std::string judged(const TriangleMesh& mesh) {
   oracle::SurfaceTree tree(mesh);
   tree.refit(mesh.vertices);
   const auto fault = oracle::solid_fault(tree, mesh.triangles, mesh.vertices);
-  return fault ? oracle::describe(*fault) : "simple";
+  return fault ? oracle::describe(*fault, {}) : "simple";
 }
 
 // Every triangle has vertices of its own.

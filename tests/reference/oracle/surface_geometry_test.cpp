@@ -48,7 +48,9 @@ struct Scene {
 
 // A body of points: the vertices of one degenerate triangle and more.
 Body points(std::vector<Vec3> at) {
-  return test::bare_body("points", {std::move(at), {{0, 0, 0}}});
+  TriangleMesh mesh{std::move(at), {}};
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) mesh.triangles.push_back({v, v, v});
+  return test::bare_body("points", mesh);
 }
 
 oracle::Penetration way_from(const Vec3& vertex, TriangleMesh mesh) {

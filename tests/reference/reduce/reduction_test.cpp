@@ -3,9 +3,10 @@
 #include <gmock/gmock.h>
 
 #include "core/types/shared_corners.h"
-#include "reference/judge/judged_scene.h"
+
 #include "reference/oracle/oracle.h"
 #include "tests/reference/reduce/candidates.h"
+#include "tests/support/shapes.h"
 
 namespace contactcheck::reduce {
 namespace {
@@ -17,16 +18,15 @@ using testing::ElementsAre;
 
 constexpr std::size_t kPlenty = 100'000;
 
-ContactSet truth_of(const CaseCandidate& candidate) {
+oracle::Truth truth_of(const CaseCandidate& candidate, const oracle::WantedTruth& wanted = {}) {
   const Snapshot snapshot = snapshot_of(candidate);
-  std::vector<std::vector<Vec3>> vertices;
-  for (const TriangleMesh& mesh : candidate.meshes) vertices.push_back(mesh.vertices);
-  return oracle::Oracle(snapshot.bodies)
-      .judge(judge::make_frame(0, 0.0, snapshot.nodes, vertices), {})
-      .surface;
+  const test::FrameData data = test::make_frame(snapshot.bodies, snapshot.nodes);
+  return oracle::Oracle(snapshot.bodies).judge(data.frame(), wanted);
 }
 
-bool touches(const CaseCandidate& candidate) { return !truth_of(candidate).triangles.empty(); }
+bool touches(const CaseCandidate& candidate) {
+  return !truth_of(candidate).surface.triangles.empty();
+}
 
 /// Every coordinate is a whole number of one figure.
 bool small_whole_numbers(const CaseCandidate& candidate) {
@@ -72,7 +72,7 @@ TEST(Reduce, KeepsTheNumbersThatItTakes) {
 
 TEST(Reduce, StartsWithThePairAlone) {
   const CaseCandidate boxes = two_boxes();
-  const ElementPair pair = truth_of(boxes).triangles.front();
+  const ElementPair pair = truth_of(boxes).surface.triangles.front();
   std::vector<std::size_t> sizes;
   const auto shows = [&](const CaseCandidate& c) {
     sizes.push_back(c.triangles());
@@ -84,7 +84,7 @@ TEST(Reduce, StartsWithThePairAlone) {
 
 TEST(Reduce, GrowsThePairUntilItShows) {
   const CaseCandidate boxes = two_boxes(4);
-  const ElementPair pair = truth_of(boxes).triangles.front();
+  const ElementPair pair = truth_of(boxes).surface.triangles.front();
   std::vector<std::size_t> sizes;
   const auto shows = [&](const CaseCandidate& c) {
     sizes.push_back(c.triangles());
@@ -190,14 +190,9 @@ TEST(CellCandidates, HaveTheNodesOfTheirCellsBitForBit) {
 TEST(Reduce, StartsWithTheCellsAloneAndKeepsAllTheirNodes) {
   const Snapshot cells = two_cells();
   const auto boxes_overlap = [](const CaseCandidate& c) {
-    const Snapshot s = snapshot_of(c);
     oracle::WantedTruth wanted;
     wanted.boxes = true;
-    std::vector<std::vector<Vec3>> vertices;
-    for (const TriangleMesh& mesh : c.meshes) vertices.push_back(mesh.vertices);
-    return c.on_nodes && !oracle::Oracle(s.bodies)
-                              .judge(judge::make_frame(0, 0.0, s.nodes, vertices), wanted)
-                              .boxes.empty();
+    return c.on_nodes && !truth_of(c, wanted).boxes.empty();
   };
   const auto reduction = reduce(candidate_of(cells), std::nullopt, boxes_overlap, kPlenty,
                                 cell_candidates(cells, {0, 0}));

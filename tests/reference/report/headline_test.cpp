@@ -52,6 +52,47 @@ TEST(Headline, TitleSaysHowManyWereRight) {
   EXPECT_EQ(headline_of(run_of({}, {})).title, "Nothing was judged in this run");
 }
 
+// Bodies that are apart, and were reported so.
+Run apart(const std::string& scene, const std::string& detector, Level level) {
+  Run run = row(scene, detector, 0, 0);
+  run.per_frame.level = level;
+  run.levels = {{level, {0, 0, 0, 0, 0}}};
+  return run;
+}
+
+TEST(Headline, NothingToFindAndNothingReportedIsRight) {
+  EXPECT_EQ(
+      headline_of(run_of({"a"}, {apart("a", "x", Level::kBody), apart("a", "y", Level::kTriangle)}))
+          .title,
+      "All 2 detectors have no missed and no spurious contacts in 1 scene");
+  for (const Level level : {Level::kTriangle, Level::kCell, Level::kBox, Level::kNear, Level::kSelf,
+                            Level::kSelfCell, Level::kContainment}) {
+    const Results alone = run_of({"a"}, {apart("a", "x", level)});
+    EXPECT_EQ(headline_of(alone).title, "x has no missed and no spurious contacts in 1 scene");
+    EXPECT_EQ(sentence_about(alone, "No missed or spurious contacts"),
+              std::string("At level ") + name_of(level) + ": x.");
+  }
+}
+
+TEST(Headline, NothingToFindAndSomethingReportedIsWrong) {
+  Results results = run_of({"a"}, {apart("a", "x", Level::kBody), apart("a", "y", Level::kBody)});
+  results.runs[1].levels[Level::kBody] = {0, 3, 0, 0, 3};
+  EXPECT_EQ(headline_of(results).title,
+            "1 of 2 detectors have no missed and no spurious contacts in 1 scene");
+}
+
+// Nor was one that is not built, refused the input, or claims none of the levels.
+TEST(Headline, WhoWasNotJudgedIsNotCounted) {
+  Results results = run_of({"a"}, {apart("a", "x", Level::kBody), row("a", "absent", 0, 0),
+                                   row("a", "refused", 0, 0), row("a", "other", 0, 0)});
+  results.runs[1].status = results::Status::kAbsent;
+  results.runs[2].status = results::Status::kRefused;
+  for (std::size_t r = 1; r < 4; ++r) results.runs[r].levels.clear();
+  EXPECT_EQ(headline_of(results).title, "x has no missed and no spurious contacts in 1 scene");
+  results.runs.erase(results.runs.begin());
+  EXPECT_EQ(headline_of(results).title, "Nothing was judged in 1 scene");
+}
+
 TEST(Headline, IsWhatACommandFoundBeforeItRan) {
   Results results = run_of({"a"}, {row("a", "x", 0, 0)});
   results.finding = {"1 of 9 frames has a contact that is not allowed", "frame 4, a and b"};

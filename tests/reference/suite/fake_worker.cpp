@@ -136,7 +136,7 @@ void write_listed_answer(const Job& job) {
     answer.run.semantics.questions = {Question::kTriangles};
     answer.run.per_frame = {Level::kTriangle, {1}, {1}, {0}, {}, {}};
     answer.answers = {{Question::kTriangles, {judge::AnswerFingerprint{}}}};
-    answer.contacts = judge::detector_contacts(answer.run, {{3, {1, {{0, 1, 2, 5}}}, {}}});
+    answer.contacts = judge::detector_contacts(answer.run, {}, {{3, {1, {{0, 1, 2, 5}}}, {}}});
   }
   write_fake_answer(job, answers, R"([{"frame":3,"count":1,"pairs":[0,2,1,5]}])");
 }

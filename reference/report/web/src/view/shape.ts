@@ -34,9 +34,10 @@ export class Shape {
   readonly triangles: Numbers;
   readonly vertices: number;
   readonly nodes: number;
-  /** Only what is near contacts is here: places of triangles and vertices by their numbers. */
+  /** Only what is near contacts is here. */
   readonly cut: boolean;
-  private readonly places: Record<"triangles" | "vertices", Map<number, number>> | null = null;
+  /** Of triangles and vertices, by the numbers that pairs name. */
+  private readonly places: Partial<Record<"triangles" | "vertices", Map<number, number>>> = {};
   private readonly lattice: Lattice | null = null;
 
   constructor(container: Container, scene: SceneHeader, header: ShapeHeader) {
@@ -46,14 +47,11 @@ export class Shape {
     this.vertices = header.vertices;
     this.nodes = header.nodes;
     this.cut = header.kept !== undefined;
-    if (header.kept) {
-      const places = (reference: ShapeHeader["triangles"]): Map<number, number> =>
-        new Map(Array.from(array(reference), (number, place) => [number, place]));
-      this.places = {
-        triangles: places(header.kept.triangles),
-        vertices: places(header.kept.vertices),
-      };
-    }
+    const places = (reference: ShapeHeader["triangles"]): Map<number, number> =>
+      new Map(Array.from(array(reference), (number, place) => [number, place]));
+    if (header.kept) this.places.triangles = places(header.kept.triangles);
+    const numbers = header.kept?.vertices ?? header.numbers;
+    if (numbers) this.places.vertices = places(numbers);
     if (!header.lattice) return;
     const {cell_nodes, home, local, boxes, spheres} = header.lattice;
     this.lattice = {
@@ -69,7 +67,8 @@ export class Shape {
 
   /** Where a triangle or vertex of a pair stands in the arrays. */
   place(kind: "triangles" | "vertices", number: number): number {
-    return this.places ? this.places[kind].get(number)! : number;
+    const places = this.places[kind];
+    return places ? places.get(number)! : number;
   }
 
   get cells(): number {

@@ -13,6 +13,7 @@ export interface ShapeHeader {
   nodes: number;
   triangles: ArrayReference;
   kept?: {triangles: ArrayReference; vertices: ArrayReference};
+  numbers?: ArrayReference;
   lattice?: {
     cell_nodes: ArrayReference;
     home: ArrayReference;

@@ -130,7 +130,7 @@ std::vector<Case> degenerate() {
       // The lone vertex would be inside the cube, the surface is outside; then that crosses it.
       placed("isolated-vertex", {exact_body("bad", mesh_with_isolated_vertex()), cube},
              {{{origin, Vec3::Constant(1.75)}, {0, 0, 0, 0}},
-              {{origin, Vec3(1.75, 0.25, 0.125)}, {1, 10, 0, 2}}}),
+              {{origin, Vec3(1.75, 0.25, 0.125)}, {1, 10, 0, 1}}}),
       // Through the opening without contact, round the place of a vertex that the lid alone used;
       // then through the wall.
       placed("open-mesh",

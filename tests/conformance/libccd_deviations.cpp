@@ -170,7 +170,7 @@ std::vector<KnownDeviation> libccd_boxes_beside_the_surface() {
         {"crossing", 22},
         {"diagonal-neighbours", 67},
         {"eight-identical-spread", 52},
-        {"isolated-vertex", 10},
+        {"isolated-vertex", 8},
         {"inside-out", 4},
         {"triangles-of-a-centimetre", 8},
         {"a-micrometre-wide", 8},

@@ -22,7 +22,7 @@ TriangleMesh cube_mesh(int n);
 /// The octahedron, a segment from (0.5, 0.5, 0.5) to (1, 0.5, 0.5) and a point at
 /// (0.875, 0.75, 0.75) written as triangles, and a triangle that names a vertex twice.
 TriangleMesh mesh_with_degenerate_triangles();
-/// The octahedron and a vertex (1, 1, 1) that no triangle names.
+/// The octahedron and a vertex (1, 1, 1) that no triangle names, and that is dropped.
 TriangleMesh mesh_with_isolated_vertex();
 /// The cube without its face x = 1, and a triangle without area on the rim.
 TriangleMesh open_mesh();

@@ -16,10 +16,12 @@ namespace {
 
 using Gaps = std::vector<double>;
 
+// Metres.
 Gaps gaps_of(const TriangleMesh& mesh) {
+  const auto shape = make_bare_shape(mesh);
   Gaps out;
-  for (const TriangleRest& triangle : triangles_at_rest(*make_bare_shape(mesh)))
-    out.push_back(triangle.gap);
+  for (const TriangleRest& triangle : triangles_at_rest(*shape))
+    out.push_back(triangle.gap / rest_scale(*shape));
   return out;
 }
 

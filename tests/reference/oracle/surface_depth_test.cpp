@@ -7,6 +7,7 @@
 #include <string>
 
 #include "reference/oracle/floating_point.h"
+#include "reference/oracle/rational_geometry.h"
 #include "reference/oracle/surface_geometry.h"
 #include "reference/oracle/vertex_queries.h"
 #include "tests/reference/oracle/drawn_solids.h"
@@ -181,6 +182,36 @@ TEST(SurfaceDepth, OfTwoBoxesIsExactlyWithinTheInterval) {
   }
   EXPECT_GT(deep, 500);
   EXPECT_GT(zero, 250);
+}
+
+// A needle's tip a little way through a face whose plane no coordinate axis knows: the depth is
+// that of the tip, the root of a rational.
+TEST(SurfaceDepth, OfATipInATiltedFaceIsExactlyWithinTheInterval) {
+  TriangleSource source(814);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Matrix3d rotation = random_rotation(source);
+    const Vec3 offset = source.point(Vec3::Zero(), 1.0);
+    const double depth = std::ldexp(1.0, -2 - source.below(12));
+    const TriangleMesh solid{
+        moved(std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, -2}}, rotation, offset),
+        {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}}};
+    const TriangleMesh needle{
+        moved(std::vector<Vec3>{{0, 0, -depth}, {0.1, 0, 2}, {-0.1, 0.1, 2}, {0, -0.1, 2}},
+              rotation, offset),
+        {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+    const SurfaceDepth found = depth_of(solid, needle);
+    expect_width(found, largest(solid, needle));
+    const auto corner = [&](int k) { return oracle::rational::to_rational(solid.vertices[k]); };
+    using oracle::rational::operator-;
+    const auto normal = oracle::rational::cross(corner(1) - corner(0), corner(2) - corner(0));
+    const mpq_class height = oracle::rational::dot(
+        normal, oracle::rational::to_rational(needle.vertices[0]) - corner(0));
+    const mpq_class squared = height * height / oracle::rational::dot(normal, normal);
+    const mpq_class lower(found.lower), upper(found.upper);
+    EXPECT_LE(lower * lower, squared);
+    EXPECT_GE(upper * upper, squared);
+    EXPECT_LE(found.upper - found.lower, 1e-12) << "so that rounding counts";
+  }
 }
 
 TEST(SurfaceDepth, PowersOfTwoScaleTheIntervalExactly) {

@@ -127,16 +127,16 @@ std::vector<Case> degenerate() {
       // The segment goes through the face x = 0.875, the point lies on it; then all are apart.
       placed("zero-area-triangles", {exact_body("bad", mesh_with_degenerate_triangles()), cube},
              {{{origin, Vec3(1.875, 0.25, 0.125)}, {1, 13, 0, 2}}, {{origin, Vec3(4, 0, 0)}, {}}}),
-      // The lone vertex is inside the cube, the surface outside; then the surface crosses it.
+      // The lone vertex is inside the cube, the surface outside; then the surface crosses it. It is
+      // no part of the body.
       placed("isolated-vertex", {exact_body("bad", mesh_with_isolated_vertex()), cube},
-             {{{origin, Vec3::Constant(1.75)}, {0, 0, 0, 1}},
-              {{origin, Vec3(1.75, 0.25, 0.125)}, {1, 10, 0, 2}}}),
-      // Through the opening without contact, round the vertex that the lid left; then through the
-      // wall.
+             {{{origin, Vec3::Constant(1.75)}, {}},
+              {{origin, Vec3(1.75, 0.25, 0.125)}, {1, 10, 0, 1}}}),
+      // Through the opening without contact, round the vertex that the lid left, which is no part
+      // of the bowl; then through the wall.
       placed("open-mesh",
              {exact_body("bowl", open_mesh()), exact_body("ball", scaled(octahedron_mesh(), 0.25))},
-             {{{origin, Vec3(1, 0.125, 0)}, {0, 0, 0, 1}},
-              {{origin, Vec3(-1, 0.25, 0.125)}, {1, 20, 0, 0}}}),
+             {{{origin, Vec3(1, 0.125, 0)}, {}}, {{origin, Vec3(-1, 0.25, 0.125)}, {1, 20, 0, 0}}}),
       // Between the components without contact; then into the second one.
       placed("two-components",
              {exact_body("two", mesh_of_two_components()),

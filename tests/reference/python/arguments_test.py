@@ -117,7 +117,7 @@ BAD = [
     (lambda: contactcheck.self_contacts(with_value(np.nan), F), "V[1, 2] is nan"),
     (lambda: contactcheck.distance(V, F, V, [[0, 0, 9]]), "Fb[0, 2] is 9"),
     (lambda: contactcheck.inside([[0, 0]], V, F), "points has shape (1, 2)"),
-    (lambda: contactcheck.inside([[0, 0, 0]], V, F), "V, F has no inside: it is open (edge of vertices 0 and 1); a closed mesh is wanted"),
+    (lambda: contactcheck.inside([[0, 0, 0]], V, F), "V, F has no inside: it is open (edge of vertices 0 and 1)"),
     (lambda: contactcheck.check_mesh(V, F.astype(float)), "F: an (m, 3) array of integers wanted"),
     (lambda: contactcheck.Lattice(V, F, cells=0), "Lattice(cells=0)"),
     (lambda: contactcheck.Lattice(V, F, cells=(1, 2)), "Lattice(cells=(1, 2))"),

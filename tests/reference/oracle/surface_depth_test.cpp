@@ -7,6 +7,7 @@
 #include <string>
 
 #include "reference/oracle/floating_point.h"
+#include "reference/oracle/rational_geometry.h"
 #include "reference/oracle/surface_geometry.h"
 #include "reference/oracle/vertex_queries.h"
 #include "tests/reference/oracle/drawn_solids.h"
@@ -181,6 +182,37 @@ TEST(SurfaceDepth, OfTwoBoxesIsExactlyWithinTheInterval) {
   }
   EXPECT_GT(deep, 500);
   EXPECT_GT(zero, 250);
+}
+
+// The depth of a body below a face that no axis knows is that of its lowest vertex: the root of a
+// rational.
+TEST(SurfaceDepth, BelowATiltedFaceIsExactlyWithinTheInterval) {
+  TriangleSource source(814);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Matrix3d rotation = random_rotation(source);
+    const Vec3 offset = source.point(Vec3::Zero(), 1.0);
+    const double depth = std::ldexp(1.0, -2 - source.below(12));
+    const std::vector<Vec3> tall = {{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}, {0, 0, -8}};
+    const std::vector<Vec3> small = {
+        {0, 0, -depth}, {0.05, 0, -depth / 2}, {-0.05, 0.05, -depth / 4}, {0, -0.05, -depth / 8}};
+    const std::vector<Triangle> faces = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}, {1, 0, 3}};
+    const TriangleMesh outer{moved(tall, rotation, offset), faces};
+    const TriangleMesh inner{moved(small, rotation, offset), faces};
+    const SurfaceDepth found = depth_of(outer, inner);
+    // So narrow that rounding counts.
+    EXPECT_LE(found.upper - found.lower, 2e-12);
+    const auto corner = [&](std::size_t k) {
+      return oracle::rational::to_rational(outer.vertices[k]);
+    };
+    using oracle::rational::operator-;
+    const auto normal = oracle::rational::cross(corner(1) - corner(0), corner(2) - corner(0));
+    const mpq_class height =
+        oracle::rational::dot(normal, oracle::rational::to_rational(inner.vertices[0]) - corner(0));
+    const mpq_class squared = height * height / oracle::rational::dot(normal, normal);
+    const mpq_class lower(found.lower), upper(found.upper);
+    EXPECT_LE(lower * lower, squared);
+    EXPECT_GE(upper * upper, squared);
+  }
 }
 
 TEST(SurfaceDepth, PowersOfTwoScaleTheIntervalExactly) {

@@ -87,6 +87,9 @@ struct BadFrame {
   std::vector<Self> selfs;
 };
 
+/// By body: the first frame in which it is open, with the edge: what lies inside it is not judged.
+using OpenBodies = std::map<std::uint32_t, std::string>;
+
 /// Finds with full-refit, and confirms what it finds by the oracle.
 class FrameChecker {
  public:
@@ -121,20 +124,19 @@ class FrameChecker {
     found.canonicalize();
     // Surfaces that do not meet, one of them inside a solid: no pair of triangles tells.
     oracle::Containment inside;
-    if (judges_containment()) inside = oracle_.containment(frame, found.bodies);
-    for (const oracle::OpenBody& open : inside.open) open_.try_emplace(open.body, f, open.edge);
+    if (!allowed_.contact && scene_.bodies.size() > 1)
+      inside = oracle_.containment(frame, found.bodies);
+    for (const oracle::OpenBody& open : inside.open)
+      open_.try_emplace(open.body,
+                        oracle::open_reason(open.edge, scene_.bodies[open.body].shape->given,
+                                            "frame " + std::to_string(f)));
     if (found.triangles.empty() && found.self.empty() && inside.pairs.empty()) return std::nullopt;
     return confirmed(f, frame, found);
   }
 
-  /// By body: the first frame in which it is open, so that nothing is judged to lie inside it.
-  const std::map<std::uint32_t, std::pair<std::size_t, oracle::OpenEdge>>& open() const {
-    return open_;
-  }
+  const OpenBodies& open() const { return open_; }
 
  private:
-  bool judges_containment() const { return !allowed_.contact && scene_.bodies.size() > 1; }
-
   oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted) {
     try {
       return oracle_.judge(frame, wanted);
@@ -192,7 +194,7 @@ class FrameChecker {
   std::unique_ptr<Detector> detector_;
   oracle::Oracle oracle_;
   oracle::SurfaceGeometry geometry_;
-  std::map<std::uint32_t, std::pair<std::size_t, oracle::OpenEdge>> open_;
+  OpenBodies open_;
 };
 
 /// What is said of the frames, to a person or to a program.
@@ -251,15 +253,14 @@ class CheckReport {
   results::Finding finding() const { return {count_text(), place(*first_) + ", " + first_words_}; }
   std::optional<std::size_t> first() const { return first_; }
 
-  void end(const CheckArguments& arguments, const FrameChecker& checker, int exit_code,
+  /// `open`: see FrameChecker.
+  void end(const CheckArguments& arguments, const OpenBodies& open, int exit_code,
            const std::string& page) const {
     Json not_judged = Json::array();
-    std::string unjudged;
-    for (const auto& [body, found] : checker.open()) {
-      const std::string why = oracle::open_reason(found.second, scene_.bodies[body].shape->given,
-                                                  "frame " + std::to_string(found.first));
+    std::string not_judged_text;
+    for (const auto& [body, why] : open) {
       not_judged.push_back({{"body", name(body)}, {"level", "containment"}, {"reason", why}});
-      unjudged += name(body) + ": containment and depth in it not judged: " + why + "\n";
+      not_judged_text += name(body) + ": containment and depth in it not judged: " + why + "\n";
     }
     if (json_)
       return print({{"event", "end"},
@@ -271,7 +272,7 @@ class CheckReport {
     if (bad_ > kMostShown)
       std::printf("\n... and %s\n", counted(bad_ - kMostShown, "more frame").c_str());
     if (bad_ == 0) std::printf("no frame has a contact that is not allowed\n");
-    if (!unjudged.empty()) std::printf("%s", unjudged.c_str());
+    std::printf("%s", not_judged_text.c_str());
     if (bad_ == 0) return;
     std::printf("\n%s, the first is %s\n", count_text().c_str(), place(*first_).c_str());
     if (deepest_)
@@ -472,7 +473,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     page = write_page(arguments, scene, words, *report.first(), report.finding(), catalog);
   }
   const int code = report.bad_frames() > 0 ? 1 : 0;
-  report.end(arguments, checker, code, page.string());
+  report.end(arguments, checker.open(), code, page.string());
   return code;
 }
 

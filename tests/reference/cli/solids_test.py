@@ -258,6 +258,17 @@ def test_run_judges_containment_and_vertices_in_every_solid(tmp_path, mesh):
     assert "not judged" not in outcome.out
 
 
+def test_run_names_the_frame_in_which_a_seam_opens(tmp_path):
+    closed = with_own_corners(cube(0, 4))
+    torn = [[x + (number == 7) * 0.125 for x in vertex] for number, vertex in enumerate(closed[0])], closed[1]
+    scene_of(tmp_path, ["body", "containment"], outer_0=closed, outer_1=torn, inner=INNER)
+    scene = json.loads((tmp_path / "scene.json").read_text(encoding="utf-8"))
+    scene |= {"frames": 2, "bodies": [{"name": "outer", "recording": {"frames": "outer_%d.obj"}}, scene["bodies"][2]]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
+    truth = run(tmp_path)[0]["truth"]
+    assert truth["containment"].startswith('not judged: open (body "outer", frame 1, edge of vertices ')
+
+
 def test_run_says_in_one_line_what_is_not_judged(tmp_path):
     scene_of(tmp_path, ["body", "containment", "vertex"], outer=OPEN["missing_triangle"], inner=INNER)
     scene, outcome = run(tmp_path)

@@ -161,9 +161,11 @@ Truth Oracle::judge(const Frame& frame, const WantedTruth& wanted) {
   const auto judge_vertices = [&](std::uint32_t body, std::uint32_t in) {
     if (!impl_->chains[in]->closed()) return;
     const auto vertices = frame.bodies[body].vertices;
-    const std::vector<std::uint32_t>& component = shapes[body]->topology.component_of_vertex;
+    std::vector<char> used(vertices.size(), 0);
+    for (const Triangle& t : shapes[body]->mesh.triangles)
+      for (const std::uint32_t v : t) used[v] = 1;
     for (std::uint32_t v = 0; v < vertices.size(); ++v)
-      if (component[v] != kNoComponent && strictly_inside(trees[in], vertices[v]))
+      if (used[v] && strictly_inside(trees[in], vertices[v]))
         truth.surface.vertices.push_back({body, in, v});
   };
   std::vector<BodyPair> touching;

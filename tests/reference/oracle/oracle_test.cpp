@@ -204,6 +204,22 @@ TEST(Oracle, BodyIsOpenInTheFramesInWhichItsSeamIs) {
   }
 }
 
+// Welding tells neighbours, and nothing else: every vertex stays one.
+TEST(Oracle, VerticesOfAWeldedBodyAreInsideEachOnItsOwn) {
+  TriangleMesh corners;
+  for (const Triangle& t : box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1).triangles) {
+    const auto first = static_cast<std::uint32_t>(corners.vertices.size());
+    for (const std::uint32_t v : t)
+      corners.vertices.push_back(box_mesh(Vec3(1, 1, 1), Vec3(2, 2, 2), 1).vertices[v]);
+    corners.triangles.push_back({first, first + 1, first + 2});
+  }
+  const Body outer = test::bare_body("outer", box_mesh(Vec3(0, 0, 0), Vec3(4, 4, 4), 1));
+  const oracle::Truth truth = judge_at_rest({outer, {"welded", welded(*make_bare_shape(corners))}});
+  EXPECT_EQ(truth.surface.vertices.size(), 36u);
+  EXPECT_THAT(truth.containment, ElementsAre(BodyPair{0, 1}));
+  EXPECT_THAT(truth.open, IsEmpty());
+}
+
 TEST(Oracle, VerticesWithoutTrianglesAreNotInside) {
   TriangleMesh stray = box_mesh(Vec3(7, 7, 7), Vec3(8, 8, 8), 1);
   stray.vertices.emplace_back(1, 1, 1);

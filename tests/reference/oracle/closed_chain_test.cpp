@@ -176,7 +176,7 @@ TEST(ClosedChain, SliverDoesNotCloseAHoleBesideIt) {
 // Every edge of the hole is one of a triangle of no area, and does not cancel along its line: not
 // even where all three lines look like one along an axis.
 TEST(ClosedChain, SliversOnAllEdgesOfAHoleDoNotCloseIt) {
-  const TriangleMesh tetrahedron{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}},
+  const TriangleMesh tetrahedron{{{0, 0, 0}, {2, 0, 1}, {0, 2, 0}, {1, 0, 3}},
                                  {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   for (std::size_t t = 0; t < 4; ++t) {
     TriangleMesh hole = without_triangle(tetrahedron, t);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -110,26 +109,6 @@ void check_edges(const TriangleMesh& mesh, MeshTopology& out) {
   }
 }
 
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-void find_components(const TriangleMesh& mesh, MeshTopology& out) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (const Triangle& t : mesh.triangles) {
-    for (int k = 1; k < 3; ++k) {
-      const std::uint32_t a = find_root(parent, t[0]), b = find_root(parent, t[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  std::vector<bool> used(mesh.vertices.size(), false);
-  for (const Triangle& t : mesh.triangles) used[find_root(parent, t[0])] = true;
-  for (std::uint32_t v = 0; v < used.size(); ++v)
-    if (used[v]) out.component_vertex.push_back(v);
-}
-
 }  // namespace
 
 const char* name_of(MeshDefectKind kind) {
@@ -187,7 +166,6 @@ MeshTopology analyse_topology(const TriangleMesh& mesh) {
                    [](const MeshDefect& a, const MeshDefect& b) {
                      return std::tie(a.kind, a.index) < std::tie(b.kind, b.index);
                    });
-  find_components(mesh, out);
   out.solid = out.count(MeshDefectKind::kRepeatedIndex) == 0 &&
               out.count(MeshDefectKind::kNonManifoldEdge) == 0 &&
               out.count(MeshDefectKind::kBoundaryEdge) == 0 &&

@@ -34,7 +34,6 @@ bool is_fatal(MeshDefectKind kind);
 
 struct MeshTopology {
   std::vector<MeshDefect> defects;  ///< all of them, in the order of the kinds, then index
-  std::vector<std::uint32_t> component_vertex;  ///< one vertex of each component that has triangles
   bool fatal = false;
   /// Edge-manifold, closed, consistently oriented: inside is defined.
   bool solid = false;

@@ -73,7 +73,6 @@ TEST(Body, VertexThatNoTriangleUsesIsNoPartOfIt) {
     EXPECT_EQ(shape->given_vertex_count(), 11u);
     EXPECT_EQ(shape->given.dropped, 3u);
     EXPECT_EQ(shape->given.numbers, (std::vector<std::uint32_t>{1, 2, 3, 5, 6, 7, 8, 9}));
-    EXPECT_EQ(shape->topology.component_vertex, plain->topology.component_vertex);
     EXPECT_TRUE(shape->topology.solid);
     EXPECT_EQ(shape->embedding.local, plain->embedding.local);
     if (plain->lattice) EXPECT_EQ(shape->lattice->lines, plain->lattice->lines);

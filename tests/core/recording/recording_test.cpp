@@ -29,7 +29,6 @@ void expect_same_shape(const BodyShape& a, const BodyShape& b) {
   expect_same_points(a.mesh.vertices, b.mesh.vertices);
   EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
   EXPECT_EQ(a.topology.solid, b.topology.solid);
-  EXPECT_EQ(a.topology.component_vertex, b.topology.component_vertex);
   EXPECT_EQ(a.given.numbers, b.given.numbers);
   EXPECT_EQ(a.given.dropped, b.given.dropped);
   ASSERT_EQ(a.lattice.has_value(), b.lattice.has_value());

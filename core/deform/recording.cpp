@@ -313,9 +313,9 @@ void read_frames(ByteReader& in, Recording& out) {
   out.frames.resize(in.count("frames", 24 * nodes));
   for (auto& frame : out.frames)
     for (const Body& body : out.bodies) {
-      std::vector<Vec3> nodes = in.points(count(*body.shape), "nodes");
-      frame.push_back(body.shape->lattice ? std::move(nodes)
-                                          : body.shape->given.kept(std::move(nodes)));
+      std::vector<Vec3> given = in.points(count(*body.shape), "nodes");
+      frame.push_back(body.shape->lattice ? std::move(given)
+                                          : body.shape->given.kept(std::move(given)));
     }
 }
 

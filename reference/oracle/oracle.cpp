@@ -92,9 +92,8 @@ void Oracle::Impl::check(const Frame& frame) const {
 
 // Without fitting the trees, which few of the pairs need.
 std::vector<Aabb> Oracle::Impl::vertex_boxes(const Frame& frame) const {
-  std::vector<Aabb> boxes(size());
-  for (std::uint32_t i = 0; i < size(); ++i)
-    for (const Vec3& p : frame.bodies[i].vertices) boxes[i].extend(p);
+  std::vector<Aabb> boxes;
+  for (const BodyState& body : frame.bodies) boxes.push_back(box_of(body.vertices));
   return boxes;
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -165,11 +164,6 @@ DistanceBounds DistanceSearch::refine() {
   return {std::min(lowest_refined, lowest_open), upper_};
 }
 
-// Of a power of two above it.
-int exponent_of(double largest) {
-  return std::ilogb(std::max(largest, std::numeric_limits<double>::denorm_min())) + 1;
-}
-
 // @pre both are scaled by two to the -exponent
 DistanceInterval scaled_distance(const ScaledSurface& a, const ScaledSurface& b, int exponent) {
   DistanceSearch search(a, b);
@@ -181,7 +175,7 @@ DistanceInterval scaled_distance(const ScaledSurface& a, const ScaledSurface& b,
 
 DistanceInterval surface_distance(ScaledSurface& a, ScaledSurface& b) {
   const int exponent =
-      exponent_of(std::max(largest_coordinate(a.vertices), largest_coordinate(b.vertices)));
+      exponent_above(std::max(largest_coordinate(a.vertices), largest_coordinate(b.vertices)));
   scale(a, -exponent);
   scale(b, -exponent);
   return scaled_distance(a, b, exponent);
@@ -193,7 +187,7 @@ std::vector<DistanceInterval> point_distances(std::span<const Vec3> points,
   const double largest = largest_coordinate(surface.vertices);
   std::vector<int> exponents;
   for (const Vec3& p : points)
-    exponents.push_back(exponent_of(std::max(largest, p.cwiseAbs().maxCoeff())));
+    exponents.push_back(exponent_above(std::max(largest, p.cwiseAbs().maxCoeff())));
   // Each point with the surface in its own scale: one that is far away widens no other interval.
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -249,10 +249,7 @@ SurfaceDepth SurfaceGeometry::surface_depth(BodyPair pair, double limit) {
     if (const auto& fault = impl_->body(body).not_simple())
       return {0.0, 0.0, SurfaceDepth::Unknown{body, *fault}};
   BodyGeometry &a = impl_->body(pair.a), &b = impl_->body(pair.b);
-  double largest = 0.0;
-  for (const Aabb& box : {a.fitted_tree(0).bounds(), b.fitted_tree(0).bounds()})
-    largest = std::max(largest, largest_coordinate(std::array{box.lo, box.hi}));
-  const int exponent = exponent_above(largest);
+  const int exponent = exponent_above(std::max(a.largest, b.largest));
   const DistanceBounds bounds =
       unscaled(oracle::surface_depth(a.fitted_tree(exponent), b.fitted_tree(exponent),
                                      {std::ldexp(limit, -exponent)}),

@@ -21,17 +21,6 @@ bool closed_as_written(const TriangleMesh& mesh) {
   return oracle::surface_chain_as_written(mesh.triangles, mesh.vertices.size()).closed();
 }
 
-// Every triangle has its own corners, as in STL files.
-TriangleMesh with_own_corners(const TriangleMesh& mesh) {
-  TriangleMesh out;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(out.vertices.size());
-    for (const std::uint32_t v : t) out.vertices.push_back(mesh.vertices[v]);
-    out.triangles.push_back({first, first + 1, first + 2});
-  }
-  return out;
-}
-
 TriangleMesh without_triangle(TriangleMesh mesh, std::size_t triangle) {
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(triangle));
   return mesh;

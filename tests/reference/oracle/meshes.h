@@ -63,6 +63,17 @@ inline TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
   return mesh;
 }
 
+/// Every triangle has its own corners, as in STL files.
+inline TriangleMesh with_own_corners(const TriangleMesh& mesh) {
+  TriangleMesh out;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(out.vertices.size());
+    for (const std::uint32_t v : t) out.vertices.push_back(mesh.vertices[v]);
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
 /// The same surface with its inside out.
 inline TriangleMesh reversed(TriangleMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);

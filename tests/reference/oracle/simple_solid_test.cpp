@@ -20,17 +20,6 @@ std::string judged(const TriangleMesh& mesh) {
   return fault ? oracle::describe(*fault, {}) : "simple";
 }
 
-// Every triangle has vertices of its own.
-TriangleMesh soup(const TriangleMesh& mesh) {
-  TriangleMesh out;
-  for (const Triangle& t : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(out.vertices.size());
-    for (const std::uint32_t v : t) out.vertices.push_back(mesh.vertices[v]);
-    out.triangles.push_back({first, first + 1, first + 2});
-  }
-  return out;
-}
-
 // All on both sides.
 TriangleMesh double_sided(const TriangleMesh& mesh) { return joined(mesh, reversed(mesh)); }
 
@@ -46,8 +35,8 @@ TEST(SimpleSolid, KindsOfSolidsAreSimple) {
 
 TEST(SimpleSolid, DoubledVerticesInsideOutAndAnyScaleAreSimple) {
   TriangleMesh mesh = box(-1, 1);
-  EXPECT_EQ(judged(soup(mesh)), "simple");
-  EXPECT_EQ(judged(reversed(soup(mesh))), "simple");
+  EXPECT_EQ(judged(with_own_corners(mesh)), "simple");
+  EXPECT_EQ(judged(reversed(with_own_corners(mesh))), "simple");
   for (const double scale : {1e-300, 1e-150, 1e150, 1e300})
     EXPECT_EQ(judged({scaled(mesh.vertices, scale), mesh.triangles}), "simple") << scale;
 }
@@ -56,7 +45,7 @@ TEST(SimpleSolid, PartsThatShareAnEdgeOrACornerAreSimple) {
   for (const Vec3& at : {Vec3(1, 1, 0), Vec3(1, 1, 1)}) {
     const TriangleMesh pair = joined(unit_box_mesh(1), box_mesh(at, at + Vec3::Ones(), 1));
     EXPECT_EQ(judged(pair), "simple");
-    EXPECT_EQ(judged(soup(pair)), "simple");
+    EXPECT_EQ(judged(with_own_corners(pair)), "simple");
   }
 }
 

@@ -11,12 +11,24 @@ void add_check(CommandLine& line) {
   CLI::App* check =
       line.app.add_subcommand("check", "Says which frames of a simulation have contacts");
   check
-      ->add_option("frames", arguments->frames,
+      ->add_option("files", arguments->frames,
                    "numbered meshes; a mesh and its PC2 or MDD file; a recording")
       ->required();
   check->add_option("--allow", arguments->allow, "contact, self or depth=METRES; repeatable")
       ->allow_extra_args(false)
       ->type_name("WHAT");
+  check
+      ->add_option("--frames", arguments->rules.patterns,
+                   "which number is the frame's: 'ball{body}_{frame}.obj'; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("PATTERN");
+  check
+      ->add_option("--cache-space", arguments->rules.cache_space,
+                   "space of PC2 and MDD: file (as it is) or mesh (led to it)")
+      ->check(CLI::IsMember({"file", "mesh"}))
+      ->type_name("SPACE");
+  check->add_flag("--repair", arguments->rules.repair,
+                  "fill polygons that cross themselves by fans");
   check->add_flag("--weld", arguments->weld, "vertices at one place in the first frame are one");
   check->add_option("--out", arguments->out, "folder of the page (default out)")->type_name("DIR");
   check->add_flag("--json-lines", arguments->json_lines, "events on standard output");

@@ -61,7 +61,7 @@ struct RunWords {
   }
 };
 
-// --mesh, --motion, --size, --save-scene. `words` must outlive the parsing.
+// --mesh, --motion, --size, --repair, --save-scene. `words` must outlive the parsing.
 void add_mesh_options(CLI::App& run, RunWords& words) {
   scene::MeshSceneRequest& request = words.run.meshes;
   run.add_option_function<std::vector<std::string>>(
@@ -88,6 +88,13 @@ void add_mesh_options(CLI::App& run, RunWords& words) {
          },
          "largest side of each mesh, or file: as in the file (default 1)")
       ->type_name("METRES");
+  run.add_flag_callback(
+      "--repair",
+      [&words] {
+        words.run.meshes.repair = true;
+        words.needs_mesh = "--repair";
+      },
+      "fill polygons of --mesh that cross themselves with fans");
   run.add_option("--save-scene", words.run.save_scene,
                  "keep the scenes as scene files; nothing is overwritten")
       ->type_name("PATH");

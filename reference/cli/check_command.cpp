@@ -201,7 +201,11 @@ class FrameChecker {
 class CheckReport {
  public:
   CheckReport(const scene::Scene& scene, const scene::FrameFiles& files, bool json_lines)
-      : scene_(scene), labels_(files.labels), shown_(files.shown), json_(json_lines) {}
+      : scene_(scene),
+        labels_(files.labels),
+        shown_(files.shown),
+        unchecked_(files.unchecked),
+        json_(json_lines) {}
 
   void start(const CheckArguments& arguments) const {
     Json bodies = Json::array();
@@ -221,8 +225,10 @@ class CheckReport {
              {"version", CONTACTCHECK_VERSION},
              {"out", arguments.out.string()},
              {"frames", scene_.frames},
+             {"unchecked", unchecked_},
              {"bodies", bodies}});
     } else {
+      if (!unchecked_.empty()) text += unchecked_text();
       std::printf("%s%s\n", text.c_str(), counted(scene_.frames, "frame").c_str());
     }
   }
@@ -291,6 +297,17 @@ class CheckReport {
   std::string place(std::size_t frame) const {
     return "frame " + std::to_string(frame) +
            (frame < labels_.size() ? " (" + labels_[frame] + ")" : "");
+  }
+  std::string unchecked_text() const {
+    constexpr std::size_t kMostNamed = 4;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(unchecked_.size(), kMostNamed); ++i)
+      names += (i == 0 ? "" : ", ") + unchecked_[i];
+    return "not checked, because not every body has that frame: " + names +
+           (unchecked_.size() > kMostNamed
+                ? " and " + counted(unchecked_.size() - kMostNamed, "more file")
+                : "") +
+           "\n";
   }
   const std::string& name(std::uint32_t body) const { return scene_.bodies[body].name; }
 
@@ -368,7 +385,7 @@ class CheckReport {
   }
 
   const scene::Scene& scene_;
-  std::vector<std::string> labels_, shown_;
+  std::vector<std::string> labels_, shown_, unchecked_;
   bool json_;
   std::size_t bad_ = 0;
   std::optional<std::size_t> first_;
@@ -407,7 +424,12 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   run.quiet = true;
   run.finding = std::move(finding);
   run.out = arguments.out;
-  run.command_line = "contactcheck check" + files + (arguments.weld ? " --weld" : "");
+  run.command_line = "contactcheck check" + files + (arguments.weld ? " --weld" : "") +
+                     (arguments.rules.repair ? " --repair" : "");
+  for (const std::string& pattern : arguments.rules.patterns)
+    run.command_line += " --frames " + text::in_shell(pattern);
+  if (!arguments.rules.cache_space.empty())
+    run.command_line += " --cache-space " + arguments.rules.cache_space;
   for (const std::string& word : arguments.allow)
     run.command_line += " --allow " + text::in_shell(word);
   suite::SuiteOutcome outcome;
@@ -429,8 +451,11 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   if (arguments.frames.size() == 1 && arguments.frames[0].extension() == ".ccr") {
     scene = scene::load_any_scene(arguments.frames[0]);
   } else {
-    files = scene::frame_files(arguments.frames, "check", levels);
+    files = scene::frame_files(arguments.frames, arguments.rules, "check", levels);
     scene = scene::load_scene_text(files.scene);
+    // A point cache may end before the files do.
+    for (std::size_t f = scene.frames; f < files.labels.size(); ++f)
+      files.unchecked.push_back(files.labels[f]);
   }
   scene.levels = levels;
   if (scene.bodies.size() == 1)

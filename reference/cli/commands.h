@@ -12,6 +12,7 @@
 
 #include "core/detect/registry.h"
 #include "reference/results/results.h"
+#include "reference/scene/frame_files.h"
 #include "reference/scene/mesh_scene.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/suite/job.h"
@@ -113,6 +114,7 @@ struct TuneArguments {
 struct CheckArguments {
   std::vector<std::filesystem::path> frames;  ///< files of a simulation; at least one
   std::vector<std::string> allow;             ///< contact, self, depth=METRES
+  scene::FrameRules rules;                    ///< which files are frames of what
   bool weld = false, quiet = false, json_lines = false;
   std::filesystem::path out = "out";
 };

@@ -73,7 +73,7 @@ LoadedMesh load_source(const MeshSpec& spec) {
     case MeshSpec::Source::kDataset:
       return load_dataset(spec.name);
     case MeshSpec::Source::kFile:
-      return read_mesh_file(spec.name);
+      return read_mesh_file(spec.name, spec.folded);
     case MeshSpec::Source::kShape:
       break;
   }
@@ -117,6 +117,7 @@ MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::pa
   if (source == "shape") {
     parse_shape(field, std::move(keys), spec);
   } else {
+    if (source == "file") keys.emplace_back("repair");
     field.only_keys(keys);
     spec.source = source == "file" ? MeshSpec::Source::kFile : MeshSpec::Source::kDataset;
     spec.name = field.at(source).text();
@@ -133,6 +134,7 @@ MeshSpec parse_mesh_spec(const text::JsonField& field, const std::filesystem::pa
     const Vec3 c = field.at("center").vector({-kLargestLength, false, kLargestLength, false});
     spec.center = std::array<double, 3>{c.x(), c.y(), c.z()};
   }
+  if (field.has("repair") && field.at("repair").boolean()) spec.folded = Folded::kFanned;
   spec.weld = field.has("weld") && field.at("weld").boolean();
   return spec;
 }

@@ -31,6 +31,7 @@ struct MeshSpec {
   std::optional<double> size;            ///< scale so that the largest side has this length, metres
   std::optional<double> scale;           ///< or multiply all coordinates by this
   std::optional<std::array<double, 3>> center;  ///< then move the box's centre here
+  Folded folded = Folded::kLeftOut;             ///< files only: "repair"
   bool weld = false;  ///< vertices at one place are one where neighbours are told from contacts
 
   bool operator==(const MeshSpec&) const = default;

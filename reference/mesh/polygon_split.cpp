@@ -8,7 +8,7 @@
 namespace contactcheck::mesh {
 namespace {
 
-using CornerRing = std::vector<std::uint32_t>;
+using Corners = std::span<const std::uint32_t>;
 
 struct OutlineView {
   int axis = 0;         // along which one looks
@@ -16,7 +16,7 @@ struct OutlineView {
 };
 
 // Differences from the first corner, a quarter and then at most 1 large: nothing overflows.
-std::vector<Vec3> shape_of(const std::vector<Vec3>& points, const CornerRing& corners) {
+std::vector<Vec3> shape_of(const std::vector<Vec3>& points, Corners corners) {
   const Vec3 origin = 0.25 * points[corners[0]];
   std::vector<Vec3> out;
   double largest = 0.0;
@@ -30,7 +30,7 @@ std::vector<Vec3> shape_of(const std::vector<Vec3>& points, const CornerRing& co
 }
 
 // Where both lobes of an eight cancel, the axis along which most of them is seen.
-OutlineView view_of(const std::vector<Vec3>& points, const CornerRing& corners) {
+OutlineView view_of(const std::vector<Vec3>& points, Corners corners) {
   const std::vector<Vec3> shape = shape_of(points, corners);
   Vec3 normal = Vec3::Zero(), seen = Vec3::Zero();
   for (std::size_t k = 2; k < shape.size(); ++k) {
@@ -44,7 +44,7 @@ OutlineView view_of(const std::vector<Vec3>& points, const CornerRing& corners) 
   return out;
 }
 
-std::vector<Triangle> fan_of(const CornerRing& corners) {
+std::vector<Triangle> fan_of(Corners corners) {
   std::vector<Triangle> out;
   for (std::size_t k = 2; k < corners.size(); ++k)
     out.push_back({corners[0], corners[k - 1], corners[k]});
@@ -53,8 +53,8 @@ std::vector<Triangle> fan_of(const CornerRing& corners) {
 
 class Outline {
  public:
-  Outline(const std::vector<Vec3>& points, CornerRing ring, const OutlineView& view)
-      : points_(points), ring_(std::move(ring)), view_(view) {}
+  Outline(const std::vector<Vec3>& points, Corners ring, const OutlineView& view)
+      : points_(points), ring_(ring.begin(), ring.end()), view_(view) {}
 
   // Two edges have a point in common that ends neither. Others may touch: a bridge to a hole does.
   bool crosses_itself() const {
@@ -112,11 +112,11 @@ class Outline {
   }
 
   const std::vector<Vec3>& points_;
-  CornerRing ring_;
+  std::vector<std::uint32_t> ring_;
   OutlineView view_;
 };
 
-bool fan_fits(const std::vector<Vec3>& points, const CornerRing& corners, int axis) {
+bool fan_fits(const std::vector<Vec3>& points, Corners corners, int axis) {
   bool left = false, right = false;
   for (std::size_t k = 2; k < corners.size(); ++k) {
     const int sign = orient2d(points[corners[0]], points[corners[k - 1]], points[corners[k]], axis);
@@ -128,8 +128,7 @@ bool fan_fits(const std::vector<Vec3>& points, const CornerRing& corners, int ax
 
 }  // namespace
 
-std::optional<SplitPolygon> split_polygon(const std::vector<Vec3>& points,
-                                          const CornerRing& corners) {
+std::optional<SplitPolygon> split_polygon(const std::vector<Vec3>& points, Corners corners) {
   if (corners.size() == 3) return SplitPolygon{fan_of(corners), false};
   OutlineView view = view_of(points, corners);
   const bool fits = fan_fits(points, corners, view.axis),

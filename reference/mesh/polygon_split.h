@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/types/mesh.h"
@@ -25,6 +26,6 @@ struct SplitPolygon {
 /// are left, or is concave with more than kMostConcaveCorners corners.
 /// @pre at least three corners, indices of finite points
 std::optional<SplitPolygon> split_polygon(const std::vector<Vec3>& points,
-                                          const std::vector<std::uint32_t>& corners);
+                                          std::span<const std::uint32_t> corners);
 
 }  // namespace contactcheck::mesh

@@ -42,6 +42,7 @@ struct BodyPlan {
   };
 
   std::string name, path;
+  bool repair = false;
   std::optional<double> size;  ///< metres
   std::vector<Key> keys;       ///< empty: it stays in the origin
   std::optional<int> turned_about;
@@ -75,6 +76,7 @@ std::string vector_text(const Vec3& v) {
 
 std::string body_text(const BodyPlan& body, bool lattices) {
   std::string mesh = "\"mesh\": {\"file\": " + quoted(body.path);
+  if (body.repair) mesh += ", \"repair\": true";
   if (body.size) mesh += ", \"size\": " + text::shown(*body.size);
   std::vector<std::string> parts = {"\"name\": " + quoted(body.name),
                                     mesh + ", \"center\": [0, 0, 0]}"};
@@ -258,7 +260,8 @@ std::vector<std::string> mesh_notes(const MeshSceneRequest& request) {
   std::pair<double, std::string> smallest, largest;
   for (const fs::path& file : request.meshes) {
     const std::string name = stem_of(file);
-    mesh::LoadedMesh loaded = mesh::read_mesh_file(file);
+    mesh::LoadedMesh loaded =
+        mesh::read_mesh_file(file, request.repair ? mesh::Folded::kFanned : mesh::Folded::kLeftOut);
     const double side = 2.0 * half_side(loaded.mesh);
     if (smallest.second.empty() || side < smallest.first) smallest = {side, name};
     if (largest.second.empty() || side > largest.first) largest = {side, name};
@@ -294,6 +297,7 @@ SceneText mesh_scene(const MeshSceneRequest& request, const fs::path& folder) {
     BodyPlan body;
     body.name = free_name(stem_of(mesh), plan.bodies);
     body.path = mesh_path_from(folder, mesh);
+    body.repair = request.repair;
     body.size = request.size;
     plan.title += (plan.title.empty() ? "" : ", ") + body.name;
     plan.bodies.push_back(std::move(body));

@@ -15,6 +15,7 @@ struct MeshSceneRequest {
 
   std::vector<std::filesystem::path> meshes;  ///< the same file may be named twice
   std::string motion = "approach";
+  bool repair = false;               ///< see mesh::Folded
   std::optional<double> size = 1.0;  ///< metres, each mesh's largest side; none: as in the file
 
   /// One mesh, to be judged against itself.

@@ -100,6 +100,15 @@ void PointCache::take_counts(std::uint32_t points, std::uint32_t samples, std::s
   begin_ = header;
 }
 
+std::size_t PointCache::still_samples() const {
+  const std::size_t size = kBytesOfPoint * points_;
+  const std::string_view bytes = std::string_view(bytes_).substr(begin_);
+  const std::string_view last = bytes.substr((samples_ - 1) * size);
+  std::size_t still = 1;
+  while (still < samples_ && bytes.substr((samples_ - 1 - still) * size, size) == last) ++still;
+  return still;
+}
+
 std::vector<Vec3> PointCache::sample(std::size_t index) const {
   CONTACTCHECK_INVARIANT(index < samples_, "the cache has this sample");
   std::vector<Vec3> out(points_);

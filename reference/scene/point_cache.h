@@ -28,6 +28,8 @@ class PointCache {
 
   std::size_t points() const { return points_; }    ///< at least 1
   std::size_t samples() const { return samples_; }  ///< at least 1
+  /// How many samples at the end are equal bit for bit; at least 1.
+  std::size_t still_samples() const;
   /// As in the file: floats, widened. @pre index < samples()
   /// @throws InputError with sample and point where a coordinate is not finite
   std::vector<Vec3> sample(std::size_t index) const;

@@ -1,6 +1,7 @@
 #include "reference/scene/recorded_bodies.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/types/check.h"
@@ -32,7 +33,6 @@ void parse_pattern(const text::JsonField& field, const fs::path& folder, Recordi
   }
   if (at >= name.size() || name[at] != 'd' || name.find('%', at) != std::string::npos)
     field.refuse("the name of numbered files with one number in it, as %d or %04d");
-  spec.numbered = true;
   spec.before_number = (folder / name.substr(0, mark)).string();
   spec.after_number = name.substr(at + 1);
 }
@@ -42,39 +42,76 @@ std::string triangle_text(const Triangle& t) {
          ")";
 }
 
-// What tells the frame's topology from that of the mesh; empty when nothing does.
 // A face that is a triangle must be that one; of a polygon, one with its corners.
-bool fills(const Triangle& triangle, const std::vector<std::uint32_t>& face) {
-  if (face.size() == 3) return std::equal(face.begin(), face.end(), triangle.begin());
-  return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t corner) {
-    return std::find(face.begin(), face.end(), corner) != face.end();
+bool fills(const Triangle& triangle, std::span<const std::uint32_t> face) {
+  if (face.size() == 3) return std::ranges::equal(face, triangle);
+  return std::ranges::all_of(triangle, [&](std::uint32_t corner) {
+    return std::ranges::find(face, corner) != face.end();
   });
 }
 
-std::size_t triangles_in(const mesh::PolygonSoup& frame) {
-  std::size_t count = 0;
-  for (const auto& polygon : frame.polygons) count += polygon.size() - 2;
-  return count;
+std::string counts(std::size_t vertices, std::size_t triangles) {
+  return std::to_string(vertices) + " vertices and " + std::to_string(triangles) + " triangles";
 }
 
-// Where faces are polygons, a later frame might split them otherwise by itself: what it must have
-// are the same faces, which the mesh's triangles fill, one face after the other.
-std::string topology_fault(const mesh::PolygonSoup& frame, const BodyShape& shape) {
+// What tells the frame's topology from that of the mesh; empty when nothing does. Where faces are
+// polygons, a later frame might split them otherwise by itself: what it must have are the same
+// faces, which the mesh's triangles fill, one face after the other. `unfilled`: faces that none
+// fill.
+std::string topology_fault(const mesh::PolygonSoup& frame, const std::vector<std::size_t>& unfilled,
+                           const BodyShape& shape) {
   const std::vector<Triangle> given = shape.given.numbered(shape.mesh.triangles);
-  const auto counts = [](std::size_t vertices, std::size_t triangles) {
-    return std::to_string(vertices) + " vertices and " + std::to_string(triangles) + " triangles";
-  };
-  const std::size_t triangles = triangles_in(frame);
+  std::vector<std::size_t> filled;
+  std::size_t triangles = 0;
+  for (std::size_t f = 0; f < frame.size(); ++f) {
+    const std::size_t corners = frame.polygon(f).size();
+    if (corners < 3 || std::ranges::binary_search(unfilled, f)) continue;
+    filled.push_back(f);
+    triangles += corners - 2;
+  }
   if (frame.points.size() != shape.given_vertex_count() || triangles != given.size())
     return "has " + counts(frame.points.size(), triangles) + ", the body's mesh has " +
-           counts(shape.given_vertex_count(), given.size());
+           counts(shape.given_vertex_count(), given.size()) +
+           (triangles != given.size()
+                ? ""
+                : "; a program that splits vertices at seams, as some do for PLY, keeps them in "
+                  "OBJ");
   std::size_t t = 0;
-  for (const std::vector<std::uint32_t>& face : frame.polygons)
+  for (const std::size_t f : filled) {
+    const std::span<const std::uint32_t> face = frame.polygon(f);
     for (std::size_t k = 2; k < face.size(); ++k, ++t)
       if (!fills(given[t], face))
         return "has other triangles than the body's mesh: triangle " + std::to_string(t) + " is " +
                triangle_text({face[0], face[k - 1], face[k]}) + ", there " +
                triangle_text(given[t]);
+  }
+  return "";
+}
+
+// Of a frame whose triangles have corners of their own, where the vertices are that its mesh has
+// in their places. A fault, as topology_fault() says it, where the corners of one are apart.
+std::string join_corners(const BodyShape& shape, mesh::PolygonSoup& frame) {
+  const std::vector<Triangle> given = shape.given.numbered(shape.mesh.triangles);
+  if (frame.size() != given.size())
+    return "has " + std::to_string(frame.size()) + " triangles, the body's mesh has " +
+           std::to_string(given.size());
+  std::vector<Vec3> points(shape.given_vertex_count(), Vec3::Zero());
+  std::vector<std::size_t> first(points.size(), frame.points.size());
+  for (std::size_t corner = 0; corner < frame.points.size(); ++corner) {
+    const std::uint32_t vertex = given[corner / 3][corner % 3];
+    if (first[vertex] == frame.points.size()) {
+      first[vertex] = corner;
+      points[vertex] = frame.points[corner];
+    } else if (points[vertex] != frame.points[corner]) {
+      const auto place = [](std::size_t c) {
+        return "corner " + std::to_string(c % 3) + " of triangle " + std::to_string(c / 3);
+      };
+      return "has " + place(first[vertex]) + " and " + place(corner) + " apart, which are vertex " +
+             std::to_string(vertex) +
+             " of the body's mesh; STL has no vertices of several triangles, OBJ has";
+    }
+  }
+  frame.points = std::move(points);
   return "";
 }
 
@@ -91,7 +128,8 @@ bool is_there(const fs::path& file) {
 }  // namespace
 
 std::string RecordingSpec::file_of(std::size_t frame) const {
-  if (!numbered) return before_number;
+  if (!cache.empty()) return cache;
+  if (!files.empty()) return files[number_of(frame)];
   std::string number = std::to_string(number_of(frame));
   if (number.size() < digits) number.insert(0, digits - number.size(), '0');
   return before_number + number + after_number;
@@ -124,15 +162,30 @@ void RecordingSpec::place(std::vector<Vec3>& vertices) const {
 }
 
 RecordingSpec parse_recording_spec(const text::JsonField& field, const fs::path& folder) {
-  field.only_keys({"frames", "cache", "first", "step", "scale", "translate"});
+  field.only_keys(
+      {"frames", "files", "cache", "first", "step", "scale", "translate", "repair", "space"});
   RecordingSpec spec;
-  if (field.exactly_one_of({"frames", "cache"}) == "frames") {
+  const std::string source = field.exactly_one_of({"frames", "files", "cache"});
+  if (source == "frames") {
     parse_pattern(field.at("frames"), folder, spec);
+  } else if (source == "files") {
+    for (const text::JsonField& file : field.at("files").items(1))
+      spec.files.push_back((folder / file.text()).lexically_normal().string());
   } else {
-    spec.before_number = (folder / field.at("cache").text()).lexically_normal().string();
+    spec.cache = (folder / field.at("cache").text()).lexically_normal().string();
+  }
+  if (field.has("space")) {
+    if (source != "cache") field.at("space").fail("is of a \"cache\"");
+    spec.cache_space = field.at("space").one_of({"file", "mesh"}) == "file" ? CacheSpace::kFile
+                                                                            : CacheSpace::kMesh;
   }
   if (field.has("first")) spec.first = field.at("first").whole(0, kLargestNumber);
+  if (!spec.files.empty() && spec.first >= spec.files.size())
+    field.at("first").refuse("below " + std::to_string(spec.files.size()) +
+                             ", the number of files");
   if (field.has("step")) spec.step = field.at("step").whole(1, kLargestNumber);
+  if (field.has("repair"))
+    spec.folded = field.at("repair").boolean() ? mesh::Folded::kFanned : mesh::Folded::kLeftOut;
   if (field.has("scale")) spec.scale = field.at("scale").number(kScale);
   if (field.has("translate")) spec.translate = field.at("translate").vector(kTranslation);
   return spec;
@@ -140,9 +193,9 @@ RecordingSpec parse_recording_spec(const text::JsonField& field, const fs::path&
 
 RecordedFrames::RecordedFrames(RecordingSpec spec, const text::JsonField& field)
     : spec_(std::move(spec)), field_(field) {
-  if (spec_.numbered) return;
+  if (spec_.in_meshes()) return;
   try {
-    cache_ = read_point_cache(spec_.before_number);
+    cache_ = read_point_cache(spec_.cache);
   } catch (const InputError& error) {
     field_.fail("cannot be read: " + text::without_full_stop(error.what()));
   }
@@ -155,15 +208,15 @@ void RecordedFrames::fail_at(std::size_t frame, const std::string& what) const {
 
 std::size_t RecordedFrames::available(std::size_t most) const {
   std::size_t count = 0;
-  if (cache_ && spec_.first < cache_->samples()) {
-    count = std::min(most, (cache_->samples() - spec_.first - 1) / spec_.step + 1);
-  } else if (!cache_) {
+  const std::size_t listed = cache_ ? cache_->samples() : spec_.files.size();
+  if (spec_.first < listed) {
+    count = std::min(most, (listed - spec_.first - 1) / spec_.step + 1);
+  } else if (listed == 0) {
     while (count < most && is_there(spec_.file_of(count))) ++count;
     if (count > 0 && count < most) refuse_gap(count, most);
   }
-  if (count == 0 && cache_)
-    field_.at("first").refuse("below " + std::to_string(cache_->samples()) +
-                              ", the number of samples");
+  if (count == 0 && listed > 0)
+    field_.at("first").refuse("below " + std::to_string(listed) + ", the number of samples");
   if (count == 0)
     field_.fail("has no frame: there is no file " + text::in_quotes(spec_.file_of(0)));
   return count;
@@ -187,7 +240,7 @@ void RecordedFrames::refuse_gap(std::size_t missing, std::size_t most) const {
 
 mesh::LoadedMesh RecordedFrames::first_mesh() const {
   try {
-    return mesh::read_mesh_file(spec_.file_of(0));
+    return mesh::read_mesh_file(spec_.file_of(0), spec_.folded);
   } catch (const InputError& error) {
     fail_at(0, "cannot be read: " + text::without_full_stop(error.what()));
   }
@@ -211,7 +264,9 @@ std::vector<Vec3> RecordedFrames::numbered_positions(std::size_t frame,
   } catch (const InputError& error) {
     fail_at(frame, "cannot be read: " + text::without_full_stop(error.what()));
   }
-  const std::string fault = topology_fault(loaded, shape);
+  const std::string fault = mesh::has_own_corners(spec_.file_of(frame))
+                                ? join_corners(shape, loaded)
+                                : topology_fault(loaded, unfilled_, shape);
   if (!fault.empty()) fail_at(frame, fault);
   return std::move(loaded.points);
 }
@@ -223,15 +278,48 @@ std::vector<Vec3> RecordedFrames::cached_positions(std::size_t frame,
                             " points, the body's mesh has " +
                             std::to_string(shape.given_vertex_count()) + " vertices");
   try {
-    return cache_->sample(spec_.number_of(frame));
+    std::vector<Vec3> points = cache_->sample(spec_.number_of(frame));
+    space_.apply(points);
+    return points;
   } catch (const InputError& error) {
     field_.fail("cannot be used: " + text::without_full_stop(error.what()));
   }
 }
 
+std::string RecordedFrames::find_space(const TriangleMesh& mesh) {
+  if (!cache_) return "";
+  if (cache_->points() != mesh.vertices.size())
+    field_.at("cache").fail("has " + std::to_string(cache_->points()) +
+                            " points, the body's mesh has " + std::to_string(mesh.vertices.size()) +
+                            " vertices");
+  std::string notes;
+  try {
+    const std::size_t still = cache_->still_samples();
+    if (still > 1)
+      mesh::add_note(notes, "the last " + std::to_string(still) + " samples are equal");
+    if (spec_.cache_space == CacheSpace::kFile) return notes;
+    const std::optional<SpaceChange> found = space_change(cache_->sample(0), mesh.vertices);
+    const bool wanted = spec_.cache_space == CacheSpace::kMesh;
+    if (!found && wanted)
+      field_.at("space").fail(
+          "cannot be that of the mesh: no change of axes and no offset lead sample 0 to it");
+    if (!found)
+      mesh::add_note(notes, "sample 0 of the cache is not the mesh: it is taken as it is");
+    else if (found->moves() && !wanted)
+      mesh::add_note(notes, "sample 0 of the cache is the mesh with " + found->described() +
+                                ": it is taken as it is (--cache-space mesh leads it there)");
+    else if (!found->is_identity())
+      mesh::add_note(notes, "the cache is led to the mesh by " + found->described());
+    if (found && (wanted || !found->moves())) space_ = *found;
+  } catch (const InputError& error) {
+    field_.fail("cannot be used: " + text::without_full_stop(error.what()));
+  }
+  return notes;
+}
+
 std::string RecordedFrames::described() const {
   const std::string file = spec_.file_of(0);
-  return spec_.numbered ? "recorded frames, " + file + " and on" : "recorded samples of " + file;
+  return spec_.in_meshes() ? "recorded frames, " + file + " and on" : "recorded samples of " + file;
 }
 
 namespace {
@@ -245,7 +333,7 @@ void require_no_other_motion(const text::JsonField& body, const Scene& scene) {
 // The recording has the vertices that the mesh has; what changes them would make the two differ.
 mesh::LoadedMesh mesh_of(const text::JsonField& body, const RecordedFrames& frames,
                          const std::filesystem::path& folder) {
-  if (!body.has("mesh") && frames.spec().numbered) return frames.first_mesh();
+  if (!body.has("mesh") && frames.spec().in_meshes()) return frames.first_mesh();
   const text::JsonField field = body.at("mesh");
   for (const char* key : {"triangles", "subdivide", "size", "scale", "center"})
     if (field.has(key))
@@ -265,6 +353,8 @@ void RecordedBodies::add(const text::JsonField& body, const std::string& name,
   const LatticeSpec lattice =
       body.has("lattice") ? parse_lattice_spec(body.at("lattice"), true) : LatticeSpec{};
   mesh::LoadedMesh loaded = mesh_of(body, frames, folder);
+  frames.leave_unfilled(std::move(loaded.unfilled));
+  mesh::add_note(loaded.notes, frames.find_space(loaded.mesh));
   // What no triangle uses keeps its number and overflows nowhere.
   const GivenVertices given = drop_unused_vertices(loaded.mesh);
   frames.spec().place(loaded.mesh.vertices);

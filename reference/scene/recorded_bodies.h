@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/types/mesh.h"
 #include "reference/mesh/mesh_file.h"
+#include "reference/scene/cache_space.h"
 #include "reference/scene/lattice_spec.h"
 #include "reference/scene/point_cache.h"
 #include "reference/scene/scene.h"
@@ -18,17 +20,30 @@ namespace contactcheck::scene {
 
 // How a scene file describes a body's recorded deformation, and reading it.
 
+/// In which space a point cache has its points. Programs write caches in the space of the object
+/// or of the world, with y or z up, whatever the mesh is in.
+enum class CacheSpace {
+  kCompared,  ///< that of the mesh, or another by one change of axes, if sample 0 says so: else
+              ///< kFile
+  kFile,      ///< that of the scene
+  kMesh       ///< by a change of axes and an offset that bring sample 0 to the mesh
+};
+
 /// The "recording" of a body, all defaults filled in.
 struct RecordingSpec {
-  /// Names of files as resolved, the number taken out: "cloth_" and ".obj" with 4 digits. A point
-  /// cache has its whole path before the number.
+  /// Paths as resolved. Numbered files: the number taken out, "cloth_" and ".obj" with 4 digits.
   std::string before_number, after_number;
-  bool numbered = false;
-  std::size_t digits = 0;  ///< at least this many, with leading zeros
+  std::vector<std::string> files;  ///< or all of them, by frame
+  std::string cache;               ///< or a point cache
+  std::size_t digits = 0;          ///< at least this many, with leading zeros
   std::size_t first = 0, step = 1;
-  double scale = 1.0;             ///< of all coordinates, then
-  Vec3 translate = Vec3::Zero();  ///< metres
+  mesh::Folded folded = mesh::Folded::kLeftOut;  ///< of the first numbered file, as the mesh
+  double scale = 1.0;                            ///< of all coordinates, then
+  Vec3 translate = Vec3::Zero();                 ///< metres
 
+  CacheSpace cache_space = CacheSpace::kCompared;
+
+  bool in_meshes() const { return cache.empty(); }
   /// Which file or sample a frame is.
   std::size_t number_of(std::size_t frame) const { return first + frame * step; }
   std::string file_of(std::size_t frame) const;
@@ -50,12 +65,17 @@ class RecordedFrames {
   /// Opens a point cache. `field` is that of the recording. @throws InputError
   RecordedFrames(RecordingSpec spec, const text::JsonField& field);
 
-  /// Frames that there are: samples from the first one on, or numbered files without a gap, whether
-  /// or not they can be read. At most `most`. @throws InputError when there is none, and for a gap
-  /// before a later file
+  /// Frames that there are: samples or files from the first one on, or numbered ones without a gap,
+  /// whether or not they can be read. At most `most`. @throws InputError when there is none, and
+  /// for a gap before a later file
   std::size_t available(std::size_t most) const;
-  /// The mesh of the first of the numbered files. @pre the spec is numbered
+  /// The mesh of the first file. @pre the spec is of meshes
   mesh::LoadedMesh first_mesh() const;
+  /// Compares sample 0 of a cache with the mesh as it was given, not yet placed. Returns notes.
+  /// @throws InputError where the space of the mesh is asked for, and no change of axes leads there
+  std::string find_space(const TriangleMesh& mesh);
+  /// Faces of the files that no triangle of the mesh fills.
+  void leave_unfilled(std::vector<std::size_t> faces) { unfilled_ = std::move(faces); }
   /// Where the vertices of the shape are, placed. @throws InputError where the frame has other
   /// vertices or triangles than the mesh as it was given, or is none
   std::vector<Vec3> positions(std::size_t frame, const BodyShape& shape) const;
@@ -76,6 +96,8 @@ class RecordedFrames {
   RecordingSpec spec_;
   text::JsonField field_;
   std::optional<PointCache> cache_;
+  SpaceChange space_;
+  std::vector<std::size_t> unfilled_;
 };
 
 class RecordedBodies {

@@ -43,6 +43,12 @@ def sphere(radius, levels):
     return [[radius * x for x in vertex] for vertex in vertices], triangles
 
 
+def moved(mesh, origin, size):
+    """The mesh scaled by `size`, its origin moved to `origin`."""
+    vertices, triangles = mesh
+    return [[o + size * x for o, x in zip(origin, vertex)] for vertex in vertices], triangles
+
+
 def obj_text(mesh):
     """Of an OBJ file, every coordinate to the bit."""
     vertices, triangles = mesh

@@ -2,21 +2,15 @@
 
 import json
 import re
-import struct
 
 import pytest
 
-from meshes import box, obj_text, sphere
+from meshes import box, moved, obj_text, sphere
+from point_caches import mdd_bytes, pc2_bytes
 from program import contactcheck, refused
 
 # In any order, as a shell gives them: 10 before 8.
 MOVING = [f"moving_{number}.obj" for number in (10, 11, 12, 8, 9)]
-
-
-def moved(mesh, origin, size):
-    """The mesh scaled by `size`, its origin moved to `origin`."""
-    vertices, triangles = mesh
-    return [[o + size * x for o, x in zip(origin, vertex)] for vertex in vertices], triangles
 
 
 @pytest.fixture
@@ -115,20 +109,6 @@ def test_a_welded_seam_that_comes_apart_is_refused(tmp_path):
     outcome = check(tmp_path, ["torn_0.obj", "torn_1.obj"], "--weld")
     assert outcome.exit_code == 2
     assert 'frame 1: vertices 1 and 3 of body "torn" are welded and come apart' in outcome.err
-
-
-def pc2_bytes(samples):
-    """A point cache of PC2, written apart from the program's reader."""
-    points = [value for sample in samples for point in sample for value in point]
-    return struct.pack(f"<12siiffi{len(points)}f", b"POINTCACHE2", 1, len(samples[0]), 0, 1, len(samples),
-                       *points)
-
-
-def mdd_bytes(samples):
-    """The same of MDD, which has a time for each sample."""
-    points = [value for sample in samples for point in sample for value in point]
-    times = [number / 24 for number in range(len(samples))]
-    return struct.pack(f">ii{len(times)}f{len(points)}f", len(samples), len(samples[0]), *times, *points)
 
 
 @pytest.mark.parametrize(("cache", "bytes_of"), [("ball.pc2", pc2_bytes), ("ball.mdd", mdd_bytes)])

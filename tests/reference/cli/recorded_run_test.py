@@ -4,6 +4,7 @@ import json
 import struct
 
 import meshes
+from point_caches import mdd_bytes
 from program import successful, tiny_scene, valid_results
 
 FRAMES = 9
@@ -42,13 +43,6 @@ def write_recorded(folder, **more):
         "id": "recorded", "duration": 1, "levels": ["body", "cell", "triangle", "vertex"],
         "bodies": [{"name": name, "recording": {"frames": f"{name}_%d.obj"}, **more}
                    for name in ("left", "right")]}))
-
-
-def mdd_bytes(samples):
-    """An MDD point cache."""
-    return b"".join([struct.pack(">2i", len(samples), len(samples[0])),
-                     *(struct.pack(">f", i / 24) for i in range(len(samples))),
-                     *(struct.pack(">3f", *point) for sample in samples for point in sample)])
 
 
 def test_frames_of_a_scene_give_its_contact_hash(tmp_path):

@@ -73,7 +73,8 @@ TEST(PolygonSplit, AFanThatFitsStaysTheFan) {
               ::testing::ElementsAre(Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 4}));
   // Of the L's six corners two see all others: from those, too, it stays.
   EXPECT_TRUE(split_polygon(kL, counted(6))->concave);
-  EXPECT_FALSE(split_polygon(kL, {2, 3, 4, 5, 0, 1})->concave);
+  const std::vector<std::uint32_t> from_a_seeing_one = {2, 3, 4, 5, 0, 1};
+  EXPECT_FALSE(split_polygon(kL, from_a_seeing_one)->concave);
 }
 
 TEST(PolygonSplit, FillsConcaveOutlinesOnce) {

@@ -57,6 +57,8 @@ class RecordedScene : public testing::Test {
 };
 
 const std::string kFiles = R"("recording": {"frames": "box_%02d.obj", "first": 5})";
+const std::string kListed =
+    R"("recording": {"files": ["box_05.obj", "./box_06.obj", "box_07.obj", "box_08.obj", "box_09.obj"]})";
 const std::string kPc2Body = R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2"})";
 
 // "./" before a name that is a number alone is no part of the name.
@@ -72,7 +74,7 @@ TEST_F(RecordedScene, NamesOfNumbersAloneStandInTheScenesFolder) {
 
 TEST_F(RecordedScene, HasTheFramesOfTheFilesAndTheScriptedBodiesBesideThem) {
   for (const std::string& body :
-       {kFiles, kPc2Body,
+       {kFiles, kListed, kPc2Body,
         std::string(R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.mdd"})")}) {
     SCOPED_TRACE(body);
     const Scene scene = load(body);
@@ -248,8 +250,19 @@ TEST_F(RecordedScene, RefusesWhatDoesNotFit) {
        ".mdd."},
       {R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2", "first": 5})", five,
        "bodies[0].recording.first is 5; it must be below 5, the number of samples."},
+      {R"("recording": {"files": ["box_05.obj", "box_06.obj"], "first": 2})", five,
+       "bodies[0].recording.first is 2; it must be below 2, the number of files."},
+      {R"("recording": {"files": []})", five, "bodies[0].recording.files is an array of 0"},
+      {R"("recording": {"files": ["box_05.obj", "gone.obj"]})", two,
+       "frame 1 (\"DIR/gone.obj\") cannot be read: mesh file \"DIR/gone.obj\" does not exist."},
+      {R"("recording": {"files": ["box_05.obj"], "frames": "box_%02d.obj"})", two,
+       "bodies[0].recording has"},
+      {R"("recording": {"files": ["box_05.obj"], "space": "mesh"})", two,
+       "bodies[0].recording.space is of a \"cache\"."},
+      {R"("mesh": {"file": "rest.obj"}, "recording": {"cache": "box.pc2", "space": "world"})", five,
+       "bodies[0].recording.space is \"world\"; it must be one of file, mesh"},
       {R"("mesh": {"file": "rest.obj"}, "recording": {})", five,
-       "bodies[0].recording has none of the keys frames, cache; exactly one is needed."},
+       "bodies[0].recording has none of the keys frames, files, cache; exactly one is needed."},
       {R"("recording": {"frames": "box.obj"})", five,
        "bodies[0].recording.frames is \"box.obj\"; it must be the name of numbered files with one "
        "number in it, as %d or %04d."},

@@ -374,6 +374,15 @@ class Source {
     }
   }
 
+  // Without a lattice each vertex is moved by itself. A weld that comes apart is refused
+  // before detectors are asked (check, run), so that none has to answer for it.
+  static void keep_welds(const BodyShape& shape, std::vector<Vec3>& nodes) {
+    if (shape.lattice) return;
+    for (std::size_t t = 0; t < shape.welded.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c)
+        nodes[shape.mesh.triangles[t][c]] = nodes[shape.welded[t][c]];
+  }
+
   void add_frame(OddScene& out) {
     std::string name = "; frame";
     const double size = power_of_two(exponent());
@@ -386,6 +395,7 @@ class Source {
     for (const Body& body : out.bodies) {
       nodes.push_back(unit_nodes(*body.shape));
       if (!many || nodes.size() == 1) bend(nodes.back(), name);
+      keep_welds(*body.shape, nodes.back());
       const Vec3 place = random_.point(away, spread);
       const double own = random_.below(5) == 0 ? power_of_two(random_.below(20)) : 1.0;
       for (Vec3& n : nodes.back()) n = own * n + place;

@@ -453,9 +453,6 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
   } else {
     files = scene::frame_files(arguments.frames, arguments.rules, "check", levels);
     scene = scene::load_scene_text(files.scene);
-    // A point cache may end before the files do.
-    for (std::size_t f = scene.frames; f < files.labels.size(); ++f)
-      files.unchecked.push_back(files.labels[f]);
   }
   scene.levels = levels;
   if (scene.bodies.size() == 1)

@@ -384,6 +384,14 @@ RecordedBodies::Available RecordedBodies::available(std::size_t most) const {
   return out;
 }
 
+void RecordedBodies::note_unused(std::size_t frames, std::size_t most, Scene& scene) const {
+  for (const Recorded& recorded : bodies_)
+    if (const std::size_t has = recorded.frames.available(most); has > frames)
+      mesh::add_note(scene.origins[recorded.body].notes,
+                     "only the first " + std::to_string(frames) + " of its " + std::to_string(has) +
+                         " frames are used, as many as every recording has");
+}
+
 void RecordedBodies::fill(Scene& scene) const {
   std::vector<std::vector<std::vector<Vec3>>> frames;
   for (std::size_t f = 0; f < scene.frames; ++f) frames.push_back(scene.nodes_at(scene.time_of(f)));

@@ -114,6 +114,10 @@ class RecordedBodies {
   /// The frames that every recording has, at most `most`. @pre not empty. @throws InputError
   Available available(std::size_t most) const;
 
+  /// Says in scene.origins of which recordings only the first `frames` are used, which may have up
+  /// to `most`. @throws InputError
+  void note_unused(std::size_t frames, std::size_t most, Scene& scene) const;
+
   /// Fills scene.recorded, with the nodes of the scripted bodies too, and scene.fits.
   /// @pre scene.frames and scene.time_step are set, to no more frames than are available
   void fill(Scene& scene) const;

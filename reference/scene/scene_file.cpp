@@ -199,8 +199,12 @@ bool any_recording(const text::JsonField& root) {
 
 // As many as are asked for, or as every recording has.
 std::size_t recorded_frames(const text::JsonField& root, const RecordedBodies& recorded,
-                            const Scene& scene) {
-  if (!root.has("frames")) return recorded.available(kMostFrames).frames;
+                            Scene& scene) {
+  if (!root.has("frames")) {
+    const std::size_t frames = recorded.available(kMostFrames).frames;
+    recorded.note_unused(frames, kMostFrames, scene);
+    return frames;
+  }
   const std::size_t frames = root.at("frames").whole(1, kMostFrames);
   const auto [available, body] = recorded.available(frames);
   if (available < frames)

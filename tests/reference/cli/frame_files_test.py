@@ -94,6 +94,20 @@ def test_says_that_a_cache_stands_still_at_its_end(ball):
     assert "; the last 3 samples are equal\n" in check(folder, ["ball.obj", "ball.pc2", "rest.obj"]).out
 
 
+def test_says_that_a_cache_has_more_samples_than_the_rest_has_frames(ball):
+    folder, samples = ball
+    (folder / "ball.pc2").write_bytes(pc2_bytes([*samples, samples[0]]))
+    for frame in range(2):
+        (folder / f"box_{frame}.obj").write_text(obj_text(moved(box(1), (0, 0, 5), 1)), encoding="utf-8")
+    outcome = check(folder, ["ball.obj", "ball.pc2", "rest.obj", "box_0.obj", "box_1.obj"])
+    assert outcome.exit_code == 1, outcome.err
+    assert "; only the first 2 of its 3 frames are used, as many as every recording has\n" in outcome.out
+    (folder / "ball.pc2").write_bytes(pc2_bytes(samples[:1]))
+    outcome = check(folder, ["ball.obj", "ball.pc2", "rest.obj", "box_0.obj", "box_1.obj"])
+    assert outcome.exit_code == 0, outcome.err
+    assert "box_*.obj; only the first 1 of its 2 frames are used, as many as every recording has\n" in outcome.out
+
+
 # All points in a plane: a turn and a reflection lead them to the mesh, but not what moves out of it.
 def test_turns_a_flat_cloth_and_reflects_it_not(tmp_path):
     n = 4

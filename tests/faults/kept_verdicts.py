@@ -133,6 +133,9 @@ def faults(kind):
         # Judging all of the product's takes hours; one that was not judged is stale.
         if mutant.name not in kept and kind != PRODUCT:
             found.append(f"{mutant.name}: no verdict is kept")
+    # Those that are only slower have no verdict; the nightly run and proofs of the gate build them.
+    slower = [Mutant(path) for path in sorted((FOLDER / "slow").glob("*.patch"))]
+    for mutant in mutants(kind) + (slower if kind != PRODUCT else []):
         try:
             with tempfile.TemporaryDirectory(prefix="mutant-") as scratch:
                 patched_copy(mutant, pathlib.Path(scratch))

@@ -2,7 +2,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -44,12 +43,6 @@ std::optional<Keyword> keyword_of(std::string_view word) {
   }
   out.rest = word.substr(3);
   return out;
-}
-
-// "names the vertex 9; the file has 4, counted from 0"
-std::string names_no_vertex(std::int64_t vertex, std::size_t vertices) {
-  return "names the vertex " + std::to_string(vertex) + "; the file has " +
-         std::to_string(vertices) + ", counted from 0";
 }
 
 class OffReader {
@@ -264,8 +257,7 @@ class OffReader {
       std::array<double, 4> values{};
       for (std::size_t i = 0; i < values_of_point(); ++i) {
         const float value = std::bit_cast<float>(next_bits());
-        if (!std::isfinite(value))
-          refuse_vertex(0, coordinate_fault(std::isnan(value) ? "nan" : "inf"));
+        if (!std::isfinite(value)) refuse_vertex(0, coordinate_fault(value));
         values[i] = value;
       }
       take_point(0, values);

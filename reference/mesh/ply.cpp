@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -323,8 +321,7 @@ class PlyReader {
       if (!property.length) {
         const double value = next_value(*property.item);
         if (property.role == Role::kNothing) continue;
-        if (!std::isfinite(value))
-          refuse(": " + place() + coordinate_fault(std::isnan(value) ? "nan" : "inf"));
+        if (!std::isfinite(value)) refuse(": " + place() + coordinate_fault(value));
         coordinate(property.role) = value;
         continue;
       }
@@ -381,8 +378,7 @@ class PlyReader {
 
   std::uint32_t vertex_of(std::int64_t index) const {
     if (index < 0 || static_cast<std::size_t>(index) >= vertices_)
-      refuse(": " + place() + " names the vertex " + std::to_string(index) + "; the file has " +
-             std::to_string(vertices_) + ", counted from 0");
+      refuse(": " + place() + " " + names_no_vertex(index, vertices_));
     return static_cast<std::uint32_t>(index);
   }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <optional>
@@ -62,7 +61,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
           bytes, kHeader + kFacet * (corner / 3) + kNormal + 4 * (3 * (corner % 3) + axis)));
       if (!std::isfinite(value))
         refuse(": corner " + std::to_string(corner % 3) + " of triangle " +
-               std::to_string(corner / 3) + coordinate_fault(std::isnan(value) ? "nan" : "inf"));
+               std::to_string(corner / 3) + coordinate_fault(value));
       point[static_cast<Eigen::Index>(axis)] = value;
     }
     out.points.push_back(point);

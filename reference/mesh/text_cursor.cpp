@@ -145,4 +145,13 @@ std::string coordinate_fault(std::string_view word) {
          "; coordinates must be finite numbers";
 }
 
+std::string coordinate_fault(double value) {
+  return coordinate_fault(std::string_view(std::isnan(value) ? "nan" : "inf"));
+}
+
+std::string names_no_vertex(std::int64_t index, std::size_t vertices) {
+  return "names the vertex " + std::to_string(index) + "; the file has " +
+         std::to_string(vertices) + ", counted from 0";
+}
+
 }  // namespace contactcheck::mesh

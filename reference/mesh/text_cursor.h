@@ -56,5 +56,9 @@ bool looks_like_a_number(std::string_view word);
 /// The end of a sentence about a coordinate: ` has the coordinate "9,5"; coordinates must be finite
 /// numbers`.
 std::string coordinate_fault(std::string_view word);
+/// The same of a NaN or an infinity in a binary file.
+std::string coordinate_fault(double value);
+/// "names the vertex 9; the file has 4, counted from 0"
+std::string names_no_vertex(std::int64_t index, std::size_t vertices);
 
 }  // namespace contactcheck::mesh

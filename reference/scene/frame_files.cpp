@@ -1,7 +1,6 @@
 #include "reference/scene/frame_files.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <compare>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "core/deform/name_check.h"
 #include "core/types/check.h"
+#include "reference/scene/point_cache.h"
 #include "reference/text/file_text.h"
 #include "reference/text/shell_word.h"
 
@@ -127,14 +127,13 @@ struct NumberedFile {
   std::string number_text(std::size_t place) const {
     return path.substr(places[place].begin, places[place].end - places[place].begin);
   }
-  // The path with a byte of 0 in place of its numbers, or of one alone.
-  std::string without_numbers(std::optional<std::size_t> one = {}) const {
+  // The path with a byte of 0 in place of its numbers.
+  std::string without_numbers() const {
     std::string out;
     std::size_t at = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (one && i != *one) continue;
-      out += path.substr(at, places[i].begin - at) + '\0';
-      at = places[i].end;
+    for (const Place& place : places) {
+      out += path.substr(at, place.begin - at) + '\0';
+      at = place.end;
     }
     return out + path.substr(at, extension_begin - at) + lower(path.substr(extension_begin));
   }
@@ -167,11 +166,6 @@ struct BodyFiles {
   bool moves() const { return files.size() > 1; }
 };
 
-bool is_cache(const fs::path& file) {
-  const std::string extension = lower(file.extension().string());
-  return extension == ".pc2" || extension == ".mdd";
-}
-
 // What is left of a name without its number, and without a word that only says what that is.
 std::string name_without(const std::string& before, const std::string& after) {
   std::string front = before, back = after;
@@ -197,7 +191,7 @@ BodyFiles resting(const fs::path& file) {
   return out;
 }
 
-/// Gathers bodies in the order in which their first files are named.
+/// Gathers bodies in the order in which their first files are given.
 class Bodies {
  public:
   void add_resting(const fs::path& file) { bodies_.push_back(resting(file)); }
@@ -389,30 +383,29 @@ void add_by_patterns(const std::vector<NumberedFile>& files, const FrameRules& r
       throw InputError("--frames " + text::in_quotes(rules.patterns[i]) + " matches no file");
 }
 
-// In the order in which they are named.
+// Those of one family together.
 void add_by_names(const std::vector<NumberedFile>& files, Bodies& bodies) {
-  std::map<std::string, std::optional<std::size_t>> frame_place;
-  for (const Family& family : families_of(files))
-    frame_place[family.files()[0].without_numbers()] = family.frame_place();
-  for (const NumberedFile& file : files) {
-    const std::optional<std::size_t> place = frame_place.at(file.without_numbers());
-    if (place)
-      bodies.add_frame(file, file.places[*place]);
-    else
-      bodies.add_resting(file.file);
+  for (const Family& family : families_of(files)) {
+    const std::optional<std::size_t> place = family.frame_place();
+    for (const NumberedFile& file : family.files()) {
+      if (place)
+        bodies.add_frame(file, file.places[*place]);
+      else
+        bodies.add_resting(file.file);
+    }
   }
 }
 
-// A mesh with its cache is no frame of another.
+// In the order in which their first files are named. A mesh with its cache is no frame of another.
 std::vector<BodyFiles> bodies_of(const std::vector<fs::path>& files, const FrameRules& rules) {
   Bodies bodies;
   std::vector<NumberedFile> meshes;
   std::vector<std::pair<fs::path, fs::path>> cached;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (is_cache(files[i]))
+    if (is_point_cache(files[i]))
       throw InputError(text::in_quotes(files[i].string()) +
                        " is a point cache; the mesh that it moves is named before it");
-    if (i + 1 < files.size() && is_cache(files[i + 1])) {
+    if (i + 1 < files.size() && is_point_cache(files[i + 1])) {
       cached.emplace_back(files[i], files[i + 1]);
       ++i;
     } else {
@@ -428,9 +421,9 @@ std::vector<BodyFiles> bodies_of(const std::vector<fs::path>& files, const Frame
     out.push_back(resting(mesh));
     out.back().cache = cache;
   }
-  const auto place_of = [&](const BodyFiles& body) {
-    return std::ranges::find(files, body.files[0].file);
-  };
+  std::map<fs::path, std::size_t> first_named;
+  for (std::size_t i = 0; i < files.size(); ++i) first_named.try_emplace(files[i], i);
+  const auto place_of = [&](const BodyFiles& body) { return first_named.at(body.files[0].file); };
   std::ranges::stable_sort(out, {}, place_of);
   return out;
 }
@@ -479,7 +472,7 @@ void keep_common_frames(std::vector<BodyFiles>& bodies, std::vector<std::string>
   }
 }
 
-// A pattern of a shell where it takes in no other file of these.
+// A pattern of a shell where files differ in their numbers alone.
 std::string shown_files(const BodyFiles& body) {
   const auto word = [](const std::string& part) {
     return part.empty() ? "" : text::in_shell(part);

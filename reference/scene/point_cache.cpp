@@ -4,6 +4,7 @@
 #include <bit>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -123,15 +124,26 @@ std::vector<Vec3> PointCache::sample(std::size_t index) const {
   return out;
 }
 
-PointCache read_point_cache(const std::filesystem::path& file) {
+namespace {
+
+std::optional<CacheFormat> cache_format_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".pc2") return CacheFormat::kPc2;
+  if (extension == ".mdd") return CacheFormat::kMdd;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_point_cache(const std::filesystem::path& file) { return cache_format_of(file).has_value(); }
+
+PointCache read_point_cache(const std::filesystem::path& file) {
   const std::string name = "point cache " + text::in_quotes(file.string());
-  if (extension != ".pc2" && extension != ".mdd")
-    throw InputError(name + " is neither .pc2 nor .mdd.");
-  return PointCache(extension == ".pc2" ? CacheFormat::kPc2 : CacheFormat::kMdd,
-                    text::read_file_bytes(file, "point cache", text::kLongestMesh), name);
+  const std::optional<CacheFormat> format = cache_format_of(file);
+  if (!format) throw InputError(name + " is neither .pc2 nor .mdd.");
+  return PointCache(*format, text::read_file_bytes(file, "point cache", text::kLongestMesh), name);
 }
 
 }  // namespace contactcheck::scene

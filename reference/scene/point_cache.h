@@ -49,6 +49,9 @@ class PointCache {
   std::size_t points_ = 0, samples_ = 0, begin_ = 0;
 };
 
+/// By the extension (any case).
+bool is_point_cache(const std::filesystem::path& file);
+
 /// By the extension: .pc2 or .mdd (any case). @throws InputError
 PointCache read_point_cache(const std::filesystem::path& file);
 

@@ -12,14 +12,13 @@
 #include "reference/mesh/foreign_file.h"
 #include "reference/mesh/polygon_split.h"
 #include "reference/text/file_text.h"
+#include "reference/text/words.h"
 
 namespace contactcheck::mesh {
 namespace {
 
 std::optional<SoupFormat> format_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = text::lower_extension(file);
   if (extension == ".obj") return SoupFormat::kObj;
   if (extension == ".off") return SoupFormat::kOff;
   if (extension == ".ply") return SoupFormat::kPly;
@@ -54,9 +53,10 @@ std::string note_of_folded(const PolygonSoup& soup, const std::vector<std::size_
   return (one ? first + "," + of_corners + ", " + concave + "crosses or folds back on itself"
               : std::to_string(folded.size()) +
                     " polygons cross or fold back on themselves, first " + first + of_corners) +
-         (rule == Folded::kFanned ? ": filled by " + fan
-                                  : std::string(": left out (--repair fills ") +
-                                        (one ? "it" : "them") + " by " + fan + ")");
+         (rule == Folded::kFanned
+              ? ": filled by " + fan
+              : std::string(": left out (--repair, in a scene \"repair\": true, fills ") +
+                    (one ? "it" : "them") + " by " + fan + ")");
 }
 
 LoadedMesh triangulated(PolygonSoup soup, Folded rule) {

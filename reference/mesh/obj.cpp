@@ -7,7 +7,6 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
-#include "reference/text/file_text.h"
 #include "reference/text/words.h"
 
 namespace contactcheck::mesh {
@@ -83,8 +82,7 @@ class ObjReader {
     // A weight or a colour: whatever number it is. Another word is of a line that ran into this.
     for (std::string_view word; !(word = cursor_.word_of_line()).empty();)
       if (!looks_like_a_number(word))
-        refuse_vertex(line,
-                      " has " + text::in_quotes(std::string(word), 40) + " behind its coordinates");
+        refuse_vertex(line, " has " + quoted_word(word) + " behind its coordinates");
     soup_.points.push_back(point);
   }
 
@@ -102,8 +100,7 @@ class ObjReader {
     const auto value = text::whole_number<std::int64_t>(index);
     const std::size_t face = soup_.size();
     if (!value)
-      refuse_face(face, "has the vertex index " + text::in_quotes(std::string(word), 40) +
-                            ", which is no whole number");
+      refuse_face(face, "has the vertex index " + quoted_word(word) + ", which is no whole number");
     if (*value == 0) refuse_face(face, names(0) + "they count from 1");
     const auto so_far = static_cast<std::int64_t>(soup_.points.size());
     if (*value < -so_far)
@@ -119,8 +116,8 @@ class ObjReader {
   void leave_out(std::string_view keyword) {
     // FCL's files begin with their numbers of vertices and faces; elsewhere a line was broken.
     if (looks_like_a_number(keyword) && !soup_.points.empty())
-      refuse(": line " + std::to_string(cursor_.line()) + " begins with " +
-             text::in_quotes(std::string(keyword), 40) + ", which is no keyword");
+      refuse(": line " + std::to_string(cursor_.line()) + " begins with " + quoted_word(keyword) +
+             ", which is no keyword");
     const auto known = std::ranges::find(left_out_, keyword, &LeftOut::keyword);
     if (known != left_out_.end()) {
       ++known->lines;
@@ -135,7 +132,7 @@ class ObjReader {
     for (const LeftOut& left_out : left_out_)
       add_note(soup_.notes, std::to_string(left_out.lines) +
                                 (left_out.lines == 1 ? " line " : " lines ") +
-                                text::in_quotes(left_out.keyword, 40) + " left out" +
+                                quoted_word(left_out.keyword) + " left out" +
                                 (left_out.lines == 1 ? " (line " : " (the first is line ") +
                                 std::to_string(left_out.first_line) + ")");
     if (other_lines_ > 0)

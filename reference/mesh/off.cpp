@@ -8,7 +8,6 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
-#include "reference/text/file_text.h"
 #include "reference/text/words.h"
 
 namespace contactcheck::mesh {
@@ -87,7 +86,7 @@ class OffReader {
     std::optional<Keyword> out = keyword_of(word);
     if (!out) {
       if (!text::whole_number<std::size_t>(word))
-        refuse(" is no OFF: it begins with " + text::in_quotes(std::string(word), 40));
+        refuse(" is no OFF: it begins with " + quoted_word(word));
       cursor_ = begin;
     }
     return out;
@@ -127,8 +126,8 @@ class OffReader {
   std::int64_t whole_word(std::string_view word, const char* what) const {
     const auto value = text::whole_number<std::int64_t>(word);
     if (!value)
-      refuse(" has " + text::in_quotes(std::string(word), 40) + " on line " +
-             std::to_string(cursor_.line()) + ", where " + what + " should be");
+      refuse(" has " + quoted_word(word) + " on line " + std::to_string(cursor_.line()) +
+             ", where " + what + " should be");
     return *value;
   }
 
@@ -189,7 +188,7 @@ class OffReader {
     for (std::string_view word; !(word = cursor_.word_of_line()).empty();)
       if (!looks_like_a_number(word))
         refuse(": vertex " + std::to_string(soup_.points.size() - 1) + " (line " +
-               std::to_string(cursor_.line()) + ") has " + text::in_quotes(std::string(word), 40) +
+               std::to_string(cursor_.line()) + ") has " + quoted_word(word) +
                " behind its coordinates");
   }
 
@@ -199,15 +198,13 @@ class OffReader {
     soup_.lines.push_back(static_cast<std::uint32_t>(cursor_.line()));
     const auto corners = text::whole_number<std::size_t>(word);
     if (!corners)
-      refuse_face("begins with " + text::in_quotes(std::string(word), 40) +
-                  ", which is no number of corners");
+      refuse_face("begins with " + quoted_word(word) + ", which is no number of corners");
     for (std::size_t i = 0; i < *corners; ++i) {
       word = cursor_.word();
       if (word.empty()) refuse_end();
       const auto index = text::whole_number<std::int64_t>(word);
       if (!index)
-        refuse_face("has the vertex index " + text::in_quotes(std::string(word), 40) +
-                    ", which is no whole number");
+        refuse_face("has the vertex index " + quoted_word(word) + ", which is no whole number");
       take_corner(*index);
     }
     soup_.ends.push_back(soup_.corners.size());
@@ -230,15 +227,15 @@ class OffReader {
     if (count > 0)
       refuse(" has " + std::to_string(count) + (count == 1 ? " line" : " lines") +
              " more than its header's " + std::to_string(vertices_) + " vertices and " +
-             std::to_string(faces_) + " faces: " + text::in_quotes(line, 40));
+             std::to_string(faces_) + " faces: " + quoted_word(line));
   }
 
   // Words of 32 bits, the highest byte first.
   std::uint32_t next_bits() {
     if (bytes_.size() - at_ < 4) refuse_end();
-    std::uint32_t out = 0;
-    for (int i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(bytes_[at_++]);
-    return out;
+    at_ += 4;
+    return static_cast<std::uint32_t>(
+        text::whole_of_bytes(bytes_.substr(at_ - 4, 4), std::endian::big));
   }
   std::int32_t next_whole() { return static_cast<std::int32_t>(next_bits()); }
 

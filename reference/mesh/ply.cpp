@@ -9,7 +9,6 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
-#include "reference/text/file_text.h"
 #include "reference/text/words.h"
 
 namespace contactcheck::mesh {
@@ -99,8 +98,7 @@ class PlyReader {
   std::string element_text() const {
     const char* const names[] = {"", "vertex", "face", "strip"};
     const auto kind = static_cast<std::size_t>(element_->kind);
-    return (kind == 0 ? text::in_quotes(element_->name, 40) : names[kind]) + " " +
-           std::to_string(index_);
+    return (kind == 0 ? quoted_word(element_->name) : names[kind]) + " " + std::to_string(index_);
   }
   std::string place() const {
     return element_text() +
@@ -133,8 +131,7 @@ class PlyReader {
         if (!has_format) refuse(" has a header without a format");
         return;
       } else {
-        refuse_header("begins with " + text::in_quotes(std::string(keyword), 40) +
-                      ", which is no keyword");
+        refuse_header("begins with " + quoted_word(keyword) + ", which is no keyword");
       }
     }
     refuse(" has a header without an end");
@@ -149,15 +146,14 @@ class PlyReader {
     else if (word == "binary_big_endian")
       encoding_ = Encoding::kBigEndian;
     else
-      refuse_header("has the format " + text::in_quotes(std::string(word), 40) +
+      refuse_header("has the format " + quoted_word(word) +
                     "; it is ascii, binary_little_endian or binary_big_endian");
   }
 
   void read_element() {
     const std::string_view name = cursor_.word_of_line(), number = cursor_.word_of_line();
     const auto count = text::whole_number<std::size_t>(number);
-    if (!count)
-      refuse_header("has " + text::in_quotes(std::string(number), 40) + " as a number of elements");
+    if (!count) refuse_header("has " + quoted_word(number) + " as a number of elements");
     Element element{std::string(name), *count, {}, Element::Kind::kOther};
     if (name == "vertex" || name == "vertices") element.kind = Element::Kind::kVertex;
     if (name == "face" || name == "faces") element.kind = Element::Kind::kFace;
@@ -172,8 +168,7 @@ class PlyReader {
     const auto type = [&] {
       const TypeNames* const out = type_of(word);
       if (out == nullptr)
-        refuse_header("has the type " + text::in_quotes(std::string(word), 40) +
-                      ", which PLY does not know");
+        refuse_header("has the type " + quoted_word(word) + ", which PLY does not know");
       return out;
     };
     if (word == "list") {
@@ -215,8 +210,8 @@ class PlyReader {
       // An element takes a byte at least: a larger number would only exhaust the memory.
       if (element.count > bytes_.size())
         refuse(" claims " + std::to_string(element.count) + " elements " +
-               text::in_quotes(element.name, 40) + ", more than its " +
-               std::to_string(bytes_.size()) + " bytes can hold");
+               quoted_word(element.name) + ", more than its " + std::to_string(bytes_.size()) +
+               " bytes can hold");
       if (element.kind == Element::Kind::kVertex) vertices_ = element.count;
       const auto kind = static_cast<std::size_t>(element.kind);
       if (++of_kind[kind] > 1 && element.kind == Element::Kind::kVertex)
@@ -229,7 +224,7 @@ class PlyReader {
           if (!element.has(role)) refuse(std::string(" has vertices without a property ") + name);
       if (element.kind != Element::Kind::kVertex && element.kind != Element::Kind::kOther &&
           element.count > 0 && !element.has(Role::kCorners))
-        refuse(" has an element " + text::in_quotes(element.name, 40) +
+        refuse(" has an element " + quoted_word(element.name) +
                " without a list of vertex indices");
     }
   }
@@ -271,8 +266,7 @@ class PlyReader {
     }
     const std::string rest(cursor_.rest_of_line());
     if (!rest.empty())
-      refuse(": " + place() +
-             " has more on its line than its properties: " + text::in_quotes(rest, 40));
+      refuse(": " + place() + " has more on its line than its properties: " + quoted_word(rest));
     if (element_->kind == Element::Kind::kVertex) soup_.points.push_back(point_);
   }
 
@@ -302,15 +296,14 @@ class PlyReader {
   // Whole numbers with decimals are written under all types by some programs: nobody reads these.
   void leave_out(std::string_view word) const {
     if (!looks_like_a_number(word))
-      refuse(": " + place() + " has " + text::in_quotes(std::string(word), 40) +
-             " in place of a number");
+      refuse(": " + place() + " has " + quoted_word(word) + " in place of a number");
   }
 
   std::int64_t whole_word(std::string_view word, const TypeNames& type, const char* what) const {
     const auto value = text::whole_number<std::int64_t>(word);
     if (!value || *value < type.lowest || *value > type.highest)
-      refuse(": " + place() + " has " + text::in_quotes(std::string(word), 40) + " as " + what +
-             ", which is no " + type.name);
+      refuse(": " + place() + " has " + quoted_word(word) + " as " + what + ", which is no " +
+             type.name);
     return *value;
   }
 
@@ -345,11 +338,9 @@ class PlyReader {
 
   double next_value(const TypeNames& type) {
     if (bytes_.size() - at_ < type.size) refuse_end();
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < type.size; ++i)
-      bits = bits << 8 |
-             static_cast<unsigned char>(
-                 bytes_[at_ + (encoding_ == Encoding::kBigEndian ? i : type.size - 1 - i)]);
+    const std::uint64_t bits = text::whole_of_bytes(
+        bytes_.substr(at_, type.size),
+        encoding_ == Encoding::kBigEndian ? std::endian::big : std::endian::little);
     at_ += type.size;
     switch (type.type) {
       case Type::kInt8:
@@ -414,7 +405,7 @@ class PlyReader {
       while (rest.empty() && cursor_.next_line()) rest = cursor_.rest_of_line();
       if (rest.empty()) return;
       refuse(" goes on after the last element of its header (line " +
-             std::to_string(cursor_.line()) + "): " + text::in_quotes(std::string(rest), 40));
+             std::to_string(cursor_.line()) + "): " + quoted_word(rest));
     }
     const std::string_view rest = bytes_.substr(at_);
     if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos)

@@ -7,7 +7,7 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
-#include "reference/text/file_text.h"
+#include "reference/text/words.h"
 
 namespace contactcheck::mesh {
 namespace {
@@ -15,16 +15,12 @@ namespace {
 constexpr std::size_t kHeader = 84, kFacet = 50, kNormal = 12;  // bytes
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+  return static_cast<std::uint32_t>(text::whole_of_bytes(bytes.substr(at, 4), std::endian::little));
 }
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 // `keyword` is in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
-  return std::ranges::equal(word, keyword, {}, lower);
+  return std::ranges::equal(word, keyword, {}, [](char c) { return text::lower_case(c); });
 }
 
 // Of a binary file, whatever its first 80 bytes say. No text has bytes of 0.
@@ -88,8 +84,8 @@ class TextReader {
         cursor_.rest_of_line();  // a name, whatever its words
       } else if (!is_keyword(word, "outer") && !is_keyword(word, "loop") &&
                  !is_keyword(word, "endloop")) {
-        refuse(": line " + std::to_string(cursor_.line()) + " has " +
-               text::in_quotes(std::string(word), 40) + ", which is no word of STL");
+        refuse(": line " + std::to_string(cursor_.line()) + " has " + quoted_word(word) +
+               ", which is no word of STL");
       }
     }
     if (in_facet_) refuse(" ends within triangle " + std::to_string(soup_.size()));

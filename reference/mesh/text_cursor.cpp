@@ -40,6 +40,12 @@ TextCursor::TextCursor(std::string_view text, Rule rule)
   if (text.starts_with("\xEF\xBB\xBF")) at_ = 3;
 }
 
+// Where the line ends of which only blanks are left at `at`; npos if it has more.
+std::size_t TextCursor::end_of_blanks(std::size_t at) const {
+  while (at < text_.size() && is_blank(text_[at])) ++at;
+  return at == text_.size() || ends_line(text_[at]) ? at : std::string_view::npos;
+}
+
 // Leaves the cursor on a word, or where the line ends.
 bool TextCursor::at_end_of_line() {
   while (at_ < text_.size()) {
@@ -49,9 +55,9 @@ bool TextCursor::at_end_of_line() {
     } else if (comments_ && c == '#') {
       while (at_ < text_.size() && !ends_line(text_[at_])) ++at_;
       return true;
-    } else if (continued_ && c == '\\' && at_ + 1 < text_.size() && ends_line(text_[at_ + 1])) {
-      ++at_;
-      skip_line_end();
+    } else if (continued_ && c == '\\' && end_of_blanks(at_ + 1) != std::string_view::npos) {
+      at_ = end_of_blanks(at_ + 1);
+      if (at_ < text_.size()) skip_line_end();
     } else {
       return ends_line(c);
     }
@@ -72,7 +78,7 @@ std::string_view TextCursor::word_of_line() {
     if (is_blank(c) || ends_line(c)) break;
     // "1.#QNAN" is one word: the NaN of some runtime libraries, and no comment behind a 1.
     if (comments_ && c == '#' && text_[at_ - 1] != '.') break;
-    if (continued_ && c == '\\' && at_ + 1 < text_.size() && ends_line(text_[at_ + 1])) break;
+    if (continued_ && c == '\\' && end_of_blanks(at_ + 1) != std::string_view::npos) break;
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
@@ -140,9 +146,10 @@ bool looks_like_a_number(std::string_view word) {
   return begins_with("nan") || begins_with("inf");
 }
 
+std::string quoted_word(std::string_view word) { return text::in_quotes(std::string(word), 40); }
+
 std::string coordinate_fault(std::string_view word) {
-  return " has the coordinate " + text::in_quotes(std::string(word), 40) +
-         "; coordinates must be finite numbers";
+  return " has the coordinate " + quoted_word(word) + "; coordinates must be finite numbers";
 }
 
 std::string coordinate_fault(double value) {

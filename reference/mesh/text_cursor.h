@@ -16,7 +16,7 @@ class TextCursor {
   enum class Rule : std::uint8_t {
     kPlain,
     kHashComments,           ///< '#' ends a line: OFF
-    kHashCommentsContinued,  ///< and a line whose last character is '\' goes on in the next: OBJ
+    kHashCommentsContinued,  ///< and a line whose last word ends in '\' goes on in the next: OBJ
   };
   explicit TextCursor(std::string_view text, Rule rule = Rule::kPlain);
 
@@ -35,6 +35,7 @@ class TextCursor {
   std::size_t offset() const { return at_; }
 
  private:
+  std::size_t end_of_blanks(std::size_t at) const;
   bool at_end_of_line();
   void skip_line_end();
 
@@ -53,6 +54,8 @@ std::optional<Real> decimal(std::string_view word);
 /// that nobody reads.
 bool looks_like_a_number(std::string_view word);
 
+/// The word in quotes for a message, cut after 40 bytes.
+std::string quoted_word(std::string_view word);
 /// The end of a sentence about a coordinate: ` has the coordinate "9,5"; coordinates must be finite
 /// numbers`.
 std::string coordinate_fault(std::string_view word);

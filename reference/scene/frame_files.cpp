@@ -15,6 +15,7 @@
 #include "reference/scene/point_cache.h"
 #include "reference/text/file_text.h"
 #include "reference/text/shell_word.h"
+#include "reference/text/words.h"
 
 namespace contactcheck::scene {
 namespace {
@@ -25,11 +26,6 @@ using Json = nlohmann::ordered_json;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_separator(char c) { return std::string_view("_-. =").find(c) != std::string_view::npos; }
-
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// A decimal number of any length, as it is written in a name.
 struct Number {
@@ -75,7 +71,7 @@ std::string word_before(const std::string& path, std::size_t number) {
   while (end > 0 && is_separator(path[end - 1])) --end;
   std::size_t begin = end;
   while (begin > 0 && is_letter(path[begin - 1])) --begin;
-  return lower(path.substr(begin, end - begin));
+  return text::lower_case(path.substr(begin, end - begin));
 }
 
 bool is_time(const std::string& word) { return word == "t" || word == "time"; }
@@ -135,7 +131,8 @@ struct NumberedFile {
       out += path.substr(at, place.begin - at) + '\0';
       at = place.end;
     }
-    return out + path.substr(at, extension_begin - at) + lower(path.substr(extension_begin));
+    return out + path.substr(at, extension_begin - at) +
+           text::lower_case(path.substr(extension_begin));
   }
   // Its name, or the end of its path that has all of these places, with words in place of them.
   std::string with_words(const std::vector<std::pair<Place, std::string>>& words) const {
@@ -175,7 +172,7 @@ std::string name_without(const std::string& before, const std::string& after) {
   while (!front.empty() && is_loose(front.back())) front.pop_back();
   std::size_t word = front.size();
   while (word > 0 && is_letter(front[word - 1])) --word;
-  if (counts_frames(lower(front.substr(word)))) front.resize(word);
+  if (counts_frames(text::lower_case(front.substr(word)))) front.resize(word);
   while (!front.empty() && is_loose(front.back())) front.pop_back();
   while (!back.empty() && is_loose(back.front())) back.erase(0, 1);
   while (!back.empty() && is_loose(back.back())) back.pop_back();
@@ -199,7 +196,7 @@ class Bodies {
   void add_frame(const NumberedFile& file, Place place) {
     const std::string key = file.path.substr(0, place.begin) + '\0' +
                             file.path.substr(place.end, file.extension_begin - place.end) +
-                            lower(file.path.substr(file.extension_begin));
+                            text::lower_case(file.path.substr(file.extension_begin));
     const auto [at, is_new] = known_.try_emplace(key, bodies_.size());
     if (is_new) {
       const bool in_name = place.begin >= file.name_begin;
@@ -290,7 +287,7 @@ class Family {
     if (differing.size() == 1)
       readings += " if it counts frames of one body, " +
                   pattern({{places[differing[0]], "{body}"}}) + " if it counts bodies";
-    if (const Place &a = places[differing[0]], &b = places[differing.back()];
+    if (const Place& a = places[differing[0]], &b = places[differing.back()];
         a.end + 1 == b.begin && files_[0].path[a.end] == '.')
       readings += ", or " + pattern({{{a.begin, b.end}, "{frame}"}});
     throw InputError(text::in_quotes(files_[0].path) + " and " +

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "core/types/check.h"
 #include "reference/text/file_text.h"
+#include "reference/text/words.h"
 
 namespace contactcheck::scene {
 namespace {
@@ -46,12 +46,9 @@ void PointCache::require_finite(float value, const std::string& what) const {
 }
 
 std::uint32_t PointCache::word(std::size_t offset) const {
-  std::uint32_t out = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t place = format_ == CacheFormat::kPc2 ? 3 - i : i;
-    out = out << 8 | static_cast<unsigned char>(bytes_[offset + place]);
-  }
-  return out;
+  return static_cast<std::uint32_t>(
+      text::whole_of_bytes(std::string_view(bytes_).substr(offset, 4),
+                           format_ == CacheFormat::kPc2 ? std::endian::little : std::endian::big));
 }
 
 float PointCache::number(std::size_t offset) const { return std::bit_cast<float>(word(offset)); }
@@ -127,9 +124,7 @@ std::vector<Vec3> PointCache::sample(std::size_t index) const {
 namespace {
 
 std::optional<CacheFormat> cache_format_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = text::lower_extension(file);
   if (extension == ".pc2") return CacheFormat::kPc2;
   if (extension == ".mdd") return CacheFormat::kMdd;
   return std::nullopt;

@@ -307,7 +307,8 @@ std::string RecordedFrames::find_space(const TriangleMesh& mesh) {
       mesh::add_note(notes, "sample 0 of the cache is not the mesh: it is taken as it is");
     else if (found->moves() && !wanted)
       mesh::add_note(notes, "sample 0 of the cache is the mesh with " + found->described() +
-                                ": it is taken as it is (--cache-space mesh leads it there)");
+                                ": it is taken as it is (--cache-space mesh, in a scene \"space\": "
+                                "\"mesh\", leads it there)");
     else if (!found->is_identity())
       mesh::add_note(notes, "the cache is led to the mesh by " + found->described());
     if (found && (wanted || !found->moves())) space_ = *found;

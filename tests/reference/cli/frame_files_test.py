@@ -66,7 +66,7 @@ def test_takes_a_cache_with_an_offset_as_it_is_unless_told(ball):
     outcome = check(folder, files)
     assert outcome.exit_code == 1
     assert ("; sample 0 of the cache is the mesh with an offset of (3, 0, 0): it is taken as it is "
-            "(--cache-space mesh leads it there)\n") in outcome.out
+            '(--cache-space mesh, in a scene "space": "mesh", leads it there)\n') in outcome.out
     assert "\nframe 0\n  ball and rest: " in outcome.out
     as_the_file = check(folder, files, "--cache-space", "file")
     assert as_the_file.exit_code == 1
@@ -181,7 +181,7 @@ FLAG = [(0, 0, 0), (1, 1, 0), (1, 0, 0), (0, 1, 0), (-1, 0.5, 0), (0, 0, 5), (1,
 FLAG_FACES = "f 1 2 3 4 5\nf 6 7 1\n"
 
 
-@pytest.mark.parametrize(("frames", "words"), [(1, "left out (--repair fills it by a fan)"), (2, "left out")],
+@pytest.mark.parametrize(("frames", "words"), [(1, 'left out (--repair, in a scene "repair": true, fills it by a fan)'), (2, "left out")],
                          ids=["at_rest", "recorded"])
 def test_leaves_out_a_polygon_that_folds_or_fills_it(tmp_path, frames, words):
     vertices = "".join(f"v {x} {y} {z}\n" for x, y, z in FLAG)

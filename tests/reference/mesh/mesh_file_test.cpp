@@ -440,7 +440,7 @@ INSTANTIATE_TEST_SUITE_P(
             "PolygonsThatCrossThemselvesAlone", "a.off",
             "OFF\n5 1 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n-1 0.5 0\n5 0 1 2 3 4\n",
             " holds no triangle: face 0 (line 8), of 5 corners, crosses or folds back on itself: "
-            "left out (--repair fills it by a fan)."},
+            "left out (--repair, in a scene \"repair\": true, fills it by a fan)."},
         BadMesh{"NoTriangle", "a.off", "OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n", " holds no triangle."},
         BadMesh{"NotAMesh", "a.ply", "hello\n", " is no PLY: it does not begin with \"ply\"."}),
     [](const auto& test) { return test.param.name; });

@@ -130,6 +130,10 @@ std::vector<Variant> variants() {
       {"ObjNoLastLineEnd", obj, kObj.substr(0, kObj.size() - 1)},
       {"ObjFaceContinued", obj, with(kObj, "f 1 3 2", "f 1 3 \\\n 2")},
       {"ObjFaceContinuedWithinAWord", obj, with(kObj, "f 1 3 2", "f 1 3\\\r\n 2")},
+      {"ObjFaceContinuedBehindBlanks", obj, with(kObj, "f 1 3 2", "f 1 3 \\ \t\n 2")},
+      {"ObjBackslashAtTheEnd", obj, kObj.substr(0, kObj.size() - 1) + " \\"},
+      {"ObjBackslashAndBlanksAtTheEnd", obj, kObj.substr(0, kObj.size() - 1) + "\\  "},
+      {"ObjBackslashWithinAWord", obj, "usemtl C:\\wood\\oak\n" + kObj},
       {"ObjVertexContinued", obj, with(kObj, "v 0 0 -1.5", "v 0 \\\n0 \\\n-1.5")},
       {"ObjCommentThatEndsInABackslash", obj, "# C:\\models\\\n" + kObj},
       {"ObjCommentBehindAFace", obj, with(kObj, "f 1 3 2", "f 1 3 2# of it\n#")},
@@ -284,8 +288,8 @@ TEST(FoldedPolygon, IsNamedAndLeftOutOrFilledByAFan) {
   EXPECT_EQ(left_out.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(left_out.unfilled, std::vector<std::size_t>{1});
   EXPECT_EQ(left_out.notes,
-            "face 1 (line 7), of 5 corners, crosses or folds back on itself: left out (--repair "
-            "fills it by a fan)");
+            "face 1 (line 7), of 5 corners, crosses or folds back on itself: left out (--repair, "
+            "in a scene \"repair\": true, fills it by a fan)");
   const LoadedMesh fanned = read_mesh_bytes(SoupFormat::kObj, bytes, "a.obj", Folded::kFanned);
   EXPECT_EQ(fanned.mesh.triangles,
             (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 2, 3}}));
@@ -295,7 +299,7 @@ TEST(FoldedPolygon, IsNamedAndLeftOutOrFilledByAFan) {
   const std::string two = bytes + "f 1 2 3 4 5\n";
   EXPECT_EQ(read_mesh_bytes(SoupFormat::kObj, two, "a.obj").notes,
             "2 polygons cross or fold back on themselves, first face 1 (line 7) of 5 corners: left "
-            "out (--repair fills them by fans)");
+            "out (--repair, in a scene \"repair\": true, fills them by fans)");
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Embree's scene-against-scene collision as a detector: the fast peer.
 //
-//   embree  one hierarchy of boxes per body, refitted; rtcCollide names the pairs of triangles
-//           whose boxes overlap; core's exact test decides, eight pairs at a time
+//   embree  one hierarchy of boxes per body, refitted or built anew (option `build`); rtcCollide
+//           names pairs of triangles, of leaves whose boxes overlap; core's exact test decides,
+//           eight pairs at a time
 //
 // Embree only culls, in single precision, with boxes rounded outward: the answer is exact for all
 // finite doubles, closed (touching is contact) and about surfaces. Single threaded, and it leaves
@@ -92,14 +93,15 @@ double normalising_scale(double largest) {
 /// One body: a scene of one user geometry, whose primitives are the triangles.
 class EmbreeBody {
  public:
-  EmbreeBody(RTCDevice device, const TriangleMesh& mesh)
+  /// `quality`: of what every commit after the first does.
+  EmbreeBody(RTCDevice device, const TriangleMesh& mesh, RTCBuildQuality quality)
       : device_(device), triangles_(mesh.triangles), vertices_(mesh.vertices.size()) {
     scene_.reset(rtcNewScene(device_));
     geometry_.reset(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER));
     require_ok(device_, "rtcNewScene or rtcNewGeometry");
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW);
-    rtcSetGeometryBuildQuality(geometry_.get(), RTC_BUILD_QUALITY_REFIT);
+    rtcSetGeometryBuildQuality(geometry_.get(), quality);
     rtcSetGeometryUserPrimitiveCount(geometry_.get(), static_cast<unsigned>(triangles_.size()));
     rtcSetGeometryUserData(geometry_.get(), this);
     rtcSetGeometryBoundsFunction(geometry_.get(), &EmbreeBody::triangle_bounds, nullptr);
@@ -218,8 +220,9 @@ class ExactPairs {
 
 class EmbreeDetector final : public BodyPairDetector {
  public:
-  explicit EmbreeDetector(Prefilter prefilter)
+  EmbreeDetector(RTCBuildQuality quality, Prefilter prefilter)
       : BodyPairDetector(prefilter),
+        quality_(quality),
         arena_(std::make_unique<tbb::task_arena>(1)),
         device_(rtcNewDevice(kDeviceConfiguration)) {
     if (!device_) require_ok(nullptr, "rtcNewDevice");
@@ -234,7 +237,7 @@ class EmbreeDetector final : public BodyPairDetector {
     std::vector<CandidateBody> rest;
     for (std::uint32_t b = 0; b < bodies.size(); ++b) {
       const TriangleMesh& mesh = bodies[b].shape->mesh;
-      bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), mesh));
+      bodies_.push_back(std::make_unique<EmbreeBody>(device_.get(), mesh, quality_));
       rest.push_back({b, mesh.vertices, bounding_box(mesh.vertices)});
       if (expects_self()) neighbours_[b] = adjacent_pairs(bodies[b].shape->linked());
     }
@@ -257,7 +260,7 @@ class EmbreeDetector final : public BodyPairDetector {
     }
     StageTrace out;
     out.stages.push_back(
-        triangle_record("boxes", brute_force_pairs(triangles), std::move(candidates)));
+        triangle_record("rtcCollide", brute_force_pairs(triangles), std::move(candidates)));
     out.stages.push_back(
         triangle_record("triangles", out.stages[0].out, std::move(exact.triangles)));
     return out;
@@ -366,6 +369,7 @@ class EmbreeDetector final : public BodyPairDetector {
   }
 
   const Semantics semantics_ = exact_triangle_semantics(Precision::kDouble, true);
+  const RTCBuildQuality quality_;
   std::unique_ptr<tbb::task_arena> arena_;           // one slot: the calling thread's
   Owned<RTCDevice> device_;                          // outlives the scenes
   std::vector<std::unique_ptr<EmbreeBody>> bodies_;  // Embree holds their addresses
@@ -386,9 +390,17 @@ Adapter embree_adapter() {
   info.given = std::string(kSweepAndPrune) +
                "exact tests eight at a time, by the kernels of ffd-lazy; body ends at the first "
                "contact of two bodies";
-  info.options = {prefilter_option()};
+  info.options = {
+      prefilter_option(),
+      choice_option("build", "refit", {"refit", "low", "medium"},
+                    "a frame's boxes: of the hierarchy of the rest shape, or of one that is built "
+                    "anew by Morton codes (low) or by surface areas (medium)")};
   info.make = [](const Options& options) {
-    return std::make_unique<EmbreeDetector>(prefilter_of(options));
+    const std::string& build = options.at("build");
+    const RTCBuildQuality quality = build == "low"      ? RTC_BUILD_QUALITY_LOW
+                                    : build == "medium" ? RTC_BUILD_QUALITY_MEDIUM
+                                                        : RTC_BUILD_QUALITY_REFIT;
+    return std::make_unique<EmbreeDetector>(quality, prefilter_of(options));
   };
   return {"embree", RTC_VERSION_STRING, {std::move(info)}};
 }

@@ -5,9 +5,9 @@
 //   fcl-collide  axis-aligned boxes through fcl::collide, the documented call
 //
 // All three hold one hierarchy per body, and of every body whose box meets that of another replace
-// the vertices and refit it bottom-up on every update. They answer about surfaces, closed
-// (touching is contact), in double; a body within another is no contact. They claim no exactness:
-// FCL's triangle test rounds, and its oriented boxes miss pairs by rounding.
+// the vertices and refit it, or build it anew (option `refit`), on every update. They answer about
+// surfaces, closed (touching is contact), in double; a body within another is no contact. They
+// claim no exactness: FCL's triangle test rounds, and its oriented boxes miss pairs by rounding.
 //
 // Seen in FCL 0.7.0 (Debian 12), November 2026:
 // - fcl::collide copies both models on every call for boxes that are not oriented
@@ -127,11 +127,19 @@ void collide_with_itself(fcl::BVHModel<BV>& model, const std::vector<Triangle>& 
   fcl::detail::selfCollide<double>(&node);
 }
 
-/// One body: its hierarchy, refitted to the vertices of the last update.
+enum class Refit : std::uint8_t { kBottomUp, kTopDown, kRebuild };
+
+struct FclSettings {
+  Refit refit = Refit::kBottomUp;
+  fcl::detail::SplitMethodType split = fcl::detail::SPLIT_METHOD_MEAN;
+};
+
+/// One body: its hierarchy, of the vertices of the last update.
 template <typename BV>
 class FclBody {
  public:
-  explicit FclBody(const TriangleMesh& mesh) {
+  FclBody(const TriangleMesh& mesh, FclSettings settings) : refit_(settings.refit) {
+    model_.bv_splitter = std::make_shared<fcl::detail::BVSplitter<BV>>(settings.split);
     std::vector<fcl::Triangle> triangles;
     triangles.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
@@ -148,7 +156,9 @@ class FclBody {
                            "one position per vertex");
     require_ok(model_.beginReplaceModel(), "beginReplaceModel");
     for (const Vec3& vertex : vertices) require_ok(model_.replaceVertex(vertex), "replaceVertex");
-    require_ok(model_.endReplaceModel(/*refit=*/true, /*bottomup=*/true), "endReplaceModel");
+    require_ok(model_.endReplaceModel(/*refit=*/refit_ != Refit::kRebuild,
+                                      /*bottomup=*/refit_ == Refit::kBottomUp),
+               "endReplaceModel");
   }
 
   /// By FCL's own test: without area it leaves the triangle's normal as it was in memory, which may
@@ -162,14 +172,18 @@ class FclBody {
   fcl::BVHModel<BV>& model() { return model_; }
 
  private:
+  Refit refit_;
   fcl::BVHModel<BV> model_;
 };
 
 template <typename BV>
 class FclDetector final : public BodyPairDetector {
  public:
-  FclDetector(CollideFunction<BV> call, bool self, Prefilter prefilter)
-      : BodyPairDetector(prefilter), semantics_(fcl_semantics(self)), call_(call) {}
+  FclDetector(CollideFunction<BV> call, bool self, FclSettings settings, Prefilter prefilter)
+      : BodyPairDetector(prefilter),
+        semantics_(fcl_semantics(self)),
+        settings_(settings),
+        call_(call) {}
 
   const Semantics& semantics() const override { return semantics_; }
 
@@ -177,7 +191,7 @@ class FclDetector final : public BodyPairDetector {
     set_bodies(bodies);
     bodies_.clear();
     for (const Body& body : bodies)
-      bodies_.push_back(std::make_unique<FclBody<BV>>(body.shape->mesh));
+      bodies_.push_back(std::make_unique<FclBody<BV>>(body.shape->mesh, settings_));
   }
 
  private:
@@ -222,22 +236,42 @@ class FclDetector final : public BodyPairDetector {
   }
 
   const Semantics semantics_;
+  const FclSettings settings_;
   CollideFunction<BV> call_;
   // Models cannot be moved; FCL holds raw arrays.
   std::vector<std::unique_ptr<FclBody<BV>>> bodies_;
   fcl::CollisionResultd result_;  ///< kept for its capacity
 };
 
+FclSettings settings_from(const Options& options) {
+  FclSettings out;
+  const std::string &refit = options.at("refit"), &split = options.at("split");
+  if (refit == "top-down") out.refit = Refit::kTopDown;
+  if (refit == "rebuild") out.refit = Refit::kRebuild;
+  if (split == "median") out.split = fcl::detail::SPLIT_METHOD_MEDIAN;
+  if (split == "center") out.split = fcl::detail::SPLIT_METHOD_BV_CENTER;
+  return out;
+}
+
+/// `refit`: the default of this option.
 template <typename BV>
 DetectorInfo info(std::string id, std::string summary, const std::string& given,
-                  CollideFunction<BV> collide, bool self) {
+                  CollideFunction<BV> collide, bool self, const char* refit) {
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
   out.given = kSweepAndPrune + given + "; body ends at the first contact of two bodies";
-  out.options = {prefilter_option()};
+  out.options = {
+      prefilter_option(),
+      choice_option("refit", refit, {"bottom-up", "top-down", "rebuild"},
+                    "a frame's boxes: joined from their children's, fitted to the triangles below "
+                    "them, or of a hierarchy that is built anew"),
+      choice_option("split", "mean", {"mean", "median", "center"},
+                    "where a hierarchy that is built divides a box: at the mean or the median of "
+                    "its triangles' centres, or at its own centre")};
   out.make = [collide, self](const Options& options) {
-    return std::make_unique<FclDetector<BV>>(collide, self, prefilter_of(options));
+    return std::make_unique<FclDetector<BV>>(collide, self, settings_from(options),
+                                             prefilter_of(options));
   };
   return out;
 }
@@ -247,18 +281,18 @@ DetectorInfo info(std::string id, std::string summary, const std::string& given,
 Adapter fcl_adapter() {
   using Box = fcl::AABBd;
   using OrientedBox = fcl::OBBRSSd;
-  return {
-      "fcl",
-      FCL_VERSION,
-      {info<Box>("fcl-aabb",
-                 "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
-                 "models are not copied", &collide_directly<Box>, true),
-       info<OrientedBox>("fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
-                         "models are not copied", &collide_documented<OrientedBox>, true),
-       info<Box>("fcl-collide",
-                 "FCL's axis-aligned box tree through fcl::collide, which copies both models",
-                 "as documented, and so with copies of both models", &collide_documented<Box>,
-                 false)}};
+  return {"fcl",
+          FCL_VERSION,
+          {info<Box>("fcl-aabb",
+                     "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
+                     "models are not copied", &collide_directly<Box>, true, "bottom-up"),
+           info<OrientedBox>(
+               "fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
+               "models are not copied", &collide_documented<OrientedBox>, true, "bottom-up"),
+           info<Box>("fcl-collide",
+                     "FCL's axis-aligned box tree through fcl::collide, which copies both models",
+                     "as documented, and so with copies of both models", &collide_documented<Box>,
+                     false, "bottom-up")}};
 }
 
 }  // namespace contactcheck::adapters

@@ -12,8 +12,8 @@
 //              to part two boxes. Needs a lattice for every body.
 // Option `iterations`: see libccd_call.h; a pair that takes more counts as no contact, and notes()
 // says so. Option `scale`: libccd is fed points times this, and its tolerances, which are absolute,
-// are in these units; pieces of millimetres need one (see libccd_call.cpp). A power of two rounds
-// nothing. Depths are in metres whatever the scale.
+// are in these units (see libccd_call.cpp). By default each pair has a power of two by the size of
+// its pieces, which rounds nothing. Depths are in metres whatever the scale.
 //
 // In double, not exact. GJK means touching to be contact, and loses some of it; MPR means it to be
 // none, and reports some (prior work, C8).
@@ -295,14 +295,19 @@ DetectorInfo info(std::string id, std::string summary, CcdAlgorithm algorithm,
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
-  out.given = "a spatial hash of all boxes; body ends at the first contact of two bodies";
-  out.options = {choice_option("pieces", "triangles", {"triangles", "boxes"},
-                               "what is convex: triangles, or the cells' mapped FFD-AABBs"),
-                 numeric_option("iterations", "100", 1, 100000, true,
-                                "rounds of an algorithm on one pair before it is given up"),
-                 numeric_option("scale", "1", 1e-6, 1e6, false,
-                                "units of libccd in a metre; a power of two rounds nothing"),
-                 std::move(tolerance)};
+  out.given = "a spatial hash of all boxes; each pair is scaled to its size; body ends at the first contact of two bodies";
+  out.options = {
+      choice_option("pieces", "triangles", {"triangles", "boxes"},
+                    "what is convex: triangles, or the cells' mapped FFD-AABBs"),
+      numeric_option("iterations", "100", 1, 100000, true,
+                     "rounds of an algorithm on one pair before it is given up"),
+      numeric_option("scale", "0", 0.0, 1e6, false,
+                     "units of libccd in a metre; 0: for each pair the power of two at "
+                     "which its larger piece is " +
+                         std::string(algorithm == CcdAlgorithm::kGjk ? "a quarter to half a unit"
+                                                                     : "half to one unit") +
+                         " wide"),
+      std::move(tolerance)};
   out.make = [algorithm](const Options& options) -> std::unique_ptr<Detector> {
     const CcdSettings settings = settings_from(options, algorithm);
     if (options.at("pieces") == "boxes") return std::make_unique<CcdBoxDetector>(settings);
@@ -329,11 +334,11 @@ Adapter libccd_adapter() {
       libccd_version(),
       {info("libccd-gjk", "libccd's GJK on triangles, or GJK and EPA on the cells' boxes",
             CcdAlgorithm::kGjk,
-            numeric_option("epa_tolerance", "1e-4", 1e-15, 1, false,
+            numeric_option("epa_tolerance", "1e-12", 1e-15, 1, false,
                            "square units: EPA stops growing its polytope; depths only")),
        info("libccd-mpr", "libccd's portal refinement (MPR) on triangles, or on the cells' boxes",
             CcdAlgorithm::kMpr,
-            numeric_option("tolerance", "1e-4", 1e-15, 1, false,
+            numeric_option("tolerance", "1e-9", 1e-15, 1, false,
                            "units: MPR stops refining its portal"))}};
 }
 

@@ -1,13 +1,15 @@
 // Seen in libccd 2.1 (Debian 12), November 2026:
 // - GJK gives up, as "no contact", when the square of its next direction is below 2.2e-16. A
 //   direction may be a triple product of lengths: triangles of 3 mm lose 6 % of their pairs,
-//   triangles of 1 mm 99 %. Times 1024 both lose none.
+//   triangles of 1 mm 99 %. Times 1024 both lose none. So every pair is scaled to its own size.
 // - MPR's refinement goes round for ever on some pairs: one of 100,000 with corners of small whole
 //   numbers (one is in the tests; prior work, C2) and, at scale 1024, a tenth of points on a
 //   triangle.
 // - MPR never reports coplanar triangles; neither reports two equal points.
-// - EPA replaces only the face nearest to the origin, so its polytope gets dents: depths are too
-//   small, for a few percent of boxes and by a third for round hulls.
+// - EPA holds its tolerance against squares of lengths: with its own of 1e-4, depths below a
+//   hundredth of a unit are those of its first polytope. With 1e-12 those of boxes are right.
+// - EPA replaces only the face nearest to the origin, so its polytope gets dents: depths of round
+//   hulls are too small, by a third.
 // - MPR's depths lie along the one direction that it went: never too small, and up to more than
 //   twice the shortest where a flat piece crosses another.
 // - EPA may take a face that the origin lies on for touching, with a depth of 0 and a direction of
@@ -17,11 +19,18 @@
 
 #include <ccd/ccd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace contactcheck::adapters {
 namespace {
+
+/// A pair that is scaled to its size is fed with its larger piece from 2^(this - 1) to 2^this units
+/// wide. Below, both lose or invent what is smaller than their tolerances. Above, both lose more
+/// that touches: flat pieces (GJK), and corners of few digits (MPR).
+int fed_exponent(CcdAlgorithm algorithm) { return algorithm == CcdAlgorithm::kGjk ? -1 : 0; }
 
 /// What EPA may need before its first round, rounded up.
 constexpr std::uint64_t kPolytopeStart = 64;
@@ -109,6 +118,22 @@ std::uint64_t gjk_limit(const CcdSettings& settings) { return 1 + settings.itera
 
 std::uint64_t mpr_limit(const CcdSettings& settings) { return kPortalStart + settings.iterations; }
 
+double extent(CcdPiece piece) {
+  Aabb box;
+  for (const Vec3& p : piece) box.extend(p);
+  return box.extent().maxCoeff();
+}
+
+double scale_for(const CcdSettings& settings, CcdPiece a, CcdPiece b) {
+  if (settings.scale > 0.0) return settings.scale;
+  const double larger = std::max(extent(a), extent(b));
+  if (!(larger > 0.0)) return 1.0;
+  int exponent = std::numeric_limits<double>::max_exponent;
+  if (std::isfinite(larger)) std::frexp(larger, &exponent);
+  // A double of the scale and its inverse, whatever the pieces.
+  return std::ldexp(1.0, std::clamp(fed_exponent(settings.algorithm) - exponent, -1000, 1000));
+}
+
 using PenetrationCall = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*, ccd_vec3_t*,
                                 ccd_vec3_t*);
 
@@ -120,7 +145,8 @@ struct RawPenetration {
 RawPenetration call(PenetrationCall function, const CcdSettings& settings, CcdPiece a, CcdPiece b,
                     Budget& budget) {
   const ccd_t ccd = ccd_for(settings);
-  const Operand first{a, settings.scale, &budget}, second{b, settings.scale, &budget};
+  const double scale = scale_for(settings, a, b);
+  const Operand first{a, scale, &budget}, second{b, scale, &budget};
   // EPA writes nothing when it says that the pieces touch and has no element to measure.
   double depth = std::nan("");
   ccd_vec3_t dir, position;
@@ -129,7 +155,7 @@ RawPenetration call(PenetrationCall function, const CcdSettings& settings, CcdPi
   RawPenetration out;
   out.code = function(&first, &second, &ccd, &depth, &dir, &position);
   if (out.code == -2) throw std::runtime_error("libccd ran out of memory");
-  out.translation = {depth / settings.scale, Vec3(dir.v[0], dir.v[1], dir.v[2])};
+  out.translation = {depth / scale, Vec3(dir.v[0], dir.v[1], dir.v[2])};
   return out;
 }
 
@@ -145,7 +171,8 @@ bool CcdCaller::intersect(CcdPiece a, CcdPiece b) {
   const bool gjk = settings_.algorithm == CcdAlgorithm::kGjk;
   const ccd_t ccd = ccd_for(settings_);
   Budget budget{0, gjk ? gjk_limit(settings_) : mpr_limit(settings_)};
-  const Operand first{a, settings_.scale, &budget}, second{b, settings_.scale, &budget};
+  const double scale = scale_for(settings_, a, b);
+  const Operand first{a, scale, &budget}, second{b, scale, &budget};
   const bool hit =
       (gjk ? ccdGJKIntersect(&first, &second, &ccd) : ccdMPRIntersect(&first, &second, &ccd)) != 0;
   support_calls_ += budget.asked;

@@ -26,9 +26,12 @@ enum class CcdAlgorithm { kGjk, kMpr };
 struct CcdSettings {
   CcdAlgorithm algorithm = CcdAlgorithm::kGjk;
   std::uint32_t iterations = 100;
-  double scale = 1.0;           ///< libccd is fed points times this; its units are metres / scale
-  double epa_tolerance = 1e-4;  ///< square units: EPA compares squared distances with it
-  double mpr_tolerance = 1e-4;  ///< units
+  /// libccd is fed points times this, and its units are metres / scale; 0: times a power of two of
+  /// each pair's own, at which its larger piece is 1/4 to 1/2 (GJK) or 1/2 to 1 (MPR) units
+  /// wide.
+  double scale = 0.0;
+  double epa_tolerance = 1e-12;  ///< square units: EPA compares squared distances with it
+  double mpr_tolerance = 1e-9;   ///< units
 };
 
 /// The hull of these points; not empty.

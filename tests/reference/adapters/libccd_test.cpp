@@ -90,13 +90,13 @@ TEST(Libccd, TrianglesClaimSurfacesInDoubleWithoutExactness) {
   }
 }
 
-TEST(Libccd, DefaultsAreLibccdsOwn) {
+TEST(Libccd, DefaultsAreThoseOfTheTableOfSettings) {
   DetectorCatalog catalog;
   adapters::register_reference_detectors(catalog);
   EXPECT_EQ(
-      catalog.parse("libccd-gjk:pieces=triangles,iterations=100,scale=1,epa_tolerance=0.0001").name,
+      catalog.parse("libccd-gjk:pieces=triangles,iterations=100,scale=0,epa_tolerance=1e-12").name,
       "libccd-gjk");
-  EXPECT_EQ(catalog.parse("libccd-mpr:iterations=100,scale=1,tolerance=0.0001").name, "libccd-mpr");
+  EXPECT_EQ(catalog.parse("libccd-mpr:iterations=100,scale=0,tolerance=1e-9").name, "libccd-mpr");
   EXPECT_THROW(catalog.parse("libccd-gjk:tolerance=1e-9"), InputError);
   EXPECT_THROW(catalog.parse("libccd-mpr:iterations=0"), InputError);
   EXPECT_THROW(catalog.parse("libccd-mpr:pieces=cells"), InputError);
@@ -123,9 +123,16 @@ TEST(Libccd, GjkLosesPairsOfSmallSpheresAtScale1AndNoneScaled) {
   const auto missed = [&](const std::string& name) {
     return without(truth, ask(name, world, Question::kTriangles).triangles).size();
   };
-  EXPECT_THAT(missed("libccd-gjk"), Gt(truth.size() / 2));
-  for (const char* right : {"libccd-gjk:scale=1024", "libccd-mpr"})
+  EXPECT_THAT(missed("libccd-gjk:scale=1"), Gt(truth.size() / 2));
+  for (const char* right : {"libccd-gjk", "libccd-gjk:scale=1024", "libccd-mpr"})
     EXPECT_EQ(missed(right), 0u) << right;
+}
+
+TEST(Libccd, FindsTheSamePairsAtEverySize) {
+  const std::vector<ElementPair> truth = true_pairs(two_spheres());
+  for (const double size : {0x1p-1000, 0x1p-500, 0x1p-30, 0x1p-9, 0x1p9, 0x1p30, 0x1p500, 0x1p1000})
+    for (const std::string id : kLibccd)
+      EXPECT_EQ(ask(id, two_spheres(size), Question::kTriangles).triangles, truth) << id << size;
 }
 
 TEST(Libccd, TolerancesAreThoseOfTheOptions) {
@@ -133,7 +140,7 @@ TEST(Libccd, TolerancesAreThoseOfTheOptions) {
   const auto found = [&](const std::string& name) {
     return ask(name, world, Question::kTriangles).triangles.size();
   };
-  EXPECT_LT(found("libccd-mpr:tolerance=1"), found("libccd-mpr"));
+  EXPECT_LT(found("libccd-mpr:scale=1,tolerance=1"), found("libccd-mpr"));
   const LatticeScene scene = lattice_spheres();
   const auto sum_of_depths = [&](const std::string& name) {
     double sum = 0.0;

@@ -1,7 +1,7 @@
 // Embree's scene-against-scene collision as a detector: the fast peer.
 //
 //   embree  one hierarchy of boxes per body, refitted or built anew (option `build`); rtcCollide
-//           names pairs of triangles, of leaves whose boxes overlap; core's exact test decides,
+//           names pairs of triangles in leaves whose boxes overlap; core's exact test decides,
 //           eight pairs at a time
 //
 // Embree only culls, in single precision, with boxes rounded outward: the answer is exact for all

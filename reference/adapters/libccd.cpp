@@ -295,7 +295,9 @@ DetectorInfo info(std::string id, std::string summary, CcdAlgorithm algorithm,
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
-  out.given = "a spatial hash of all boxes; each pair is scaled to its size; body ends at the first contact of two bodies";
+  out.given =
+      "a spatial hash of all boxes; each pair is scaled to its size; body ends at the first "
+      "contact of two bodies";
   out.options = {
       choice_option("pieces", "triangles", {"triangles", "boxes"},
                     "what is convex: triangles, or the cells' mapped FFD-AABBs"),

@@ -33,10 +33,11 @@ Reading read_level(const Rule& rule, const results::Run& row) {
   const auto found = levels.find(*level);
   if (found == levels.end()) {
     const auto reason = row.not_judged.find(*level);
-    return without("level " + name + " is not judged: " +
+    return without("level " + name + " is " +
                    (reason != row.not_judged.end()
                         ? reason->second
-                        : "the detector does not claim it, or the scene does not ask for it"));
+                        : "not judged: the detector does not claim it, or the scene does not ask "
+                          "for it"));
   }
   const results::LevelCounts& counts = found->second;
   if (counts.informative)

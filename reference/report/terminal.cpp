@@ -160,9 +160,13 @@ std::string scene_head(const results::Scene& scene, bool color) {
   std::string more;
   for (const std::string& line : {pairs_line(scene), fits_line(scene), open_line(scene)})
     if (!line.empty()) more += "  " + line + "\n";
-  return fmt::format("{}  {}\n  {} bodies, {} triangles, {} frames, {} with contact\n{}",
-                     paint(scene.id, kBold, color), scene.title, scene.bodies.size(), triangles,
-                     scene.frames, scene.contact_frames, more);
+  const auto count = [](std::size_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  return fmt::format("{}  {}\n  {}, {}, {}, {} with contact\n{}", paint(scene.id, kBold, color),
+                     scene.title, count(scene.bodies.size(), "body", "bodies"),
+                     count(triangles, "triangle", "triangles"),
+                     count(scene.frames, "frame", "frames"), scene.contact_frames, more);
 }
 
 // The table shows the finest level. Where that is right and another is not, the verdict on the

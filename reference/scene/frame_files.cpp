@@ -287,7 +287,7 @@ class Family {
     if (differing.size() == 1)
       readings += " if it counts frames of one body, " +
                   pattern({{places[differing[0]], "{body}"}}) + " if it counts bodies";
-    if (const Place& a = places[differing[0]], &b = places[differing.back()];
+    if (const Place &a = places[differing[0]], &b = places[differing.back()];
         a.end + 1 == b.begin && files_[0].path[a.end] == '.')
       readings += ", or " + pattern({{{a.begin, b.end}, "{frame}"}});
     throw InputError(text::in_quotes(files_[0].path) + " and " +

@@ -160,7 +160,7 @@ UNJUDGED = [
      "level vertex is informative for this detector: shown, never gated"),
     ("single", {"measure": "missed", "at_most": 0}, "no level that the detector claims was judged"),
     ("exact", {"measure": "missed", "level": "vertex", "at_most": 0},
-     'level vertex is not judged: not judged: open (body "a", frame 0, edge of vertices 4 and 5)'),
+     'level vertex is not judged: open (body "a", frame 0, edge of vertices 4 and 5)'),
     ("exact", {"measure": "missed", "level": "box", "at_most": 0},
      "level box is not judged: the detector does not claim it, or the scene does not ask for it"),
     ("exact", {"measure": "depth_error_max", "at_most": 1},

@@ -253,17 +253,16 @@ FclSettings settings_from(const Options& options) {
   return out;
 }
 
-/// `refit`: the default of this option.
 template <typename BV>
 DetectorInfo info(std::string id, std::string summary, const std::string& given,
-                  CollideFunction<BV> collide, bool self, const char* refit) {
+                  CollideFunction<BV> collide, bool self) {
   DetectorInfo out;
   out.id = std::move(id);
   out.summary = std::move(summary);
   out.given = kSweepAndPrune + given + "; body ends at the first contact of two bodies";
   out.options = {
       prefilter_option(),
-      choice_option("refit", refit, {"bottom-up", "top-down", "rebuild"},
+      choice_option("refit", "bottom-up", {"bottom-up", "top-down", "rebuild"},
                     "a frame's boxes: joined from their children's, fitted to the triangles below "
                     "them, or of a hierarchy that is built anew"),
       choice_option("split", "mean", {"mean", "median", "center"},
@@ -281,18 +280,18 @@ DetectorInfo info(std::string id, std::string summary, const std::string& given,
 Adapter fcl_adapter() {
   using Box = fcl::AABBd;
   using OrientedBox = fcl::OBBRSSd;
-  return {"fcl",
-          FCL_VERSION,
-          {info<Box>("fcl-aabb",
-                     "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
-                     "models are not copied", &collide_directly<Box>, true, "bottom-up"),
-           info<OrientedBox>(
-               "fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
-               "models are not copied", &collide_documented<OrientedBox>, true, "bottom-up"),
-           info<Box>("fcl-collide",
-                     "FCL's axis-aligned box tree through fcl::collide, which copies both models",
-                     "as documented, and so with copies of both models", &collide_documented<Box>,
-                     false, "bottom-up")}};
+  return {
+      "fcl",
+      FCL_VERSION,
+      {info<Box>("fcl-aabb",
+                 "FCL's axis-aligned box tree, refitted, traversed directly: FCL at its best",
+                 "models are not copied", &collide_directly<Box>, true),
+       info<OrientedBox>("fcl-obbrss", "FCL's tree of oriented boxes and swept spheres, refitted",
+                         "models are not copied", &collide_documented<OrientedBox>, true),
+       info<Box>("fcl-collide",
+                 "FCL's axis-aligned box tree through fcl::collide, which copies both models",
+                 "as documented, and so with copies of both models", &collide_documented<Box>,
+                 false)}};
 }
 
 }  // namespace contactcheck::adapters

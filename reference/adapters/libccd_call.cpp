@@ -24,6 +24,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/lazy/lazy_state.h"
+
 namespace contactcheck::adapters {
 namespace {
 
@@ -126,12 +128,10 @@ double extent(CcdPiece piece) {
 
 double scale_for(const CcdSettings& settings, CcdPiece a, CcdPiece b) {
   if (settings.scale > 0.0) return settings.scale;
-  const double larger = std::max(extent(a), extent(b));
-  if (!(larger > 0.0)) return 1.0;
-  int exponent = std::numeric_limits<double>::max_exponent;
-  if (std::isfinite(larger)) std::frexp(larger, &exponent);
-  // A double of the scale and its inverse, whatever the pieces.
-  return std::ldexp(1.0, std::clamp(fed_exponent(settings.algorithm) - exponent, -1000, 1000));
+  // Coordinates of both signs next to the largest double are an infinity apart.
+  const double larger =
+      std::min(std::max(extent(a), extent(b)), std::numeric_limits<double>::max());
+  return std::ldexp(scale_to_one(larger), fed_exponent(settings.algorithm));
 }
 
 using PenetrationCall = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*, ccd_vec3_t*,

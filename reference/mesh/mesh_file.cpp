@@ -1,7 +1,6 @@
 #include "reference/mesh/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <new>
 #include <optional>

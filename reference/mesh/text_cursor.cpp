@@ -55,8 +55,10 @@ bool TextCursor::at_end_of_line() {
     } else if (comments_ && c == '#') {
       while (at_ < text_.size() && !ends_line(text_[at_])) ++at_;
       return true;
-    } else if (continued_ && c == '\\' && end_of_blanks(at_ + 1) != std::string_view::npos) {
-      at_ = end_of_blanks(at_ + 1);
+    } else if (continued_ && c == '\\') {
+      const std::size_t end = end_of_blanks(at_ + 1);
+      if (end == std::string_view::npos) return false;
+      at_ = end;
       if (at_ < text_.size()) skip_line_end();
     } else {
       return ends_line(c);

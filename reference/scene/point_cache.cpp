@@ -1,6 +1,5 @@
 #include "reference/scene/point_cache.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <optional>

@@ -74,6 +74,11 @@ struct World {
   std::vector<std::vector<Vec3>> vertices;
 };
 
+/// Turns a body to other axes, and makes it four times as long along one as along another.
+inline void stretch(World& world, std::size_t body) {
+  for (Vec3& v : world.vertices[body]) v = {2.0 * v.z() + 0.3 * v.y(), v.x(), 0.5 * v.y()};
+}
+
 inline void shift(World& world, std::size_t body, const Vec3& by) {
   for (Vec3& v : world.vertices[body]) v += by;
 }

@@ -89,7 +89,7 @@ TEST_P(FclDetectors, EverySettingFindsTheTruePairsOfBodiesThatMoveAndStretch) {
     for (const std::string split : {"mean", "median", "center"})
       detectors.push_back(
           test::prepared(std::string(GetParam()) + ":refit=" + refit + ",split=" + split, world));
-  for (Vec3& v : world.vertices[0]) v = {2.0 * v.z() + 0.3 * v.y(), v.x(), 0.5 * v.y()};
+  stretch(world, 0);
   for (const auto& detector : detectors) {
     std::vector<ElementPair> found = found_in_order(*detector, world);
     canonicalize(found);

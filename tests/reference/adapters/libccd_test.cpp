@@ -90,7 +90,7 @@ TEST(Libccd, TrianglesClaimSurfacesInDoubleWithoutExactness) {
   }
 }
 
-TEST(Libccd, DefaultsAreThoseOfTheTableOfSettings) {
+TEST(Libccd, DefaultsAreThoseThatWereMeasuredBest) {
   DetectorCatalog catalog;
   adapters::register_reference_detectors(catalog);
   EXPECT_EQ(

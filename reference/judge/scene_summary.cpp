@@ -80,7 +80,7 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   out.separation = separations;
   if (scene.family) {
     out.family = {scene.family->parameter, scene.family->origin, scene.family->stresses,
-                  scene.family->values, /*true_pairs=*/{}};
+                  scene.family->values,    /*true_pairs=*/{},    scene.family->range};
     // Per value, so that a report can set answers beside it.
     for (const oracle::Truth& t : judged.truth) {
       std::size_t pairs = t.surface.triangles.size();

@@ -8,6 +8,7 @@
 
 #include "reference/report/family_result.h"
 #include "reference/report/format.h"
+#include "reference/report/scale_ranges.h"
 #include "reference/report/stability_plot.h"
 
 namespace contactcheck::report {
@@ -210,7 +211,9 @@ std::string hard_cases_markdown(const results::Results& results) {
     tables += fmt::format("`{}`: {}. {}\n\n![Missed and spurious, case by case]({})\n\n{}",
                           family.scene.id, family.scene.title, family.sentence,
                           stability_plot_file(family.scene), markdown_of(family.table));
-  return "## Hard cases\n\n" + sums + "### Where they go wrong\n\n" +
+  std::string ranges;
+  for (const TitledTable& table : scale_ranges(results)) ranges += markdown_of(table);
+  return "## Hard cases\n\n" + sums + ranges + "### Where they go wrong\n\n" +
          (tables.empty() ? "Nowhere.\n\n" : tables);
 }
 

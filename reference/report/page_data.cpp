@@ -22,6 +22,7 @@
 #include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scale_ranges.h"
 #include "reference/report/scene_choice.h"
 #include "reference/report/scene_tables.h"
 #include "reference/report/speed_error.h"
@@ -111,6 +112,7 @@ Json hard_json(const Results& results, const TitledTable& sums) {
                         {"picture", stability_plot(family.scene, all)}});
   }
   return {{"sums", to_json(sums)},
+          {"ranges", to_json(scale_ranges(results))},
           {"matrix", to_json(hard_matrix(results))},
           {"families", std::move(families)}};
 }

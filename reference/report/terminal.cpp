@@ -15,6 +15,7 @@
 #include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scale_ranges.h"
 #include "reference/report/scene_choice.h"
 #include "reference/report/summary.h"
 
@@ -30,8 +31,17 @@ constexpr std::size_t kWidest = 100;  // characters of a line
 constexpr std::ptrdiff_t kFewestJoined = 3;
 
 // What a reader misses least comes first.
-constexpr const char* kLeftOutFirst[] = {"slowest family", "passes", "question", "late", "body m/s",
-                                         "vs fcl-obbrss",  "recall", "hover mm", "truth"};
+constexpr const char* kLeftOutFirst[] = {"nearest wrong above",
+                                         "nearest wrong below",
+                                         "slowest family",
+                                         "passes",
+                                         "question",
+                                         "late",
+                                         "body m/s",
+                                         "vs fcl-obbrss",
+                                         "recall",
+                                         "hover mm",
+                                         "truth"};
 
 // A run that is not `ok` has a message where others have a row of figures.
 bool is_message(const Line& line) { return line.back().empty(); }
@@ -239,6 +249,10 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
   if (const TitledTable sums = hard_sums(results); !sums.rows.empty())
     out += paint("hard cases", kBold, color) +
            "  errors by family: report.md, \"Where they go wrong\"\n" + table(sums);
+  for (TitledTable& ranges : scale_ranges(results)) {
+    out += paint(ranges.title, kBold, color) + "\n  " + ranges.text + "\n";
+    out += table(std::move(ranges));
+  }
   if (results.known_defects)
     out += paint("known defects", kBold, color) + "\n" + defects_summary(*results.known_defects) +
            "\n";

@@ -4,6 +4,9 @@
 #include <cstdio>
 #include <set>
 
+#include "core/types/check.h"
+#include "reference/scene/amount.h"
+
 namespace contactcheck::results {
 
 namespace {
@@ -32,6 +35,13 @@ LevelCounts& LevelCounts::operator+=(const LevelCounts& other) {
 void LevelCounts::set_rates() {
   recall = rate(hit, truth);
   spurious_rate = rate(spurious, reported);
+}
+
+double Family::number(std::size_t value) const {
+  if (value >= values.size()) throw InputError("the family has no case " + std::to_string(value));
+  const std::optional<double> number = scene::parse_double(values[value]);
+  if (!number) throw InputError("the parameter's value \"" + values[value] + "\" is no number");
+  return *number;
 }
 
 std::string hex(std::uint64_t hash) {

@@ -220,6 +220,10 @@ struct Family {
   std::string parameter, origin, stresses;
   std::vector<std::string> values;
   std::vector<std::uint64_t> true_pairs;  ///< by value
+  std::string range;                      ///< "size" or "distance" (scene::CaseFamily); else empty
+
+  /// The parameter's value in that case. @throws InputError when it is no number or not there
+  double number(std::size_t value) const;
 };
 
 struct Sweep {

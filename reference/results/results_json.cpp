@@ -328,6 +328,7 @@ void fields(Io& io, Family& f) {
   io("origin", f.origin);
   io("stresses", f.stresses);
   io("true_pairs", f.true_pairs);
+  io.unless_empty("range", f.range);
 }
 
 template <typename Io>

@@ -88,11 +88,15 @@ std::optional<fs::path> file_of_id(const fs::path& folder, const std::string& id
   return file;
 }
 
-fs::path families_in(const fs::path& fixtures) { return fixtures / "hard" / "families"; }
+// Of scenes, hard cases and families over scales.
+std::vector<fs::path> scene_folders(const fs::path& fixtures) {
+  return {fixtures / "scenes", fixtures / "hard" / "families", fixtures / "scales"};
+}
 
 std::optional<fs::path> scene_or_family(const fs::path& fixtures, const std::string& id) {
-  const auto scene = file_of_id(fixtures / "scenes", id);
-  return scene ? scene : file_of_id(families_in(fixtures), id);
+  for (const fs::path& folder : scene_folders(fixtures))
+    if (auto file = file_of_id(folder, id)) return file;
+  return std::nullopt;
 }
 
 std::vector<std::string> ids_in(const fs::path& folder) {
@@ -123,7 +127,10 @@ std::vector<CatalogueEntry> list_suites(const fs::path& fixtures) {
 }
 
 std::vector<CatalogueEntry> list_families(const fs::path& fixtures) {
-  return list_folder(families_in(fixtures), "family");
+  std::vector<CatalogueEntry> all = list_folder(fixtures / "hard" / "families", "family");
+  for (CatalogueEntry& entry : list_folder(fixtures / "scales", "family"))
+    all.push_back(std::move(entry));
+  return all;
 }
 
 Target find_target(const std::string& name, const fs::path& fixtures) {
@@ -143,7 +150,7 @@ Target find_target(const std::string& name, const fs::path& fixtures) {
   if (file.extension() == ".ccr" || file.extension() == ".json")
     throw InputError(text::in_quotes(name) + " does not exist.");
   std::vector<std::string> ids = ids_in(fixtures / "suites");
-  for (const fs::path& folder : {fixtures / "scenes", families_in(fixtures)})
+  for (const fs::path& folder : scene_folders(fixtures))
     for (std::string& id : ids_in(folder)) ids.push_back(std::move(id));
   throw InputError(text::in_quotes(name) +
                    " is no suite, scene, family of hard cases, .json or .ccr file; " +

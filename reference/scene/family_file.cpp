@@ -286,6 +286,7 @@ CaseFamily parse_parameter(const text::JsonField& root, std::vector<double>& val
   CaseFamily family;
   family.origin = root.at("origin").text();
   family.stresses = root.at("stresses").text();
+  if (root.has("range")) family.range = root.at("range").one_of({"size", "distance"});
   const text::JsonField parameter = root.at("parameter");
   parameter.only_keys({"name", "values"});
   family.parameter = parameter.at("name").text();
@@ -295,6 +296,8 @@ CaseFamily parse_parameter(const text::JsonField& root, std::vector<double>& val
         item.is(text::JsonValue::Kind::kText) ? parse_double(item.value().text) : std::nullopt;
     if (!value || !seen.insert(*value).second)
       item.refuse("a text with one finite number, different from the others");
+    if (!family.range.empty() && *value <= 0.0)
+      item.refuse("a number above 0, as the family has a \"range\"");
     values.push_back(*value);
     family.values.push_back(item.value().text);
   }
@@ -304,7 +307,7 @@ CaseFamily parse_parameter(const text::JsonField& root, std::vector<double>& val
 }  // namespace
 
 Scene parse_family(const text::JsonField& root, const std::filesystem::path& folder) {
-  root.only_keys({"id", "title", "origin", "stresses", "parameter", "levels", "bodies"});
+  root.only_keys({"id", "title", "origin", "stresses", "range", "parameter", "levels", "bodies"});
   Scene scene;
   scene.id = text::parse_id(root.at("id"));
   scene.title = root.at("title").text();

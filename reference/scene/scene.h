@@ -43,6 +43,9 @@ struct CaseFamily {
   std::vector<std::string> values;  ///< per frame, as the file writes them
   std::string origin;               ///< where the case is from: an issue, a derivation
   std::string stresses;             ///< what it is hard for
+  /// What the parameter measures where the family asks in which range answers are right: "size"
+  /// (edge of a triangle, metres) or "distance" (from the origin, in edges); else empty.
+  std::string range;
 };
 
 /// Poses of two bodies at given separations, over many orientations. Frames are ordered by

@@ -346,10 +346,7 @@ TEST_P(FclDetectors, BodyFlattenedToAPointIsAnswered) {
   EXPECT_THAT(ask(*detector, Question::kTriangles).bodies, IsEmpty());
   for (Vec3& v : world.vertices[1]) v = Vec3(0.5, 0.25, 1.0);
   detector->update(world.frame());
-  // FCL 0.7.0 fits no usable oriented box to a point: fcl-obbrss loses this contact. The adapter
-  // passes that on; a change of FCL should be noticed here.
-  const std::size_t expected = std::string(GetParam()) == "fcl-obbrss" ? 0 : 1;
-  EXPECT_THAT(ask(*detector, Question::kTriangles).bodies, SizeIs(expected));
+  EXPECT_THAT(ask(*detector, Question::kTriangles).bodies, SizeIs(1));
 }
 
 TEST_P(FclDetectors, CoincidentMeshesReportEveryTriangleWithItself) {

@@ -47,8 +47,8 @@ def test_stays_behind_for_the_next_run(out, disagreements):
 
 
 def test_takes_another_detector_that_errs_in_the_same_way(out, disagreements):
-    outcome = successful("reduce", out / "cases" / "0002.json", "--detector", "fcl-obbrss")
-    assert "fcl-obbrss spurious at level triangle" in outcome.err
+    outcome = successful("reduce", out / "cases" / "0002.json", "--detector", "fcl-collide")
+    assert "fcl-collide spurious at level triangle" in outcome.err
 
 
 def test_that_does_not_show_any_more_is_refused(out, disagreements):
@@ -61,8 +61,9 @@ def test_that_does_not_show_any_more_is_refused(out, disagreements):
 
 def test_of_a_family_is_the_first_frame_that_is_wrong(tmp_path):
     least = tmp_path / "least.json"
-    outcome = successful("reduce", "hard-balls-scale", "--detector", "fcl-obbrss", "--out", least)
-    assert "(frame 0): fcl-obbrss missed at level triangle" in outcome.err
+    detector = "fcl-obbrss:refit=bottom-up"
+    outcome = successful("reduce", "hard-balls-scale", "--detector", detector, "--out", least)
+    assert f"(frame 0): {detector} missed at level triangle" in outcome.err
     assert results_of_run(least, tmp_path / "out")["scenes"][0]["id"] == "least"
 
 

@@ -107,6 +107,21 @@ TEST(FamilyFile, RefusesWhatItCannotMean) {
             std::string::npos);
 }
 
+TEST(FamilyFile, MaySayThatItsParameterIsASizeOrADistance) {
+  const auto with_range = [](const std::string& range, const std::string& values) {
+    std::string text = family(triangle(""), values);
+    return text.insert(1, "\"range\": \"" + range + "\", ");
+  };
+  EXPECT_EQ(load_family(with_range("size", R"("1e-3", "1")")).family->range, "size");
+  EXPECT_EQ(load_family(family(triangle(""))).family->range, "");
+  EXPECT_EQ(refusal(with_range("weight", R"("1")")),
+            "range is \"weight\"; it must be one of size, distance.");
+  for (const char* value : {"0", "-0", "-1"})
+    EXPECT_EQ(refusal(with_range("distance", R"("1", ")" + std::string(value) + "\"")),
+              "parameter.values[1] is \"" + std::string(value) +
+                  "\"; it must be a number above 0, as the family has a \"range\".");
+}
+
 TEST(FamilyFile, HasItsOwnFrames) {
   const Scratch scratch;
   const auto file = scratch.write("f.json", family(triangle("")));

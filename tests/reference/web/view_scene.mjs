@@ -119,6 +119,17 @@ const packed = (bytes) => deflateSync(bytes).toString("base64");
 // What the program computes of it, as far as tests look at it.
 const kHard = {
   sums: {title: "", text: "", columns: [], rows: []},
+  ranges: [
+    {
+      title: "In which range of sizes each is right",
+      text: "By the edge of a triangle.",
+      columns: [
+        {title: "detector", left: true},
+        {title: "right from", left: false},
+      ],
+      rows: [["half-blind", "1e-3"]],
+    },
+  ],
   matrix: {columns: ["family"], rows: []},
   families: [
     {

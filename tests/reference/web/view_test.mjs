@@ -176,6 +176,9 @@ async function isLedByOthers(page) {
 }
 
 async function showsHardCases(page) {
+  const range = page.getByRole("heading", {name: "In which range of sizes each is right"});
+  assert.equal(await range.count(), 1);
+  assert.match(await page.locator("#hard").textContent(), /half-blind\s*1e-3/);
   const family = page.locator("#family-cases");
   await family.locator("summary").click();
   await family.getByRole("button", {name: "show"}).click();

@@ -137,6 +137,8 @@ export interface Drawn {
 /** The families of hard cases. */
 export interface Hard {
   sums: TextTable;
+  /** In which sizes and distances each is right; empty without families of such a range. */
+  ranges: TextTable[];
   matrix: HeatTable;
   families: WrongFamily[];
 }

@@ -77,6 +77,7 @@ export const hard: Section = {
     return [
       p("Families of cases made to be hard, each with a parameter that makes it harder."),
       ...textTable(computed.sums, "Hard cases per detector"),
+      ...computed.ranges.flatMap((range) => [h("h3", {}, range.title), ...textTable(range)]),
       ...whereTheyGoWrong(computed),
     ];
   },

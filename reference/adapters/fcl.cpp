@@ -22,6 +22,8 @@
 // - A request with contact points takes a pair's depth along one of the two face normals, the
 //   smaller one, out of the many directions in which two triangles may part; for a triangle
 //   without area the normal is whatever was in memory: no depth is passed on for it.
+// - Oriented boxes that a bottom-up refit joins may leave out what they hold: the first corner that
+//   OBB's merge_smalldist looks at never counts as the smallest.
 // - Errors are return codes, and a call out of sequence leaves the old geometry in place.
 // - The Replace calls fit boxes to the new vertices; the Update calls would fit them to old and new
 //   ones, for continuous collision.

@@ -24,7 +24,8 @@ void add_list(CommandLine& line) {
   CLI::App* list = line.app.add_subcommand("list", "Lists scenes, suites and detectors");
   list->add_flag("--suites", arguments->suites, "suites only");
   list->add_flag("--scenes", arguments->scenes, "scenes only");
-  list->add_flag("--families", arguments->families, "families of hard cases only");
+  list->add_flag("--families", arguments->families,
+                 "families of hard cases, and those over scales, only");
   list->add_flag("--detectors", arguments->detectors, "detectors only, with claims and options");
   list->add_option("--detector", arguments->named,
                    "this detector only, repeatable; FILE.so is a plug-in")

@@ -117,6 +117,8 @@ int list_command(const ListArguments& arguments, const DetectorCatalog& catalog)
   if (arguments.families) {
     sections.next();
     print_entries("Families of hard cases", scene::list_families(fixtures));
+    sections.next();
+    print_entries("Families over scales", scene::list_scale_families(fixtures));
   }
   if (all || arguments.detectors) {
     sections.next();

@@ -127,10 +127,11 @@ std::vector<CatalogueEntry> list_suites(const fs::path& fixtures) {
 }
 
 std::vector<CatalogueEntry> list_families(const fs::path& fixtures) {
-  std::vector<CatalogueEntry> all = list_folder(fixtures / "hard" / "families", "family");
-  for (CatalogueEntry& entry : list_folder(fixtures / "scales", "family"))
-    all.push_back(std::move(entry));
-  return all;
+  return list_folder(fixtures / "hard" / "families", "family");
+}
+
+std::vector<CatalogueEntry> list_scale_families(const fs::path& fixtures) {
+  return list_folder(fixtures / "scales", "family");
 }
 
 Target find_target(const std::string& name, const fs::path& fixtures) {

@@ -34,8 +34,10 @@ CatalogueEntry read_entry(const std::filesystem::path& file, const std::string& 
 /// Sorted by id. Reads no mesh. @throws InputError when the folder is missing, or a file is no JSON
 /// object or has another id than its name
 std::vector<CatalogueEntry> list_scenes(const std::filesystem::path& fixtures);
-/// Families of hard cases, then those over scales; they can be named wherever scenes can.
+/// Families of hard cases, whose answers are kept, and those over scales, for which every run is
+/// judged anew. Both can be named wherever scenes can.
 std::vector<CatalogueEntry> list_families(const std::filesystem::path& fixtures);
+std::vector<CatalogueEntry> list_scale_families(const std::filesystem::path& fixtures);
 std::vector<CatalogueEntry> list_suites(const std::filesystem::path& fixtures);
 
 enum class TargetKind { kScene, kSuite, kRecording };

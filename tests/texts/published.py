@@ -115,6 +115,8 @@ RUN_FIELDS = {
     "self_ms": self_ms,
     "self_wrong": self_wrong,
     "self_speedup": self_speedup,
+    "options": lambda run: run["options"],
+    "depth_error": lambda run: run["geometry"].get("depth_error_max"),
 }
 
 
@@ -283,6 +285,8 @@ FILES = {
     "single-historic": {"scenes": ("true_pairs",),
                         "runs": (*COUNTS, "rounded")},
     "single-hard": {"detectors": ("rounded", "between")},
+    "settings": {"runs": ("truth", *COUNTS, "depth_error", "options", "ms", "passes")},
+    "settings-hard": {"detectors": ()},
     "single-lazy-times": {"runs": ("ms", "passes")},
     "single-historic-times": {"runs": ("ms", "passes")},
     "paper-64": {"scenes": ("steps",), "runs": ("memory_bytes",)},

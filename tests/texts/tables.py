@@ -287,6 +287,55 @@ def hard_wrong(files):
                   "families refused:"], rows)
 
 
+# What each library does where nobody says otherwise, by its own headers.
+LIBRARY_DEFAULTS = {("fcl", "refit"): "bottom-up", ("fcl", "split"): "mean",
+                    ("embree", "build"): "medium", ("bullet", "scale"): "1", ("bullet", "k"): "none",
+                    ("libccd", "scale"): "1", ("libccd", "iterations"): "no limit",
+                    ("libccd", "tolerance"): "1e-4", ("libccd", "epa_tolerance"): "1e-4"}
+
+
+def settings(files):
+    """One row a setting of a detector; what is `ours` is the detector's own default."""
+    timed, hard = files["settings"], files["settings-hard"]
+    ok = {(run["scene"], run["detector"]): run for run in timed.rows("runs") if "status" not in run}
+
+    def sums(rows):
+        return [sum(row[kind] or 0 for row in rows) for kind in ("missed", "spurious")]
+
+    def cells(detector, base):
+        runs = [(ok[scene, detector], ok[scene, base]) for scene in timed.scenes()
+                if (scene, detector) in ok and (scene, base) in ok]
+        ratios = [run["ms"] / own["ms"] for run, own in runs]
+        depths = [run["depth_error"] for run, _ in runs if run["depth_error"] is not None]
+        hard_rows = [row for row in hard.rows("detectors") if row["detector"] == detector]
+        return [statistics.geometric_mean(ratios), min(ratios), max(ratios),
+                sums([run for run, _ in runs]), sums(hard_rows), max(depths, default=None)]
+
+    def row(name, option, default, value, found):
+        mean, low, high, *counts, depth = found
+        time = "1" if value.startswith("**") else f"{mean:.2f} ({low:.2f} to {high:.2f})"
+        return [name, option, default, value, time, *map(wrong, counts),
+                "-" if depth is None else three_digits(1e3 * depth)]
+
+    rows, shown = [], set()
+    for detector in timed.detectors():
+        head, _, words = detector.partition(":")
+        options = dict(word.split("=") for word in words.split(",") if word)
+        base = head + (":pieces=boxes" if options.pop("pieces", "") == "boxes" else "")
+        for option, value in options.items():
+            default = LIBRARY_DEFAULTS[(head.split("-")[0], option)]
+            if (base, option) not in shown:
+                shown.add((base, option))
+                own = next(run for run in timed.rows("runs") if run["detector"] == base)
+                ours = own["options"][option]
+                if option == "scale" and ours == "0":
+                    ours = "automatic"
+                rows.append(row(f"`{base}`", f"`{option}`", default, f"**{ours}**", cells(base, base)))
+            rows.append(row("", "", "", value, cells(detector, base)))
+    return table(["detector", "setting", "library's default", "value", "time over ours:",
+                  "wrong:", "wrong, hard:", "depth off by, mm:"], rows)
+
+
 def paper_overview(files):
     rows = []
     for row in files["reproduce"].rows("paper"):
@@ -371,7 +420,7 @@ TABLES = {"headline": headline, "default": default_summary, "performance": perfo
           "drawn-decides": drawn_decides, "self": self_scenes, "self-goals": self_goals,
           "drawn-accuracy": drawn_accuracy, "single-lazy": single_lazy,
           "single-lazy-times": single_lazy_times, "single-historic": single_historic,
-          "single-historic-times": single_historic_times, "hard": hard_wrong,
+          "single-historic-times": single_historic_times, "hard": hard_wrong, "settings": settings,
           "reproduce": paper_overview}
 
 

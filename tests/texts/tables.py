@@ -515,7 +515,6 @@ def figures(files):
         "default.passes": lambda: str(passes_of(default)),
         "default.machine": lambda: machine(default),
         "default.took": lambda: took(default),
-        "default.libccd.missed": lambda: count(summed(default, "libccd-gjk", "missed")),
         "default.ffd-aabb.missed": lambda: count(summed(default, "ffd-aabb", "missed")),
         "default.ffd-aabb.lost.hash": lambda: count(lost_in(default, "ffd-aabb", "hash")),
         "default.ffd-aabb.lost.node-plane": lambda: count(

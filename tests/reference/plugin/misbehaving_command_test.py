@@ -34,6 +34,13 @@ def test_command_that_does_not_exist_is_refused(tmp_path):
                           folder=tmp_path)
 
 
+def test_sentence_about_a_long_command_is_not_cut(tmp_path):
+    # 200 bytes of the command are shown; two bytes a character, and so half of one would be the first.
+    refused_on_tiny_scene("--detector-cmd", command("garbage") + " " + "é" * 300 + "x", "--no-timing",
+                          named=["command \"..." + "é" * 99 + "x\" wrote", "belongs on standard error"],
+                          folder=tmp_path)
+
+
 def test_two_commands_of_one_name_are_refused(tmp_path):
     refused_on_tiny_scene("--detector-cmd", command("none"), "--detector-cmd", command("lies"),
                           "--no-timing",

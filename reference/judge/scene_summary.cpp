@@ -79,8 +79,9 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   }
   out.separation = separations;
   if (scene.family) {
-    out.family = {scene.family->parameter, scene.family->origin, scene.family->stresses,
-                  scene.family->values,    /*true_pairs=*/{},    scene.family->range};
+    const scene::CaseFamily& family = *scene.family;
+    out.family = {family.parameter, family.origin, family.stresses, family.values, {},
+                  family.range};
     // Per value, so that a report can set answers beside it.
     for (const oracle::Truth& t : judged.truth) {
       std::size_t pairs = t.surface.triangles.size();

@@ -6,24 +6,21 @@
 #include "core/types/check.h"
 #include "reference/plugin/pipe_messages.h"
 #include "reference/plugin/pipe_process.h"
+#include "reference/text/printable.h"
 
 namespace contactcheck::plugin {
 namespace {
 
 // A row keeps text::kLongestForeignText bytes of a sentence: of a long command the end is shown, so
 // that what went wrong is kept as well.
-std::string shown(const std::string& command) {
-  constexpr std::size_t kLongestShown = 200;
-  if (command.size() <= kLongestShown) return command;
-  std::size_t begin = command.size() - kLongestShown;
-  while (begin < command.size() && (command[begin] & 0xC0) == 0x80) ++begin;  // within a character
-  return "..." + command.substr(begin);
-}
+constexpr std::size_t kLongestShownCommand = 200;
 
 class PipeDetector : public Detector {
  public:
   PipeDetector(const std::string& command, const Options& options)
-      : name_("command \"" + shown(command) + "\""), options_(options), process_(command) {
+      : name_("command \"" + text::end_of(command, kLongestShownCommand) + "\""),
+        options_(options),
+        process_(command) {
     process_.send(hello_message());
     const Reply hello(process_.receive_line(), name_, "hello");
     hello.root().at("protocol").one_of({kPipeProtocol});

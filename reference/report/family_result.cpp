@@ -1,5 +1,7 @@
 #include "reference/report/family_result.h"
 
+#include <fmt/format.h>
+
 #include "core/types/check.h"
 
 namespace contactcheck::report {
@@ -24,6 +26,11 @@ std::uint64_t FamilyResult::at(Counts counts, std::size_t frame) const {
 
 bool FamilyResult::wrong_at(std::size_t frame) const {
   return at(&results::PerFrame::missed, frame) + at(&results::PerFrame::spurious, frame) > 0;
+}
+
+std::string FamilyResult::errors_text(std::size_t frame) const {
+  return fmt::format("{} missed, {} spurious of {} true", at(&results::PerFrame::missed, frame),
+                     at(&results::PerFrame::spurious, frame), at(&results::PerFrame::truth, frame));
 }
 
 std::uint64_t FamilyResult::sum(Counts counts) const {

@@ -30,6 +30,8 @@ struct FamilyResult {
   /// @pre judged()
   std::uint64_t at(Counts counts, std::size_t frame) const;
   bool wrong_at(std::size_t frame) const;
+  /// "1 missed, 0 spurious of 6 true". @pre judged()
+  std::string errors_text(std::size_t frame) const;
   /// Over all cases; 0 where nothing was judged.
   std::uint64_t sum(Counts counts) const;
   std::size_t wrong() const;

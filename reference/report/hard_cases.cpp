@@ -89,8 +89,7 @@ std::vector<std::string> wrong_line(const FamilyResult& result) {
   const std::size_t first = first_wrong(result);
   return {result.detector(),
           result.value(first),
-          fmt::format("{} missed, {} spurious of {} true", result.at(&PerFrame::missed, first),
-                      result.at(&PerFrame::spurious, first), result.at(&PerFrame::truth, first)),
+          result.errors_text(first),
           fmt::format("{} of {}", result.wrong(), result.cases()),
           fmt::format("{}", result.sum(&PerFrame::missed)),
           fmt::format("{}", result.sum(&PerFrame::spurious))};

@@ -9,7 +9,6 @@
 
 namespace contactcheck::report {
 namespace {
-using results::PerFrame;
 
 // A detector's answers at one value, in all families that have it.
 struct ValueAnswers {
@@ -27,7 +26,7 @@ void add(const FamilyResult& result, DetectorAnswers& to) {
   if (result.judged()) to.level = finest_level(result.run);
   for (std::size_t f = 0; f < result.cases(); ++f) {
     const std::string& value = result.value(f);
-    ValueAnswers& at = to.by_value[result.scene.family->number(f)];
+    ValueAnswers& at = to.by_value[results::parameter_number(value)];
     at.value = value;
     ++at.cases;
     if (result.judged() && !result.wrong_at(f)) {
@@ -35,13 +34,9 @@ void add(const FamilyResult& result, DetectorAnswers& to) {
       continue;
     }
     if (!at.wrong.empty()) continue;
-    const std::string where = fmt::format("{}@{}: ", result.scene.id, value);
-    at.wrong =
-        where +
-        (result.judged()
-             ? fmt::format("{} missed, {} spurious of {} true", result.at(&PerFrame::missed, f),
-                           result.at(&PerFrame::spurious, f), result.at(&PerFrame::truth, f))
-             : std::string(result.run.ok() ? "not judged" : results::name_of(result.run.status)));
+    const std::string unanswered = result.run.ok() ? "not judged" : name_of(result.run.status);
+    at.wrong = fmt::format("{}@{}: {}", result.scene.id, value,
+                           result.judged() ? result.errors_text(f) : unanswered);
   }
 }
 

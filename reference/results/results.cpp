@@ -37,10 +37,9 @@ void LevelCounts::set_rates() {
   spurious_rate = rate(spurious, reported);
 }
 
-double Family::number(std::size_t value) const {
-  if (value >= values.size()) throw InputError("the family has no case " + std::to_string(value));
-  const std::optional<double> number = scene::parse_double(values[value]);
-  if (!number) throw InputError("the parameter's value \"" + values[value] + "\" is no number");
+double parameter_number(const std::string& value) {
+  const std::optional<double> number = scene::parse_double(value);
+  if (!number) throw InputError("the parameter's value \"" + value + "\" is no number");
   return *number;
 }
 

@@ -221,10 +221,10 @@ struct Family {
   std::vector<std::string> values;
   std::vector<std::uint64_t> true_pairs;  ///< by value
   std::string range;                      ///< "size" or "distance" (scene::CaseFamily); else empty
-
-  /// The parameter's value in that case. @throws InputError when it is no number or not there
-  double number(std::size_t value) const;
 };
+
+/// A value of a family's parameter. @throws InputError when it is no number
+double parameter_number(const std::string& value);
 
 struct Sweep {
   std::vector<double> separations;

@@ -8,6 +8,7 @@
 #include "core/types/check.h"
 #include "core/types/shortest.h"
 #include "reference/text/file_text.h"
+#include "reference/text/printable.h"
 
 namespace contactcheck::text {
 namespace {
@@ -15,7 +16,9 @@ namespace {
 // Scene files are four levels deep; unbounded nesting would only exhaust the stack.
 constexpr std::size_t kDeepest = 64;
 
-constexpr std::size_t kLongestKey = 100, kLongestPath = 300;  // bytes in a message
+// Bytes in a message: keys of any length may be nested before anybody asks whether they are
+// allowed.
+constexpr std::size_t kLongestKey = 100, kLongestPath = 300;
 
 // `text` from a file as a message shows it, without quotes.
 std::string plain(const std::string& text, std::size_t longest = std::string::npos) {
@@ -26,11 +29,6 @@ std::string plain(const std::string& text, std::size_t longest = std::string::np
 // What nlohmann read last; a text brings its own quotes.
 std::string shown_token(const std::string& token) {
   return !token.empty() && token[0] == '"' ? plain(token.substr(0, 40)) : in_quotes(token, 40);
-}
-
-// Keys of any length may be nested before anybody asks whether they are allowed.
-std::string end_of(const std::string& path) {
-  return path.size() <= kLongestPath ? path : "..." + path.substr(path.size() - kLongestPath);
 }
 
 std::string place_of(std::size_t at, const std::string& text) {
@@ -79,7 +77,8 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& value) override {
     JsonValue& object = open_.back();
     if (object.find(value) != nullptr) {
-      throw InputError(document_ + ": " + end_of(member_path(path(), value)) + " is given twice.");
+      throw InputError(document_ + ": " + end_of(member_path(path(), value), kLongestPath) +
+                       " is given twice.");
     }
     object.keys.push_back(value);
     return true;
@@ -115,7 +114,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool open(JsonValue::Kind kind) {
     if (open_.size() == kDeepest) {
-      throw InputError(document_ + ": " + end_of(path()) + " is nested deeper than " +
+      throw InputError(document_ + ": " + end_of(path(), kLongestPath) + " is nested deeper than " +
                        std::to_string(kDeepest) + " levels.");
     }
     open_.emplace_back().kind = kind;

@@ -50,6 +50,13 @@ std::string printable_line(std::string_view text, std::size_t longest) {
   return out;
 }
 
+std::string end_of(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  std::size_t begin = text.size() - longest;
+  while (begin < text.size() && (text[begin] & 0xC0) == 0x80) ++begin;
+  return "..." + text.substr(begin);
+}
+
 std::string current_exception_text() {
   try {
     throw;

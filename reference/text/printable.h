@@ -14,6 +14,9 @@ constexpr std::size_t kLongestForeignText = 400;  ///< bytes that are kept of on
 /// UTF-8 as '?', cut between characters to at most `longest` bytes with "..." behind them.
 std::string printable_line(std::string_view text, std::size_t longest = kLongestForeignText);
 
+/// `text`; of a longer one "..." and its last `longest` bytes, without a part of a character.
+std::string end_of(const std::string& text, std::size_t longest);
+
 /// What the exception that is being handled says; of one that is no std::exception its type.
 /// @pre called inside a catch clause
 std::string current_exception_text();

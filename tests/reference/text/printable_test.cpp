@@ -51,6 +51,14 @@ struct Wordless : std::exception {
   const char* what() const noexcept override { return nullptr; }
 };
 
+TEST(EndOf, CutsWhatIsTooLongBetweenCharacters) {
+  EXPECT_EQ(end_of("abcd", 5), "abcd");
+  EXPECT_EQ(end_of("abcde", 5), "abcde");
+  EXPECT_EQ(end_of("abcdef", 5), "...bcdef");
+  EXPECT_EQ(end_of("ab\u00e9de", 4), "...\u00e9de");
+  EXPECT_EQ(end_of("ab\u00e9de", 3), "...de");
+}
+
 TEST(CurrentExceptionText, IsWhatTheExceptionSays) {
   EXPECT_EQ(text_of(std::runtime_error("no room\nat all")), "no room");
 }

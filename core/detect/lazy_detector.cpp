@@ -238,7 +238,8 @@ std::size_t LazyDetector::instance_bytes() const {
   for (const LazyState& s : states_)
     bytes += s.near_nodes.size() * sizeof(Float4) + s.cells.size() * sizeof(CellTerms) +
              s.blocks.bytes() + s.leaves.bytes() + s.single.nodes.size() * sizeof(Vec3f) +
-             s.single.leaves.bytes() + s.embedded_regions.size() + s.embedded_children.size();
+             s.single.leaves.bytes() + s.embedded_ones.size() + s.embedded_eights.size() +
+             s.embedded_children.size();
   for (const LazyScratch& scratch : team_.scratch()) bytes += scratch.arena.bytes();
   for (const std::vector<Vec3>& m : mapped_) bytes += m.size() * sizeof(Vec3);
   for (const std::vector<Vec3f>& m : single_mapped_) bytes += m.size() * sizeof(Vec3f);

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Rounding of what is computed at rest: far more than it can be.
 constexpr double kUp = 1 + 1e-6, kDown = 1 - 1e-6;
-constexpr std::uint64_t kMostCells = 8;  // of a patch; more are not worth a look
+constexpr std::uint32_t kMostCells = 8;  // of a patch; more are not worth a look
 // Sides of cells, and square of DF, that are looked at.
 constexpr double kLeastSide = 0x1p-100, kMostSide = 0x1p100;
 constexpr double kLeastSquare = 0x1p-200, kMostSquare = 0x1p200;
@@ -52,6 +52,17 @@ PatchRest patch_of(const BodyShape& shape, std::uint32_t triangle, const Triangl
   return out;
 }
 
+std::vector<GridSlice> slices_of(const std::vector<double>& lines, double scale) {
+  std::vector<GridSlice> out(lines.size() - 1);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    const double low = lines[i], high = lines[i + 1], side = (high - low) * scale;
+    out[i].low = low;
+    out[i].farthest = std::max(std::abs(low), std::abs(high)) * scale;
+    if (side >= kLeastSide && side <= kMostSide) out[i].inverse = 2.0 / side;
+  }
+  return out;
+}
+
 class PatchBuilder {
  public:
   PatchBuilder(const BodyShape& shape, const LatticeTree& tree, PatchTree& out)
@@ -60,8 +71,8 @@ class PatchBuilder {
   void run() {
     out_.children.resize(tree_.blocks.size() * kBlockWidth);
     block(0);
-    for (const auto& [first, patch] : ones_) out_.ones.push_back({first, patch});
-    for (const auto& [first, patch] : eights_) out_.eights.push_back({first, patch});
+    take(ones_, out_.ones);
+    take(eights_, out_.eights);
   }
 
  private:
@@ -109,6 +120,15 @@ class PatchBuilder {
     if (!fresh) at->second = at->second.united(patch);
   }
 
+  static void take(const Regions& from, PatchRegions& to) {
+    std::vector<GridIndex> firsts;
+    for (const auto& [first, patch] : from) {
+      firsts.push_back(first);
+      to.patches.push_back(patch);
+    }
+    to.places = GridPlaces(firsts);
+  }
+
   const BodyShape& shape_;
   const LatticeTree& tree_;
   std::vector<TriangleRest> rest_;
@@ -116,16 +136,20 @@ class PatchBuilder {
   PatchTree& out_;
 };
 
+// Three numbers and a 0, as the terms of a cell have them.
+using Double4 = Eigen::Array4d;
+
 /// Entries of DF over parts of cells: a column per axis at rest.
 struct Range {
-  Eigen::Array3d lo[3], hi[3];
-  void add(int axis, const Eigen::Array3d& middle, const Eigen::Array3d& half, bool first) {
-    lo[axis] = first ? Eigen::Array3d(middle - half) : lo[axis].min(middle - half).eval();
-    hi[axis] = first ? Eigen::Array3d(middle + half) : hi[axis].max(middle + half).eval();
+  Double4 lo[3], hi[3];
+  Range() {
+    for (int k = 0; k < 3; ++k) lo[k].setConstant(kInfinity), hi[k].setConstant(-kInfinity);
+  }
+  void add(int axis, const Double4& middle, const Double4& half) {
+    lo[axis] = lo[axis].min(middle - half);
+    hi[axis] = hi[axis].max(middle + half);
   }
 };
-
-Eigen::Array3d in_doubles(const Float4& x) { return x.head<3>().cast<double>(); }
 
 // The smallest eigenvalue of a symmetric positive semidefinite matrix, from below: Newton's method
 // from 0 on the characteristic polynomial, which is concave and increasing up to its first root.
@@ -156,61 +180,73 @@ double smallest_eigenvalue(const Eigen::Matrix3d& m) {
 
 constexpr std::uint8_t kUnknown = 0, kEmbedded = 1, kNotTold = 2;
 
-// The conditions of the claim for one frame.
+/// The part of the cells between two neighbouring grid lines that Q meets, in y = 2 x - 1 of a
+/// cell.
+struct AxisPart {
+  double middle, half, inverse;  ///< inverse: GridSlice::inverse
+};
+
+// The conditions of the claim for one frame. @pre at most kMostCells cells
 bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& patch) {
-  const Lattice& lattice = *state.shape->lattice;
   if (!(patch.gap > 0.0f)) return false;
 
-  // DF over the part of each cell that Q holds. Terms are those of y = 2 x - 1 in the cell.
-  Range range;
-  double finest = kInfinity;  // the shortest side of these cells, along axes in which Q extends
-  double farthest = 0.0;      // |coordinate| of a corner of these cells, at rest
-  double bend = 0.0;          // m
+  AxisPart parts[3][kMostCells];
+  double largest_inverse = 0.0;  // 2 over the shortest side, along axes in which Q extends
+  double farthest = 0.0;         // |coordinate| of an end of these cells, at rest
   std::size_t cells = 1, kept = 0;
   bool long_row = false;  // more than two cells along an axis
   std::array<bool, 3> flat{};
   for (int k = 0; k < 3; ++k) {
-    cells *= patch.last_cell[k] - patch.first_cell[k] + std::size_t{1};
-    long_row = long_row || patch.last_cell[k] - patch.first_cell[k] > 1;
+    const std::uint32_t first = patch.first_cell[k], last = patch.last_cell[k];
+    cells *= last - first + std::size_t{1};
+    long_row = long_row || last - first > 1;
     flat[k] = patch.lo[k] == patch.hi[k];
+    for (std::uint32_t at = first; at <= last; ++at) {
+      const GridSlice& slice = patches.slices[k][at];
+      if (slice.inverse == 0.0) return false;
+      if (!flat[k]) largest_inverse = std::max(largest_inverse, slice.inverse);
+      farthest = std::max(farthest, slice.farthest);
+      // Differences round by 2^-53 of them, of which `half` has 1e-12 to spare.
+      const double from = std::max(-1.0,
+                                   (patch.lo[k] - slice.low) * patches.scale * slice.inverse - 1.0),
+                   to = std::min(1.0,
+                                 (patch.hi[k] - slice.low) * patches.scale * slice.inverse - 1.0);
+      parts[k][at - first] = {0.5 * (from + to), std::max(0.0, 0.5 * (to - from)) + 1e-12,
+                              slice.inverse};
+    }
   }
+  const double finest = 2.0 / largest_inverse;
+
+  // DF over the part of each cell that Q holds.
+  Range range;
+  double bend = 0.0;  // m, where Q is in one cell
   for (std::uint32_t z = patch.first_cell[2]; z <= patch.last_cell[2]; ++z)
     for (std::uint32_t y = patch.first_cell[1]; y <= patch.last_cell[1]; ++y)
-      for (std::size_t cell = lattice.first_cell_from({patch.first_cell[0], y, z});
-           cell < lattice.cells.size() &&
-           !grid_before({patch.last_cell[0], y, z}, lattice.cells[cell]);
-           ++cell) {
+      for (std::uint32_t x = patch.first_cell[0]; x <= patch.last_cell[0]; ++x) {
+        const std::uint32_t cell = patches.kept.find({x, y, z});
+        if (cell == GridPlaces::kNone) continue;
         const CellTerms& f = state.cells[cell];
-        double c[3], e[3], inverse[3];
+        const AxisPart* const part[3] = {&parts[0][x - patch.first_cell[0]],
+                                         &parts[1][y - patch.first_cell[1]],
+                                         &parts[2][z - patch.first_cell[2]]};
+        const Double4 mixed = f.term[7].cast<double>();
+        double mixed_norm[3] = {};  // of the derivatives along k and the next axis
         for (int k = 0; k < 3; ++k) {
-          const std::uint32_t at = lattice.cells[cell][k];
-          const double low = lattice.lines[k][at], high = lattice.lines[k][at + 1];
-          const double side = high - low;
-          const double scaled = side * patches.scale;
-          if (!(scaled >= kLeastSide && scaled <= kMostSide)) return false;
-          if (!flat[k]) finest = std::min(finest, scaled);
-          farthest = std::max(farthest, std::max(std::abs(low), std::abs(high)) * patches.scale);
-          const double from = std::max(-1.0, 2.0 * (patch.lo[k] - low) / side - 1.0),
-                       to = std::min(1.0, 2.0 * (patch.hi[k] - low) / side - 1.0);
-          c[k] = 0.5 * (from + to);
-          e[k] = std::max(0.0, 0.5 * (to - from)) + 1e-12;
-          inverse[k] = 2.0 / scaled;
-        }
-        double mixed_norm[3];  // of the derivatives along k and the next axis
-        for (int k = 0; k < 3; ++k) {
-          const int i = (k + 1) % 3, j = (k + 2) % 3, all = 7;
-          const Eigen::Array3d own = in_doubles(f.term[1 << k]),
-                               with_i = in_doubles(f.term[1 << k | 1 << i]),
-                               with_j = in_doubles(f.term[1 << k | 1 << j]),
-                               mixed = in_doubles(f.term[all]);
-          const Eigen::Array3d middle = own + with_i * c[i] + with_j * c[j] + mixed * (c[i] * c[j]);
-          const Eigen::Array3d half = (with_i + mixed * c[j]).abs() * e[i] +
-                                      (with_j + mixed * c[i]).abs() * e[j] +
-                                      mixed.abs() * (e[i] * e[j]);
-          range.add(k, middle * inverse[k], half * inverse[k], kept == 0);
-          const Eigen::Array3d second = (with_i + mixed * c[j]).abs() + mixed.abs() * e[j];
-          mixed_norm[k] =
-              flat[k] || flat[i] ? 0.0 : second.matrix().norm() * inverse[k] * inverse[i];
+          const int i = (k + 1) % 3, j = (k + 2) % 3;
+          const Double4 own = f.term[1 << k].cast<double>(),
+                        with_i = f.term[1 << k | 1 << i].cast<double>(),
+                        with_j = f.term[1 << k | 1 << j].cast<double>();
+          const auto& [ci, ei, inverse_i] = *part[i];
+          const auto& [cj, ej, inverse_j] = *part[j];
+          const double inverse = part[k]->inverse;
+          const Double4 along_i = (with_i + mixed * cj).abs(),
+                        along_j = (with_j + mixed * ci).abs();
+          const Double4 middle = own + with_i * ci + with_j * cj + mixed * (ci * cj);
+          const Double4 half = along_i * ei + along_j * ej + mixed.abs() * (ei * ej);
+          range.add(k, middle * inverse, half * inverse);
+          if (cells > 1 || flat[k] || flat[i]) continue;
+          const double second = (along_i + mixed.abs() * ej).matrix().norm();
+          mixed_norm[k] = second * inverse * inverse_i;
         }
         // The largest row sum of a symmetric matrix bounds its norm.
         for (int k = 0; k < 3; ++k) bend = std::max(bend, mixed_norm[k] + mixed_norm[(k + 2) % 3]);
@@ -258,60 +294,48 @@ bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& pa
 
 }  // namespace
 
-PatchRest PatchRest::united(const PatchRest& other) const {
-  PatchRest out = *this;
-  for (int k = 0; k < 3; ++k) {
-    out.lo[k] = std::min(lo[k], other.lo[k]);
-    out.hi[k] = std::max(hi[k], other.hi[k]);
-    out.first_cell[k] = std::min(first_cell[k], other.first_cell[k]);
-    out.last_cell[k] = std::max(last_cell[k], other.last_cell[k]);
-  }
-  out.stretch = std::max(stretch, other.stretch);
-  out.ratio = std::max(ratio, other.ratio);
-  out.edge = std::max(edge, other.edge);
-  out.gap = std::min(gap, other.gap);
-  out.altitude = std::min(altitude, other.altitude);
-  return out;
-}
-
 std::size_t PatchTree::bytes() const {
-  return children.capacity() * sizeof(PatchRest) +
-         (ones.capacity() + eights.capacity()) * sizeof(PatchRegion);
+  return children.capacity() * sizeof(PatchRest) + ones.bytes() + eights.bytes() + kept.bytes();
 }
 
 PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree) {
   PatchTree out;
   out.scale = rest_scale(shape);
+  out.kept = GridPlaces(shape.lattice->cells);
+  for (int k = 0; k < 3; ++k) out.slices[k] = slices_of(shape.lattice->lines[k], out.scale);
   PatchBuilder(shape, tree, out).run();
   return out;
 }
 
 namespace {
 
+// Of all triangles within some cells, asked once a frame: `told` is what is known of it.
+bool region_holds(const LazyState& state, const PatchTree& patches, const PatchRest& region,
+                  std::uint8_t& told) {
+  if (told == kUnknown) told = holds(state, patches, region) ? kEmbedded : kNotTold;
+  return told == kEmbedded;
+}
+
 // One patch, or two together: by the cells it meets where these are few, else by itself.
 bool told(LazyState& state, const PatchTree& patches, const PatchRest& patch) {
-  std::uint64_t cells = 1, longest = 1;
+  std::uint32_t cells = 1, longest = 1;
   for (int k = 0; k < 3; ++k) {
-    const std::uint64_t count = patch.last_cell[k] - patch.first_cell[k] + std::uint64_t{1};
-    if (count > kMostCells) return false;
-    cells *= count;
-    longest = std::max(longest, count);
+    const std::uint32_t more = patch.last_cell[k] - patch.first_cell[k];
+    if (more >= kMostCells) return false;
+    cells *= more + 1;  // at most kMostCells^3
+    longest = std::max(longest, more + 1);
   }
   if (cells > kMostCells) return false;
   if (longest > 2) return holds(state, patches, patch);
-  for (const std::vector<PatchRegion>* regions : {&patches.ones, &patches.eights}) {
-    const bool eight = regions == &patches.eights;
-    if (!eight && cells > 1) continue;
-    const auto at = std::lower_bound(regions->begin(), regions->end(), patch.first_cell,
-                                     [](const PatchRegion& region, const GridIndex& cell) {
-                                       return grid_before(region.first, cell);
-                                     });
-    const auto index = static_cast<std::size_t>(at - regions->begin());
-    std::uint8_t& known = state.embedded_regions[index + (eight ? patches.ones.size() : 0)];
-    if (known == kUnknown) known = holds(state, patches, at->patch) ? kEmbedded : kNotTold;
-    if (known == kEmbedded) return true;
+  if (cells == 1) {
+    const std::uint32_t one = patches.ones.places.find(patch.first_cell);
+    if (region_holds(state, patches, patches.ones.patches[one], state.embedded_ones[one]))
+      return true;
   }
-  return holds(state, patches, patch);
+  const std::uint32_t eight = patches.eights.places.find(patch.first_cell);
+  return region_holds(state, patches, patches.eights.patches[eight],
+                      state.embedded_eights[eight]) ||
+         holds(state, patches, patch);
 }
 
 bool told_alone(LazyState& state, const PatchTree& patches, std::uint32_t child) {
@@ -325,7 +349,8 @@ bool told_alone(LazyState& state, const PatchTree& patches, std::uint32_t child)
 
 bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b) {
   if (state.embedded_children.empty()) {
-    state.embedded_regions.assign(patches.ones.size() + patches.eights.size(), kUnknown);
+    state.embedded_ones.assign(patches.ones.patches.size(), kUnknown);
+    state.embedded_eights.assign(patches.eights.patches.size(), kUnknown);
     state.embedded_children.assign(patches.children.size(), kUnknown);
   }
   // Of what is not told of one of them, no more is told of both.

@@ -58,11 +58,13 @@
 // claim holds for each.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/deform/body.h"
+#include "core/lazy/grid_places.h"
 #include "core/lazy/lattice_tree.h"
 #include "core/lazy/lazy_state.h"
 
@@ -76,21 +78,45 @@ struct PatchRest {
   float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;  ///< c, k, h: at least; or infinite
   float gap = 0.0f, altitude = 0.0f;                ///< g, a: at most
 
-  PatchRest united(const PatchRest& other) const;
+  PatchRest united(const PatchRest& other) const {
+    PatchRest out;
+    for (int k = 0; k < 3; ++k) {
+      out.lo[k] = std::min(lo[k], other.lo[k]);
+      out.hi[k] = std::max(hi[k], other.hi[k]);
+      out.first_cell[k] = std::min(first_cell[k], other.first_cell[k]);
+      out.last_cell[k] = std::max(last_cell[k], other.last_cell[k]);
+    }
+    out.stretch = std::max(stretch, other.stretch);
+    out.ratio = std::max(ratio, other.ratio);
+    out.edge = std::max(edge, other.edge);
+    out.gap = std::min(gap, other.gap);
+    out.altitude = std::min(altitude, other.altitude);
+    return out;
+  }
 };
 
-/// All triangles within some cells: one, or two by two by two.
-struct PatchRegion {
-  GridIndex first{};  ///< the lowest of them
-  PatchRest patch;
+/// The cells between two neighbouring grid lines. Lengths without a unit are in the scale of the
+/// mesh.
+struct GridSlice {
+  double low = 0.0;       ///< metres
+  double farthest = 0.0;  ///< |coordinate| of the lines
+  double inverse = 0.0;   ///< 2 over the side; 0: the side is not looked at
+};
+
+/// All triangles within some cells, one or two by two by two; those regions that have a triangle.
+struct PatchRegions {
+  std::vector<PatchRest> patches;  ///< ascending in (z, y, x) of their lowest cell
+  GridPlaces places;               ///< of that cell
+
+  std::size_t bytes() const { return patches.capacity() * sizeof(PatchRest) + places.bytes(); }
 };
 
 struct PatchTree {
-  std::vector<PatchRest> children;  ///< [block * kBlockWidth + lane]
-  /// Those with a triangle, ascending in (z, y, x) of `first`: no more than the kept cells, and
-  /// eight times as many.
-  std::vector<PatchRegion> ones, eights;
-  double scale = 1.0;  ///< of lengths at rest (rest_scale)
+  std::vector<PatchRest> children;               ///< [block * kBlockWidth + lane]
+  std::array<std::vector<GridSlice>, 3> slices;  ///< by axis
+  PatchRegions ones, eights;  ///< no more than the kept cells, and eight times as many
+  GridPlaces kept;            ///< of the lattice's cells
+  double scale = 1.0;         ///< of lengths at rest (rest_scale)
 
   /// Bytes held, for the report.
   std::size_t bytes() const;

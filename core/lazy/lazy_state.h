@@ -172,7 +172,7 @@ struct LazyState {
   Precision precision = Precision::kDouble;
   const PatchTree* patches = nullptr;  ///< where known: what cannot meet itself
   /// What is known in this frame of regions and children of `patches`; no children: not asked.
-  std::vector<std::uint8_t> embedded_regions, embedded_children;
+  std::vector<std::uint8_t> embedded_ones, embedded_eights, embedded_children;
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices

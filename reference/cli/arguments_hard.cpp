@@ -32,12 +32,14 @@ void add_defects(CommandLine& line) {
   const auto words = std::make_shared<DefectsWords>();
   CLI::App* defects =
       line.app.add_subcommand("defects", "Compares the wrong answers of a run with the known ones");
-  defects->add_option("results", words->results, "results.json of the suite hard")->required();
+  defects->add_option("results", words->results, "results.json of the suite hard or scales")
+      ->required();
   defects->add_flag("--write", words->write,
-                    "update known-defects.json and readings.json of fixtures/hard");
+                    "update known-defects.json, readings.json and ranges.json of fixtures/hard");
   defects->footer(
       "Exit code 1 when a listed wrong answer did not show or has another count, or an unlisted "
       "one did.\n"
+      "Of the suite scales the ranges in which each detector is right are compared.\n"
       "Example:\n  contactcheck run hard --no-timing\n  contactcheck defects out/results.json");
   choose(*defects, line, [words] { return defects_command(words->results, words->write); });
 }

@@ -1,6 +1,7 @@
 #include "reference/judge/scene_summary.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "reference/judge/judge.h"
@@ -39,6 +40,30 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
   return out;
 }
 
+// stableNorm() keeps lengths whose squares are no double.
+std::optional<results::SceneScale> scale_of(const JudgedScene& judged) {
+  const scene::Scene& scene = *judged.scene;
+  if (scene.family || scene.pairs) return {};
+  results::SceneScale out{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  for (const Body& body : scene.bodies) {
+    const std::vector<Vec3>& vertices = body.shape->mesh.vertices;
+    for (const Triangle& t : body.shape->mesh.triangles) {
+      double edge = 0.0;
+      for (const std::size_t i : {0, 1, 2})
+        edge = std::max(edge, (vertices[t[i]] - vertices[t[(i + 1) % 3]]).stableNorm());
+      if (edge == 0.0) continue;
+      out.shortest_edge = std::min(out.shortest_edge, edge);
+      out.longest_edge = std::max(out.longest_edge, edge);
+    }
+  }
+  if (out.longest_edge == 0.0) return {};
+  for (std::size_t f = 0; f < judged.truth.size(); ++f)
+    for (const std::vector<Vec3>& vertices : judged.positions[f].vertices)
+      for (const Vec3& vertex : vertices)
+        out.reach = std::max(out.reach, vertex.cwiseAbs().maxCoeff());
+  return out;
+}
+
 results::RandomPairs pairs_of(const scene::PairSpec& spec, const PairTally& tally) {
   results::RandomPairs out{spec.count, spec.seed,       tally.touching(),
                            {},         tally.checked(), tally.oracle_wrong};
@@ -60,6 +85,7 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
   out.frames = scene.frames;
   out.time_step = scene.time_step;
   out.size = scene.size();
+  out.scale = scale_of(judged);
   out.contact_frames = static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
   out.truth = truth_of(judged);
   std::uint64_t hash = 0;

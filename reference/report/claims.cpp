@@ -5,6 +5,7 @@
 #include <set>
 
 #include "reference/report/format.h"
+#include "reference/report/scale_ranges.h"
 #include "reference/report/scene_choice.h"
 #include "reference/results/references.h"
 
@@ -237,7 +238,8 @@ std::vector<TitledTable> claims_of(const results::Results& results) {
       bullet_scale_claim(index),
       bullet_inside_claim(index),
       bullet_normal_claim(index),
-      bullet_cluster_claim(index)};
+      bullet_cluster_claim(index),
+      known_ranges_table(results)};
   std::erase_if(claims, [](const TitledTable& claim) { return claim.rows.empty(); });
   return claims;
 }

@@ -211,7 +211,7 @@ std::string hard_cases_markdown(const results::Results& results) {
                           family.scene.id, family.scene.title, family.sentence,
                           stability_plot_file(family.scene), markdown_of(family.table));
   std::string ranges;
-  for (const TitledTable& table : scale_ranges(results)) ranges += markdown_of(table);
+  for (const TitledTable& table : range_tables(scale_ranges(results))) ranges += markdown_of(table);
   return "## Hard cases\n\n" + sums + ranges + "### Where they go wrong\n\n" +
          (tables.empty() ? "Nowhere.\n\n" : tables);
 }

@@ -13,6 +13,7 @@
 #include "reference/report/format.h"
 #include "reference/report/known_defects.h"
 #include "reference/report/run_row.h"
+#include "reference/report/scale_ranges.h"
 #include "reference/results/references.h"
 
 namespace contactcheck::report {
@@ -389,6 +390,11 @@ Headline headline_of(const Results& results) {
     if (!scene.unjudged.empty()) unjudged.push_back(scene.unjudged);
   if (!unjudged.empty())
     out.findings.push_back({"Not judged", short_list(unjudged, kMostPlaces) + "."});
+  if (const Names out_of_range = detectors_out_of_range(results); !out_of_range.empty())
+    out.findings.push_back(
+        {"Sizes",
+         "Some scene is outside the sizes or distances in which they are known to be right: " +
+             listed(out_of_range) + "."});
   if (results.known_defects)
     out.findings.push_back({"Known defects", known_defects_sentence(*results.known_defects)});
   add_oracle(results, out.findings);

@@ -112,7 +112,7 @@ Json hard_json(const Results& results, const TitledTable& sums) {
                         {"picture", stability_plot(family.scene, all)}});
   }
   return {{"sums", to_json(sums)},
-          {"ranges", to_json(scale_ranges(results))},
+          {"ranges", to_json(range_tables(scale_ranges(results)))},
           {"matrix", to_json(hard_matrix(results))},
           {"families", std::move(families)}};
 }

@@ -1,6 +1,7 @@
 // In which range of sizes, and of distances from the origin, each detector is right.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "reference/report/markdown_table.h"
@@ -8,12 +9,25 @@
 
 namespace contactcheck::report {
 
-/// One table for families whose parameter is a size and one for those whose is a distance
-/// (results::Family::range), as far as there are such; a row per detector that they have in common.
-/// A value is right for a detector when it answers the case as it claims in every family that has
-/// the value; without an answer (error, refused) no case of a family is. The range is the longest
-/// run of right values (the first of equally long ones); beside it stand the nearest wrong cases.
+/// Of families whose parameter is a size, then of those whose is a distance (Family::range), one
+/// per detector that they have in common; without library and version. A value is right for a
+/// detector when it answers the case as it claims in every family that has the value; without an
+/// answer (error, refused) no case of a family is. The range is the longest run of right values
+/// (the first of equally long ones).
 /// @throws InputError for a value that is no number, or results that lack a case
-std::vector<TitledTable> scale_ranges(const results::Results& results);
+std::vector<results::ScaleRange> scale_ranges(const results::Results& results);
+
+/// A table of those by size and one of those by distance, as far as there are such.
+std::vector<TitledTable> range_tables(const std::vector<results::ScaleRange>& ranges);
+
+/// Results::known_ranges beside the scenes of the run; no rows without scenes that have a scale.
+TitledTable known_ranges_table(const results::Results& results);
+
+/// Those that some scene of the run is too small, too large or too far out for, each once.
+std::vector<std::string> detectors_out_of_range(const results::Results& results);
+
+/// "DETECTOR  BY  as listed -> as shown" per line, for those that differ; empty: none does.
+std::string range_changes(const std::vector<results::ScaleRange>& listed,
+                          const std::vector<results::ScaleRange>& shown);
 
 }  // namespace contactcheck::report

@@ -249,7 +249,7 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
   if (const TitledTable sums = hard_sums(results); !sums.rows.empty())
     out += paint("hard cases", kBold, color) +
            "  errors by family: report.md, \"Where they go wrong\"\n" + table(sums);
-  for (TitledTable& ranges : scale_ranges(results)) {
+  for (TitledTable& ranges : range_tables(scale_ranges(results))) {
     out += paint(ranges.title, kBold, color) + "\n  " + ranges.text + "\n";
     out += table(std::move(ranges));
   }

@@ -7,6 +7,7 @@
 
 #include "core/deform/atomic_file.h"
 #include "core/types/check.h"
+#include "reference/results/scale_ranges.h"
 #include "reference/text/file_text.h"
 #include "reference/text/json_field.h"
 
@@ -76,11 +77,11 @@ SightingsOfRun sightings_of(const results::Results& results) {
     if (run.ok() || run.status == results::Status::kError)
       add_end(SightingKind::kError,
               scene->family ? scene->family->values : std::vector<std::string>{}, run, out);
+    if (!scene->family || !scene->family->range.empty()) continue;
     // A scene that was refused itself has no truth: no detector was asked.
-    if (scene->family &&
-        (run.ok() || (run.status == results::Status::kRefused && !scene->truth.empty())))
+    if ((run.ok() || (run.status == results::Status::kRefused && !scene->truth.empty())))
       add_end(SightingKind::kRefused, scene->family->values, run, out);
-    if (run.ok() && scene->family && run.per_frame.level) add_answers(*scene->family, run, out);
+    if (run.ok() && run.per_frame.level) add_answers(*scene->family, run, out);
   }
   return out;
 }
@@ -227,6 +228,7 @@ bool has_place_for(const KnownDefect& defect, const Sighting& sighting) {
 KnownDefects read_known_defects(const std::filesystem::path& folder) {
   KnownDefects known;
   for (const ListFile& list : kFiles) read_list(folder, list, known);
+  known.ranges = read_scale_ranges(folder);
   std::error_code none;
   for (const auto& file : std::filesystem::directory_iterator(folder / "families", none))
     known.families.insert(file.path().stem().string());
@@ -242,6 +244,7 @@ void write_known_defects(const std::filesystem::path& folder, const KnownDefects
                                                   (text.empty() ? "" : "\n" + text + "\n ") +
                                                   "]\n}\n");
   }
+  write_scale_ranges(folder, known.ranges);
 }
 
 }  // namespace contactcheck::results

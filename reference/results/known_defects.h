@@ -54,7 +54,8 @@ struct SightingsOfRun {
 
 /// Of families: every case at the finest level judged. Of other scenes: errors alone, since what a
 /// detector misses there is its result and no fact of a library's version, and whether it may
-/// refuse a scene is for the gate's policy. Where the scene itself was refused, no detector was.
+/// refuse a scene is for the gate's policy; and of families with a range, whose wrong answers are
+/// its ends. Where the scene itself was refused, no detector was.
 /// @throws InputError when a row's scene is not among the scenes, or a family has other cases than
 /// a row of it
 SightingsOfRun sightings_of(const results::Results& results);
@@ -80,6 +81,8 @@ struct KnownDefect {
 struct KnownDefects {
   std::vector<KnownDefect> defects;
   std::set<std::string> families = {};  ///< ids of the hard cases beside the lists
+  /// Where each detector is right in the suite scales (scale_ranges.h).
+  std::vector<ScaleRange> ranges = {};
 };
 
 /// Does the defect already have sightings of that detector in that scene, of that kind? Then it is
@@ -90,13 +93,13 @@ bool has_place_for(const KnownDefect& defect, const Sighting& sighting);
 inline constexpr const char* kUnexplained = "not looked into yet";
 
 /// known-defects.json and readings.json of the folder, in this order, and the names of the files in
-/// its families/; a file that is missing is an empty list.
+/// its families/; ranges.json; a file that is missing is an empty list.
 /// @throws InputError with file, place and value; also when two defects of one version have the
 /// same detector, scene and kind, and for the form without counts
 KnownDefects read_known_defects(const std::filesystem::path& folder);
 
-/// Both files, each under a temporary name, then renamed. @throws InputError with the path when one
-/// cannot be
+/// The three files, each under a temporary name, then renamed. @throws InputError with the path
+/// when one cannot be
 void write_known_defects(const std::filesystem::path& folder, const KnownDefects& known);
 
 }  // namespace contactcheck::results

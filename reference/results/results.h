@@ -220,7 +220,8 @@ struct Family {
   std::string parameter, origin, stresses;
   std::vector<std::string> values;
   std::vector<std::uint64_t> true_pairs;  ///< by value
-  std::string range;                      ///< "size" or "distance" (scene::CaseFamily); else empty
+  /// "size", the edge of a triangle in metres, or "distance", from the origin in edges; else empty.
+  std::string range;
 };
 
 /// A value of a family's parameter. @throws InputError when it is no number
@@ -262,10 +263,18 @@ struct Simulation {
   std::size_t every = 0;
 };
 
+/// Metres. An edge is the longest side of a triangle at rest; triangles that are a point have none.
+struct SceneScale {
+  double shortest_edge = 0.0, longest_edge = 0.0;
+  double reach = 0.0;  ///< the largest coordinate of a vertex in any frame, either sign
+};
+
 struct Scene {
   std::string id, title;
   std::size_t frames = 0, contact_frames = 0;
   double time_step = 0.0, size = 0.0;
+  /// None where cases or pairs differ in scale from frame to frame, and without triangles.
+  std::optional<SceneScale> scale;
   /// Contacts over all frames, or why the level cannot be judged.
   std::map<Level, std::variant<std::uint64_t, std::string>> truth;
   std::string truth_hash;
@@ -326,6 +335,22 @@ struct DefectCounts {
   std::vector<Sightings> changed, not_shown, unlisted;
 };
 
+/// In which range of sizes, or of distances from the origin, a detector answers every case of the
+/// suite scales as it claims. Values are as the families write them (parameter_number).
+struct ScaleRange {
+  std::string detector;          ///< its canonical name
+  std::string library, version;  ///< as of a KnownDefect (known_defects.h)
+  std::string by;                ///< Family::range
+  std::string level;             ///< the finest judged; "-": none was
+  std::string from, to;          ///< empty: it is right nowhere
+  std::string least, most;       ///< the ends of what was tried
+  std::uint64_t right = 0, cases = 0;
+  std::string wrong_below, wrong_above;  ///< the nearest wrong case, with what is wrong; or empty
+
+  bool by_size() const { return by == "size"; }
+  bool operator==(const ScaleRange&) const = default;
+};
+
 struct ShardScene {
   std::string id;
   std::vector<std::string> detectors, references;
@@ -358,6 +383,8 @@ struct Results {
   std::vector<Run> runs;
   std::vector<Disagreement> disagreements;
   std::optional<DefectCounts> known_defects;
+  /// Of its detectors, in the versions of their libraries that it has.
+  std::vector<ScaleRange> known_ranges;
   std::vector<MeasuredGoal> goals;
   std::optional<std::vector<std::string>> resumed;
   std::optional<Shard> shard;

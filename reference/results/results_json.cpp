@@ -389,12 +389,20 @@ void fields(Io& io, Simulation& s) {
 }
 
 template <typename Io>
+void fields(Io& io, SceneScale& s) {
+  io("shortest_edge", s.shortest_edge);
+  io("longest_edge", s.longest_edge);
+  io("reach", s.reach);
+}
+
+template <typename Io>
 void fields(Io& io, Scene& s) {
   io("id", s.id);
   io("title", s.title);
   io("frames", s.frames);
   io("time_step", s.time_step);
   io("size", s.size);
+  io.unless_empty("scale", s.scale);
   io("contact_frames", s.contact_frames);
   io("truth", s.truth);
   io("truth_hash", s.truth_hash);
@@ -491,6 +499,23 @@ void fields(Io& io, DefectCounts& k) {
 }
 
 template <typename Io>
+void fields(Io& io, ScaleRange& r) {
+  io("detector", r.detector);
+  io("by", r.by);
+  io("library", r.library);
+  io("version", r.version);
+  io("level", r.level);
+  io.unless_empty("from", r.from);
+  io.unless_empty("to", r.to);
+  io("least", r.least);
+  io("most", r.most);
+  io("right", r.right);
+  io("cases", r.cases);
+  io.unless_empty("wrong_below", r.wrong_below);
+  io.unless_empty("wrong_above", r.wrong_above);
+}
+
+template <typename Io>
 void fields(Io& io, ShardScene& s) {
   io("id", s.id);
   io("detectors", s.detectors);
@@ -532,6 +557,7 @@ void fields(Io& io, Results& r) {
   io("runs", r.runs);
   io("disagreements", r.disagreements);
   io.unless_empty("known_defects", r.known_defects);
+  io.unless_empty("known_ranges", r.known_ranges);
   io.unless_empty("goals", r.goals);
   io.unless_empty("resumed", r.resumed);
   io.unless_empty("shard", r.shard);
@@ -665,6 +691,7 @@ nlohmann::ordered_json to_json(const Semantics& semantics) { return written(sema
 nlohmann::ordered_json to_json(const Machine& machine) { return written(machine); }
 nlohmann::ordered_json to_json(const Scene& scene) { return written(scene); }
 nlohmann::ordered_json to_json(const ClosedLoop& loop) { return written(loop); }
+nlohmann::ordered_json to_json(const ScaleRange& range) { return written(range); }
 
 nlohmann::ordered_json to_json(const Results& results) {
   Json out = {{"schema", kSchema}};

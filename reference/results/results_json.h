@@ -17,5 +17,6 @@ nlohmann::ordered_json to_json(const Semantics& semantics);
 nlohmann::ordered_json to_json(const Machine& machine);
 nlohmann::ordered_json to_json(const Scene& scene);
 nlohmann::ordered_json to_json(const ClosedLoop& loop);
+nlohmann::ordered_json to_json(const ScaleRange& range);
 
 }  // namespace contactcheck::results

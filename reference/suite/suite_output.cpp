@@ -10,6 +10,7 @@
 #include "reference/judge/contacts_json.h"
 #include "reference/results/defect_comparison.h"
 #include "reference/results/results_json.h"
+#include "reference/results/scale_ranges.h"
 #include "reference/suite/out_folder.h"
 #include "reference/suite/shard_record.h"
 #include "reference/timing/speedup.h"
@@ -188,6 +189,7 @@ Results SuiteOutput::write(Results results, const std::vector<results::Goal>& go
   for (const results::Scene& scene : results.scenes)
     if (scene.pairs) outcome->oracle_wrong += scene.pairs->oracle_wrong;
   add_known_defects(known_defects, results, outcome);
+  results.known_ranges = results::ranges_of_run(known_defects.ranges, results);
   // A shard's goals would miss the scenes of the others.
   if (!results.shard) {
     results.goals = measure_goals(goals, results);

@@ -5,7 +5,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "reference/results/results.h"
 #include "reference/results/statistics.h"
 #include "reference/tune/candidate.h"
 
@@ -30,6 +32,9 @@ struct Measurement {
   std::optional<double> hover;             ///< metres; none without an episode
   std::optional<long> late_frames;
   double deviation = 0.0;  ///< metres: how far the model takes a vertex from where the scene's does
+  /// Where its detector is known to be right, and how large the scene is (results::outside).
+  std::vector<results::ScaleRange> ranges;
+  std::optional<results::SceneScale> scale;
 
   /// Per frame, TuneCandidate::step included; its interval has the uncertainty of the model too. By
   /// what is known of the model now; 0 of a failure.

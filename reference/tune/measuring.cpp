@@ -194,6 +194,9 @@ std::vector<Measurement> Measuring::operator()(const std::vector<std::size_t>& b
     CONTACTCHECK_INVARIANT(run != nullptr, "every detector that was asked for has a row");
     Measurement& m = found.emplace_back(errors_of(*run, level_of(request_.question)));
     m.deviation = models_.at(key).deviation;
+    m.scale = rows.scene(run->scene)->scale;
+    std::ranges::copy_if(results.known_ranges, std::back_inserter(m.ranges),
+                         [&](const auto& range) { return range.detector == run->detector; });
     if (m.failure.empty() && !book_.price(i, key, m))
       m.failure = std::string("not timed in the question ") + name_of(request_.question);
   }

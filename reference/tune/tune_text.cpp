@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/results/scale_ranges.h"
 #include "reference/text/shell_word.h"
 #include "reference/tune/chosen_file.h"
 
@@ -181,6 +182,19 @@ std::string as_cheap_in_words(const Tuning& tuning, std::size_t most_named) {
   return words + ".\n";
 }
 
+// What no frame of this scene shows: that another, smaller or farther out, may be answered wrongly.
+std::string range_in_words(const results::ScaleRange& range, const results::SceneScale& scale) {
+  const std::string what = range.by_size() ? "edges of" : "distances from the origin, in edges, of";
+  const std::string right = range.from.empty() ? what + " no size that was tried"
+                                               : fmt::format("{} {} to {}{}", what, range.from,
+                                                             range.to, range.by_size() ? " m" : "");
+  const std::string here =
+      range.by_size() ? fmt::format("{:.3g} to {:.3g} m", scale.shortest_edge, scale.longest_edge)
+                      : fmt::format("{:.3g}", scale.reach / scale.shortest_edge);
+  return fmt::format("In the suite scales it is right for {}; here {}{}.\n", right, here,
+                     results::outside(range, scale) ? ": outside" : "");
+}
+
 std::string verdict(const Tuning& tuning, const TuningRequest& request, std::size_t most_named) {
   if (!tuning.chosen)
     return tuning.confirmed.empty()
@@ -195,6 +209,9 @@ std::string verdict(const Tuning& tuning, const TuningRequest& request, std::siz
                   model_in_words(candidate), cost.ms, tuning.varies_deformers() ? "step" : "frame",
                   interval_of(cost), tuning.held_out_frames) +
       as_cheap_in_words(tuning, most_named);
+  if (const auto& scale = chosen.measurement.scale)
+    for (const results::ScaleRange& range : chosen.measurement.ranges)
+      text += range_in_words(range, *scale);
   if (!tuning.within_budget(request.budget_ms))
     text += fmt::format("That is more than the {:g} ms that are allowed.\n", *request.budget_ms);
   return text;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reference/results/results_json.h"
 #include "reference/tune/chosen_file.h"
 #include "reference/tune/tuning.h"
 
@@ -40,6 +41,8 @@ Json to_json(const Tried& tried, const std::vector<TuneCandidate>& candidates) {
   json["hover_gap_max"] = or_null(m.hover);
   json["late_frames"] = or_null(m.late_frames);
   json["deviation_max"] = m.deviation;
+  for (const results::ScaleRange& range : m.ranges)
+    json["known_ranges"].push_back(results::to_json(range));
   return json;
 }
 

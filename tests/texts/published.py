@@ -8,6 +8,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = pathlib.Path("fixtures") / "published"  # below the root
+RANGES = pathlib.Path("fixtures") / "hard" / "ranges.json"
 LARGEST = 200_000  # bytes of a file
 REFERENCES = ("fcl-aabb", "fcl-obbrss", "embree")
 COUNTS = ("missed", "spurious")
@@ -294,6 +295,13 @@ FILES = {
     "drawn": {"drawn_sums": (), "drawn": ("Missed and spurious",)},
     "drawn-times": {"drawn_sums": (), "drawn": ("Missed and spurious", "Speed-ups")},
 }
+
+
+def files_of(root):
+    """What tables and figures are made of: published files by name, and the ranges of the suite
+    scales, which the program keeps and reads itself."""
+    return {**{name: Published(root, name) for name in FILES},
+            "ranges": read_json(root / RANGES, RANGES)["ranges"]}
 
 
 def command_of(results):

@@ -20,7 +20,7 @@ import re
 import sys
 
 from headline import headline_svg
-from published import FILES, FOLDER, ROOT, Published, TextError, published, read_json
+from published import FILES, FOLDER, ROOT, TextError, files_of, published, read_json
 from tables import TABLES, figures
 
 LIST = pathlib.Path("tests") / "texts" / "figures.json"
@@ -163,11 +163,10 @@ def stray_errors(page, text, pieces, fixed):
 
 def check(root):
     """All errors, in the order of pages."""
-    errors, files, shown = [], {}, set()
+    errors, shown = [], set()
     try:
         pages = read_list(root)
-        for name in FILES:
-            files[name] = Published(root, name)
+        files = files_of(root)
     except TextError as error:
         return [str(error)]
     values = figures(files)
@@ -194,7 +193,7 @@ def check(root):
 
 
 def write(root):
-    files = {name: Published(root, name) for name in FILES}
+    files = files_of(root)
     values = figures(files)
     new = {page: written_page(page, read_page(root, page), pieces, files, values)
            for page, (pieces, _) in read_list(root).items()}

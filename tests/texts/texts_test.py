@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 import texts
-from published import FILES, FOLDER, LARGEST, ROOT, TextError, published
+from published import FILES, FOLDER, LARGEST, RANGES, ROOT, TextError, files_of, published
 from tables import ratio, recall, span, three_digits
 
 EXAMPLE = ROOT / "tests" / "reference" / "schema" / "example_results.json"
@@ -25,7 +25,7 @@ class OfACopy(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         shutil.copytree(ROOT / FOLDER, self.root / FOLDER)
-        for name in (texts.LIST, texts.PICTURE, *texts.read_list(ROOT)):
+        for name in (texts.LIST, texts.PICTURE, RANGES, *texts.read_list(ROOT)):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.root / name)
         self.assertEqual(texts.check(self.root), [])
@@ -69,7 +69,7 @@ class Check(OfACopy):
         self.assertEqual(tables, len(texts.TABLES))
 
     def test_changed_digit_in_any_sentence(self):
-        files = {name: texts.Published(ROOT, name) for name in FILES}
+        files = files_of(ROOT)
         values = texts.figures(files)
         for page, (pieces, _) in texts.read_list(ROOT).items():
             text = (ROOT / page).read_text("utf-8")

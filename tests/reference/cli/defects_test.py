@@ -114,3 +114,27 @@ def test_a_bad_list_ends_a_run_before_it_starts(folder):
     assert outcome.exit_code == 2
     assert 'known-defects.json": defects' in outcome.err
     assert not (folder / "out" / "results.json").exists()
+
+
+def test_compares_ranges_of_the_suite_scales(folder):
+    """They are listed by --write alone, and then any run says where its scenes lie."""
+    (folder / "fixtures" / "scales").symlink_to(FIXTURES / "scales")
+    successful("run", "size-gap-1", "--detector", "fcl-aabb", "--detector", "full-refit:precision=single",
+               "--no-timing", "--out", folder / "out")
+    outcome = defects(folder)
+    assert outcome.exit_code == 1, outcome.err
+    assert outcome.out.startswith("2 ranges of sizes and distances, not as listed (listed -> shown):\n"
+                                  "  fcl-aabb  size  - -> 1 to 3e5 (all tried), ")
+    assert defects(folder, "--write").exit_code == 0
+    ours, = [row for row in json.loads((folder / "fixtures" / "hard" / "ranges.json").read_text("utf-8"))
+             ["ranges"] if row["detector"] != "fcl-aabb"]
+    assert (ours["library"], ours["version"], ours["by"]) == ("contactcheck", "any", "size")
+    assert defects(folder).out == "2 ranges of sizes and distances, all as listed\n"
+
+    successful("run", "small-pair", "--detector", "fcl-aabb", "--frames", "2", "--no-timing", "--out",
+               folder / "other")
+    results = json.loads((folder / "other" / "results.json").read_text(encoding="utf-8"))
+    assert [row["detector"] for row in results["known_ranges"]] == ["fcl-aabb"]
+    assert 0 < results["scenes"][0]["scale"]["shortest_edge"] < 1
+    page = (folder / "other" / "report.md").read_text(encoding="utf-8")
+    assert "| fcl-aabb | size | 1 to 3e5 (all tried) | small-pair (" in page

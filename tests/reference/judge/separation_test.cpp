@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "reference/judge/accuracy.h"
@@ -53,6 +55,52 @@ TEST(Separations, StandInTheSummaryWhereThereAreAny) {
   const JudgedScene judged = judge_scene(scene, progress);
   EXPECT_EQ(scene_summary(judged, {0.5, 0.0}).separation.size(), 2u);
   EXPECT_TRUE(scene_summary(judged, {}).separation.empty());
+}
+
+results::Scene summary_of(const scene::Scene& scene) {
+  process::SharedProgress page;
+  process::ProgressWriter progress(&page);
+  return scene_summary(judge_scene(scene, progress));
+}
+
+TEST(SceneScale, IsOfTrianglesAtRestAndOfAllFrames) {
+  scene::Scene scene = approaching_boxes();
+  const std::optional<results::SceneScale> scale = summary_of(scene).scale;
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_DOUBLE_EQ(scale->shortest_edge, std::sqrt(0.5))
+      << "sides of a half, halved along a diagonal";
+  EXPECT_DOUBLE_EQ(scale->longest_edge, std::sqrt(0.5));
+  EXPECT_DOUBLE_EQ(scale->reach, 2.0) << "of the second box in the first frame, at 1.5";
+  scene.family.emplace();
+  EXPECT_FALSE(summary_of(scene).scale.has_value());
+}
+
+TEST(SceneScale, KeepsLengthsWhoseSquaresAreNoDouble) {
+  for (const double size : {1e-200, 1e200}) {
+    scene::Scene scene = approaching_boxes();
+    BodyShape shape = *scene.bodies[0].shape;
+    for (Vec3& vertex : shape.mesh.vertices) vertex *= size;
+    scene.bodies[0].shape = scene.bodies[1].shape = std::make_shared<const BodyShape>(shape);
+    JudgedScene judged;
+    judged.scene = &scene;
+    const std::optional<results::SceneScale> scale = scene_summary(judged).scale;
+    ASSERT_TRUE(scale.has_value());
+    EXPECT_DOUBLE_EQ(scale->shortest_edge, size * std::sqrt(0.5));
+  }
+}
+
+TEST(SceneScale, HasNoEdgeOfATriangleThatIsAPoint) {
+  scene::Scene scene = approaching_boxes();
+  BodyShape shape = *scene.bodies[0].shape;
+  shape.mesh.triangles.push_back({0, 0, 0});
+  scene.bodies[0].shape = std::make_shared<const BodyShape>(shape);
+  JudgedScene judged;
+  judged.scene = &scene;
+  EXPECT_DOUBLE_EQ(scene_summary(judged).scale->shortest_edge, std::sqrt(0.5));
+  scene.bodies.resize(1);
+  shape.mesh.triangles = {{0, 0, 0}};
+  scene.bodies[0].shape = std::make_shared<const BodyShape>(shape);
+  EXPECT_FALSE(scene_summary(judged).scale.has_value());
 }
 
 }  // namespace

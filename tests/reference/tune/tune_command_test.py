@@ -70,6 +70,16 @@ def test_tune_says_that_nothing_meets_the_limits(tune):
     assert tune.result["chosen"] is None
 
 
+def test_tune_says_in_which_sizes_the_chosen_one_is_known_to_be_right(tune):
+    # With all of its options named, it is the only candidate.
+    tuned = tune("--detector", "fcl-collide:prefilter=none,refit=bottom-up,split=mean", "--question",
+                 "triangles")
+    assert "In the suite scales it is right for edges of 1e-12 to 1e12 m; here " in tuned.out
+    assert "outside" not in tuned.out
+    by_size, by_distance = tune.result["chosen"]["known_ranges"]
+    assert (by_size["by"], by_size["from"], by_distance["by"]) == ("size", "1e-12", "distance")
+
+
 def test_tune_says_that_the_chosen_one_is_beyond_the_budget(tune):
     tuned = tune.outcome("--detector", "ffd-aabb+tri:cell=3", "--budget-ms", "0.000001")
     assert tuned.exit_code == 1

@@ -295,7 +295,10 @@ bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& pa
 }  // namespace
 
 std::size_t PatchTree::bytes() const {
-  return children.capacity() * sizeof(PatchRest) + ones.bytes() + eights.bytes() + kept.bytes();
+  std::size_t out =
+      children.capacity() * sizeof(PatchRest) + ones.bytes() + eights.bytes() + kept.bytes();
+  for (const std::vector<GridSlice>& axis : slices) out += axis.capacity() * sizeof(GridSlice);
+  return out;
 }
 
 PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree) {

@@ -22,9 +22,9 @@ class GridPlaces {
   GridPlaces() = default;
   /// @pre `list` holds no position twice
   /// @throws RefusedInput for 2^32 - 1 positions and more
-  explicit GridPlaces(const std::vector<GridIndex>& list)
-      : slots_(std::bit_ceil(2 * list.size() + 1)) {
+  explicit GridPlaces(const std::vector<GridIndex>& list) {
     const std::uint32_t end = in_32_bits<RefusedInput>(list.size() + 1, "positions in a grid") - 1;
+    slots_.resize(std::bit_ceil(2 * list.size() + 1));
     for (std::uint32_t place = 0; place < end; ++place) {
       std::size_t slot = first_slot(list[place]);
       while (slots_[slot].place != kNone) slot = next(slot);

@@ -1,6 +1,7 @@
 #include "reference/judge/scene_summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -40,7 +41,7 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
   return out;
 }
 
-// stableNorm() keeps lengths whose squares are no double.
+// stableNorm() keeps lengths whose squares are no double; a length that is none is not told.
 std::optional<results::SceneScale> scale_of(const JudgedScene& judged) {
   const scene::Scene& scene = *judged.scene;
   if (scene.family || scene.pairs) return {};
@@ -56,7 +57,7 @@ std::optional<results::SceneScale> scale_of(const JudgedScene& judged) {
       out.longest_edge = std::max(out.longest_edge, edge);
     }
   }
-  if (out.longest_edge == 0.0) return {};
+  if (out.longest_edge == 0.0 || !std::isfinite(out.longest_edge)) return {};
   for (std::size_t f = 0; f < judged.truth.size(); ++f)
     for (const std::vector<Vec3>& vertices : judged.positions[f].vertices)
       for (const Vec3& vertex : vertices)

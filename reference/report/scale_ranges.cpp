@@ -170,12 +170,10 @@ TitledTable known_ranges_table(const results::Results& results) {
   TitledTable out{
       "In which sizes, and how far from the origin, each is known to be right",
       "As measured once by the suite `scales`, with the versions of the libraries that this run "
-      "has: "
-      "within the range every case was answered as claimed, outside it some case was not, or none "
-      "was tried. Sizes are edges in metres (of a scene, the longest sides of its triangles at "
-      "rest); "
-      "distances are those from the origin in edges (of a scene, its largest coordinate in the "
-      "shortest of its edges).",
+      "has: within the range every case was answered as claimed, outside it some case was not, or "
+      "none was tried. Sizes are edges in metres (of a scene, the longest sides of its triangles "
+      "at rest); distances are those from the origin in edges (of a scene, its largest coordinate "
+      "in the shortest of its edges).",
       {{"detector", true, ""}, {"by", true, ""}, {"right", true, ""}, {"scenes outside", true, ""}},
       {}};
   if (std::none_of(results.scenes.begin(), results.scenes.end(),

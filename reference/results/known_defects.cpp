@@ -79,7 +79,7 @@ SightingsOfRun sightings_of(const results::Results& results) {
               scene->family ? scene->family->values : std::vector<std::string>{}, run, out);
     if (!scene->family || !scene->family->range.empty()) continue;
     // A scene that was refused itself has no truth: no detector was asked.
-    if ((run.ok() || (run.status == results::Status::kRefused && !scene->truth.empty())))
+    if (run.ok() || (run.status == results::Status::kRefused && !scene->truth.empty()))
       add_end(SightingKind::kRefused, scene->family->values, run, out);
     if (run.ok() && run.per_frame.level) add_answers(*scene->family, run, out);
   }

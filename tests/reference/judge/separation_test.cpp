@@ -89,6 +89,16 @@ TEST(SceneScale, KeepsLengthsWhoseSquaresAreNoDouble) {
   }
 }
 
+TEST(SceneScale, IsNoneWhereALengthIsNoDouble) {
+  scene::Scene scene = approaching_boxes();
+  BodyShape shape = *scene.bodies[0].shape;
+  for (Vec3& vertex : shape.mesh.vertices) vertex *= 2.0, vertex *= 1.7e308;
+  scene.bodies[0].shape = std::make_shared<const BodyShape>(shape);
+  JudgedScene judged;
+  judged.scene = &scene;
+  EXPECT_FALSE(scene_summary(judged).scale.has_value());
+}
+
 TEST(SceneScale, HasNoEdgeOfATriangleThatIsAPoint) {
   scene::Scene scene = approaching_boxes();
   BodyShape shape = *scene.bodies[0].shape;

@@ -138,8 +138,8 @@ int truth_command(const std::vector<std::string>& families, bool write);
 int export_command(const ExportArguments& arguments, const DetectorCatalog& catalog);
 /// fixtures/hard: known-defects.json, readings.json and ranges.json
 std::filesystem::path hard_cases_folder();
-/// Prints known wrong answers beside those that a run shows; 1 when they differ, also in a count. Of
-/// the suite scales it compares ranges. `write` makes the files say what the run shows.
+/// Prints known wrong answers beside those that a run shows; 1 when they differ, also in a count.
+/// Of the suite scales it compares ranges. `write` makes the files say what the run shows.
 int defects_command(const std::filesystem::path& results, bool write);
 /// Shrinks a disagreement to a minimal case, writes it and prints it as a test.
 int reduce_command(const ReduceArguments& arguments, const DetectorCatalog& catalog);

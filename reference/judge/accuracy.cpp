@@ -60,6 +60,10 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
         return judged;
       }
 
+    for (const std::vector<Vec3>& vertices : position.vertices)
+      for (const Vec3& vertex : vertices)
+        judged.reach = std::max(judged.reach, vertex.cwiseAbs().maxCoeff());
+
     const Frame frame = judged.frame(f);
     try {
       judged.truth.push_back(oracle.judge(frame, wanted_truth(scene)));

@@ -49,7 +49,8 @@ struct JudgedScene {
   /// Per frame: length of each true triangle pair; empty where the scene does not grade lengths.
   std::vector<std::vector<double>> contour;
   std::vector<bool> contact_frames;  ///< some surfaces touch
-  std::optional<PairTally> pairs;    ///< of a scene of random pairs
+  double reach = 0.0;              ///< the largest coordinate of a vertex in any frame, either sign
+  std::optional<PairTally> pairs;  ///< of a scene of random pairs
   std::string refused;  ///< not empty: which frame cannot be judged, and why: a node that is NaN
 
   /// Valid until another frame is asked for.

@@ -58,10 +58,7 @@ std::optional<results::SceneScale> scale_of(const JudgedScene& judged) {
     }
   }
   if (out.longest_edge == 0.0 || !std::isfinite(out.longest_edge)) return {};
-  for (std::size_t f = 0; f < judged.truth.size(); ++f)
-    for (const std::vector<Vec3>& vertices : judged.positions[f].vertices)
-      for (const Vec3& vertex : vertices)
-        out.reach = std::max(out.reach, vertex.cwiseAbs().maxCoeff());
+  out.reach = judged.reach;
   return out;
 }
 

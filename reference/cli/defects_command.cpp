@@ -19,7 +19,7 @@ constexpr int kSurprised = 1;
 // As listed they have library and version; of detectors from outside nobody knows any.
 std::vector<results::ScaleRange> ranges_shown(const results::Results& results,
                                               const results::LibraryVersions& versions) {
-  std::vector<results::ScaleRange> out = report::scale_ranges(results);
+  std::vector<results::ScaleRange> out = report::scale_ranges(results::Index(results));
   std::erase_if(out, [&](const auto& r) { return results.plugin_of(r.detector) != nullptr; });
   for (results::ScaleRange& range : out) {
     range.library = adapters::library_of(range.detector);

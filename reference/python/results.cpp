@@ -12,7 +12,12 @@ void add_results(py::module_& module) {
   py::class_<results::Results>(module, "Results")
       .def(py::init([](const std::string& file) { return results::results_in(file); }), Released())
       .def("csv", &report::csv_report, Released())
-      .def("plot", &report::speed_error_picture, Released());
+      .def(
+          "plot",
+          [](const results::Results& run) {
+            return report::speed_error_picture(results::Index(run));
+          },
+          Released());
 }
 
 }  // namespace contactcheck::python

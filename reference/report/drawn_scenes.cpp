@@ -1,5 +1,3 @@
-#include "reference/report/drawn_scenes.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,11 +11,15 @@
 #include "reference/report/error_counts.h"
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
+#include "reference/report/section.h"
 #include "reference/results/references.h"
 #include "reference/results/statistics.h"
 
 namespace contactcheck::report {
 namespace {
+
+/// With fewer ratios no correlation is given.
+constexpr std::size_t kFewestForCorrelation = 10;
 
 using results::Index, results::Run, results::Scene;
 using Scenes = std::vector<const Scene*>;
@@ -405,47 +407,38 @@ std::string count_text(const Scenes& scenes, std::size_t touching) {
   return out;
 }
 
-}  // namespace
-
-DrawnReport drawn_report(const results::Results& results) {
-  const Index index(results);
+Blocks drawn_blocks(const Index& index) {
   Scenes all, touching, apart;
-  for (const Scene& scene : results.scenes) {
+  for (const Scene& scene : index.results().scenes) {
     if (!scene.drawn) continue;
     all.push_back(&scene);
     if (scene.unjudged.empty()) (scene.contact_frames > 0 ? touching : apart).push_back(&scene);
   }
-  DrawnReport out;
-  if (all.empty()) return out;
-  out.text = count_text(all, touching.size());
-  out.wrong = wrong_table(index, all);
+  if (all.empty()) return {};
   const std::vector<Compared> ratios = compared(index, all);
-  for (const auto& [scenes, kind] :
-       {std::pair(touching, "with contact"), std::pair(apart, "without contact")}) {
-    out.accuracy.push_back(accuracy_table(index, scenes, kind));
-    out.speedups.push_back(speedups_table(ratios, scenes, kind));
-  }
+  const std::pair<const Scenes&, const char*> kinds[] = {{touching, "with contact"},
+                                                         {apart, "without contact"}};
+  Blocks out = {Paragraph{count_text(all, touching.size())}};
+  for (const auto& [scenes, kind] : kinds) out.emplace_back(accuracy_table(index, scenes, kind));
+  out.emplace_back(wrong_table(index, all));
+  for (const auto& [scenes, kind] : kinds) out.emplace_back(speedups_table(ratios, scenes, kind));
   // The last of a detector is over the fastest reference, or over the only one.
+  Items decides;
   for (std::size_t i = 0; i < ratios.size(); ++i)
     if (i + 1 == ratios.size() || ratios[i + 1].detector != ratios[i].detector)
-      out.decides.push_back(decides_sentence(ratios[i]));
-  out.correlations = correlations_table(ratios);
+      decides.texts.push_back(decides_sentence(ratios[i]));
+  if (!decides.texts.empty()) {
+    out.emplace_back(Heading{"What decides"});
+    out.emplace_back(std::move(decides));
+  }
+  out.emplace_back(correlations_table(ratios));
   return out;
 }
 
-std::string drawn_markdown(const results::Results& results) {
-  const DrawnReport report = drawn_report(results);
-  if (report.text.empty()) return "";
-  std::string out = "## Drawn scenes\n\n" + report.text + "\n\n";
-  for (const TitledTable& table : report.accuracy) out += markdown_of(table);
-  out += markdown_of(report.wrong);
-  for (const TitledTable& table : report.speedups) out += markdown_of(table);
-  if (!report.decides.empty()) {
-    out += "### What decides\n\n";
-    for (const std::string& sentence : report.decides) out += "- " + sentence + "\n";
-    out += "\n";
-  }
-  return out + markdown_of(report.correlations);
-}
+}  // namespace
+
+/// What scenes drawn from a seed say about each detector, in scenes with contact and without: how
+/// often it is wrong and where, how fast it is, and which parameter of the scenes decides that.
+extern const Section kDrawn = {"drawn", "Drawn scenes", "Drawn scenes", drawn_blocks};
 
 }  // namespace contactcheck::report

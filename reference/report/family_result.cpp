@@ -56,10 +56,9 @@ std::optional<double> FamilyResult::milliseconds() const {
   return run.times.front().playback.frame;
 }
 
-std::vector<FamilyResult> family_results(const results::Results& results) {
-  const results::Index index(results);
+std::vector<FamilyResult> family_results(const results::Index& index) {
   std::vector<FamilyResult> out;
-  for (const results::Scene& scene : results.scenes) {
+  for (const results::Scene& scene : index.results().scenes) {
     if (!scene.family) continue;
     for (const results::Run* run : index.runs_of(scene.id)) out.push_back({scene, *run});
   }

@@ -44,6 +44,6 @@ struct FamilyResult {
 };
 
 /// In the order of scenes, then of runs.
-std::vector<FamilyResult> family_results(const results::Results& results);
+std::vector<FamilyResult> family_results(const results::Index& index);
 
 }  // namespace contactcheck::report

@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "reference/report/markdown_table.h"
+#include "reference/report/run_row.h"
 #include "reference/report/scene_choice.h"
+#include "reference/report/table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::report {

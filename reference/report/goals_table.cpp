@@ -1,8 +1,8 @@
-#include "reference/report/goals_table.h"
-
 #include <set>
 
 #include "reference/report/format.h"
+#include "reference/report/run_row.h"
+#include "reference/report/section.h"
 
 namespace contactcheck::report {
 namespace {
@@ -35,11 +35,9 @@ std::string met_text(const MeasuredGoal& goal) {
   return *goal.met ? "yes" : "no";
 }
 
-}  // namespace
-
-TitledTable goals_table(const results::Results& results) {
+TitledTable goals_table(const results::Index& index) {
   TitledTable out{
-      "Goals of the suite",
+      "",
       "Times are of playback unless the goal is of cold caches; a ratio over a detector is its "
       "time over that of the detector named.",
       {{"goal", true, ""},
@@ -47,12 +45,11 @@ TitledTable goals_table(const results::Results& results) {
        {"detector", true, ""},
        {"wanted", false, ""},
        {"measured", false, ""},
-       {"passes", false, ""},
-       {"met", true, ""}},
+       {.title = "passes", .left = false, .spare = 8},
+       {.title = "met", .left = true, .role = Role::kVerdict}},
       {}};
-  const results::Index index(results);
   std::set<std::size_t> with_ends;
-  for (const MeasuredGoal& goal : results.goals) {
+  for (const MeasuredGoal& goal : index.results().goals) {
     const std::size_t passes = passes_of(goal, index);
     if (goal.low && passes > 0) with_ends.insert(passes);
     out.rows.push_back({goal.goal, goal.scene, goal.detector, wanted(goal), measured(goal, passes),
@@ -63,5 +60,22 @@ TitledTable goals_table(const results::Results& results) {
   if (!ends.empty()) out.text += " " + ends;
   return out;
 }
+
+Blocks goals_blocks(const results::Index& index) {
+  TitledTable table = goals_table(index);
+  return table.rows.empty() ? Blocks{} : Blocks{std::move(table)};
+}
+
+std::vector<TerminalPart> goals_in_terminal(const results::Index& index) {
+  TitledTable table = goals_table(index);
+  if (table.rows.empty()) return {};
+  return {{"goals", "", "", std::move(table)}};
+}
+
+}  // namespace
+
+/// What a suite hoped to measure: a row per goal.
+extern const Section kGoals = {"goals", "Goals of the suite", "Goals", goals_blocks,
+                               goals_in_terminal};
 
 }  // namespace contactcheck::report

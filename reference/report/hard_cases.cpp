@@ -9,6 +9,7 @@
 #include "reference/report/family_result.h"
 #include "reference/report/format.h"
 #include "reference/report/scale_ranges.h"
+#include "reference/report/section.h"
 #include "reference/report/stability_plot.h"
 
 namespace contactcheck::report {
@@ -124,7 +125,7 @@ HeatCell matrix_cell(const FamilyResult& result) {
 
 }  // namespace
 
-TitledTable hard_sums(const results::Results& results) {
+TitledTable hard_sums(const results::Index& index) {
   TitledTable out{
       "",
       "Every case is judged exactly, at the finest level that a detector claims. Milliseconds are "
@@ -135,18 +136,21 @@ TitledTable hard_sums(const results::Results& results) {
        {"families right", false, "families without a wrong case, of those run"},
        {"cases right", false,
         "cases answered as claimed; with an error or refused: none of its family"},
-       {"missed", false, ""},
-       {"spurious", false, ""},
+       {.title = "missed", .left = false, .role = Role::kErrors},
+       {.title = "spurious", .left = false, .role = Role::kErrors},
        {"families with error", false, "families that ended in status error"},
        {"families refused", false, "families refused as input that it must not answer"},
        {"ms a case", false, "map + update + query in playback, mean over the families timed"},
-       {"passes", false, ""},
-       {"slowest family", true, "ms a case of the family that costs most, and its name"}},
+       {.title = "passes", .left = false, .spare = 8},
+       {.title = "slowest family",
+        .left = true,
+        .meaning = "ms a case of the family that costs most, and its name",
+        .spare = 9}},
       {}};
   // Classes of contacts of a body with itself are not added up, nor with those of two bodies.
   std::map<std::string, std::map<std::string, DetectorSum>> sums;
   std::vector<std::pair<std::string, std::string>> order;
-  for (const FamilyResult& result : family_results(results)) {
+  for (const FamilyResult& result : family_results(index)) {
     const std::string kind = self_level_of(result.scene), detector = result.detector();
     if (sums[kind].count(detector) == 0) order.emplace_back(kind, detector);
     sums[kind][detector].add(result);
@@ -156,11 +160,10 @@ TitledTable hard_sums(const results::Results& results) {
   return out;
 }
 
-HeatTable hard_matrix(const results::Results& results) {
-  const results::Index index(results);
+HeatTable hard_matrix(const results::Index& index) {
   std::set<std::string> wrong_detectors;
   std::set<const results::Scene*> wrong_scenes;
-  for (const FamilyResult& result : family_results(results)) {
+  for (const FamilyResult& result : family_results(index)) {
     if (!result.goes_wrong()) continue;
     wrong_detectors.insert(result.detector());
     wrong_scenes.insert(&result.scene);
@@ -168,7 +171,7 @@ HeatTable hard_matrix(const results::Results& results) {
   HeatTable out{{"family", "cases"}, {}};
   for (const std::string& detector : index.detectors())
     if (wrong_detectors.contains(detector)) out.columns.push_back(detector);
-  for (const results::Scene& scene : results.scenes) {
+  for (const results::Scene& scene : index.results().scenes) {
     if (!wrong_scenes.contains(&scene)) continue;
     std::vector<HeatCell>& row = out.rows.emplace_back();
     row = {{scene.id, {}, ""}, {std::to_string(scene.family->values.size()), {}, ""}};
@@ -180,9 +183,9 @@ HeatTable hard_matrix(const results::Results& results) {
   return out;
 }
 
-std::vector<WrongFamily> wrong_families(const results::Results& results) {
+std::vector<WrongFamily> wrong_families(const results::Index& index) {
   std::vector<WrongFamily> out;
-  for (const FamilyResult& result : family_results(results)) {
+  for (const FamilyResult& result : family_results(index)) {
     if (!result.goes_wrong()) continue;
     const results::Family& family = *result.scene.family;
     if (out.empty() || &out.back().scene != &result.scene)
@@ -202,18 +205,41 @@ std::vector<WrongFamily> wrong_families(const results::Results& results) {
   return out;
 }
 
-std::string hard_cases_markdown(const results::Results& results) {
-  const std::string sums = markdown_of(hard_sums(results));
-  if (sums.empty()) return "";
-  std::string tables;
-  for (const WrongFamily& family : wrong_families(results))
-    tables += fmt::format("`{}`: {}. {}\n\n![Missed and spurious, case by case]({})\n\n{}",
-                          family.scene.id, family.scene.title, family.sentence,
-                          stability_plot_file(family.scene), markdown_of(family.table));
-  std::string ranges;
-  for (const TitledTable& table : range_tables(scale_ranges(results))) ranges += markdown_of(table);
-  return "## Hard cases\n\n" + sums + ranges + "### Where they go wrong\n\n" +
-         (tables.empty() ? "Nowhere.\n\n" : tables);
+namespace {
+
+Blocks hard_blocks(const results::Index& index) {
+  TitledTable sums = hard_sums(index);
+  if (sums.rows.empty()) return {};
+  Blocks out = {std::move(sums)};
+  for (TitledTable& table : range_tables(scale_ranges(index))) out.emplace_back(std::move(table));
+  out.emplace_back(Heading{"Where they go wrong"});
+  std::vector<WrongFamily> families = wrong_families(index);
+  if (families.empty()) out.emplace_back(Paragraph{"Nowhere."});
+  for (WrongFamily& family : families) {
+    out.emplace_back(Paragraph{
+        fmt::format("`{}`: {}. {}", family.scene.id, family.scene.title, family.sentence)});
+    out.emplace_back(
+        Picture{stability_plot_file(family.scene), "Missed and spurious, case by case"});
+    out.emplace_back(std::move(family.table));
+  }
+  return out;
 }
+
+std::vector<TerminalPart> hard_in_terminal(const results::Index& index) {
+  TitledTable sums = hard_sums(index);
+  if (sums.rows.empty()) return {};
+  std::vector<TerminalPart> out = {
+      {"hard cases", "errors by family: report.md, \"Where they go wrong\"", "", std::move(sums)}};
+  for (TitledTable& table : range_tables(scale_ranges(index))) {
+    const std::string title = table.title, lines = "  " + table.text + "\n";
+    out.push_back({title, "", lines, std::move(table)});
+  }
+  return out;
+}
+
+}  // namespace
+
+extern const Section kHardCases = {"hard",      "Hard cases",     "Hard cases",
+                                   hard_blocks, hard_in_terminal, true};
 
 }  // namespace contactcheck::report

@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "reference/report/heat_table.h"
-#include "reference/report/markdown_table.h"
-#include "reference/report/run_row.h"
+#include "reference/report/table.h"
+#include "reference/results/results.h"
 
 namespace contactcheck::report {
 
 /// A row per detector: families and cases, how many of them it answered as it claims, missed and
 /// spurious, errors, refusals, and what a case costs. A family that it refused or failed in has no
 /// case right. None without families.
-TitledTable hard_sums(const results::Results& results);
+TitledTable hard_sums(const results::Index& index);
 
 /// How many cases each detector gets wrong, by family; only those that go wrong somewhere. No rows
 /// when nobody does.
-HeatTable hard_matrix(const results::Results& results);
+HeatTable hard_matrix(const results::Index& index);
 
 /// What a line of a table tells can be looked at in this case.
 struct ShownCase {
@@ -37,10 +37,6 @@ struct WrongFamily {
   TitledTable table;                            ///< who goes wrong, from which value on
   std::vector<std::optional<ShownCase>> shown;  ///< per row of it, where it goes wrong first
 };
-std::vector<WrongFamily> wrong_families(const results::Results& results);
-
-/// Markdown: those rows and, per family, who goes wrong from which value on. Empty without
-/// families.
-std::string hard_cases_markdown(const results::Results& results);
+std::vector<WrongFamily> wrong_families(const results::Index& index);
 
 }  // namespace contactcheck::report

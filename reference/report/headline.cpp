@@ -390,7 +390,7 @@ Headline headline_of(const Results& results) {
     if (!scene.unjudged.empty()) unjudged.push_back(scene.unjudged);
   if (!unjudged.empty())
     out.findings.push_back({"Not judged", short_list(unjudged, kMostPlaces) + "."});
-  if (const Names out_of_range = detectors_out_of_range(results); !out_of_range.empty())
+  if (const Names out_of_range = detectors_out_of_range(index); !out_of_range.empty())
     out.findings.push_back(
         {"Sizes",
          "Some scene is outside the sizes or distances in which they are known to be right: " +

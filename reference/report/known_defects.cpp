@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "reference/report/format.h"
+#include "reference/report/section.h"
 
 namespace contactcheck::report {
 namespace {
@@ -114,29 +115,6 @@ std::string known_defects_sentence(const results::DefectCounts& known) {
   return out + grouped_digits(cases_in(known.unlisted)) + " show that are not listed.";
 }
 
-std::vector<TitledTable> known_defects_tables(const results::DefectCounts& known) {
-  std::vector<TitledTable> tables = {
-      defects_table("", known.defects, false),
-      defects_table("Expected of our readings of the paper, which are as it is written.",
-                    known.readings, true),
-      groups_table("Shown with another count than the listed one.", known.changed),
-      groups_table("Listed, and not shown: mended in this build of the library, or the case has "
-                   "changed.",
-                   known.not_shown),
-      groups_table("Shown, and not listed.", known.unlisted)};
-  std::erase_if(tables, [](const TitledTable& table) { return table.rows.empty(); });
-  return tables;
-}
-
-std::string known_defects_markdown(const results::Results& results) {
-  if (!results.known_defects) return "";
-  std::string out =
-      "## Known wrong answers\n\n" + known_defects_sentence(*results.known_defects) + "\n\n";
-  for (const TitledTable& table : known_defects_tables(*results.known_defects))
-    out += markdown_of(table);
-  return out;
-}
-
 std::string defects_text(const results::DefectCounts& known) {
   std::string out;
   for (const auto* list : {&known.defects, &known.readings})
@@ -152,5 +130,37 @@ std::string defects_summary(const results::DefectCounts& known) {
          group_lines("shown, not listed:", known.unlisted) + "  " + known_defects_sentence(known) +
          "\n";
 }
+
+namespace {
+
+Blocks known_defects_blocks(const results::Index& index) {
+  const std::optional<results::DefectCounts>& known = index.results().known_defects;
+  if (!known) return {};
+  Blocks out = {Paragraph{known_defects_sentence(*known)}};
+  for (TitledTable& table : std::vector<TitledTable>{
+           defects_table("", known->defects, false),
+           defects_table("Expected of our readings of the paper, which are as it is written.",
+                         known->readings, true),
+           groups_table("Shown with another count than the listed one.", known->changed),
+           groups_table("Listed, and not shown: mended in this build of the library, or the case "
+                        "has changed.",
+                        known->not_shown),
+           groups_table("Shown, and not listed.", known->unlisted)})
+    if (!table.rows.empty()) out.emplace_back(std::move(table));
+  return out;
+}
+
+std::vector<TerminalPart> known_defects_in_terminal(const results::Index& index) {
+  if (!index.results().known_defects) return {};
+  return {{"known defects", "", defects_summary(*index.results().known_defects)}};
+}
+
+}  // namespace
+
+/// Known wrong answers of libraries, compared with those that a run shows: what is listed of
+/// libraries and of readings of the paper; what shows with another count, what is listed and does
+/// not show, what shows and is not listed.
+extern const Section kKnownDefects = {"defects", "Known wrong answers", "Known defects",
+                                      known_defects_blocks, known_defects_in_terminal};
 
 }  // namespace contactcheck::report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reference/report/markdown_table.h"
+#include "reference/report/table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::report {

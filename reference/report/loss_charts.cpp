@@ -9,6 +9,7 @@
 
 #include "reference/report/bar_plot.h"
 #include "reference/report/error_counts.h"
+#include "reference/report/section.h"
 #include "reference/report/stage_losses.h"
 
 namespace contactcheck::report {
@@ -125,17 +126,25 @@ std::string stages_picture(const results::Results& results) {
   return bar_plot(chart);
 }
 
-std::string loss_markdown(const results::Results& results) {
-  std::string out;
-  if (!errors_picture(results).empty())
-    out += fmt::format(
-        "![Share of true contacts missed and of reports spurious, a row per detector]({})\n\n",
-        kErrorsFile);
-  if (!stages_picture(results).empty())
-    out += fmt::format(
-        "![Share of true pairs of triangles lost, stage by stage, a row per detector]({})\n\n",
-        kStagesFile);
-  return out.empty() ? "" : "## Errors by detector and stage\n\n" + out;
+namespace {
+
+Blocks losses_blocks(const results::Index& index) {
+  Blocks out;
+  if (!errors_picture(index.results()).empty())
+    out.emplace_back(Picture{
+        kErrorsFile, "Share of true contacts missed and of reports spurious, a row per detector"});
+  if (!stages_picture(index.results()).empty())
+    out.emplace_back(Picture{
+        kStagesFile, "Share of true pairs of triangles lost, stage by stage, a row per detector"});
+  return out;
 }
+
+}  // namespace
+
+extern const Section kLosses = {.id = "losses",
+                                .title = "Errors by detector and stage",
+                                .short_title = "Errors",
+                                .build = losses_blocks,
+                                .drawn_on_page = true};
 
 }  // namespace contactcheck::report

@@ -22,7 +22,4 @@ std::string errors_picture(const results::Results& results);
 /// stage, as shares of the true ones, over the same scenes. Empty where none did.
 std::string stages_picture(const results::Results& results);
 
-/// The section that shows both; empty without pictures.
-std::string loss_markdown(const results::Results& results);
-
 }  // namespace contactcheck::report

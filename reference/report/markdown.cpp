@@ -3,23 +3,53 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <variant>
 
-#include "reference/report/claims.h"
-#include "reference/report/drawn_scenes.h"
-#include "reference/report/goals_table.h"
-#include "reference/report/hard_cases.h"
-#include "reference/report/known_defects.h"
+#include "reference/report/family_result.h"
 #include "reference/report/loss_charts.h"
 #include "reference/report/origin.h"
 #include "reference/report/run_row.h"
 #include "reference/report/scene_choice.h"
 #include "reference/report/scene_tables.h"
-#include "reference/report/speed_error.h"
+#include "reference/report/section.h"
 #include "reference/report/speed_error_plot.h"
 #include "reference/report/stability_plot.h"
-#include "reference/report/summary.h"
 
 namespace contactcheck::report {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string line_of(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + escaped(cell) + " |";
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string markdown_of(const TitledTable& table) {
+  if (table.rows.empty()) return "";
+  std::vector<std::string> titles;
+  std::string rule = "|";
+  for (const Column& c : table.columns) {
+    titles.emplace_back(c.title);
+    rule += c.left ? "---|" : "--:|";
+  }
+  std::string out = table.title.empty() ? "" : "### " + table.title + "\n\n";
+  if (!table.text.empty()) out += table.text + "\n\n";
+  out += line_of(titles) + rule + "\n";
+  for (const std::vector<std::string>& row : table.rows) out += line_of(row);
+  return out + "\n";
+}
+
 namespace {
 
 std::string origin_section(const results::Results& results) {
@@ -43,9 +73,22 @@ std::string untitled(TitledTable table) {
   return markdown_of(table);
 }
 
-// Under a heading of the second order.
-std::string section_of(const TitledTable& table) {
-  return table.rows.empty() ? "" : "## " + table.title + "\n\n" + untitled(table);
+std::string markdown_of(const Paragraph& paragraph) { return paragraph.text + "\n\n"; }
+std::string markdown_of(const Heading& heading) { return "### " + heading.text + "\n\n"; }
+std::string markdown_of(const Picture& picture) {
+  return fmt::format("![{}]({})\n\n", picture.what, picture.file);
+}
+std::string markdown_of(const Items& items) {
+  std::string out;
+  for (const std::string& text : items.texts) out += "- " + text + "\n";
+  return out + "\n";
+}
+
+std::string section_of(const Section& section, const results::Index& index) {
+  std::string out;
+  for (const Block& block : section.build(index))
+    out += std::visit([](const auto& one) { return markdown_of(one); }, block);
+  return out.empty() ? "" : fmt::format("## {}\n\n{}", section.title, out);
 }
 
 std::string scene_section(const results::Index& index, const results::Scene& scene) {
@@ -77,31 +120,31 @@ std::string legend() {
 
 }  // namespace
 
-std::string markdown_report(const results::Results& results) {
-  std::string out = "# contactcheck report\n\n" + origin_section(results) +
-                    section_of(summary_table(results)) + drawn_markdown(results) +
-                    speed_error_markdown(results) + loss_markdown(results) +
-                    section_of(goals_table(results)) + hard_cases_markdown(results) +
-                    known_defects_markdown(results);
-  const std::string claims = claims_markdown(results);
-  if (!claims.empty()) out += "## What the results say\n\n" + claims;
-  const results::Index index(results);
-  // Of families only wrong detectors are shown, and of many drawn scenes sums; tables of every
-  // detector would bury them.
-  for (const results::Scene* scene : shown_scenes(results))
-    if (!scene->family) out += scene_section(index, *scene);
-  return out + section_of(semantics_table(results)) + legend();
+std::string markdown_report(const results::Index& index) {
+  std::string out = "# contactcheck report\n\n" + origin_section(index.results());
+  for (const Section* section : sections()) {
+    if (section->build != nullptr) {
+      out += section_of(*section, index);
+      continue;
+    }
+    // Of families only wrong detectors are shown, and of many drawn scenes sums; tables of every
+    // detector would bury them.
+    for (const results::Scene* scene : shown_scenes(index.results()))
+      if (!scene->family) out += scene_section(index, *scene);
+  }
+  return out + legend();
 }
 
 std::map<std::string, std::string> report_files(const results::Results& results) {
-  std::map<std::string, std::string> files = {{"report.md", markdown_report(results)}};
+  const results::Index index(results);
+  std::map<std::string, std::string> files = {{"report.md", markdown_report(index)}};
   const auto add_picture = [&](const std::string& file, std::string picture) {
     if (!picture.empty()) files[file] = std::move(picture);
   };
-  add_picture(kSpeedErrorFile, speed_error_picture(results));
+  add_picture(kSpeedErrorFile, speed_error_picture(index));
   add_picture(kErrorsFile, errors_picture(results));
   add_picture(kStagesFile, stages_picture(results));
-  const std::vector<FamilyResult> families = family_results(results);
+  const std::vector<FamilyResult> families = family_results(index);
   for (const results::Scene& scene : results.scenes)
     if (scene.family) add_picture(stability_plot_file(scene), stability_plot(scene, families));
   return files;

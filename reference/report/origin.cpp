@@ -98,16 +98,4 @@ std::vector<std::string> part_sentences(const results::Results& results) {
   return out;
 }
 
-TitledTable semantics_table(const results::Results& results) {
-  TitledTable out{"What each detector claims",
-                  "A level that is not claimed is not judged.",
-                  {{"detector", true, ""}, {"options", true, ""}, {"claims", true, ""}},
-                  {}};
-  std::set<std::string> seen;
-  for (const results::Run& run : results.runs)
-    if (run.ok() && !run.semantics.levels.empty() && seen.insert(run.detector).second)
-      out.rows.push_back({run.detector, options_text(run.options), semantics_text(run.semantics)});
-  return out;
-}
-
 }  // namespace contactcheck::report

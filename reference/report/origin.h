@@ -1,10 +1,9 @@
-// Where results come from: command, machine, parts of a run, and what each detector claims.
+// Where results come from: command, machine, parts of a run.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "reference/report/markdown_table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::report {
@@ -24,8 +23,5 @@ std::string steadiness_line(const results::Results& results);
 /// What keeps a reader from taking a part for the whole: of which shard, or of how many, and which
 /// scenes were taken over from an interrupted run. None for a whole run.
 std::vector<std::string> part_sentences(const results::Results& results);
-
-/// Of each detector's first row that is `ok`: options, and what it claims in words.
-TitledTable semantics_table(const results::Results& results);
 
 }  // namespace contactcheck::report

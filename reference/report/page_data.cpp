@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <variant>
 
-#include "reference/report/claims.h"
+#include "core/types/check.h"
 #include "reference/report/detector_group.h"
-#include "reference/report/drawn_scenes.h"
 #include "reference/report/error_spreads.h"
 #include "reference/report/family_result.h"
 #include "reference/report/format.h"
 #include "reference/report/frame_costs.h"
-#include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/headline.h"
 #include "reference/report/heat_table.h"
-#include "reference/report/known_defects.h"
 #include "reference/report/level_tables.h"
 #include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
@@ -25,10 +23,10 @@
 #include "reference/report/scale_ranges.h"
 #include "reference/report/scene_choice.h"
 #include "reference/report/scene_tables.h"
+#include "reference/report/section.h"
 #include "reference/report/speed_error.h"
 #include "reference/report/stability_plot.h"
 #include "reference/report/stage_losses.h"
-#include "reference/report/summary.h"
 #include "reference/results/references.h"
 #include "reference/results/rerun.h"
 #include "reference/text/shell_word.h"
@@ -46,6 +44,8 @@ Json columns_json(const std::vector<Column>& columns) {
   for (const Column& column : columns) {
     out.push_back({{"title", column.title}, {"left", column.left}});
     if (!column.meaning.empty()) out.back()["meaning"] = column.meaning;
+    if (!column.id.empty()) out.back()["id"] = column.id;
+    if (column.role == Role::kVerdict) out.back()["verdict"] = true;
   }
   return out;
 }
@@ -62,6 +62,32 @@ Json to_json(const TitledTable& table) {
 Json to_json(const std::vector<TitledTable>& tables) {
   Json out = Json::array();
   for (const TitledTable& table : tables) out.push_back(to_json(table));
+  return out;
+}
+
+Json block_json(const Paragraph& paragraph) { return {{"text", paragraph.text}}; }
+Json block_json(const Heading& heading) { return {{"heading", heading.text}}; }
+Json block_json(const Items& items) { return {{"items", items.texts}}; }
+Json block_json(const TitledTable& table) { return {{"table", to_json(table)}}; }
+Json block_json(const Picture& picture) {
+  CONTACTCHECK_INVARIANT(false, "the page has no file " + picture.file);
+  return {};
+}
+
+// Those that the page shows block by block.
+Json sections_json(const results::Index& index) {
+  Json out = Json::array();
+  for (const Section* section : sections()) {
+    if (section->build == nullptr || section->drawn_on_page) continue;
+    Json blocks = Json::array();
+    for (const Block& block : section->build(index))
+      blocks.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
+    if (!blocks.empty())
+      out.push_back({{"id", section->id},
+                     {"title", section->title},
+                     {"short", section->short_title},
+                     {"blocks", std::move(blocks)}});
+  }
   return out;
 }
 
@@ -92,10 +118,10 @@ Json to_json(const HeatTable& table) {
   return {{"columns", table.columns}, {"rows", std::move(rows)}};
 }
 
-Json hard_json(const Results& results, const TitledTable& sums) {
-  const std::vector<FamilyResult> all = family_results(results);
+Json hard_json(const results::Index& index, const TitledTable& sums) {
+  const std::vector<FamilyResult> all = family_results(index);
   Json families = Json::array();
-  for (const WrongFamily& family : wrong_families(results)) {
+  for (const WrongFamily& family : wrong_families(index)) {
     Json shown = Json::array();
     for (const std::optional<ShownCase>& one : family.shown) {
       Json& out = shown.emplace_back(nullptr);
@@ -112,18 +138,9 @@ Json hard_json(const Results& results, const TitledTable& sums) {
                         {"picture", stability_plot(family.scene, all)}});
   }
   return {{"sums", to_json(sums)},
-          {"ranges", to_json(range_tables(scale_ranges(results)))},
-          {"matrix", to_json(hard_matrix(results))},
+          {"ranges", to_json(range_tables(scale_ranges(index)))},
+          {"matrix", to_json(hard_matrix(index))},
           {"families", std::move(families)}};
-}
-
-Json drawn_json(const DrawnReport& report) {
-  return {{"text", report.text},
-          {"accuracy", to_json(report.accuracy)},
-          {"wrong", to_json(report.wrong)},
-          {"speedups", to_json(report.speedups)},
-          {"decides", report.decides},
-          {"correlations", to_json(report.correlations)}};
 }
 
 Json levels_json(const results::Index& index, const std::vector<Level>& levels) {
@@ -147,8 +164,6 @@ constexpr Measure kMeasures[] = {{"worse", ErrorMeasure::kWorse},
                                  {"missed", ErrorMeasure::kMissed},
                                  {"spurious", ErrorMeasure::kSpurious}};
 
-constexpr std::size_t kTimeCell = 2, kErrorCell = 9;  // of speed_error_columns
-
 // Of one choice of scenes and one level; null where nothing can be drawn.
 Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>& detectors,
                   SpeedErrorChoice choice) {
@@ -164,9 +179,9 @@ Json level_charts(const SpeedErrorCharts& charts, const std::vector<std::string>
       for (const SpeedErrorPoint& p : chart.points) {
         const auto at = std::find(detectors.begin(), detectors.end(), p.detector);
         const std::size_t place = static_cast<std::size_t>(at - detectors.begin());
-        const std::vector<std::string> cells = speed_error_cells(p);
-        points.push_back({place, p.ms, p.error, p.on_front, cells[kTimeCell], cells[kErrorCell]});
-        out["cells"][place] = cells;
+        points.push_back(
+            {place, p.ms, p.error, p.on_front, speed_error_time(p), format_error_rate(p.error)});
+        out["cells"][place] = speed_error_cells(p);
       }
       any = any || !points.empty();
       out[std::string(measure.name) + (cold ? " cold" : " playback")] = {
@@ -354,10 +369,7 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"scene_count", results.scenes.size()},
               {"fastest", headline.fastest},
               {"references", results::kReferences},
-              {"summary", to_json(summary_table(results))},
-              {"claimed", to_json(semantics_table(results))},
-              {"claims", to_json(claims_of(results))},
-              {"goals", to_json(goals_table(results))},
+              {"sections", sections_json(index)},
               {"pairs", std::move(pairs)},
               {"levels", levels_json(index, levels)},
               {"result_columns", columns_json(result_columns())},
@@ -366,13 +378,8 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"times", times_json(index, choices)},
               {"graded", graded_json(index, choices)},
               {"speed_error", speed_error_json(index, levels)}};
-  const TitledTable hard = hard_sums(results);
-  if (!hard.rows.empty()) out["hard"] = hard_json(results, hard);
-  if (const DrawnReport drawn = drawn_report(results); !drawn.text.empty())
-    out["drawn"] = drawn_json(drawn);
-  if (results.known_defects)
-    out["known_defects"] = {{"sentence", known_defects_sentence(*results.known_defects)},
-                            {"tables", to_json(known_defects_tables(*results.known_defects))}};
+  const TitledTable hard = hard_sums(index);
+  if (!hard.rows.empty()) out["hard"] = hard_json(index, hard);
   if (paper) out["paper"] = paper_part_json(*paper);
   // Scenes that are motions are shown in full; of families the 3D view needs to know the cases.
   Json scenes = Json::array(), families = Json::array();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/report/markdown_table.h"
+#include "reference/report/table.h"
 
 namespace contactcheck::report {
 

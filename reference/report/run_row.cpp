@@ -42,26 +42,62 @@ std::string names_of(const std::vector<Value>& values) {
 
 }  // namespace
 
+Column reference_column(const std::string& reference, const std::string& meaning) {
+  // Of the two hierarchies of FCL one says nearly as much as both.
+  return {.title = "vs " + reference,
+          .left = false,
+          .meaning = meaning,
+          .role = Role::kTime,
+          .spare = reference == "fcl-obbrss" ? 4 : 0};
+}
+
 const std::vector<Column>& result_columns() {
   static const std::vector<Column> columns = [] {
     std::vector<Column> all = {
         {"detector", true, "as given to --detector"},
         {"level", true, "finest level judged"},
-        {"truth", false, "true contacts at that level, over all frames"},
-        {"recall", false, "hit / truth, cut, not rounded"},
-        {"missed", false, "true contacts not reported"},
-        {"spurious", false, "reported, not true"},
-        {"body m/s", false, "pairs of bodies missed / spurious, over all frames"},
-        {"hover mm", false, "largest true distance at the moment contact is first reported"},
-        {"late", false, "frames reported after (+) or before (-) the truth, worst episode"},
-        {"question", true, "question of the next columns"},
-        {"ms/frame", false,
-         "map + update + query in playback, without the first frame; (own ...): update + query by "
-         "its own clock"},
-        {"passes", false, "timed passes through the frames, each in a fresh process"}};
+        {.title = "truth",
+         .left = false,
+         .meaning = "true contacts at that level, over all frames",
+         .spare = 1},
+        {.title = "recall", .left = false, .meaning = "hit / truth, cut, not rounded", .spare = 3},
+        {.title = "missed",
+         .left = false,
+         .meaning = "true contacts not reported",
+         .role = Role::kErrors},
+        {.title = "spurious",
+         .left = false,
+         .meaning = "reported, not true",
+         .role = Role::kErrors},
+        {.title = "body m/s",
+         .left = false,
+         .meaning = "pairs of bodies missed / spurious, over all frames",
+         .spare = 5},
+        {.title = "hover mm",
+         .left = false,
+         .meaning = "largest true distance at the moment contact is first reported",
+         .spare = 2},
+        {.title = "late",
+         .left = false,
+         .meaning = "frames reported after (+) or before (-) the truth, worst episode",
+         .spare = 6},
+        {.title = "question",
+         .left = true,
+         .meaning = "question of the next columns",
+         .role = Role::kOfTimes,
+         .spare = 7},
+        {.title = "ms/frame",
+         .left = false,
+         .meaning = "map + update + query in playback, without the first frame; (own ...): update "
+                    "+ query by its own clock",
+         .role = Role::kTime},
+        {.title = "passes",
+         .left = false,
+         .meaning = "timed passes through the frames, each in a fresh process",
+         .spare = 8}};
     for (const std::string reference : results::kReferences)
-      all.push_back({"vs " + reference, false,
-                     "time of " + reference + " / time of this detector, playback"});
+      all.push_back(reference_column(
+          reference, "time of " + reference + " / time of this detector, playback"));
     return all;
   }();
   return columns;

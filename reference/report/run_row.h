@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "reference/report/format.h"
+#include "reference/report/table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::report {
 
-struct Column {
-  std::string title;
-  bool left;            ///< aligned
-  std::string meaning;  ///< for the legend
-};
+/// Of the speed-ups over a reference.
+Column reference_column(const std::string& reference, const std::string& meaning);
 
 /// Columns of the result table, in order.
 const std::vector<Column>& result_columns();

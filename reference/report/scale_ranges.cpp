@@ -107,8 +107,8 @@ TitledTable table_of(const std::vector<ScaleRange>& ranges, const std::string& b
        {"right from", false, "the range in which every case is answered as claimed begins here"},
        {"right to", false, "and ends here"},
        {"cases right", false, ""},
-       {"nearest wrong below", true, ""},
-       {"nearest wrong above", true, ""}},
+       {.title = "nearest wrong below", .left = true, .spare = 10},
+       {.title = "nearest wrong above", .left = true, .spare = 11}},
       {}};
   for (const ScaleRange& range : ranges)
     if (range.by == by) out.rows.push_back(line(range));
@@ -139,8 +139,8 @@ std::string first_of(std::vector<std::string> names) {
 
 }  // namespace
 
-std::vector<ScaleRange> scale_ranges(const results::Results& results) {
-  const std::vector<FamilyResult> all = family_results(results);
+std::vector<ScaleRange> scale_ranges(const results::Index& index) {
+  const std::vector<FamilyResult> all = family_results(index);
   std::vector<ScaleRange> out;
   for (const char* by : kKinds) {
     std::vector<std::string> order;
@@ -166,7 +166,8 @@ std::vector<TitledTable> range_tables(const std::vector<ScaleRange>& ranges) {
   return out;
 }
 
-TitledTable known_ranges_table(const results::Results& results) {
+TitledTable known_ranges_table(const results::Index& index) {
+  const results::Results& results = index.results();
   TitledTable out{
       "In which sizes, and how far from the origin, each is known to be right",
       "As measured once by the suite `scales`, with the versions of the libraries that this run "
@@ -179,17 +180,15 @@ TitledTable known_ranges_table(const results::Results& results) {
   if (std::none_of(results.scenes.begin(), results.scenes.end(),
                    [](const results::Scene& scene) { return scene.scale.has_value(); }))
     return out;
-  const results::Index index(results);
   for (const ScaleRange& range : results.known_ranges)
     out.rows.push_back(
         {range.detector, range.by, span(range), first_of(scenes_outside(index, range))});
   return out;
 }
 
-std::vector<std::string> detectors_out_of_range(const results::Results& results) {
-  const results::Index index(results);
+std::vector<std::string> detectors_out_of_range(const results::Index& index) {
   std::vector<std::string> out;
-  for (const ScaleRange& range : results.known_ranges)
+  for (const ScaleRange& range : index.results().known_ranges)
     if ((out.empty() || out.back() != range.detector) && !scenes_outside(index, range).empty())
       out.push_back(range.detector);
   return out;

@@ -11,7 +11,7 @@
 
 #include "core/types/semantics.h"
 #include "reference/report/format.h"
-#include "reference/report/markdown_table.h"
+#include "reference/report/section.h"
 #include "reference/report/speed_error_plot.h"
 
 namespace contactcheck::report {
@@ -125,8 +125,7 @@ SpeedError SpeedErrorCharts::chart(const SpeedErrorChoice& choice) const {
   return out;
 }
 
-SpeedError speed_error(const results::Results& results) {
-  const results::Index index(results);
+SpeedError speed_error(const results::Index& index) {
   const SpeedErrorCharts charts(index);
   return charts.scenes().empty() ? SpeedError{} : charts.chart({.scenes = charts.first()});
 }
@@ -145,17 +144,23 @@ std::string left_out_sentence(const SpeedError& chart) {
 
 const std::vector<Column>& speed_error_columns() {
   static const std::vector<Column> columns = {
-      {"detector", true, ""}, {"question timed", true, ""}, {"ms/frame", false, ""},
-      {"passes", false, ""},  {"level", true, ""},          {"truth", false, ""},
-      {"missed", false, ""},  {"reported", false, ""},      {"spurious", false, ""},
-      {"error", false, ""},   {"on the front", true, ""}};
+      {"detector", true, "", "detector"},  {"question timed", true, "", "question"},
+      {"ms/frame", false, "", "time"},     {"passes", false, "", "passes"},
+      {"level", true, "", "level"},        {"truth", false, "", "truth"},
+      {"missed", false, "", "missed"},     {"reported", false, "", "reported"},
+      {"spurious", false, "", "spurious"}, {"error", false, "", "error"},
+      {"on the front", true, "", "front"}};
   return columns;
+}
+
+std::string speed_error_time(const SpeedErrorPoint& point) {
+  return format_number(point.ms) + point.timed.cut_text();
 }
 
 std::vector<std::string> speed_error_cells(const SpeedErrorPoint& p) {
   return {p.detector,
           name_of(p.question),
-          format_number(p.ms) + p.timed.cut_text(),
+          speed_error_time(p),
           format_counts(p.timed.passes),
           name_of(p.level),
           format_count(p.truth),
@@ -166,23 +171,33 @@ std::vector<std::string> speed_error_cells(const SpeedErrorPoint& p) {
           p.on_front ? "yes" : ""};
 }
 
-std::string speed_error_markdown(const results::Results& results) {
-  const SpeedError chart = speed_error(results);
-  if (chart.points.empty()) return "";
-  std::string left_out = left_out_sentence(chart);
-  if (!left_out.empty()) left_out += "\n\n";
+namespace {
+
+Blocks speed_error_blocks(const results::Index& index) {
+  const SpeedError chart = speed_error(index);
+  if (chart.points.empty()) return {};
   TitledTable table{"", "", speed_error_columns(), {}};
   for (const SpeedErrorPoint& point : chart.points) table.rows.push_back(speed_error_cells(point));
-  return fmt::format(
-             "## Speed against error\n\n![Every detector as a point: time per frame against share "
-             "of errors]({})\n\nOver {}. A time is that of mapping, update and query in "
-             "playback, the mean over all frames but the first. An error is the share of contacts "
-             "missed or of "
-             "reports spurious, whichever is worse, at the finest level judged in every scene. "
-             "On the front: no other that answers the same question is faster without being "
-             "worse.\n\n",
-             kSpeedErrorFile, chart.scenes) +
-         markdown_of(table) + left_out;
+  Blocks out = {
+      Picture{kSpeedErrorFile, "Every detector as a point: time per frame against share of errors"},
+      Paragraph{fmt::format(
+          "Over {}. A time is that of mapping, update and query in playback, the mean over all "
+          "frames but the first. An error is the share of contacts missed or of reports spurious, "
+          "whichever is worse, at the finest level judged in every scene. On the front: no other "
+          "that answers the same question is faster without being worse.",
+          chart.scenes)},
+      std::move(table)};
+  const std::string left_out = left_out_sentence(chart);
+  if (!left_out.empty()) out.emplace_back(Paragraph{left_out});
+  return out;
 }
+
+}  // namespace
+
+extern const Section kSpeedAgainstError = {.id = "speed-error",
+                                           .title = "Speed against error",
+                                           .short_title = "Speed against error",
+                                           .build = speed_error_blocks,
+                                           .drawn_on_page = true};
 
 }  // namespace contactcheck::report

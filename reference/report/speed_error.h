@@ -67,7 +67,7 @@ class SpeedErrorCharts {
 };
 
 /// The chart that is shown first.
-SpeedError speed_error(const results::Results& results);
+SpeedError speed_error(const results::Index& index);
 
 /// "Not in the chart: a, b (not timed); c (nothing to judge)."; "" where all are in it.
 std::string left_out_sentence(const SpeedError& chart);
@@ -78,9 +78,7 @@ void mark_front(std::vector<SpeedErrorPoint>& points);
 /// The points as a table.
 const std::vector<Column>& speed_error_columns();
 std::vector<std::string> speed_error_cells(const SpeedErrorPoint& point);
-
-/// The section of the Markdown report: the chart that is shown first, what it shows, and its points
-/// as a table. Empty where nothing was timed.
-std::string speed_error_markdown(const results::Results& results);
+/// Of these, what differs between the charts of one level.
+std::string speed_error_time(const SpeedErrorPoint& point);
 
 }  // namespace contactcheck::report

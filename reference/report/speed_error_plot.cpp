@@ -208,8 +208,9 @@ std::string speed_error_plot(const SpeedError& chart, const std::string& machine
   return svg.document(title, plot_style());
 }
 
-std::string speed_error_picture(const results::Results& results) {
-  return speed_error_plot(speed_error(results), results.machine.cpu + ", " + results.machine.isa);
+std::string speed_error_picture(const results::Index& index) {
+  const results::Machine& machine = index.results().machine;
+  return speed_error_plot(speed_error(index), machine.cpu + ", " + machine.isa);
 }
 
 }  // namespace contactcheck::report

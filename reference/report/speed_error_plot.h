@@ -17,7 +17,7 @@ inline constexpr const char* kSpeedErrorFile = "plots/speed_error.svg";
 /// points.
 std::string speed_error_plot(const SpeedError& chart, const std::string& machine);
 
-/// The chart that speed_error_markdown shows.
-std::string speed_error_picture(const results::Results& results);
+/// The chart that is shown first.
+std::string speed_error_picture(const results::Index& index);
 
 }  // namespace contactcheck::report

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "reference/report/markdown_table.h"
 #include "reference/report/scene_choice.h"
+#include "reference/report/table.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::report {

@@ -1,5 +1,3 @@
-#include "reference/report/summary.h"
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,6 +5,7 @@
 
 #include "reference/report/format.h"
 #include "reference/report/run_row.h"
+#include "reference/report/section.h"
 #include "reference/results/references.h"
 
 namespace contactcheck::report {
@@ -91,30 +90,48 @@ Sums& line_of(const Run& run, std::vector<Sums>& all) {
   return added;
 }
 
-}  // namespace
-
 TitledTable summary_table(const results::Results& results) {
-  TitledTable out{"Summary",
-                  "Sums over scenes; speed-ups are the smallest and the largest of any scene, in "
-                  "playback.",
-                  {{"detector", true, ""},
-                   {"scenes", false, ""},
-                   {"level", true, ""},
-                   {"truth", false, ""},
-                   {"recall", false, ""},
-                   {"missed", false, ""},
-                   {"spurious", false, ""},
-                   {"body m/s", false, ""},
-                   {"hover mm", false, ""},
-                   {"question", true, ""},
-                   {"passes", false, ""}},
-                  {}};
+  TitledTable out{
+      "",
+      "Sums over scenes; speed-ups are the smallest and the largest of any scene, in "
+      "playback.",
+      {{"detector", true, ""},
+       {.title = "scenes", .left = false, .id = "scenes"},
+       {"level", true, ""},
+       {.title = "truth", .left = false, .spare = 1},
+       {.title = "recall", .left = false, .id = "recall", .spare = 3},
+       {.title = "missed", .left = false, .role = Role::kErrors},
+       {.title = "spurious", .left = false, .role = Role::kErrors},
+       {.title = "body m/s", .left = false, .spare = 5},
+       {.title = "hover mm", .left = false, .spare = 2},
+       {.title = "question", .left = true, .id = "question", .role = Role::kOfTimes, .spare = 7},
+       {.title = "passes", .left = false, .id = "passes", .spare = 8}},
+      {}};
   for (const char* reference : results::kReferences)
-    out.columns.push_back({std::string("vs ") + reference, false, ""});
+    out.columns.push_back(reference_column(reference, ""));
   std::vector<Sums> all;
   for (const Run& run : results.runs) add_run(run, line_of(run, all));
   for (const Sums& s : all) out.rows.push_back(cells_of(s));
   return out;
 }
+
+Blocks summary_blocks(const results::Index& index) {
+  TitledTable table = summary_table(index.results());
+  return table.rows.empty() ? Blocks{} : Blocks{std::move(table)};
+}
+
+// Of one scene its own table says the same.
+std::vector<TerminalPart> summary_in_terminal(const results::Index& index) {
+  if (index.results().scenes.size() < 2) return {};
+  return {{"all scenes", "sums over scenes; speed-ups: smallest and largest of any scene", "",
+           summary_table(index.results())}};
+}
+
+}  // namespace
+
+/// A row per detector and finest level judged, in the order of first runs: counts summed over its
+/// scenes with status `ok`, the worst hover gap, and the range of its speed-ups over scenes.
+extern const Section kSummary = {"summary", "Summary", "Summary", summary_blocks,
+                                 summary_in_terminal};
 
 }  // namespace contactcheck::report

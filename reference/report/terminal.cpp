@@ -7,17 +7,14 @@
 #include <utility>
 
 #include "reference/report/error_counts.h"
-#include "reference/report/goals_table.h"
 #include "reference/report/hard_cases.h"
 #include "reference/report/headline.h"
-#include "reference/report/known_defects.h"
 #include "reference/report/lattice_fits.h"
 #include "reference/report/origin.h"
 #include "reference/report/random_pairs.h"
 #include "reference/report/run_row.h"
-#include "reference/report/scale_ranges.h"
 #include "reference/report/scene_choice.h"
-#include "reference/report/summary.h"
+#include "reference/report/section.h"
 
 namespace contactcheck::report {
 namespace {
@@ -29,19 +26,6 @@ constexpr const char* kReset = "\x1b[0m";
 constexpr std::size_t kStatus = 1, kMessage = 2;
 constexpr std::size_t kWidest = 100;  // characters of a line
 constexpr std::ptrdiff_t kFewestJoined = 3;
-
-// What a reader misses least comes first.
-constexpr const char* kLeftOutFirst[] = {"nearest wrong above",
-                                         "nearest wrong below",
-                                         "slowest family",
-                                         "passes",
-                                         "question",
-                                         "late",
-                                         "body m/s",
-                                         "vs fcl-obbrss",
-                                         "recall",
-                                         "hover mm",
-                                         "truth"};
 
 // A run that is not `ok` has a message where others have a row of figures.
 bool is_message(const Line& line) { return line.back().empty(); }
@@ -66,9 +50,8 @@ std::string paint(const std::string& text, const char* code, bool color) {
   return color ? code + text + kReset : text;
 }
 
-bool is_bad_count(const Column& column, const std::string& cell) {
-  const std::string title = column.title;
-  return (title == "missed" || title == "spurious") && cell != "0" && cell != "-";
+bool is_error(const Column& column, const std::string& cell) {
+  return column.role == Role::kErrors && cell != "0" && cell != "-";
 }
 
 std::string line_text(const std::vector<Column>& columns, const Line& line,
@@ -78,7 +61,7 @@ std::string line_text(const std::vector<Column>& columns, const Line& line,
     return out + "  " + paint(line[kStatus], kRed, color) + "  " + line[kMessage] + "\n";
   for (std::size_t i = 1; i < line.size(); ++i) {
     const std::string cell = aligned(line[i], widths[i], columns[i].left);
-    out += "  " + (is_bad_count(columns[i], line[i]) ? paint(cell, kRed, color) : cell);
+    out += "  " + (is_error(columns[i], line[i]) ? paint(cell, kRed, color) : cell);
   }
   out.erase(out.find_last_not_of(' ') + 1);
   return out + "\n";
@@ -101,25 +84,21 @@ std::size_t width_of(const TitledTable& of) {
   return width;
 }
 
+// Leaves out what has no value, and what the widest line has no room for.
 void fit(TitledTable& of) {
   const bool any_row =
       std::any_of(of.rows.begin(), of.rows.end(), [](const Line& l) { return !is_message(l); });
-  const auto position = [&](const std::string& title) {
-    return static_cast<std::size_t>(
-        std::find_if(of.columns.begin(), of.columns.end(),
-                     [&](const Column& column) { return column.title == title; }) -
-        of.columns.begin());
-  };
   for (std::size_t i = of.columns.size(); any_row && i-- > 0;)
     if (!has_value(of, i)) erase_column(i, of);
-  const bool timed = std::any_of(of.columns.begin(), of.columns.end(), [](const Column& column) {
-    return column.title == "ms/frame" || column.title.starts_with("vs ");
-  });
-  if (const std::size_t i = position("question"); !timed && i < of.columns.size())
-    erase_column(i, of);
-  for (const char* title : kLeftOutFirst)
-    if (const std::size_t i = position(title); i < of.columns.size() && width_of(of) > kWidest)
-      erase_column(i, of);
+  const bool timed = std::any_of(of.columns.begin(), of.columns.end(),
+                                 [](const Column& column) { return column.role == Role::kTime; });
+  for (std::size_t i = of.columns.size(); !timed && i-- > 0;)
+    if (of.columns[i].role == Role::kOfTimes) erase_column(i, of);
+  while (width_of(of) > kWidest) {
+    const auto most = std::ranges::max_element(of.columns, {}, &Column::spare);
+    if (most->spare == 0) break;
+    erase_column(static_cast<std::size_t>(most - of.columns.begin()), of);
+  }
 }
 
 // A sentence that many rows share, once.
@@ -211,7 +190,9 @@ std::string own_notes(const results::Results& results, const results::Scene& sce
 
 std::string column_legend(const std::set<std::string>& shown) {
   std::vector<Column> columns = result_columns();
-  for (Column& column : hard_sums({}).columns) columns.push_back(std::move(column));
+  const results::Results none;
+  for (Column& column : hard_sums(results::Index(none)).columns)
+    columns.push_back(std::move(column));
   std::erase_if(columns, [&](const Column& column) {
     return column.meaning.empty() || (!shown.empty() && !shown.contains(column.title));
   });
@@ -242,22 +223,14 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
            own_notes(results, *scene, index);
     if (scene->sweep) out += "  time and errors against separation: report.md and report.html\n\n";
   }
-  if (results.scenes.size() > 1)
-    out += paint("all scenes", kBold, color) +
-           "  sums over scenes; speed-ups: smallest and largest of any scene\n" +
-           table(summary_table(results));
-  if (const TitledTable sums = hard_sums(results); !sums.rows.empty())
-    out += paint("hard cases", kBold, color) +
-           "  errors by family: report.md, \"Where they go wrong\"\n" + table(sums);
-  for (TitledTable& ranges : range_tables(scale_ranges(results))) {
-    out += paint(ranges.title, kBold, color) + "\n  " + ranges.text + "\n";
-    out += table(std::move(ranges));
+  for (const Section* section : sections()) {
+    if (section->terminal == nullptr) continue;
+    for (TerminalPart& part : section->terminal(index)) {
+      out += paint(part.title, kBold, color) + (part.aside.empty() ? "" : "  " + part.aside) +
+             "\n" + part.lines;
+      out += part.table.rows.empty() ? "\n" : table(std::move(part.table));
+    }
   }
-  if (results.known_defects)
-    out += paint("known defects", kBold, color) + "\n" + defects_summary(*results.known_defects) +
-           "\n";
-  if (const TitledTable goals = goals_table(results); !goals.rows.empty())
-    out += paint("goals", kBold, color) + "\n" + table(goals);
   if (!explain) return out + "  report.md has all columns; --explain says what they mean\n";
   for (const std::string& line : {timing_line(results), steadiness_line(results)})
     if (!line.empty()) out += "  " + line + "\n\n";

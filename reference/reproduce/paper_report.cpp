@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "reference/report/format.h"
+#include "reference/report/markdown.h"
 #include "reference/text/json_field.h"
 
 namespace contactcheck::reproduce {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/report/format.h"
+#include "reference/report/markdown.h"
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 

@@ -58,7 +58,8 @@ bool reported(const Json& results) {
       Json::parse(text_of(scene::fixtures_directory() / "results.schema.json"));
   if (!results::schema_defect(schema, results).empty()) return false;
   try {
-    return !report::markdown_report(results::from_json(results)).empty();
+    const results::Results read = results::from_json(results);
+    return !report::markdown_report(results::Index(read)).empty();
   } catch (const InputError&) {
     return false;
   }

@@ -17,6 +17,10 @@ using ::testing::ElementsAre;
 
 results::Results read_hard_results() { return results::from_json(test::hard_results()); }
 
+HeatTable matrix_of(const results::Results& results) {
+  return hard_matrix(results::Index(results));
+}
+
 std::vector<std::string> texts_of(const std::vector<HeatCell>& row) {
   std::vector<std::string> texts;
   for (const HeatCell& cell : row) texts.push_back(cell.text);
@@ -24,7 +28,7 @@ std::vector<std::string> texts_of(const std::vector<HeatCell>& row) {
 }
 
 TEST(HardCases, MatrixHasFamiliesAndDetectorsThatGoWrong) {
-  const HeatTable matrix = hard_matrix(read_hard_results());
+  const HeatTable matrix = matrix_of(read_hard_results());
   EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "skin", "crash"));
   ASSERT_EQ(matrix.rows.size(), 2u);
   EXPECT_THAT(texts_of(matrix.rows[0]), ElementsAre("one", "3", "2", "error"));
@@ -41,21 +45,21 @@ TEST(HardCases, MatrixHasFamiliesAndDetectorsThatGoWrong) {
 TEST(HardCases, MatrixTellsRightFromNotJudgedAndNotAsked) {
   results::Results results = read_hard_results();
   results.runs[0].per_frame.missed[0] = 1;  // "exact" goes wrong, in family "one" alone
-  HeatTable matrix = hard_matrix(results);
+  HeatTable matrix = matrix_of(results);
   EXPECT_THAT(matrix.columns, ElementsAre("family", "cases", "exact", "skin", "crash"));
   EXPECT_EQ(matrix.rows[1][2].text, "·");
   EXPECT_EQ(matrix.rows[1][2].share, 0.0);
   results.runs[3].per_frame.level.reset();
-  matrix = hard_matrix(results);
+  matrix = matrix_of(results);
   EXPECT_EQ(matrix.rows[1][2].text, "-");
   EXPECT_EQ(matrix.rows[1][2].kind, "aside");
   results.runs.erase(results.runs.begin() + 3);
-  EXPECT_EQ(hard_matrix(results).rows[1][2].text, "");
+  EXPECT_EQ(matrix_of(results).rows[1][2].text, "");
 }
 
 TEST(HardCases, SayWhoGoesWrongAndWhereToLook) {
   const results::Results results = read_hard_results();
-  const std::vector<WrongFamily> families = wrong_families(results);
+  const std::vector<WrongFamily> families = wrong_families(results::Index(results));
   ASSERT_EQ(families.size(), 2u);
   EXPECT_EQ(families[0].scene.id, "one");
   EXPECT_EQ(families[0].aside, "2 detectors go wrong");
@@ -71,13 +75,14 @@ TEST(HardCases, SayWhoGoesWrongAndWhereToLook) {
   EXPECT_EQ(families[1].shown[0]->kind, "missed");
   results::Results unknown = results;
   unknown.runs[2].failed_frame.reset();
-  EXPECT_FALSE(wrong_families(unknown)[0].shown[1]);
+  EXPECT_FALSE(wrong_families(results::Index(unknown))[0].shown[1]);
 }
 
 TEST(HardCases, OfThePageAreThoseOfMarkdown) {
   const results::Results results = read_hard_results();
   const nlohmann::ordered_json hard = page_data(results, std::nullopt).at("hard");
-  EXPECT_EQ(hard.at("sums").at("rows"), nlohmann::ordered_json(hard_sums(results).rows));
+  EXPECT_EQ(hard.at("sums").at("rows"),
+            nlohmann::ordered_json(hard_sums(results::Index(results)).rows));
   EXPECT_EQ(hard.at("matrix").at("rows").at(1).dump(),
             R"([{"text":"two"},{"text":"3"},{"text":"1","share":0.3333333333333333,)"
             R"("label":"skin in two: 1 of 3 cases wrong"},)"
@@ -88,7 +93,8 @@ TEST(HardCases, OfThePageAreThoseOfMarkdown) {
   EXPECT_EQ(one.at("table").at("rows").at(0).at(2), "0 missed, 3 spurious of 0 true");
   EXPECT_EQ(one.at("shown").dump(), R"([{"detector":"skin","frame":1,"kind":"spurious"},)"
                                     R"({"detector":"crash","frame":2}])");
-  EXPECT_EQ(one.at("picture"), stability_plot(results.scenes[0], family_results(results)));
+  EXPECT_EQ(one.at("picture"),
+            stability_plot(results.scenes[0], family_results(results::Index(results))));
   const results::Results sample = results::from_json(test::sample_results());
   EXPECT_FALSE(page_data(sample, std::nullopt).contains("hard"));
 }

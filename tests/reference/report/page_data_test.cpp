@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "reference/report/speed_error.h"
-#include "reference/report/summary.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"
@@ -17,6 +16,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json data_of(const Json& results) { return page_data(results::from_json(results), std::nullopt); }
+
+// The blocks of a section; null where the page has none of that id.
+Json blocks_of(const Json& page, const std::string& id) {
+  for (const Json& section : page.at("sections"))
+    if (section.at("id") == id) return section.at("blocks");
+  return nullptr;
+}
 
 TEST(PageData, SaysWhatRanWhere) {
   const Json page = data_of(test::sample_results());
@@ -59,7 +65,10 @@ TEST(PageData, ManyDrawnScenesAreShownAsSumsAlone) {
   const Json many = data_of(test::drawn_sample_results(10));
   EXPECT_TRUE(many.at("scenes").empty());
   EXPECT_EQ(many.at("scene_count"), 10);
-  EXPECT_EQ(many.at("drawn").at("accuracy").size(), 2u);
+  EXPECT_EQ(blocks_of(many, "drawn").at(0).at("text"),
+            "10 scenes drawn from seed 7, 5 with contact.");
+  EXPECT_EQ(blocks_of(many, "drawn").at(1).at("table").at("title"),
+            "Missed and spurious in 5 scenes with contact");
   EXPECT_EQ(many.at("choices"), Json::array({"all 10 scenes", "5 drawn scenes with contact",
                                              "5 drawn scenes without contact"}));
   EXPECT_EQ(many.at("levels").at(0).at("recall").at("columns"),
@@ -77,8 +86,8 @@ TEST(PageData, OtherScenesAreShownWithManyDrawnOnes) {
 }
 
 TEST(PageData, WithoutADrawnSceneHasNoSectionOfThem) {
-  EXPECT_TRUE(data_of(test::drawn_sample_results(1)).contains("drawn"));
-  EXPECT_FALSE(data_of(test::sample_results()).contains("drawn"));
+  EXPECT_FALSE(blocks_of(data_of(test::drawn_sample_results(1)), "drawn").is_null());
+  EXPECT_TRUE(blocks_of(data_of(test::sample_results()), "drawn").is_null());
 }
 
 TEST(PageData, PaperIsWrittenOutWhereThereIsAReproduction) {
@@ -106,19 +115,26 @@ TEST(PageData, PaperIsWrittenOutWhereThereIsAReproduction) {
   EXPECT_FALSE(data_of(test::sample_results()).contains("paper"));
 }
 
-TEST(PageData, SummaryIsThatOfTheOtherReports) {
-  const Json summary = data_of(test::sample_results()).at("summary");
-  EXPECT_EQ(summary.at("rows"),
-            Json(summary_table(results::from_json(test::sample_results())).rows));
-  EXPECT_EQ(summary.at("columns").size(), summary.at("rows").at(0).size());
+// Those with charts are drawn by the page itself, of fields of their own.
+TEST(PageData, SectionsAreThoseOfTheOtherReports) {
+  const Json page = data_of(test::sample_results());
+  std::vector<std::string> ids;
+  for (const Json& section : page.at("sections")) ids.push_back(section.at("id"));
+  EXPECT_THAT(ids, testing::ElementsAre("summary", "claims"));
+  const Json& summary = page.at("sections").at(0);
+  EXPECT_EQ(summary.at("title"), "Summary");
+  const Json& table = summary.at("blocks").at(0).at("table");
+  EXPECT_EQ(table.at("rows").size(), 5u);
+  EXPECT_EQ(table.at("columns").size(), table.at("rows").at(0).size());
+  EXPECT_EQ(table.at("columns").at(4).at("id"), "recall");
 }
 
 TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results::Results results = results::from_json(test::sample_results());
   Json report = page_data(results, std::nullopt);
-  EXPECT_TRUE(report.at("goals").at("rows").empty());
+  EXPECT_TRUE(blocks_of(report, "goals").is_null());
   EXPECT_TRUE(report.at("pairs").empty());
-  EXPECT_FALSE(report.contains("known_defects"));
+  EXPECT_TRUE(blocks_of(report, "defects").is_null());
   results.goals.resize(2);
   results.goals[0].at_most = 5.0;
   results.goals[0].met = false;
@@ -126,26 +142,28 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results.known_defects.emplace().unlisted = {
       {"fcl-aabb", "gap", "missed", {"0", "1e-9"}, {}, {7, 8}}};
   report = page_data(results, std::nullopt);
-  EXPECT_EQ(report.at("goals").at("rows").size(), 2u);
-  EXPECT_EQ(report.at("goals").at("rows").at(0).back(), "no");
+  const Json goals = blocks_of(report, "goals").at(0).at("table");
+  EXPECT_EQ(goals.at("rows").size(), 2u);
+  EXPECT_EQ(goals.at("rows").at(0).back(), "no");
+  EXPECT_TRUE(goals.at("columns").back().at("verdict"));
   EXPECT_EQ(report.at("pairs").at(0).at("scene"), "hello");
   EXPECT_EQ(report.at("pairs").at(0).at("table").at("rows").dump(),
             R"([["sliver","4","1","0.250"]])");
-  const Json& known = report.at("known_defects");
-  EXPECT_THAT(known.at("sentence").get<std::string>(),
+  const Json known = blocks_of(report, "defects");
+  ASSERT_EQ(known.size(), 2u);
+  EXPECT_THAT(known.at(0).at("text").get<std::string>(),
               testing::HasSubstr("2 show that are not listed"));
-  ASSERT_EQ(known.at("tables").size(), 1u);
-  EXPECT_EQ(known.at("tables").at(0).at("rows").dump(),
+  EXPECT_EQ(known.at(1).at("table").at("rows").dump(),
             R"([["fcl-aabb","gap","missed","0: 7; 1e-9: 8"]])");
 }
 
 TEST(PageData, ClaimsAreThoseOfTheMarkdownReport) {
-  const Json claims = data_of(test::sample_results()).at("claims");
+  const Json claims = blocks_of(data_of(test::sample_results()), "claims");
   ASSERT_EQ(claims.size(), 1u);
-  EXPECT_EQ(claims.at(0).at("title"),
-            "ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`");
-  EXPECT_EQ(claims.at(0).at("columns").size(), 9u);
-  EXPECT_EQ(claims.at(0).at("rows").at(0).at(3), "4.00x [3.50, 4.25]");
+  const Json& claim = claims.at(0).at("table");
+  EXPECT_EQ(claim.at("title"), "ffd-aabb-sphere2+tri against FCL and Embree, question `triangles`");
+  EXPECT_EQ(claim.at("columns").size(), 9u);
+  EXPECT_EQ(claim.at("rows").at(0).at(3), "4.00x [3.50, 4.25]");
 }
 
 TEST(PageData, LevelsBeginWithTheFinest) {

@@ -3,14 +3,13 @@
 #include <gmock/gmock.h>
 
 #include "core/types/check.h"
-#include "reference/report/claims.h"
-#include "reference/report/hard_cases.h"
 #include "reference/report/headline.h"
+#include "reference/report/markdown.h"
 
 namespace contactcheck::report {
 namespace {
 
-using results::Status;
+using results::Index, results::Status;
 using ::testing::ElementsAre;
 
 // With one true contact at each value. The values are in no order, as files may have them.
@@ -46,7 +45,7 @@ TEST(ScaleRanges, AreTheLongestRunOfValuesThatAllFamiliesHaveRight) {
   results.runs = {answers("one", "d", {0, 1, 0, 0, 0}, {0, 0, 0, 0, 3}),
                   answers("one", "right", {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}),
                   answers("two", "d", {0, 0}, {0, 0}), answers("two", "right", {0, 0}, {0, 0})};
-  std::vector<TitledTable> tables = range_tables(scale_ranges(results));
+  std::vector<TitledTable> tables = range_tables(scale_ranges(Index(results)));
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].title, "In which range of sizes each is right");
   ASSERT_EQ(tables[0].rows.size(), 2u);
@@ -56,12 +55,12 @@ TEST(ScaleRanges, AreTheLongestRunOfValuesThatAllFamiliesHaveRight) {
   EXPECT_THAT(tables[0].rows[1], ElementsAre("right", "triangle", "1e-3 (smallest tried)",
                                              "100 (largest tried)", "7 of 7", "-", "-"));
 
-  const std::string page = hard_cases_markdown(results);
+  const std::string page = markdown_report(Index(results));
   EXPECT_NE(page.find("### In which range of sizes each is right"), std::string::npos);
   EXPECT_NE(page.find("| d | triangle | 0.1 | 10 | 5 of 7 |"), std::string::npos) << page;
 
   results.runs[2].per_frame.missed[0] = 1;  // at 10, in the other family
-  tables = range_tables(scale_ranges(results));
+  tables = range_tables(scale_ranges(Index(results)));
   EXPECT_THAT(tables[0].rows[0], ElementsAre("d", "triangle", "0.1", "1", "4 of 7",
                                              "one@1e-3: 1 missed, 0 spurious of 1 true",
                                              "two@10: 1 missed, 0 spurious of 1 true"));
@@ -72,7 +71,7 @@ TEST(ScaleRanges, HaveNoRightCaseWithoutAnAnswer) {
   results.scenes = {family("one", "distance", kValues)};
   results.runs = {answers("one", "d", {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0})};
   results.runs[0].status = Status::kRefused;
-  const std::vector<TitledTable> tables = range_tables(scale_ranges(results));
+  const std::vector<TitledTable> tables = range_tables(scale_ranges(Index(results)));
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].title, "How far from the origin each is right");
   EXPECT_THAT(tables[0].rows, ElementsAre(ElementsAre("d", "-", "nowhere", "-", "0 of 5", "-",
@@ -107,17 +106,18 @@ TEST(ScaleRanges, StandBesideTheScenesOfARun) {
   add_scene("small", results::SceneScale{0.0123456, 1.0, 1.0});
   add_scene("far", results::SceneScale{0.5, 1.0, 1000.0});
   add_scene("hard", std::nullopt);
-  const TitledTable table = known_ranges_table(results);
+  const TitledTable table = known_ranges_table(Index(results));
   EXPECT_THAT(table.rows,
               ElementsAre(ElementsAre("all", "size", "1e-12 to 1e12 (all tried)", "-"),
                           ElementsAre("some", "size", "0.1 to 10", "small (0.0123 to 1)"),
                           ElementsAre("some", "distance", "1 to 100", "far (2e+03)"),
                           ElementsAre("none", "size", "nowhere",
                                       "within (0.1 to 10), small (0.0123 to 1), far (0.5 to 1)")));
-  EXPECT_NE(claims_markdown(results).find("| some | size | 0.1 to 10 | small (0.0123 to 1) |"),
-            std::string::npos);
+  EXPECT_NE(
+      markdown_report(Index(results)).find("| some | size | 0.1 to 10 | small (0.0123 to 1) |"),
+      std::string::npos);
 
-  EXPECT_THAT(detectors_out_of_range(results), ElementsAre("some", "none"));
+  EXPECT_THAT(detectors_out_of_range(Index(results)), ElementsAre("some", "none"));
   const std::vector<HeadlineFinding> findings = headline_of(results).findings;
   EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const HeadlineFinding& finding) {
     return finding.topic == "Sizes" && finding.sentence.ends_with("right: some and none.");
@@ -125,11 +125,12 @@ TEST(ScaleRanges, StandBesideTheScenesOfARun) {
 
   add_scene("fourth", results::SceneScale{0.5, 1.0, 1.0});
   add_scene("fifth", results::SceneScale{0.5, 1.0, 1.0});
-  EXPECT_EQ(known_ranges_table(results).rows[3][3],
+  EXPECT_EQ(known_ranges_table(Index(results)).rows[3][3],
             "within (0.1 to 10), small (0.0123 to 1), far (0.5 to 1) and 2 more");
 
   std::erase_if(results.scenes, [](const auto& scene) { return scene.scale.has_value(); });
-  EXPECT_TRUE(known_ranges_table(results).rows.empty()) << "of hard cases alone it says nothing";
+  EXPECT_TRUE(known_ranges_table(Index(results)).rows.empty())
+      << "of hard cases alone it says nothing";
 }
 
 TEST(ScaleRanges, ThatDifferFromTheListAreNamed) {
@@ -144,9 +145,9 @@ TEST(ScaleRanges, AreOfFamiliesWithARangeAlone) {
   results::Results results;
   results.scenes = {family("one", "", kValues)};
   results.runs = {answers("one", "d", {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0})};
-  EXPECT_TRUE(scale_ranges(results).empty());
+  EXPECT_TRUE(scale_ranges(Index(results)).empty());
   results.scenes = {family("one", "size", {"1", "thick", "2", "3", "4"})};
-  EXPECT_THROW(scale_ranges(results), InputError);
+  EXPECT_THROW(scale_ranges(Index(results)), InputError);
 }
 
 }  // namespace

@@ -16,7 +16,10 @@ using test::sample_results;
 using testing::ElementsAre;
 using testing::Field;
 
-SpeedError speed_chart(const Json& results) { return speed_error(results::from_json(results)); }
+SpeedError speed_chart(const Json& json) {
+  const results::Results results = results::from_json(json);
+  return speed_error(results::Index(results));
+}
 
 // The sample's two good runs, in a further scene.
 Json two_scenes_json() {

@@ -172,7 +172,7 @@ test("known defects are held against the list", async () => {
     text,
     /Of 3 listed wrong answers of libraries that this run could show, 1 show as listed, 1 with another count and 1 do not\./,
   );
-  assert.deepEqual((await tableTexts(page, "Known defects"))[1], [
+  assert.deepEqual((await tableTexts(page, "Known wrong answers"))[1], [
     "fcl 0.7.0",
     "overlap()",
     "https://example.org/issues/502",

@@ -90,7 +90,7 @@ test("the summary has the sums of the other reports", async () => {
 
 test("goals are set beside what was measured", async () => {
   const {page} = await report.shared();
-  assert.deepEqual((await tableTexts(page, "Goals")).slice(1), [
+  assert.deepEqual((await tableTexts(page, "Goals of the suite")).slice(1), [
     ["fast", "meet", "ffd-lazy", ">= 20.0x", "25.0x [22.5, 27.5]", "5", "✓ yes"],
     ["pairs are cheap", "meet", "ffd-lazy", "<= 0.500 us", "1.25 us", "5", "✗ no"],
     [

@@ -155,8 +155,6 @@ const kHard = {
   ],
 };
 
-const kNoTable = {title: "", text: "", columns: [], rows: []};
-
 /** @param template the bundler's page.html */
 export function reportOf(template) {
   const page = {
@@ -175,10 +173,7 @@ export function reportOf(template) {
     timed: false,
     fastest: [],
     references: [],
-    summary: kNoTable,
-    claimed: kNoTable,
-    claims: [],
-    goals: kNoTable,
+    sections: [],
     pairs: [],
     hard: kHard,
     levels: [{level: "finest", recall: {columns: ["detector"], rows: []}}],

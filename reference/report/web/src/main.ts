@@ -2,12 +2,7 @@ import {readPage, readView} from "./data";
 import {h, p, type Child} from "./dom";
 import type {Page} from "./page";
 import type {Section} from "./section";
-import {claims} from "./sections/claims";
 import {cost} from "./sections/cost";
-import {defects} from "./sections/defects";
-import {detectors} from "./sections/detectors";
-import {drawn} from "./sections/drawn";
-import {goals} from "./sections/goals";
 import {graded} from "./sections/graded";
 import {hard} from "./sections/hard";
 import {header} from "./sections/headline";
@@ -19,15 +14,15 @@ import {scenes} from "./sections/scenes";
 import {speedError} from "./sections/speed_error";
 import {stages} from "./sections/stages";
 import {summary} from "./sections/summary";
+import {textSection} from "./sections/text";
 import {times} from "./sections/times";
 import {view} from "./sections/view";
 import {words} from "./sections/words";
 import {mountView} from "./view/view";
 import {provideView} from "./view_slot";
 
-// The charts that answer first, then the numbers that they come from; the list of words ends the page.
-const kSections: Section[] = [
-  drawn,
+// Those with charts and controls of their own.
+const kDrawn: Section[] = [
   speedError,
   levels,
   view,
@@ -36,23 +31,36 @@ const kSections: Section[] = [
   times,
   stages,
   summary,
-  goals,
   hard,
-  defects,
   pairs,
-  claims,
   paper,
   scenes,
-  detectors,
   machine,
   words,
 ];
 
-/** Of a run of hard cases alone, these are the answer. */
-const ordered = ({scenes: all, drawn: computed}: Page): Section[] =>
-  all.length > 0 || computed
-    ? kSections
-    : [hard, defects, ...kSections.filter((s) => s !== hard && s !== defects)];
+const kOthers = "others";
+
+// The charts that answer first, then the numbers that they come from; the list of words ends the page.
+const kOrder =
+  "drawn speed-error levels view cost graded times stages summary goals hard defects pairs claims others " +
+  "paper scenes detectors machine words";
+
+// Of a run of hard cases alone, these are the answer.
+const kHardFirst = `hard defects ${kOrder.replace("hard defects ", "")}`;
+
+/** In order; a section of the report that the order does not name stands among the others. */
+function ordered(page: Page): Section[] {
+  const all = new Map(page.sections.map((one) => [one.id, textSection(one)]));
+  for (const section of kDrawn) all.set(section.id, section);
+  const hardAlone = page.scenes.length === 0 && !all.has("drawn");
+  const order = (hardAlone ? kHardFirst : kOrder).split(" ");
+  return order.flatMap((id) =>
+    id === kOthers
+      ? [...all.values()].filter((section) => !order.includes(section.id))
+      : (all.get(id) ?? []),
+  );
+}
 
 function navigation(sections: Section[]): HTMLElement {
   const links = sections.map(({id, short, title}) =>

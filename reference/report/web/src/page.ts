@@ -30,15 +30,10 @@ export interface Page {
   /** Right and fastest in some scene, most scenes first. */
   fastest: string[];
   references: string[];
-  summary: TextTable;
-  claimed: TextTable;
-  /** Of the paper and of the libraries. */
-  claims: TextTable[];
-  goals: TextTable;
-  known_defects?: {sentence: string; tables: TextTable[]};
+  /** Of texts and tables alone, in the order of the other reports; those that have something to say. */
+  sections: TextSection[];
   pairs: {scene: string; table: TextTable}[];
   hard?: Hard;
-  drawn?: Drawn;
   /** Where reproduction.json is of the same run. */
   paper?: PaperPart;
   /** The first is "finest": each detector at its own. */
@@ -56,10 +51,26 @@ export interface Page {
   families: {id: string; title: string; values: string[]}[];
 }
 
+/** One of the report's. */
+export interface TextSection {
+  id: string;
+  title: string;
+  /** In the list of contents. */
+  short: string;
+  blocks: Block[];
+}
+
+/** A table without rows is not shown. */
+export type Block = {text: string} | {heading: string} | {items: string[]} | {table: TextTable};
+
 export interface TextColumn {
   title: string;
   left: boolean;
   meaning?: string;
+  /** Of columns that some part of the page looks for. */
+  id?: string;
+  /** Its cells are "yes", "no", or say why neither. */
+  verdict?: true;
 }
 
 /** `share`: of errors, the colour. */
@@ -120,18 +131,6 @@ export interface Disagreement {
   level: string;
   kind: "missed" | "spurious";
   case: string;
-}
-
-/** Scenes drawn from a seed. */
-export interface Drawn {
-  text: string;
-  /** With contact, without; as the speed-ups. A table of nothing has no rows. */
-  accuracy: TextTable[];
-  wrong: TextTable;
-  speedups: TextTable[];
-  /** A sentence a detector. */
-  decides: string[];
-  correlations: TextTable;
 }
 
 /** The families of hard cases. */
@@ -242,7 +241,7 @@ export type Regime = "playback" | "cold";
 export type Measure = "worse" | "missed" | "spurious";
 
 export type LevelCharts = {
-  /** Per detector its line of the table; of each chart are the third, the last but one and the last cell. */
+  /** Per detector its line of the table; the cells of time, error and front are each chart's own. */
   cells: (string[] | null)[];
 } & Record<`${Measure} ${Regime}`, PointsChart>;
 

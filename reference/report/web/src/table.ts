@@ -8,6 +8,8 @@ interface Column {
   left?: boolean;
   /** For the legend of words. */
   meaning?: string;
+  /** Its cells are "yes", "no", or say why neither. */
+  verdict?: boolean;
 }
 
 export interface Cell {
@@ -106,16 +108,22 @@ const kFailed = new Set(["error", "absent", "refused"]);
 // Of a run that did not end well: its status and a message, and nothing else.
 const isFailed = (row: string[]): boolean => kFailed.has(row[1]) && row.slice(3).every((t) => !t);
 
-function textCell(text: string, i: number, failed: boolean): Cell | string {
+const kVerdicts: Record<string, Cell> = {
+  yes: {text: "✓ yes", class: "good"},
+  no: {text: "✗ no", class: "bad"},
+};
+
+function textCell(text: string, i: number, failed: boolean, column?: Column): Cell | string {
+  if (column?.verdict) return kVerdicts[text] ?? {text, class: "wrap"};
   if (failed && i === 1) return {text, class: "error"};
   if (text.length > kLong || (failed && i === 2)) return {text, class: "wrap left"};
   return text;
 }
 
-/** Long cells in several lines; of a run that did not end well the status stands out. */
-export const textRow = (row: string[]): Row => {
+/** Long cells in several lines; verdicts, and the status of a run that did not end well, stand out. */
+export const textRow = (row: string[], columns: Column[]): Row => {
   const failed = row.length > 3 && isFailed(row);
-  return row.map((text, i) => textCell(text, i, failed));
+  return row.map((text, i) => textCell(text, i, failed, columns[i]));
 };
 
 /** What the program wrote: code out of its backticks, long cells in several lines. */
@@ -123,7 +131,11 @@ export function textTable({title, text, columns, rows}: TextTable, what = title)
   if (rows.length === 0) return [];
   return [
     text && h("p", {}, ...withCode(text)),
-    table(columns, rows.map(textRow), what.replaceAll("`", "") || text),
+    table(
+      columns,
+      rows.map((row) => textRow(row, columns)),
+      what.replaceAll("`", "") || text,
+    ),
   ];
 }
 

@@ -6,8 +6,11 @@ import {term} from "../glossary";
 import {groupColour} from "../groups";
 import type {ErrorChart, Page} from "../page";
 import type {Section} from "../section";
-import {hasTurnedNormals, kTurnedNormals} from "./claims";
 import {drawErrors} from "./graded_chart";
+import {tablesOf} from "./text";
+
+/** The place of the claim about Bullet's normals, where the results have it. */
+const kTurnedNormals = "turned-normals";
 
 function picture(page: Page, errors: ErrorChart): Child[] {
   const colour = ({detector}: {detector: string}): string => groupColour(page, detector);
@@ -22,7 +25,7 @@ function picture(page: Page, errors: ErrorChart): Child[] {
 
 // The errors of one detector that stand out, and are no surprise to whoever knows it.
 function normalNote(page: Page): Child[] {
-  if (!hasTurnedNormals(page)) return [];
+  if (!tablesOf(page, "claims").some(({id}) => id === kTurnedNormals)) return [];
   return [
     h(
       "p",

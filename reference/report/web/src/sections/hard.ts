@@ -31,7 +31,7 @@ function wrongTable({id, table: {columns, rows}, shown}: WrongFamily): HTMLEleme
   };
   return table(
     [...columns, ...(shows ? [left("in 3D")] : [])],
-    rows.map((row, i) => [...textRow(row), ...showing(i)]),
+    rows.map((row, i) => [...textRow(row, columns), ...showing(i)]),
     `Errors in ${id}`,
   );
 }

@@ -3,9 +3,7 @@ import {h, p, unfolding, type Child} from "../dom";
 import type {PaperScene, TextTable} from "../page";
 import type {Section} from "../section";
 import {table, textTable, withCode, type Cell} from "../table";
-
-const list = (sentences: string[]): HTMLElement =>
-  h("ul", {class: "plain"}, ...sentences.map((text) => h("li", {}, ...withCode(text))));
+import {list} from "./text";
 
 const headed = (content: TextTable): Child[] =>
   content.rows.length > 0 ? [h("h4", {}, content.title), ...textTable(content)] : [];

@@ -14,9 +14,9 @@ import {left, table} from "../table";
 interface Point {
   detector: string;
   options: string;
-  /** As a line of the table has it. */
+  /** Its line of the table, by the ids of columns. */
+  cells: Record<string, string>;
   question: string;
-  cells: string[];
   ms: number;
   error: number;
   onFront: boolean;
@@ -63,9 +63,9 @@ const shapeOf = (question: string) =>
   (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
 
 function sentenceOf({cells, options}: Point): string {
-  const [detector, question, ms, , level, truth, missed, reported, spurious] = cells;
+  const {detector, question, time, level, truth, missed, reported, spurious} = cells;
   return [
-    `${detector}: ${ms} ms per frame (question ${question})`,
+    `${detector}: ${time} ms per frame (question ${question})`,
     `missed ${missed} of ${truth}, spurious ${spurious} of ${reported} (level ${level})`,
     `options: ${options}`,
   ].join("\n");
@@ -164,24 +164,29 @@ function legends(page: Page, all: Point[]): HTMLElement {
 function pointsTable({speed_error: {columns}}: Page, all: Point[]): HTMLElement {
   return table(
     [columns[0], left("options"), ...columns.slice(1)],
-    all.map(({cells, options}) => [cells[0], options, ...cells.slice(1)]),
+    all.map(({cells, options}) => {
+      const [first, ...others] = columns.map(({id}) => cells[id ?? ""] ?? "");
+      return [first, options, ...others];
+    }),
     "Points of the chart of speed against error",
   );
 }
 
 const kNothing: PointsChart = {points: [], left_out: ""};
 
-function chartOf({options, speed_error: {charts}}: Page, choice: Choice): Chart {
+function chartOf({options, speed_error: {columns, charts}}: Page, choice: Choice): Chart {
   const level = charts[choice.scenes]?.[choice.level];
   const {points, left_out} = level?.[`${choice.measure} ${choice.regime}`] ?? kNothing;
   return {
     points: points.map(([at, ms, error, onFront, time, share]) => {
-      const [detector, question, , ...counts] = level.cells[at]!;
+      const line = level.cells[at]!,
+        own = {time, error: share, front: onFront ? "yes" : ""};
+      const cells = {...Object.fromEntries(columns.map(({id}, i) => [id, line[i]])), ...own};
       return {
-        detector,
+        detector: cells.detector,
         options: options[at],
-        question,
-        cells: [detector, question, time, ...counts.slice(0, -2), share, onFront ? "yes" : ""],
+        question: cells.question,
+        cells,
         ms,
         error,
         onFront,

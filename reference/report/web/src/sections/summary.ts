@@ -4,14 +4,15 @@ import {term} from "../glossary";
 import type {TextTable} from "../page";
 import type {Section} from "../section";
 import {table} from "../table";
+import {tablesOf} from "./text";
 
 // What only makes the table wider than the window: recall, which is truth and missed, and columns in
 // which every line says the same.
 function narrowed({columns, rows}: TextTable): Pick<TextTable, "columns" | "rows"> {
   const kept = columns.map(
-    ({title}, i) =>
-      title !== "recall" &&
-      (!["scenes", "passes", "question"].includes(title) ||
+    ({id}, i) =>
+      id !== "recall" &&
+      (!["scenes", "passes", "question"].includes(id ?? "") ||
         rows.some((row) => row[i] !== rows[0][i])),
   );
   const keep = <T>(cells: T[]): T[] => cells.filter((_, i) => kept[i]);
@@ -21,7 +22,10 @@ function narrowed({columns, rows}: TextTable): Pick<TextTable, "columns" | "rows
 export const summary: Section = {
   id: "summary",
   title: "Summary",
-  build({summary: whole, scene_count: count}) {
+  build(page) {
+    const [whole] = tablesOf(page, "summary"),
+      count = page.scene_count;
+    if (!whole) return [];
     const {columns, rows} = narrowed(whole);
     return [
       p(

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/report/paper_part.h"
+#include "reference/report/tables/paper_part.h"
 #include "reference/results/results.h"
 
 namespace contactcheck::cli {

@@ -23,7 +23,7 @@
 #include "reference/process/exit_codes.h"
 #include "reference/process/interrupts.h"
 #include "reference/reduce/defect_search.h"
-#include "reference/report/terminal.h"
+#include "reference/report/formats/terminal.h"
 #include "reference/results/rerun.h"
 #include "reference/scene/catalogue.h"
 #include "reference/scene/drawn_scene.h"

@@ -1,8 +1,8 @@
 #include "reference/results/results.h"
 
 #include "reference/python/judge.h"
-#include "reference/report/csv.h"
-#include "reference/report/speed_error_plot.h"
+#include "reference/report/formats/csv.h"
+#include "reference/report/pictures/speed_error_plot.h"
 #include "reference/results/results_file.h"
 
 namespace contactcheck::python {

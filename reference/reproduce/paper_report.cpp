@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "reference/report/format.h"
-#include "reference/report/markdown.h"
+#include "reference/report/formats/markdown.h"
+#include "reference/report/tables/format.h"
 #include "reference/text/json_field.h"
 
 namespace contactcheck::reproduce {

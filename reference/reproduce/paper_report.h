@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/report/table.h"
+#include "reference/report/tables/table.h"
 #include "reference/reproduce/paper_arithmetic.h"
 
 namespace contactcheck::reproduce {

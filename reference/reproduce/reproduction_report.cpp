@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "reference/report/format.h"
-#include "reference/report/markdown.h"
+#include "reference/report/formats/markdown.h"
+#include "reference/report/tables/format.h"
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
 

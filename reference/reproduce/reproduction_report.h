@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "reference/report/paper_part.h"
+#include "reference/report/tables/paper_part.h"
 
 namespace contactcheck::reproduce {
 

@@ -9,8 +9,8 @@
 
 #include "core/types/check.h"
 #include "reference/gate/baseline.h"
-#include "reference/report/markdown.h"
-#include "reference/report/terminal.h"
+#include "reference/report/formats/markdown.h"
+#include "reference/report/formats/terminal.h"
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"

@@ -10,7 +10,7 @@ FEWEST_FOR_INTERVAL = 5  # passes, as reference/results/statistics.h has it
 ISA = {"AVX3": "AVX-512"}  # how the pages call what results.json names
 
 
-# Numbers as the reports write them (reference/report/format.cpp).
+# Numbers as the reports write them (reference/report/tables/format.cpp).
 def three_digits(value):
     if value is None:
         return "-"

@@ -308,7 +308,7 @@ class Citation(unittest.TestCase):
 
 
 class Numbers(unittest.TestCase):
-    """As reference/report/format.cpp writes them."""
+    """As reference/report/tables/format.cpp writes them."""
 
     def test_three_digits(self):
         for value, text in ((0, "0"), (461.4, "461"), (26.49, "26.5"), (1.004, "1.00"),

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "reference/cli/report_folder.h"
-#include "reference/report/terminal.h"
+#include "reference/report/formats/terminal.h"
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 

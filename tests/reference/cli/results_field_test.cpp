@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/types/check.h"
-#include "reference/report/markdown.h"
+#include "reference/report/formats/markdown.h"
 #include "reference/results/results_json.h"
 #include "reference/results/schema_defect.h"
 #include "reference/scene/catalogue.h"

@@ -1,4 +1,4 @@
-#include "reference/report/bar_plot.h"
+#include "reference/report/pictures/bar_plot.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reference/report/contacts_file.h"
+#include "reference/report/formats/contacts_file.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reference/report/error_spreads.h"
+#include "reference/report/tables/error_spreads.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reference/report/format.h"
+#include "reference/report/tables/format.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "reference/report/hard_cases.h"
+#include "reference/report/tables/hard_cases.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "reference/report/page_data.h"
-#include "reference/report/stability_plot.h"
+#include "reference/report/formats/page_data.h"
+#include "reference/report/pictures/stability_plot.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"

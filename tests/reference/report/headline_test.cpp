@@ -1,4 +1,4 @@
-#include "reference/report/headline.h"
+#include "reference/report/tables/headline.h"
 
 #include <gmock/gmock.h>
 

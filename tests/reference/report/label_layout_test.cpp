@@ -1,4 +1,4 @@
-#include "reference/report/label_layout.h"
+#include "reference/report/pictures/label_layout.h"
 
 #include <gtest/gtest.h>
 

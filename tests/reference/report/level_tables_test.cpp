@@ -1,4 +1,4 @@
-#include "reference/report/level_tables.h"
+#include "reference/report/tables/level_tables.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "reference/report/page_data.h"
+#include "reference/report/formats/page_data.h"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "reference/report/speed_error.h"
+#include "reference/report/tables/speed_error.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"

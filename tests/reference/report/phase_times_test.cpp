@@ -1,4 +1,4 @@
-#include "reference/report/frame_costs.h"
+#include "reference/report/tables/frame_costs.h"
 
 #include <gmock/gmock.h>
 

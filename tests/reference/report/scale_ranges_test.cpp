@@ -1,10 +1,10 @@
-#include "reference/report/scale_ranges.h"
+#include "reference/report/tables/scale_ranges.h"
 
 #include <gmock/gmock.h>
 
 #include "core/types/check.h"
-#include "reference/report/headline.h"
-#include "reference/report/markdown.h"
+#include "reference/report/formats/markdown.h"
+#include "reference/report/tables/headline.h"
 
 namespace contactcheck::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "reference/report/speed_error_plot.h"
+#include "reference/report/pictures/speed_error_plot.h"
 
 #include <gmock/gmock.h>
 
@@ -6,9 +6,9 @@
 #include <regex>
 #include <sstream>
 
-#include "reference/report/detector_group.h"
-#include "reference/report/label_layout.h"
-#include "reference/report/plot_axis.h"
+#include "reference/report/pictures/label_layout.h"
+#include "reference/report/pictures/plot_axis.h"
+#include "reference/report/tables/detector_group.h"
 
 namespace contactcheck::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "reference/report/speed_error.h"
+#include "reference/report/tables/speed_error.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reference/report/stage_losses.h"
+#include "reference/report/tables/stage_losses.h"
 
 #include <gmock/gmock.h>
 

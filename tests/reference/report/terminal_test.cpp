@@ -1,11 +1,11 @@
-#include "reference/report/terminal.h"
+#include "reference/report/formats/terminal.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "reference/report/lattice_fits.h"
-#include "reference/report/random_pairs.h"
+#include "reference/report/tables/lattice_fits.h"
+#include "reference/report/tables/random_pairs.h"
 #include "reference/results/results_json.h"
 #include "tests/reference/report/hard_results.h"
 #include "tests/reference/report/sample_results.h"

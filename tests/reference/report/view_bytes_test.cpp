@@ -1,4 +1,4 @@
-#include "reference/report/view_bytes.h"
+#include "reference/report/formats/view_bytes.h"
 
 #include <gmock/gmock.h>
 

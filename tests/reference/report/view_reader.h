@@ -1,4 +1,5 @@
-// Reads the container of reference/report/view_bytes.h as the page does, by its description alone.
+// Reads the container of reference/report/formats/view_bytes.h as the page does, by its description
+// alone.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@ import {fileURLToPath, pathToFileURL} from "node:url";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../../..");
 const work = resolve(
-  process.env.CONTACTCHECK_WEB_WORK ?? `${root}/build/release/reference/report/web/work`,
+  process.env.CONTACTCHECK_WEB_WORK ?? `${root}/build/release/reference/report/formats/web/work`,
 );
 const {chromium} = createRequire(`${work}/package.json`)("playwright-core");
 

@@ -1,4 +1,4 @@
-// A scene by hand for the 3D view, in the container of reference/report/view_bytes.h, written here by
+// A scene by hand for the 3D view, in the container of reference/report/formats/view_bytes.h, written here by
 // its description; and a report that holds it.
 import {deflateSync} from "node:zlib";
 

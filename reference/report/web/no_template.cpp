@@ -1,7 +1,0 @@
-#include "reference/report/web/report_template.h"
-
-namespace contactcheck::report {
-
-const std::string_view kReportTemplate;
-
-}  // namespace contactcheck::report

@@ -1,4 +1,4 @@
-// Bounding spheres, in the two readings of the design: as the paper tests them, and safe.
+// Bounding spheres in two readings: as the paper tests them, and safe.
 #pragma once
 
 #include <algorithm>

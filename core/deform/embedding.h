@@ -21,7 +21,8 @@ struct Embedding {
   std::vector<Vec3> local;               ///< per vertex: (s, t, u) in [0, 1] in its home cell
 
   /// The label of a triangle: every kept cell whose closed box its rest triangle meets, ascending.
-  /// Made at rest, exactly; a label, not containment (design: level `cell`).
+  /// Made at rest, exactly; a label, not containment: level
+  /// `cell` is judged by it (fixtures/README.md, "Glossary").
   std::vector<std::uint32_t> label_begin;  ///< size: triangles + 1
   std::vector<std::uint32_t> label_cells;
 

@@ -1,6 +1,6 @@
 // Scripted motions of lattice nodes: Barr's global deformations, node keyframes and a rigid pose,
 // as functions of time. Motions use libm's sines unless they ask for portable ones: trajectories
-// are recorded, and everything after the recorded nodes is bit-reproducible (design: Same bits).
+// are recorded, and everything after the recorded nodes is bit-reproducible.
 // Source: Barr, Global and Local Deformations of Solid Primitives, SIGGRAPH 1984.
 #pragma once
 

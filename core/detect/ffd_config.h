@@ -12,7 +12,8 @@ enum class CellVolume {
 
 enum class ElementTest { kNodePlane, kTriangle };
 
-/// The two readings of what the paper leaves open (design, "Detector names").
+/// Two readings of what the paper leaves open: bounds that contain what they bound, or as it is
+/// written.
 enum class BoundsReading { kPaper, kSafe };
 
 /// One member of the FFD-AABB family.

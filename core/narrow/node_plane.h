@@ -13,8 +13,8 @@
 
 namespace contactcheck {
 
-/// A mapped box has faces that need not be planar. Fixed reading (design, "Detector names"): a
-/// face's plane goes through its centroid, its normal is the cross product of its diagonals,
+/// A mapped box has faces that need not be planar; the paper does not say which planes it means. A
+/// face's plane here goes through its centroid, its normal is the cross product of its diagonals,
 /// outward at rest. A face without area has normal zero and excludes nothing.
 template <typename T>
 struct BoxPlanesOf {

@@ -64,11 +64,16 @@ void sort_contacts(std::vector<VertexContact>& contacts) {
       [](const VertexContact& x, const VertexContact& y) { return x.where < y.where; });
 }
 
-void hash_pairs(Fnv1a& hash, const std::vector<ElementPair>& pairs) {
-  hash.value(static_cast<std::uint64_t>(pairs.size()));
-  for (const ElementPair& p : pairs) {
-    for (std::uint32_t id : {p.body_a, p.body_b, p.a, p.b}) hash.value(id);
-  }
+template <typename Record>
+void hash_ids(Fnv1a& hash, const std::vector<Record>& records) {
+  for (const Record& record : records)
+    for (const std::uint32_t id : record.ids()) hash.value(id);
+}
+
+template <typename Record>
+void hash_counted(Fnv1a& hash, const std::vector<Record>& records) {
+  hash.value(static_cast<std::uint64_t>(records.size()));
+  hash_ids(hash, records);
 }
 
 }  // namespace
@@ -79,17 +84,7 @@ void canonicalize(std::vector<ElementPair>& pairs) {
 }
 
 void ContactSet::clear() {
-  bodies.clear();
-  cells.clear();
-  triangles.clear();
-  vertices.clear();
-  near.clear();
-  self.clear();
-  self_cells.clear();
-  self_near.clear();
-  self_bodies.clear();
-  piece_contacts.clear();
-  vertex_contacts.clear();
+  for_each_list([](ContactList, auto& list) { list.clear(); }, *this);
 }
 
 void ContactSet::canonicalize() {
@@ -118,24 +113,15 @@ std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const Cont
   Fnv1a hash;
   hash.value(previous);
   hash.value(frame);
-  hash.value(static_cast<std::uint64_t>(contacts.bodies.size()));
-  for (const BodyPair& p : contacts.bodies) {
-    hash.value(p.a);
-    hash.value(p.b);
-  }
-  hash_pairs(hash, contacts.cells);
-  hash_pairs(hash, contacts.triangles);
-  hash.value(static_cast<std::uint64_t>(contacts.vertices.size()));
-  for (const VertexInBody& v : contacts.vertices) {
-    for (std::uint32_t id : {v.body, v.in, v.vertex}) hash.value(id);
-  }
+  hash_counted(hash, contacts.bodies);
+  hash_counted(hash, contacts.cells);
+  hash_counted(hash, contacts.triangles);
+  hash_counted(hash, contacts.vertices);
   // Only where there are some: sets without keep the hash that they had before there were such.
-  for (const std::vector<NearPair>* pairs : {&contacts.near, &contacts.self_near})
-    for (const NearPair& p : *pairs)
-      for (std::uint32_t id : {p.body, p.other, p.vertex, p.triangle}) hash.value(id);
-  for (const std::vector<SelfPair>* pairs : {&contacts.self, &contacts.self_cells})
-    for (const SelfPair& p : *pairs)
-      for (std::uint32_t id : {p.body, p.a, p.b}) hash.value(id);
+  hash_ids(hash, contacts.near);
+  hash_ids(hash, contacts.self_near);
+  hash_ids(hash, contacts.self);
+  hash_ids(hash, contacts.self_cells);
   for (const std::uint32_t body : contacts.self_bodies) hash.value(body);
   return hash.digest();
 }

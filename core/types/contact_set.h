@@ -1,7 +1,9 @@
 // The answer of a detector to one frame: sets of pairs.
 #pragma once
 
+#include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace contactcheck {
 /// Two bodies; canonical when a < b.
 struct BodyPair {
   std::uint32_t a = 0, b = 0;
+  std::array<std::uint32_t, 2> ids() const { return {a, b}; }
   auto operator<=>(const BodyPair&) const = default;
 };
 
@@ -20,6 +23,7 @@ struct BodyPair {
 /// cells.
 struct ElementPair {
   std::uint32_t body_a = 0, body_b = 0, a = 0, b = 0;
+  std::array<std::uint32_t, 4> ids() const { return {body_a, body_b, a, b}; }
   auto operator<=>(const ElementPair&) const = default;
 };
 
@@ -27,6 +31,7 @@ struct ElementPair {
 /// self, self-vertex, self-edge); canonical when a < b.
 struct SelfPair {
   std::uint32_t body = 0, a = 0, b = 0;
+  std::array<std::uint32_t, 3> ids() const { return {body, a, b}; }
   auto operator<=>(const SelfPair&) const = default;
 };
 
@@ -36,6 +41,7 @@ void canonicalize(std::vector<ElementPair>& pairs);
 /// A vertex of `body` with the solid body `in` that holds it strictly inside.
 struct VertexInBody {
   std::uint32_t body = 0, in = 0, vertex = 0;
+  std::array<std::uint32_t, 3> ids() const { return {body, in, vertex}; }
   auto operator<=>(const VertexInBody&) const = default;
 };
 
@@ -43,6 +49,7 @@ struct VertexInBody {
 /// (level self-near).
 struct NearPair {
   std::uint32_t body = 0, other = 0, vertex = 0, triangle = 0;
+  std::array<std::uint32_t, 4> ids() const { return {body, other, vertex, triangle}; }
   auto operator<=>(const NearPair&) const = default;
 };
 
@@ -70,11 +77,11 @@ struct ContactSet {
   std::vector<ElementPair> triangles;
   std::vector<VertexInBody> vertices;
   std::vector<NearPair> near;
-  /// For the question `self`; one list for the three classes, which the mesh tells apart.
-  std::vector<SelfPair> self;
-  std::vector<SelfPair> self_cells;  ///< cells, for the same question (level self-cell)
-  std::vector<NearPair> self_near;   ///< for the same question; other = body
+  /// For the question `self`, as are the next three.
   std::vector<std::uint32_t> self_bodies;
+  std::vector<SelfPair> self;        ///< of all three classes, which the mesh tells apart
+  std::vector<SelfPair> self_cells;  ///< cells (level self-cell)
+  std::vector<NearPair> self_near;   ///< other = body
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
   /// allowed.
   std::vector<PieceContact> piece_contacts;
@@ -87,6 +94,39 @@ struct ContactSet {
   /// normal turns with its pair) and sorted by their pair or vertex; none is removed.
   void canonicalize();
 };
+
+/// The lists of a set, those that others imply before these.
+enum class ContactList : std::size_t {
+  kBodies,
+  kCells,
+  kTriangles,
+  kVertices,
+  kNear,
+  kSelfBodies,
+  kSelf,
+  kSelfCells,
+  kSelfNear,
+  kPieceContacts,
+  kVertexContacts
+};
+inline constexpr std::size_t kContactLists = 11;
+
+/// Calls visit(ContactList, list...) for each of them, with that list of every one of `sets`. What
+/// is done to all lists is written once, and a new list is a line here.
+template <typename Visit, typename... Set>
+void for_each_list(const Visit& visit, Set&... sets) {
+  visit(ContactList::kBodies, sets.bodies...);
+  visit(ContactList::kCells, sets.cells...);
+  visit(ContactList::kTriangles, sets.triangles...);
+  visit(ContactList::kVertices, sets.vertices...);
+  visit(ContactList::kNear, sets.near...);
+  visit(ContactList::kSelfBodies, sets.self_bodies...);
+  visit(ContactList::kSelf, sets.self...);
+  visit(ContactList::kSelfCells, sets.self_cells...);
+  visit(ContactList::kSelfNear, sets.self_near...);
+  visit(ContactList::kPieceContacts, sets.piece_contacts...);
+  visit(ContactList::kVertexContacts, sets.vertex_contacts...);
+}
 
 /// Order-free hash of a canonical set, chained over frames: feed the previous frame's value. Depths
 /// and normals are no part of it.

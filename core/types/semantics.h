@@ -37,6 +37,8 @@ inline constexpr std::array kFineToCoarse = {
     Level::kTriangle, Level::kNear,       Level::kVertex,     Level::kCell,     Level::kBox,
     Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,   Level::kSelfNear, Level::kSelfCell,
     Level::kSelfBody, Level::kBody,       Level::kContainment};
+/// The classes of pairs of one body's triangles.
+inline constexpr std::array kSelfClasses = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
 /// Is it about a body and itself?
 constexpr bool is_self(Level level) { return level >= Level::kSelf; }
 /// Is one of them?
@@ -60,6 +62,9 @@ enum class Question {
   kContacts,   ///< all contacts with depth and normal, of the detector's kind of depth
   kSelf        ///< all contacts of bodies with themselves
 };
+/// In the order of tables and files.
+inline constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
+                                          Question::kContacts, Question::kSelf};
 
 enum class Precision { kDouble, kSingle };
 enum class DepthKind { kNone, kVertexSurface, kConvexPair };

@@ -2,14 +2,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 
 #include "core/deform/recording.h"
 #include "core/types/check.h"
@@ -18,14 +15,10 @@
 #include "reference/cli/event_lines.h"
 #include "reference/cli/progress_display.h"
 #include "reference/cli/run_and_report.h"
-#include "reference/judge/judge.h"
-#include "reference/judge/judged_scene.h"
-#include "reference/oracle/closed_chain.h"
-#include "reference/oracle/oracle.h"
-#include "reference/oracle/surface_geometry.h"
+#include "reference/judge/frame_check.h"
 #include "reference/process/exit_codes.h"
 #include "reference/scene/frame_files.h"
-#include "reference/scene/frame_positions.h"
+#include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 #include "reference/text/shell_word.h"
 
@@ -34,22 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using judge::AllowedContact, judge::BadFrame;
+using text::counted;
 
-constexpr const char* kDetector = "full-refit";
 constexpr std::size_t kMostShown = 10;  // frames, on a terminal
-constexpr std::array kSelfLevels = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
 
-struct Allowed {
-  bool contact = false, self = false;
-  std::optional<double> depth;  ///< metres, of contacts between bodies
-};
-
-std::string counted(std::size_t n, const std::string& one) {
-  return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
-}
-
-Allowed allowed_by(const std::vector<std::string>& words) {
-  Allowed out;
+AllowedContact allowed_by(const std::vector<std::string>& words) {
+  AllowedContact out;
   for (const std::string& word : words) {
     char* end = nullptr;
     if (word == "contact") {
@@ -68,134 +52,6 @@ Allowed allowed_by(const std::vector<std::string>& words) {
   }
   return out;
 }
-
-/// What is not allowed in one frame.
-struct BadFrame {
-  struct Pair {
-    BodyPair bodies;
-    std::size_t triangles = 0;
-    std::optional<std::array<std::uint32_t, 2>> first;  ///< none: one body is inside the other
-    oracle::SurfaceDepth depth;
-  };
-  struct Self {
-    std::uint32_t body = 0;
-    std::map<Level, std::size_t> pairs;
-    std::array<std::uint32_t, 2> first{};
-  };
-  std::size_t frame = 0;
-  std::vector<Pair> pairs;
-  std::vector<Self> selfs;
-};
-
-/// By body: the first frame in which it is open, with the edge: what lies inside it is not judged.
-using OpenBodies = std::map<std::uint32_t, std::string>;
-
-/// Finds with full-refit, and confirms what it finds by the oracle.
-class FrameChecker {
- public:
-  FrameChecker(const scene::Scene& scene, const Allowed& allowed, const DetectorCatalog& catalog)
-      : scene_(scene),
-        allowed_(allowed),
-        positions_(scene),
-        detector_(catalog.make(catalog.parse(kDetector))),
-        oracle_(scene.bodies),
-        geometry_(scene.bodies) {
-    std::vector<Question> questions;
-    if (!allowed.contact) questions.push_back(Question::kTriangles);
-    if (!allowed.self) questions.push_back(Question::kSelf);
-    detector_->expect(questions);
-    detector_->prepare(scene.bodies);
-  }
-
-  std::optional<BadFrame> check(std::size_t f) {
-    const scene::FramePosition& position = positions_[f];
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b)
-      if (const auto torn = torn_weld(*scene_.bodies[b].shape, position.vertices[b]))
-        throw InputError("frame " + std::to_string(f) + ": vertices " + std::to_string((*torn)[0]) +
-                         " and " + std::to_string((*torn)[1]) + " of body " +
-                         text::in_quotes(scene_.bodies[b].name) +
-                         " are welded and come apart; without --weld they may");
-    const Frame frame = judge::make_frame(f, static_cast<double>(f) * scene_.time_step,
-                                          position.nodes, position.vertices);
-    ContactSet found;
-    detector_->update(frame);
-    if (!allowed_.contact) detector_->query(Question::kTriangles, found);
-    if (!allowed_.self) detector_->query(Question::kSelf, found);
-    found.canonicalize();
-    // Surfaces that do not meet, one of them inside a solid: no pair of triangles tells.
-    oracle::Containment inside;
-    if (!allowed_.contact && scene_.bodies.size() > 1)
-      inside = oracle_.containment(frame, found.bodies);
-    for (const oracle::OpenBody& open : inside.open)
-      open_.try_emplace(open.body,
-                        oracle::open_reason(open.edge, scene_.bodies[open.body].shape->given,
-                                            "frame " + std::to_string(f)));
-    if (found.triangles.empty() && found.self.empty() && inside.pairs.empty()) return std::nullopt;
-    return confirmed(f, frame, found);
-  }
-
-  const OpenBodies& open() const { return open_; }
-
- private:
-  oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted) {
-    try {
-      return oracle_.judge(frame, wanted);
-    } catch (const RefusedInput& e) {
-      throw InputError("frame " + std::to_string(f) + ": " + e.what());
-    }
-  }
-
-  std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found) {
-    oracle::WantedTruth wanted;
-    wanted.containment = wanted.triangles = !allowed_.contact;
-    wanted.self = !allowed_.self;
-    const oracle::Truth truth = judged(f, frame, wanted);
-    if (truth.surface.triangles != found.triangles || truth.surface.self != found.self)
-      throw std::runtime_error("frame " + std::to_string(f) + ": " + kDetector +
-                               " and the oracle disagree; that is an error of contactcheck");
-    BadFrame out;
-    out.frame = f;
-    add_pairs(frame, truth, out);
-    for (const std::uint32_t body : truth.surface.self_bodies) {
-      BadFrame::Self& self = out.selfs.emplace_back();
-      self.body = body;
-      for (const Level level : kSelfLevels)
-        for (const SelfPair& pair : judge::self_pairs(level, scene_.bodies, truth.surface.self)) {
-          if (pair.body != body) continue;
-          if (self.pairs.empty()) self.first = {pair.a, pair.b};
-          ++self.pairs[level];
-        }
-    }
-    if (out.pairs.empty() && out.selfs.empty()) return std::nullopt;
-    return out;
-  }
-
-  void add_pairs(const Frame& frame, const oracle::Truth& truth, BadFrame& out) {
-    geometry_.set_frame(frame);
-    std::map<BodyPair, BadFrame::Pair> pairs;
-    for (const BodyPair& bodies : truth.surface.bodies) pairs[bodies].bodies = bodies;
-    for (const BodyPair& bodies : truth.containment) pairs[bodies].bodies = bodies;
-    for (const ElementPair& p : truth.surface.triangles) {
-      BadFrame::Pair& pair = pairs.at({p.body_a, p.body_b});
-      if (!pair.first) pair.first = {p.a, p.b};
-      ++pair.triangles;
-    }
-    constexpr double kNone = -std::numeric_limits<double>::infinity();
-    for (auto& [bodies, pair] : pairs) {
-      pair.depth = geometry_.surface_depth(bodies, allowed_.depth.value_or(kNone));
-      if (!allowed_.depth || pair.depth.unknown || pair.depth.upper > *allowed_.depth)
-        out.pairs.push_back(pair);
-    }
-  }
-
-  const scene::Scene& scene_;
-  Allowed allowed_;
-  scene::FramePositions positions_;
-  std::unique_ptr<Detector> detector_;
-  oracle::Oracle oracle_;
-  oracle::SurfaceGeometry geometry_;
-  OpenBodies open_;
-};
 
 /// What is said of the frames, to a person or to a program.
 class CheckReport {
@@ -260,7 +116,7 @@ class CheckReport {
   std::optional<std::size_t> first() const { return first_; }
 
   /// `open`: see FrameChecker.
-  void end(const CheckArguments& arguments, const OpenBodies& open, int exit_code,
+  void end(const CheckArguments& arguments, const judge::OpenBodies& open, int exit_code,
            const std::string& page) const {
     Json not_judged = Json::array();
     std::string not_judged_text;
@@ -372,7 +228,7 @@ class CheckReport {
                           {"depth_unknown", unknown_json(pair.depth)}});
     for (const BadFrame::Self& self : bad.selfs) {
       Json one = {{"body", name(self.body)}};
-      for (const Level level : kSelfLevels)
+      for (const Level level : kSelfClasses)
         one[name_of(level)] = self.pairs.contains(level) ? self.pairs.at(level) : 0;
       one["first"] = self.first;
       selfs.push_back(std::move(one));
@@ -395,7 +251,7 @@ class CheckReport {
 };
 
 // The levels that are left to be judged.
-std::vector<Level> levels_of(const Allowed& allowed) {
+std::vector<Level> levels_of(const AllowedContact& allowed) {
   std::vector<Level> levels;
   for (const Level level : {Level::kBody, Level::kContainment, Level::kTriangle})
     if (!allowed.contact) levels.push_back(level);
@@ -419,7 +275,7 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
   write_recording(file, recording);
   RunArguments run;
   run.targets = {file.string()};
-  run.detectors = {kDetector};
+  run.detectors = {judge::kFrameDetector};
   run.timing = false;
   run.quiet = true;
   run.finding = std::move(finding);
@@ -441,7 +297,7 @@ fs::path write_page(const CheckArguments& arguments, const scene::Scene& scene,
 }  // namespace
 
 int check_command(const CheckArguments& arguments, const DetectorCatalog& catalog) {
-  const Allowed allowed = allowed_by(arguments.allow);
+  const AllowedContact allowed = allowed_by(arguments.allow);
   const std::vector<Level> levels = levels_of(allowed);
   if (levels.empty())
     throw InputError("--allow contact and --allow self leave nothing to be checked");
@@ -464,7 +320,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
 
   CheckReport report(scene, files, arguments.json_lines);
   report.start(arguments);
-  FrameChecker checker(scene, allowed, catalog);
+  judge::FrameChecker checker(scene, allowed, catalog);
   ProgressDisplay display(arguments.quiet || isatty(STDERR_FILENO) == 0, true);
   EventLines events(arguments.json_lines);
   const auto start = std::chrono::steady_clock::now();
@@ -472,7 +328,7 @@ int check_command(const CheckArguments& arguments, const DetectorCatalog& catalo
     suite::SuiteProgress progress{0,
                                   1,
                                   scene.id,
-                                  kDetector,
+                                  judge::kFrameDetector,
                                   static_cast<std::uint32_t>(f),
                                   scene.frames,
                                   static_cast<double>(f) / static_cast<double>(scene.frames)};

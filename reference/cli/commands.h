@@ -1,4 +1,4 @@
-// The subcommands. Each returns the exit code of the design: 0 the work was done, 1 a check says
+// The subcommands. Each returns an exit code: 0 the work was done, 1 a check says
 // no, 2 bad usage or bad input, 3 a detector ended in an error that no list knows. InputError
 // passes through to contactcheck_main, which makes it 2.
 #pragma once
@@ -16,32 +16,23 @@
 #include "reference/scene/mesh_scene.h"
 #include "reference/scene/random_pairs.h"
 #include "reference/suite/job.h"
+#include "reference/suite/run_plan.h"
 #include "reference/suite/shard.h"
 
 namespace contactcheck::cli {
 
-struct RunArguments {
-  std::vector<std::string> targets;    ///< suites, scenes, files; empty: the suite default
-  std::vector<std::string> detectors;  ///< names or libraries; empty: those of the suite
-  std::vector<std::string> commands;   ///< detectors that are talked to over pipes
-  std::string detectors_of;            ///< a suite, whose detectors run before these; empty: none
-  std::size_t frames = 0, step_repeats = suite::RunSettings{}.step_repeats;
+struct RunArguments : suite::RunTargets {
+  std::vector<std::string> commands;  ///< detectors that are talked to over pipes
+  std::string detectors_of;           ///< a suite, whose detectors run before these; empty: none
+  std::size_t step_repeats = suite::RunSettings{}.step_repeats;
   std::optional<std::size_t> processes;  ///< passes of every detector; none: see RunSettings
-  std::uint64_t seed = suite::RunSettings{}.seed;
   std::filesystem::path out = "out";
-  std::optional<std::size_t> count;      ///< of scenes of the suite drawn
-  std::optional<scene::PairSpec> pairs;  ///< adds a scene of random pairs to the targets
-  std::optional<suite::Shard> shard;     ///< run this part alone
-  /// A scene of these beside the targets, or what drawn ones among them are made of; no mesh: none.
-  scene::MeshSceneRequest meshes;
-  std::filesystem::path save_scene;  ///< where scenes are kept as files; empty: nowhere
+  std::optional<suite::Shard> shard;  ///< run this part alone
   bool timing = true, quiet = false, resume = false;
-  bool explain = false;     ///< what the columns mean
-  bool reduce = false;      ///< the first wrong answers, when all has run
-  bool json_lines = false;  ///< events on stdout, and nothing else there
-  std::uint32_t threads = 1;
-  std::vector<std::string> isas;  ///< instruction sets; empty: the best
-  bool closed_loop = false;       ///< simulated scenes: drive them with every detector too
+  bool explain = false;      ///< what the columns mean
+  bool reduce = false;       ///< the first wrong answers, when all has run
+  bool json_lines = false;   ///< events on stdout, and nothing else there
+  bool closed_loop = false;  ///< simulated scenes: drive them with every detector too
   double call_limit = suite::RunSettings{}.call_limit;  ///< seconds
   std::uint64_t memory_limit_mib = suite::RunSettings{}.memory_limit >> 20;
   std::string command_line;                 ///< for the record

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 
 namespace contactcheck::cli {
 

@@ -5,16 +5,13 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/detect/registry.h"
 #include "core/types/check.h"
 #include "reference/cli/command_checks.h"
 #include "reference/cli/commands.h"
-#include "reference/cli/drawn_targets.h"
 #include "reference/cli/event_lines.h"
 #include "reference/cli/own_detectors.h"
 #include "reference/cli/progress_display.h"
@@ -26,14 +23,13 @@
 #include "reference/report/formats/terminal.h"
 #include "reference/results/rerun.h"
 #include "reference/scene/catalogue.h"
-#include "reference/scene/drawn_scene.h"
 #include "reference/scene/scene.h"
-#include "reference/scene/simulate_scene.h"
-#include "reference/scene/suite_file.h"
+#include "reference/suite/drawn_targets.h"
 #include "reference/suite/out_lock.h"
-#include "reference/suite/run_identity.h"
+#include "reference/suite/run_plan.h"
 #include "reference/suite/suite_run.h"
 #include "reference/suite/worker.h"
+#include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 #include "reference/text/shell_word.h"
 
@@ -41,204 +37,6 @@ namespace contactcheck::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What `run` is asked to do, as scenes with their detectors.
-
-struct RunTasks {
-  std::vector<suite::SceneTask> scenes;
-  std::vector<results::Goal> goals;  ///< of all suites, canonical
-};
-
-using Names = std::vector<std::string>;
-
-// Of meshes without --detector: references, the paper's last word with and without triangles, ours.
-const Names kForMeshes = {"fcl-aabb",  "embree",           "bullet-gimpact",
-                          "bullet-vf", "ffd-aabb-sphere2", "ffd-aabb-sphere2+tri",
-                          "ffd-lazy"};
-
-// Of one mesh that meets itself: those that answer.
-const Names kForItself = {"fcl-aabb", "embree", "full-refit", "ffd-lazy"};
-
-void add_new(const std::string& name, Names& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-const OptionInfo* option_of(const DetectorCatalog& catalog, const DetectorSpec& spec,
-                            const std::string& option) {
-  for (const OptionInfo& o : catalog.find(spec.id)->options)
-    if (o.name == option) return &o;
-  return nullptr;
-}
-
-/// Names as given on the command line or by a suite, made those that run.
-class DetectorNames {
- public:
-  DetectorNames(const RunArguments& arguments, const DetectorCatalog& catalog)
-      : arguments_(arguments), catalog_(catalog) {}
-
-  Names resolved(const Names& given) {
-    Names out;
-    for (const std::string& name : given)
-      for (const std::string& with_isa : with_isas(catalog_.parse(name).name))
-        add_new(with_threads(with_isa), out);
-    return out;
-  }
-
-  // An option that no detector takes would be a silent lie about what ran.
-  void require_use_of_isas() const {
-    if (!arguments_.isas.empty() && !isas_used_)
-      throw InputError("--isa " + arguments_.isas.front() +
-                       ": no detector of this run has instruction sets to choose from");
-  }
-
- private:
-  // What the name says already stays.
-  std::string with(const std::string& name, const std::string& option,
-                   const std::string& value) const {
-    const DetectorSpec spec = catalog_.parse(name);
-    const OptionInfo* info = option_of(catalog_, spec, option);
-    if (info == nullptr || spec.options.at(option) != info->default_value) return name;
-    const char* const mark = name.find(':') == std::string::npos ? ":" : ",";
-    return catalog_.parse(name + mark + option + "=" + value).name;
-  }
-
-  std::string with_threads(const std::string& name) const {
-    return with(name, "threads", std::to_string(arguments_.threads));
-  }
-
-  Names with_isas(const std::string& name) {
-    if (arguments_.isas.empty()) return {name};
-    if (option_of(catalog_, catalog_.parse(name), "isa") != nullptr) isas_used_ = true;
-    Names out;
-    for (const std::string& isa : arguments_.isas) add_new(with(name, "isa", isa), out);
-    return out;
-  }
-
-  const RunArguments& arguments_;
-  const DetectorCatalog& catalog_;
-  bool isas_used_ = false;
-};
-
-// Names of detectors become canonical, with --threads and --isa as options of those that have
-// them. @throws InputError for unknown names
-RunTasks make_tasks(const RunArguments& arguments, const DetectorCatalog& catalog) {
-  const fs::path fixtures = scene::fixtures_directory();
-  DetectorNames names(arguments, catalog);
-  RunTasks tasks;
-  const auto is_file = [](const suite::SceneTask& task, const fs::path& file) {
-    const auto* own = std::get_if<fs::path>(&task.source);
-    return own != nullptr && *own == file;
-  };
-  // Detectors of the command line; only where it names none is the suite needed.
-  const auto given_or_of = [&](const char* suite) {
-    return arguments.detectors.empty()
-               ? scene::load_suite(scene::find_target(suite, fixtures).file).detectors
-               : arguments.detectors;
-  };
-  const auto add_scene = [&](const fs::path& file, const Names& detectors) {
-    const Names resolved =
-        names.resolved(arguments.detectors.empty() ? detectors : arguments.detectors);
-    for (const suite::SceneTask& task : tasks.scenes)
-      if (is_file(task, file)) return;
-    tasks.scenes.push_back({"", file, resolved, {}});
-  };
-
-  Names targets;
-  bool any_drawn = false;
-  for (const std::string& name : arguments.targets) {
-    const std::optional<DrawnTarget> drawn = find_drawn(name, arguments);
-    if (!drawn) {
-      targets.push_back(name);
-      continue;
-    }
-    any_drawn = true;
-    const Names resolved =
-        names.resolved(arguments.detectors.empty() ? drawn->detectors : arguments.detectors);
-    for (const scene::DrawnSpec& spec : drawn->scenes)
-      tasks.scenes.push_back({"", spec, resolved, {}});
-  }
-  if (arguments.count && !any_drawn)
-    throw InputError("--count: no target of this run is the suite drawn, whose scenes it counts");
-  if (!arguments.meshes.meshes.empty() && !any_drawn) {
-    // Paths in the text are relative to where it will lie, so that it can be kept as it is.
-    const fs::path& kept = arguments.save_scene;
-    const bool alone = targets.empty() && !arguments.pairs;
-    const Names& usual = arguments.meshes.meets_itself() ? kForItself : kForMeshes;
-    const Names resolved =
-        names.resolved(arguments.detectors.empty() ? usual : arguments.detectors);
-    tasks.scenes.push_back(
-        {"",
-         scene::mesh_scene(arguments.meshes, kept.empty() ? fs::current_path()
-                                             : alone      ? fs::absolute(kept).parent_path()
-                                                          : fs::absolute(kept)),
-         resolved,
-         {}});
-  } else if (targets.empty() && !arguments.pairs && !any_drawn) {
-    targets.push_back("default");
-  }
-  for (const std::string& name : targets) {
-    const scene::Target target = scene::find_target(name, fixtures);
-    if (target.kind != scene::TargetKind::kSuite) {
-      add_scene(target.file, given_or_of("default"));
-      continue;
-    }
-    const scene::Suite suite = scene::load_suite(target.file);
-    for (const scene::SuiteScene& scene : suite.scenes)
-      add_scene(scene::file_of(scene, fixtures),
-                scene.detectors.empty() ? suite.detectors : scene.detectors);
-    for (const scene::SuiteGoal& wanted : suite.goals) {
-      results::Goal& goal = tasks.goals.emplace_back();
-      goal = {wanted.name,
-              wanted.scene,
-              catalog.parse(wanted.detector).name,
-              wanted.part,
-              {},
-              {},
-              {},
-              wanted.at_least,
-              wanted.at_most};
-      if (wanted.kind == scene::SuiteGoal::Kind::kPerPair) goal.per = "pair";
-      if (wanted.kind == scene::SuiteGoal::Kind::kOverScene) goal.over_scene = wanted.other;
-      if (wanted.kind != scene::SuiteGoal::Kind::kOver) continue;
-      goal.over = catalog.parse(wanted.other).name;
-      for (suite::SceneTask& task : tasks.scenes)
-        if (is_file(task, scene::find_scene(goal.scene, fixtures)))
-          add_new(goal.over, task.references);
-    }
-  }
-  if (arguments.pairs)
-    tasks.scenes.push_back({"", *arguments.pairs, names.resolved(given_or_of("hard")), {}});
-  names.require_use_of_isas();
-  return tasks;
-}
-
-// Every scene but those that are drawn is read before anything runs: a bad one ends the run before
-// it has written a byte.
-void check_scenes(std::size_t frames, const DetectorCatalog& catalog,
-                  std::vector<suite::SceneTask>& tasks) {
-  std::set<std::string> ids;
-  for (suite::SceneTask& task : tasks) {
-    scene::Scene scene;
-    if (const auto* drawn = std::get_if<scene::DrawnSpec>(&task.source)) {
-      // Made where it is run: to make a thousand of them here takes minutes.
-      scene.id = scene::drawn_id(*drawn);
-      scene.frames = static_cast<std::size_t>(draw_parameters(*drawn).parameters.at("frames"));
-    } else {
-      scene = scene::load_any_scene(task.source, frames);
-    }
-    try {
-      scene::check_simulation(catalog, scene);
-    } catch (const InputError& e) {
-      const auto* file = std::get_if<fs::path>(&task.source);
-      throw InputError((file == nullptr ? "" : file->string() + ": ") + e.what());
-    }
-    task.id = scene.id;
-    task.frames = scene.frames;
-    task.content = suite::content_of(task.source, scene);
-    if (!ids.insert(task.id).second)
-      throw InputError("two scenes of this run have the id \"" + task.id + "\"");
-  }
-}
 
 // A case names every detector but one from outside.
 std::string own_words(const std::string& detector, const results::Results& results) {
@@ -336,8 +134,8 @@ void take_shard(const suite::Shard& shard, suite::SuiteRequest& request) {
   request.shard = suite::ShardOfRun{shard, std::move(request.tasks)};
   const std::vector<suite::SceneTask>& run = request.shard->run;
   if (run.size() < shard.of)
-    throw InputError("--shard " + shard.name() + ": this run has " + std::to_string(run.size()) +
-                     (run.size() == 1 ? " scene" : " scenes") +
+    throw InputError("--shard " + shard.name() + ": this run has " +
+                     text::counted(run.size(), "scene") +
                      ", and a scene is run in one piece: at most so many shards are possible");
   request.tasks.clear();
   for (std::size_t i = 0; i < run.size(); ++i)
@@ -361,19 +159,13 @@ suite::RunSettings settings_of(const RunArguments& arguments) {
   return settings;
 }
 
-RunArguments with_names(RunArguments arguments, const std::vector<std::string>& names) {
-  arguments.detectors = names;
-  if (arguments.detectors_of.empty()) return arguments;
-  const scene::Target target =
-      scene::find_target(arguments.detectors_of, scene::fixtures_directory());
-  if (target.kind != scene::TargetKind::kSuite)
-    throw InputError("--detectors: " + text::in_quotes(arguments.detectors_of) + " is no suite");
-  const scene::Suite suite = scene::load_suite(target.file);
-  arguments.detectors = suite.detectors;
-  for (const scene::SuiteScene& scene : suite.scenes)
-    for (const std::string& detector : scene.detectors) add_new(detector, arguments.detectors);
-  arguments.detectors.insert(arguments.detectors.end(), names.begin(), names.end());
-  return arguments;
+// With the detectors of --detectors, which run before those named.
+suite::RunTargets with_names(const RunArguments& arguments, const std::vector<std::string>& names) {
+  suite::RunTargets out = arguments;
+  out.detectors.clear();
+  if (!arguments.detectors_of.empty()) out.detectors = suite::detectors_of(arguments.detectors_of);
+  out.detectors.insert(out.detectors.end(), names.begin(), names.end());
+  return out;
 }
 
 const std::vector<suite::SceneTask>& whole_run(const suite::SuiteRequest& request) {
@@ -388,14 +180,13 @@ suite::SuiteRequest make_request(const RunArguments& arguments, const DetectorCa
   request.settings.plugins = own.records();
   request.settings.plugin_ids = own.ids();
   request.plugins = plugin::plugins_in_results(own.plugins);
-  RunTasks tasks = make_tasks(with_names(arguments, own.names), own.catalog);
-  request.tasks = std::move(tasks.scenes);
-  request.goals = std::move(tasks.goals);
-  check_scenes(arguments.frames, own.catalog, request.tasks);
+  suite::RunPlan plan = suite::plan_run(with_names(arguments, own.names), own.catalog);
+  request.tasks = std::move(plan.scenes);
+  request.goals = std::move(plan.goals);
   keep_recordings(arguments, request.tasks);
   if (arguments.shard) take_shard(*arguments.shard, request);
   check_out(arguments.out);
-  save_scenes(arguments.save_scene, whole_run(request), request.tasks);
+  suite::save_scenes(arguments.save_scene, whole_run(request), request.tasks);
   request.resume = arguments.resume;
   request.out = arguments.out;
   request.executable = fs::read_symlink("/proc/self/exe");
@@ -433,7 +224,7 @@ ReportedRun run_and_report(const RunArguments& arguments, const DetectorCatalog&
   watcher.events.print(start_event(request));
   results::Results results = suite::run_suite(request, watcher.listener(), outcome);
   watcher.display.finish();
-  save_redrawn(arguments.save_scene, whole_run(request), request.tasks, results);
+  suite::save_redrawn(arguments.save_scene, whole_run(request), request.tasks, results);
   const auto files = report_texts(results, arguments.out, all_report_formats());
   write_report(arguments.out, files);
   return {std::move(results), report_paths(arguments.out, files), std::move(lock)};

@@ -34,8 +34,8 @@ void print_self_family(const scene::Scene& scene, const std::vector<suite::CaseT
   std::string levels;
   for (const Level level : kLevels)
     if (scene.judges(level)) levels += std::string(levels.empty() ? "" : ", ") + name_of(level);
-  std::printf("  %-24s %9s  pairs of triangles of one body (%s)\n", scene.family->parameter.c_str(),
-              "pairs", levels.c_str());
+  std::printf("  %-24s %9s  pairs of triangles of one body (%s)\n",
+              scene.family()->parameter.c_str(), "pairs", levels.c_str());
   for (const suite::CaseTruth& c : cases)
     std::printf("  %-24s %9zu%s\n", c.value.c_str(), c.self.size(), pairs_text(c.self).c_str());
   std::printf("\n");
@@ -45,7 +45,7 @@ void print_family(const scene::Scene& scene, const std::vector<suite::CaseTruth>
   std::printf("%s  %s\n", scene.id.c_str(), scene.title.c_str());
   if (std::all_of(scene.levels.begin(), scene.levels.end(), is_self))
     return print_self_family(scene, cases);
-  std::printf("  %-24s %9s %11s %9s  pairs of triangles\n", scene.family->parameter.c_str(),
+  std::printf("  %-24s %9s %11s %9s  pairs of triangles\n", scene.family()->parameter.c_str(),
               "bodies", "containment", "triangles");
   for (const suite::CaseTruth& c : cases)
     std::printf("  %-24s %9zu %11zu %9zu%s\n", c.value.c_str(), c.bodies, c.containment,
@@ -61,7 +61,7 @@ int truth_command(const std::vector<std::string>& families, bool write) {
   if (write && !families.empty() && fs::exists(file)) expected = suite::read_expected(file);
   for (const fs::path& family : files_of(families, fixtures)) {
     const scene::Scene scene = scene::load_scene(family);
-    if (!scene.family) throw InputError("\"" + scene.id + "\" is no family of hard cases");
+    if (!scene.family()) throw InputError("\"" + scene.id + "\" is no family of hard cases");
     const std::vector<suite::CaseTruth> cases = suite::family_truth(scene);
     print_family(scene, cases);
     expected[scene.id].clear();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/text/counted.h"
+
 namespace contactcheck::gate {
 namespace {
 
@@ -43,9 +45,7 @@ std::vector<std::string> GateResult::rules_with(Verdict verdict) const {
 }
 
 std::string counts_text(const GateResult& result) {
-  const auto counted = [](std::size_t n, const char* one) {
-    return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
-  };
+  using text::counted;
   std::string out =
       counted(result.checks.size(), "check") + " of " + counted(result.rules, "rule") + ":";
   for (const Verdict v :

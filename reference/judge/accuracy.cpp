@@ -25,11 +25,11 @@ long heap_growth(std::uint64_t before) {
   return static_cast<long>(heap_in_use()) - static_cast<long>(before);
 }
 
-std::uint64_t list_bytes(const ContactSet& c) {
-  const auto bytes = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  return bytes(c.bodies) + bytes(c.cells) + bytes(c.triangles) + bytes(c.vertices) + bytes(c.near) +
-         bytes(c.self) + bytes(c.self_cells) + bytes(c.self_near) + bytes(c.self_bodies) +
-         bytes(c.piece_contacts) + bytes(c.vertex_contacts);
+std::uint64_t list_bytes(const ContactSet& contacts) {
+  std::uint64_t bytes = 0;
+  for_each_list([&](ContactList, const auto& list) { bytes += list.capacity() * sizeof(list[0]); },
+                contacts);
+  return bytes;
 }
 
 }  // namespace
@@ -75,8 +75,8 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
     note_open_bodies(scene.bodies, f, truth.open, judged.open);
     judged.contact_frames.push_back(!truth.surface.bodies.empty() ||
                                     !truth.surface.self_bodies.empty());
-    if (scene.pairs) {
-      check_pairs(*scene.pairs, f, position.vertices, truth, pairs);
+    if (scene.pairs()) {
+      check_pairs(*scene.pairs(), f, position.vertices, truth, pairs);
       progress.part(kShareOfTruth * static_cast<double>(f) / static_cast<double>(scene.frames));
     }
     if (scene.grades_lengths()) {
@@ -86,168 +86,243 @@ JudgedScene judge_scene(const scene::Scene& scene, process::ProgressWriter& prog
         lengths.push_back(geometry.intersection_length(pair));
     }
   }
-  if (scene.pairs) judged.pairs = std::move(pairs);
+  if (scene.pairs()) judged.pairs = std::move(pairs);
   return judged;
 }
 
+namespace {
+
+// The question whose answer a list is judged by. Depths and normals are those of `contacts`.
+Question question_about(ContactList list, const Semantics& semantics) {
+  switch (list) {
+    case ContactList::kBodies:
+      return question_of(Level::kBody, semantics);
+    case ContactList::kCells:
+      return question_of(Level::kCell, semantics);
+    case ContactList::kTriangles:
+      return question_of(Level::kTriangle, semantics);
+    case ContactList::kVertices:
+      return question_of(Level::kVertex, semantics);
+    case ContactList::kNear:
+      return question_of(Level::kNear, semantics);
+    case ContactList::kSelfBodies:
+    case ContactList::kSelf:
+    case ContactList::kSelfCells:
+    case ContactList::kSelfNear:
+      return question_of(Level::kSelf, semantics);
+    case ContactList::kPieceContacts:
+    case ContactList::kVertexContacts:
+      return Question::kContacts;
+  }
+  return semantics.questions.front();
+}
+
+// Only vertices are fed in single precision: the truth of cells and boxes is made of nodes.
+RoundedScene* rounded_scene(JudgingTools& tools, const Detector& detector,
+                            const Semantics& semantics) {
+  if (semantics.precision != Precision::kSingle || !detector.needs_vertices()) return nullptr;
+  return tools.rounded({semantics.scale, semantics.local_origin});
+}
+std::vector<Level> levels_of_vertices(std::vector<Level> levels) {
+  std::erase_if(levels, [](Level level) { return level == Level::kCell || level == Level::kBox; });
+  return levels;
+}
+
+// One detector and all frames of a scene, with the sums over them: a function a step.
+class AccuracyPass {
+ public:
+  /// Prepares the detector, whose semantics are final only then.
+  AccuracyPass(JudgingTools& tools, std::uint32_t position, Detector& detector,
+               process::ProgressWriter& progress, results::Run& run)
+      : tools_(tools),
+        scene_(*tools.judged.scene),
+        position_(position),
+        detector_(detector),
+        progress_(progress),
+        run_(run),
+        held_(prepare()),
+        levels_(judged_levels(scene_.bodies, tools.judged.open, run.semantics, scene_.levels,
+                              &run.not_judged)),
+        rounded_(rounded_scene(tools, detector, run.semantics)),
+        rounded_levels_(rounded_ == nullptr ? std::vector<Level>{} : levels_of_vertices(levels_)),
+        totals_(run.semantics, levels_, scene_.pairs() ? 0 : kListedPairs),
+        rounded_totals_(run.semantics, rounded_levels_),
+        graded_(scene_.bodies, run.semantics, scene_.size()) {
+    for (const Question question : run.semantics.questions)
+      outcome_.answers.push_back({question, {}});
+  }
+
+  void judge_frame(std::size_t f) {
+    ask_own_question(f);
+    ask_other_questions(f);
+    hash_ = chain_hash(hash_, f, contacts_);
+    progress_.enter(position_, f, process::Phase::kTrace);
+    const StageTrace trace = detector_.trace();
+    notes_.add_frame(detector_.notes());
+    called("trace");
+    progress_.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
+    compare(f);
+    grade(f);
+    if (rounded_ != nullptr) compare_rounded(f);
+    add_stages(scene_.bodies, trace, tools_.judged.truth[f].surface.triangles, stages_);
+  }
+
+  /// Fills what `run` has of the sums.
+  AccuracyOutcome finish() {
+    const std::vector<bool>& contact = tools_.judged.contact_frames;
+    run_.frames = scene_.frames;
+    run_.contact_frames =
+        static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
+    run_.contact_hash = results::hex(hash_);
+    run_.levels = std::move(totals_.levels);
+    run_.levels_rounded = std::move(rounded_totals_.levels);
+    run_.per_frame = std::move(totals_.per_frame);
+    run_.per_frame.covered_length_fraction = std::move(covered_);
+    run_.stages = std::move(stages_);
+    outcome_.differences = std::move(totals_.differences);
+    outcome_.disagreements = std::move(totals_.disagreements);
+    if (scene_.grades_lengths()) run_.geometry = graded_.summary();
+    run_.geometry.depth_kind = run_.semantics.depth;
+    if (scene_.follows_time()) run_.geometry.episodes = find_episodes(true_pairs_, reported_pairs_);
+    sum_up_episodes(run_.geometry);  // once more when gaps are measured
+    for (const std::string& why : tools_.judged.open)
+      if (run_.semantics.solid && !why.empty())
+        run_.notes.push_back("containment not judged: " + why);
+    for (const std::string& note : notes_.summary()) run_.notes.push_back(note);
+    if (const std::string note = exchanged_.sentence(); !note.empty()) run_.notes.push_back(note);
+    return std::move(outcome_);
+  }
+
+ private:
+  // What the detector's calls have left on the heap, bytes.
+  long prepare() {
+    progress_.enter(position_, 0, process::Phase::kPrepare);
+    const std::uint64_t heap_before = heap_in_use();
+    const auto start = std::chrono::steady_clock::now();
+    detector_.expect(semantics_in(scene_.levels, detector_.semantics()).questions);
+    detector_.prepare(scene_.bodies);
+    run_.prepare_ms =
+        1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const long held = heap_growth(heap_before);
+    run_.prepared_bytes = run_.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held, 0));
+    called("prepare");
+    run_.semantics = semantics_in(scene_.levels, detector_.semantics());
+    return held;
+  }
+
+  void ask_own_question(std::size_t f) {
+    const Question own = run_.semantics.questions.front();
+    contacts_.clear();
+    progress_.enter(position_, f, process::Phase::kUpdate);
+    std::uint64_t heap_before = heap_in_use();
+    detector_.update(tools_.judged.frame(f));
+    held_ += heap_growth(heap_before);
+    called("update");
+    progress_.enter(position_, f, process::Phase::kQuery);
+    heap_before = heap_in_use();
+    const std::uint64_t list_before = list_bytes(contacts_);
+    detector_.query(own, contacts_);
+    // The list of contacts is ours, and grows while it is filled.
+    held_ += heap_growth(heap_before) - static_cast<long>(list_bytes(contacts_) - list_before);
+    run_.memory_bytes =
+        std::max(run_.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held_, 0)));
+    called("query");
+    contacts_.canonicalize();
+    check_answer(scene_, f, contacts_);
+    outcome_.answers.front().frames.push_back(
+        fingerprint_of(contacts_, asked(own, run_.semantics)));
+    add_counts(detector_.counts());
+    true_pairs_.push_back(true_body_pairs(run_.semantics.solid, tools_.judged.truth[f]));
+    reported_pairs_.push_back(contacts_.bodies);
+  }
+
+  void add_counts(const std::vector<Count>& counts) {
+    if (run_.counters.empty())
+      for (const Count& count : counts) run_.counters.emplace_back(count.name, 0);
+    CONTACTCHECK_INVARIANT(counts.size() == run_.counters.size(), "the same counts every frame");
+    for (std::size_t i = 0; i < counts.size(); ++i) run_.counters[i].second += counts[i].value;
+  }
+
+  // Each list is then that of the answer it is judged by.
+  void ask_other_questions(std::size_t f) {
+    for (std::size_t q = 1; q < outcome_.answers.size(); ++q) {
+      const Question question = outcome_.answers[q].question;
+      ask(detector_, question, scene_, f, other_);
+      outcome_.answers[q].frames.push_back(fingerprint_of(other_, asked(question, run_.semantics)));
+      called("query");
+      for_each_list(
+          [&](ContactList list, auto& judged, const auto& answered) {
+            if (question_about(list, run_.semantics) == question) judged = answered;
+          },
+          contacts_, other_);
+    }
+  }
+
+  void compare(std::size_t f) {
+    const Semantics& semantics = run_.semantics;
+    const TrueNear near =
+        true_near(tools_.oracle, tools_.judged.frame(f), levels_, semantics.margin);
+    for (const Level level : levels_) {
+      const LevelComparison comparison =
+          compare_at(level, scene_.bodies, semantics, tools_.judged.truth[f], contacts_, near);
+      totals_.add(f, level, comparison);
+      if (level == Level::kTriangle) exchanged_.add_frame(comparison);
+    }
+  }
+
+  // Errors with a size: depths, normals, lengths, distances.
+  void grade(std::size_t f) {
+    std::optional<double>& covered = covered_.emplace_back();
+    if (!scene_.grades_lengths()) return;
+    tools_.geometry.set_frame(tools_.judged.frame(f));
+    covered = graded_.add_frame(tools_.judged.truth[f], tools_.judged.contour[f], contacts_,
+                                tools_.geometry);
+  }
+
+  // The same answer against the truth for the rounded vertices.
+  void compare_rounded(std::size_t f) {
+    const Semantics& semantics = run_.semantics;
+    const oracle::Truth& truth = rounded_->truth(f, tools_.oracle);
+    const TrueNear near =
+        true_near(tools_.oracle, rounded_->frame(f), levels_, semantics.margin * semantics.scale);
+    for (const Level level : rounded_levels_)
+      rounded_totals_.add(f, level,
+                          compare_at(level, scene_.bodies, semantics, truth, contacts_, near));
+  }
+
+  void called(const char* what) { note_environment(guard_, what, run_); }
+
+  JudgingTools& tools_;
+  const scene::Scene& scene_;
+  std::uint32_t position_;
+  Detector& detector_;
+  process::ProgressWriter& progress_;
+  results::Run& run_;
+  const process::FloatEnvironmentGuard guard_;
+  long held_;
+  std::vector<Level> levels_;
+  RoundedScene* rounded_;  ///< null: fed no rounded vertices
+  std::vector<Level> rounded_levels_;
+
+  ContactSet contacts_, other_;
+  AccuracyOutcome outcome_;
+  LevelTotals totals_, rounded_totals_;
+  GradedErrors graded_;
+  std::vector<std::optional<double>> covered_;
+  BodyPairsPerFrame true_pairs_, reported_pairs_;
+  std::vector<results::Stage> stages_;
+  FrameNotes notes_;
+  ExchangedPairs exchanged_;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace
+
 AccuracyOutcome run_accuracy(JudgingTools& tools, std::uint32_t position, Detector& detector,
                              process::ProgressWriter& progress, results::Run& run) {
-  const scene::Scene& scene = *tools.judged.scene;
-  const process::FloatEnvironmentGuard guard;
-
-  // Prepare. The semantics are final only then.
-  progress.enter(position, 0, process::Phase::kPrepare);
-  std::uint64_t heap_before = heap_in_use();
-  const auto start = std::chrono::steady_clock::now();
-  detector.expect(semantics_in(scene.levels, detector.semantics()).questions);
-  detector.prepare(scene.bodies);
-  run.prepare_ms =
-      1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  long held = heap_growth(heap_before);  // what the detector's calls have left on the heap, bytes
-  run.prepared_bytes = run.memory_bytes = static_cast<std::uint64_t>(std::max<long>(held, 0));
-  note_environment(guard, "prepare", run);
-  run.semantics = semantics_in(scene.levels, detector.semantics());
-  const Semantics& semantics = run.semantics;
-  const Question own = semantics.questions.front();
-
-  const std::vector<Level> levels =
-      judged_levels(scene.bodies, tools.judged.open, semantics, scene.levels, &run.not_judged);
-  RoundedScene* rounded = nullptr;
-  std::vector<Level> rounded_levels;
-  if (semantics.precision == Precision::kSingle && detector.needs_vertices())
-    rounded = tools.rounded({semantics.scale, semantics.local_origin});
-  if (rounded != nullptr) {
-    // Only vertices are fed in single precision. The truth of cells and boxes is made of nodes.
-    rounded_levels = levels;
-    std::erase_if(rounded_levels,
-                  [](Level level) { return level == Level::kCell || level == Level::kBox; });
-  }
-
-  // Sums over frames.
-  AccuracyOutcome outcome;
-  for (const Question question : semantics.questions) outcome.answers.push_back({question, {}});
-  LevelTotals totals(semantics, levels, scene.pairs ? 0 : kListedPairs);
-  LevelTotals rounded_totals(semantics, rounded_levels);
-  GradedErrors graded(scene.bodies, semantics, scene.size());
-  std::vector<std::optional<double>> covered;
-  BodyPairsPerFrame true_pairs, reported_pairs;
-  std::vector<results::Stage> stages;
-  FrameNotes notes;
-  ExchangedPairs exchanged;
-  std::uint64_t hash = 0;
-  ContactSet contacts, other;
-
-  for (std::size_t f = 0; f < scene.frames; ++f) {
-    const Frame frame = tools.judged.frame(f);
-    const oracle::Truth& truth = tools.judged.truth[f];
-
-    // 1. The detector's own question.
-    contacts.clear();
-    progress.enter(position, f, process::Phase::kUpdate);
-    heap_before = heap_in_use();
-    detector.update(frame);
-    held += heap_growth(heap_before);
-    note_environment(guard, "update", run);
-    progress.enter(position, f, process::Phase::kQuery);
-    heap_before = heap_in_use();
-    const std::uint64_t list_before = list_bytes(contacts);
-    detector.query(own, contacts);
-    // The list of contacts is ours, and grows while it is filled.
-    held += heap_growth(heap_before) - static_cast<long>(list_bytes(contacts) - list_before);
-    run.memory_bytes =
-        std::max(run.memory_bytes, static_cast<std::uint64_t>(std::max<long>(held, 0)));
-    note_environment(guard, "query", run);
-    contacts.canonicalize();
-    check_answer(scene, f, contacts);
-    outcome.answers.front().frames.push_back(fingerprint_of(contacts, asked(own, semantics)));
-    const std::vector<Count> counts = detector.counts();
-    if (run.counters.empty())
-      for (const Count& count : counts) run.counters.emplace_back(count.name, 0);
-    CONTACTCHECK_INVARIANT(counts.size() == run.counters.size(), "the same counts every frame");
-    for (std::size_t i = 0; i < counts.size(); ++i) run.counters[i].second += counts[i].value;
-    true_pairs.push_back(true_body_pairs(semantics.solid, truth));
-    reported_pairs.push_back(contacts.bodies);
-
-    // 2. Its other questions. Each level is judged by the answer to its question, depths and
-    // normals by the answer to `contacts`.
-    for (std::size_t q = 1; q < outcome.answers.size(); ++q) {
-      const Question question = outcome.answers[q].question;
-      ask(detector, question, scene, f, other);
-      outcome.answers[q].frames.push_back(fingerprint_of(other, asked(question, semantics)));
-      note_environment(guard, "query", run);
-      const auto judges = [&](Level level) { return question_of(level, semantics) == question; };
-      if (judges(Level::kBody)) contacts.bodies = other.bodies;
-      if (judges(Level::kCell)) contacts.cells = other.cells;
-      if (judges(Level::kTriangle)) contacts.triangles = other.triangles;
-      if (judges(Level::kVertex)) contacts.vertices = other.vertices;
-      if (judges(Level::kNear)) contacts.near = other.near;
-      if (judges(Level::kSelf)) {
-        contacts.self = other.self;
-        contacts.self_cells = other.self_cells;
-        contacts.self_near = other.self_near;
-        contacts.self_bodies = other.self_bodies;
-      }
-      if (question == Question::kContacts) {
-        contacts.piece_contacts = other.piece_contacts;
-        contacts.vertex_contacts = other.vertex_contacts;
-      }
-    }
-    hash = chain_hash(hash, f, contacts);
-    progress.enter(position, f, process::Phase::kTrace);
-    const StageTrace trace = detector.trace();
-    notes.add_frame(detector.notes());
-    note_environment(guard, "trace", run);
-
-    // 3. The answer compared with the ground truth, at each level.
-    progress.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);
-    TrueNear near = true_near(tools.oracle, frame, levels, semantics.margin);
-    for (const Level level : levels) {
-      const LevelComparison comparison =
-          compare_at(level, scene.bodies, semantics, truth, contacts, near);
-      totals.add(f, level, comparison);
-      if (level == Level::kTriangle) exchanged.add_frame(comparison);
-    }
-
-    // 4. Errors with a size.
-    std::optional<double>& covered_here = covered.emplace_back();
-    if (scene.grades_lengths()) {
-      tools.geometry.set_frame(frame);
-      covered_here = graded.add_frame(truth, tools.judged.contour[f], contacts, tools.geometry);
-    }
-
-    // 5. The same answer compared with the truth for the rounded vertices.
-    if (rounded != nullptr) {
-      const oracle::Truth& rounded_truth = rounded->truth(f, tools.oracle);
-      near = true_near(tools.oracle, rounded->frame(f), levels, semantics.margin * semantics.scale);
-      for (const Level level : rounded_levels)
-        rounded_totals.add(
-            f, level, compare_at(level, scene.bodies, semantics, rounded_truth, contacts, near));
-    }
-
-    // 6. Which stage missed which true pairs.
-    add_stages(scene.bodies, trace, truth.surface.triangles, stages);
-  }
-
-  const std::vector<bool>& contact = tools.judged.contact_frames;
-  run.frames = scene.frames;
-  run.contact_frames = static_cast<std::size_t>(std::count(contact.begin(), contact.end(), true));
-  run.contact_hash = results::hex(hash);
-  run.levels = std::move(totals.levels);
-  run.levels_rounded = std::move(rounded_totals.levels);
-  run.per_frame = std::move(totals.per_frame);
-  run.per_frame.covered_length_fraction = std::move(covered);
-  run.stages = std::move(stages);
-  outcome.differences = std::move(totals.differences);
-  outcome.disagreements = std::move(totals.disagreements);
-  if (scene.grades_lengths()) run.geometry = graded.summary();
-  run.geometry.depth_kind = semantics.depth;
-  if (scene.follows_time()) run.geometry.episodes = find_episodes(true_pairs, reported_pairs);
-  sum_up_episodes(run.geometry);  // once more when gaps are measured
-  for (const std::string& why : tools.judged.open)
-    if (semantics.solid && !why.empty()) run.notes.push_back("containment not judged: " + why);
-  for (const std::string& note : notes.summary()) run.notes.push_back(note);
-  if (const std::string note = exchanged.sentence(); !note.empty()) run.notes.push_back(note);
-  return outcome;
+  AccuracyPass pass(tools, position, detector, progress, run);
+  for (std::size_t f = 0; f < tools.judged.scene->frames; ++f) pass.judge_frame(f);
+  return pass.finish();
 }
 
 }  // namespace contactcheck::judge

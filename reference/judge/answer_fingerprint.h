@@ -13,11 +13,8 @@
 
 namespace contactcheck::judge {
 
-/// The lists of a ContactSet, in its order.
-constexpr std::size_t kAnswerLists = 11;
-
-/// How many records each list of an answer has.
-using AnswerSizes = std::array<std::uint64_t, kAnswerLists>;
+/// A number for each list of an answer, by ContactList.
+using ListNumbers = std::array<std::uint64_t, kContactLists>;
 
 /// A question, and how much of its answer is judged.
 struct Asked {
@@ -30,7 +27,7 @@ Asked asked(Question question, const Semantics& semantics);
 /// Per list that an answer is judged by, how many records it has and which; nothing of the others.
 /// Of contacts the number alone, and that roughly.
 struct AnswerFingerprint {
-  AnswerSizes sizes = {}, hashes = {};
+  ListNumbers sizes = {}, hashes = {};
 };
 
 /// @pre `contacts` is canonical

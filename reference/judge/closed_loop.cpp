@@ -92,7 +92,7 @@ results::ClosedLoop run_closed_loop(const scene::Scene& scene, std::uint32_t pos
   try {
     progress.enter(position, 0, process::Phase::kPrepare);  // a detector may hang while it is made
     motion = scene::simulate(scene, *make(), [&](std::size_t step) {
-      progress.enter(position, step / scene.simulation->every, process::Phase::kUpdate);
+      progress.enter(position, step / scene.simulation()->every, process::Phase::kUpdate);
     });
   } catch (const Diverged& e) {
     out.error = e.what();

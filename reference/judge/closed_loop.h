@@ -15,7 +15,7 @@ namespace contactcheck::judge {
 
 /// `make` gives a fresh detector: one drives, another is judged on the frames.
 /// A motion that diverges is a result (ClosedLoop::error). What the detector throws passes through.
-/// @pre scene.simulation has a value; the detector can drive (see why_no_driver)
+/// @pre the scene is simulated; the detector can drive (see why_no_driver)
 results::ClosedLoop run_closed_loop(const scene::Scene& scene, std::uint32_t position,
                                     const std::function<std::unique_ptr<Detector>()>& make,
                                     process::ProgressWriter& progress);

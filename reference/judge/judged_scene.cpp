@@ -101,7 +101,7 @@ std::vector<double> separations(const JudgedScene& judged, process::ProgressWrit
   std::vector<double> out;
   // Of a drawn scene it says little that its parameters do not, and cost more than all else: exact
   // distances of up to 190 pairs of bodies in each frame.
-  if (scene.family || scene.pairs || scene.drawn || scene.bodies.size() < 2) return out;
+  if (scene.family() || scene.pairs() || scene.drawn || scene.bodies.size() < 2) return out;
   oracle::Oracle oracle(scene.bodies);
   for (std::size_t f = 0; f < scene.frames; ++f) {
     progress.enter(process::SharedProgress::kNoDetector, f, process::Phase::kTruth);

@@ -199,7 +199,7 @@ ExportSummary export_scene(const scene::Scene& scene, std::size_t every, const f
     summary.gaps += certificate.gaps.size();
     summary.contact_hash = chain_hash(summary.contact_hash, f, truth);
     Json entry = {{"frame", f}, {"time", scene.time_of(f)}};
-    if (scene.family) entry["case"] = scene.family->values[f];
+    if (scene.family()) entry["case"] = scene.family()->values[f];
     entry["body_pairs"] = truth.bodies.size();
     entry["contacts"] = certificate.contacts.size();
     entry["gaps"] = certificate.gaps.size();

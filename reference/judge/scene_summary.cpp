@@ -22,7 +22,7 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
     sums[Level::kBox] += t.boxes.size();
     sums[Level::kTriangle] += t.surface.triangles.size();
     sums[Level::kVertex] += t.surface.vertices.size();
-    for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
+    for (const Level level : kSelfClasses)
       sums[level] += self_pairs(level, judged.scene->bodies, t.surface.self).size();
     sums[Level::kSelfBody] += t.surface.self_bodies.size();
     sums[Level::kSelfCell] +=
@@ -44,7 +44,7 @@ std::map<Level, std::variant<std::uint64_t, std::string>> truth_of(const JudgedS
 // stableNorm() keeps lengths whose squares are no double; a length that is none is not told.
 std::optional<results::SceneScale> scale_of(const JudgedScene& judged) {
   const scene::Scene& scene = *judged.scene;
-  if (scene.family || scene.pairs) return {};
+  if (scene.family() || scene.pairs()) return {};
   results::SceneScale out{std::numeric_limits<double>::infinity(), 0.0, 0.0};
   for (const Body& body : scene.bodies) {
     const std::vector<Vec3>& vertices = body.shape->mesh.vertices;
@@ -102,30 +102,30 @@ results::Scene scene_summary(const JudgedScene& judged, const std::vector<double
          oracle::surface_chain(shape.mesh.triangles, shape.mesh.vertices).closed()});
   }
   out.separation = separations;
-  if (scene.family) {
-    const scene::CaseFamily& family = *scene.family;
+  if (scene.family()) {
+    const scene::CaseFamily& family = *scene.family();
     out.family = {family.parameter, family.origin, family.stresses, family.values, {},
                   family.range};
     // Per value, so that a report can set answers beside it.
     for (const oracle::Truth& t : judged.truth) {
       std::size_t pairs = t.surface.triangles.size();
-      for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
+      for (const Level level : kSelfClasses)
         if (scene.judges(level)) pairs += self_pairs(level, scene.bodies, t.surface.self).size();
       out.family->true_pairs.push_back(pairs);
     }
   }
-  if (scene.sweep)
-    out.sweep = {scene.sweep->separations, scene.sweep->orientations, scene.sweep->seed,
+  if (scene.sweep())
+    out.sweep = {scene.sweep()->separations, scene.sweep()->orientations, scene.sweep()->seed,
                  scene::kSweepTolerance * scene.size()};
   for (const scene::FitError& fit : scene.fits)
     out.fits.push_back({scene.bodies[fit.body].name, fit.rms, fit.max});
-  if (judged.pairs) out.pairs = pairs_of(scene.pairs->spec(), *judged.pairs);
+  if (judged.pairs) out.pairs = pairs_of(scene.pairs()->spec(), *judged.pairs);
   if (scene.drawn)
     out.drawn = {scene.drawn->seed, scene.drawn->number, scene.drawn->redrawn, scene.drawn->happens,
                  scene.drawn->parameters};
-  if (scene.simulation)
-    out.simulation = {scene.simulation->driver, scene.simulation->settings.time_step,
-                      scene.simulation->every};
+  if (scene.simulation())
+    out.simulation = {scene.simulation()->driver, scene.simulation()->settings.time_step,
+                      scene.simulation()->every};
   return out;
 }
 

@@ -16,6 +16,7 @@
 
 #include "core/types/check.h"
 #include "core/types/input_file.h"
+#include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::mesh {
@@ -129,9 +130,7 @@ LoadedMesh read_foreign_file(const std::filesystem::path& file, const std::strin
   }
   if (skipped > 0) add_note(out.notes, std::to_string(skipped) + " lines and points left out");
   if (animations > 0)
-    add_note(out.notes, std::to_string(animations) +
-                            (animations == 1 ? " animation" : " animations") +
-                            " left out: the mesh is at rest");
+    add_note(out.notes, text::counted(animations, "animation") + " left out: the mesh is at rest");
   return out;
 }
 

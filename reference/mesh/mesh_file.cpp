@@ -10,6 +10,7 @@
 #include "core/types/vertex_places.h"
 #include "reference/mesh/foreign_file.h"
 #include "reference/mesh/polygon_split.h"
+#include "reference/text/counted.h"
 #include "reference/text/file_text.h"
 #include "reference/text/words.h"
 
@@ -89,15 +90,13 @@ LoadedMesh triangulated(PolygonSoup soup, Folded rule) {
   }
   out.notes = soup.notes;
   polygons -= folded.size();
-  std::string note = std::to_string(polygons) + (polygons == 1 ? " polygon" : " polygons") +
-                     " split into triangles";
+  std::string note = text::counted(polygons, "polygon") + " split into triangles";
   if (concave > 0) note += ", " + std::to_string(concave) + " of them concave";
   if (crossing > 0) note += ", " + std::to_string(crossing) + " of four corners cross themselves";
   if (polygons > 0) add_note(out.notes, note);
   if (!folded.empty()) add_note(out.notes, note_of_folded(soup, folded, rule));
   if (dropped > 0)
-    add_note(out.notes, std::to_string(dropped) + (dropped == 1 ? " face" : " faces") +
-                            " with fewer than three corners left out");
+    add_note(out.notes, text::counted(dropped, "face") + " with fewer than three corners left out");
   out.mesh.vertices = std::move(soup.points);
   if (rule == Folded::kLeftOut) out.unfilled = std::move(folded);
   return out;
@@ -165,8 +164,8 @@ void add_note(std::string& notes, const std::string& note) {
 
 void add_note_of_dropped(std::string& notes, std::size_t vertices) {
   if (vertices == 0) return;
-  add_note(notes, std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
-                      " that no triangle uses, dropped");
+  add_note(notes,
+           text::counted(vertices, "vertex", "vertices") + " that no triangle uses, dropped");
 }
 
 bool has_own_corners(const std::filesystem::path& file) {

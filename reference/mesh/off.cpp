@@ -8,6 +8,7 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
+#include "reference/text/counted.h"
 #include "reference/text/words.h"
 
 namespace contactcheck::mesh {
@@ -225,9 +226,9 @@ class OffReader {
       if (!rest.empty() && count++ == 0) line = rest;
     } while (cursor_.next_line());
     if (count > 0)
-      refuse(" has " + std::to_string(count) + (count == 1 ? " line" : " lines") +
-             " more than its header's " + std::to_string(vertices_) + " vertices and " +
-             std::to_string(faces_) + " faces: " + quoted_word(line));
+      refuse(" has " + text::counted(count, "line") + " more than its header's " +
+             std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
+             " faces: " + quoted_word(line));
   }
 
   // Words of 32 bits, the highest byte first.

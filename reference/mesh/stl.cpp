@@ -7,6 +7,7 @@
 #include "core/types/check.h"
 #include "reference/mesh/polygon_soup.h"
 #include "reference/mesh/text_cursor.h"
+#include "reference/text/counted.h"
 #include "reference/text/words.h"
 
 namespace contactcheck::mesh {
@@ -46,8 +47,8 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
            std::to_string(triangles) + " triangles, and it ends within triangle " +
            std::to_string(held));
   if (const std::size_t more = bytes.size() - kHeader - kFacet * triangles; more > 0)
-    refuse(" has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") + " more than its " +
-           std::to_string(triangles) + " triangles");
+    refuse(" has " + text::counted(more, "byte") + " more than its " + std::to_string(triangles) +
+           " triangles");
   PolygonSoup out;
   out.points.reserve(3 * triangles);
   for (std::size_t corner = 0; corner < 3 * triangles; ++corner) {

@@ -23,9 +23,6 @@ const DetectorCatalog& catalog() {
   return standard;
 }
 
-constexpr std::array kQuestions = {Question::kTriangles, Question::kBody, Question::kCells,
-                                   Question::kContacts, Question::kSelf};
-
 Question question_named(const std::string& name) {
   std::string known;
   for (const Question question : kQuestions) {

@@ -8,6 +8,7 @@
 
 #include "reference/oracle/exact_tests.h"
 #include "reference/suite/case_file.h"
+#include "reference/text/counted.h"
 #include "reference/text/json_field.h"
 #include "reference/text/json_value.h"
 
@@ -267,10 +268,9 @@ CaseAnswers answers_of(const MinimalCase& c, const ProbeVerdict& verdict) {
   CaseAnswers out;
   out.exact = pair_text(c, d) + " " + truth_text(d.level, missed) +
               (missed && triangles ? crossing_text(c, d.pair) : "");
-  out.detector = std::to_string(counts.reported) + (counts.reported == 1 ? " pair" : " pairs") +
-                 " at level " + d.level + " of " + std::to_string(counts.truth) +
-                 " true: " + std::to_string(counts.missed) + " missed, " +
-                 std::to_string(counts.spurious) + " spurious";
+  out.detector = text::counted(counts.reported, "pair") + " at level " + d.level + " of " +
+                 std::to_string(counts.truth) + " true: " + std::to_string(counts.missed) +
+                 " missed, " + std::to_string(counts.spurious) + " spurious";
   if (judge::elements_of(d.level, d.kind).first == Element::kTriangle)
     out.triangles = {d.pair.a, d.pair.b};
   return out;

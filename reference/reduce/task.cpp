@@ -143,8 +143,8 @@ ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
   ReductionTask task;
   task.scene = scene.id;
   task.frame = frame;
-  task.place = scene.family
-                   ? "value " + scene.family->values[frame] + " (" + frame_text(frame) + ")"
+  task.place = scene.family()
+                   ? "value " + scene.family()->values[frame] + " (" + frame_text(frame) + ")"
                    : frame_text(frame);
   task.snapshot = {scene.bodies, scene.nodes_of_frame(frame)};
   task.self = any_self(scene.levels);
@@ -152,8 +152,8 @@ ReductionTask task_of_frame(const scene::Scene& scene, std::size_t frame) {
 }
 
 std::size_t frame_named(const scene::Scene& scene, const std::string& which) {
-  if (scene.family) {
-    const std::vector<std::string>& values = scene.family->values;
+  if (scene.family()) {
+    const std::vector<std::string>& values = scene.family()->values;
     const auto found = std::find(values.begin(), values.end(), which);
     if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
     throw InputError("\"" + scene.id + "\" has no value \"" + which + "\"; it has " +
@@ -243,7 +243,7 @@ std::vector<ReductionTask> tasks_of_scene(const std::string& text, const fs::pat
                      "\" is a suite; reduce takes a case, a scene, a family "
                      "of hard cases or a recording");
   scene::Scene scene = scene::load_any_scene(target.file);
-  if (scene.simulation)
+  if (scene.simulation())
     throw InputError("\"" + scene.id + "\" is simulated: run it, and reduce its recording");
   scene::place_sweep([](std::size_t) {}, scene);
   if (has_which) return {task_of_frame(scene, frame_named(scene, text.substr(at + 1)))};

@@ -1,6 +1,6 @@
-// results.json as plain data: fixtures/results.schema.json, and design's "results.json", say what
-// each field means. Units: metres, seconds, milliseconds for times, degrees, bytes. A quantity that
-// was not measured has no value, and is null in the file.
+// results.json as plain data: fixtures/results.schema.json says what each field means. Units:
+// metres, seconds, milliseconds for times, degrees, bytes. A quantity that was not measured has no
+// value, and is null in the file.
 #pragma once
 
 #include <cstdint>

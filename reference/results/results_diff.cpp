@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "reference/text/counted.h"
+
 namespace contactcheck::results {
 namespace {
 
@@ -75,10 +77,6 @@ void count(const std::string& name, Counts& counts) {
   }
 }
 
-std::string plural(std::size_t n, const char* one) {
-  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::vector<std::string> missing_rows(const results::Index& results,
@@ -93,9 +91,9 @@ std::vector<std::string> missing_rows(const results::Index& results,
   }
   std::vector<std::string> out;
   for (const auto& [name, n] : scenes)
-    out.push_back(fmt::format("scene {} ({})", name, plural(n, "detector")));
+    out.push_back(fmt::format("scene {} ({})", name, text::counted(n, "detector")));
   for (const auto& [name, n] : detectors)
-    out.push_back(fmt::format("detector {} (in {})", name, plural(n, "scene")));
+    out.push_back(fmt::format("detector {} (in {})", name, text::counted(n, "scene")));
   return out;
 }
 

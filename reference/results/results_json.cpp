@@ -568,10 +568,7 @@ void fields(Io& io, Results& r) {
 // --- values, lists and maps
 
 constexpr auto values_of(Level) { return kLevels; }
-constexpr std::array<Question, 5> values_of(Question) {
-  return {Question::kTriangles, Question::kBody, Question::kCells, Question::kContacts,
-          Question::kSelf};
-}
+constexpr auto values_of(Question) { return kQuestions; }
 constexpr std::array<DepthKind, 3> values_of(DepthKind) {
   return {DepthKind::kNone, DepthKind::kVertexSurface, DepthKind::kConvexPair};
 }

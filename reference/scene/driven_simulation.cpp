@@ -18,7 +18,7 @@ std::vector<NodeState> start_of(const Scene& scene) {
   std::vector<NodeState> start;
   const std::vector<std::vector<Vec3>> nodes = scene.nodes_at(0.0);
   for (std::size_t b = 0; b < nodes.size(); ++b) {
-    const Vec3& velocity = scene.simulation->velocities[b];
+    const Vec3& velocity = scene.simulation()->velocities[b];
     start.push_back({nodes[b], std::vector<Vec3>(nodes[b].size(), velocity)});
   }
   return start;
@@ -34,7 +34,7 @@ DrivenSimulation::DrivenSimulation(const Scene& scene, Detector& detector)
       detector_(detector),
       question_(prepared(detector, scene).answers(Question::kTriangles) ? Question::kTriangles
                                                                         : Question::kCells),
-      simulation_(scene.bodies, scene.simulation->materials, scene.simulation->settings,
+      simulation_(scene.bodies, scene.simulation()->materials, scene.simulation()->settings,
                   start_of(scene)),
       points_(scene.bodies,
               detector.semantics().whole_cells ? ContactVolume::kCell : ContactVolume::kFfdAabb) {
@@ -51,7 +51,7 @@ void DrivenSimulation::deform() { simulation_.advance(); }
 void DrivenSimulation::update_cells() {
   frame_.index = simulation_.state().steps;
   frame_.time =
-      static_cast<double>(simulation_.state().steps) * scene_.simulation->settings.time_step;
+      static_cast<double>(simulation_.state().steps) * scene_.simulation()->settings.time_step;
   for (std::size_t b = 0; b < nodes_.size(); ++b) {
     nodes_[b] = simulation_.state().bodies[b].positions;
     map_body(*scene_.bodies[b].shape, nodes_[b], vertices_[b]);

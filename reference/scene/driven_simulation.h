@@ -18,13 +18,13 @@ namespace contactcheck::scene {
 std::string why_no_driver(const Semantics& semantics);
 
 /// The nodes of all bodies where they begin, with their velocities.
-/// @pre scene.simulation has a value
+/// @pre the scene is simulated
 std::vector<NodeState> start_of(const Scene& scene);
 
 class DrivenSimulation {
  public:
   /// Prepares the detector. Scene and detector outlive this.
-  /// @pre scene.simulation has a value
+  /// @pre the scene is simulated
   /// @throws InputError when the detector cannot drive, or a body is too stiff
   DrivenSimulation(const Scene& scene, Detector& detector);
 

@@ -312,7 +312,7 @@ Scene parse_family(const text::JsonField& root, const std::filesystem::path& fol
   scene.id = text::parse_id(root.at("id"));
   scene.title = root.at("title").text();
   std::vector<double> values;
-  scene.family = parse_parameter(root, values);
+  scene.kind = parse_parameter(root, values);
   scene.frames = values.size();
   scene.time_step = 1.0;
   scene.levels = {Level::kBody, Level::kContainment, Level::kCell, Level::kTriangle, Level::kNear};
@@ -328,7 +328,7 @@ Scene parse_family(const text::JsonField& root, const std::filesystem::path& fol
       scene.recorded[f].push_back(body.nodes(values[f]));
       for (const Vec3& n : scene.recorded[f].back())
         if (!n.allFinite())
-          field.fail("has a position that is not finite at the value " + scene.family->values[f]);
+          field.fail("has a position that is not finite at the value " + scene.family()->values[f]);
     }
   }
   return scene;

@@ -9,20 +9,18 @@
 #include "core/deform/node_shape.h"
 #include "core/types/vec3.h"
 #include "reference/scene/scene.h"
+#include "reference/scene/split_mix.h"
 
 namespace contactcheck::scene {
 
-// Random numbers with a fixed definition: the same pairs on every machine and with every library.
-//
-// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
-// OOPSLA 2014.
-
+/// Random numbers of a pair.
 class PairRandom {
  public:
   /// Every stream of a seed is another sequence: any pair can be made without those before it.
-  PairRandom(std::uint64_t seed, std::uint64_t stream) : state_(mixed(mixed(seed) + stream)) {}
+  PairRandom(std::uint64_t seed, std::uint64_t stream)
+      : mix_(SplitMix64::mixed(SplitMix64::mixed(seed) + stream)) {}
 
-  std::uint64_t bits() { return mixed(state_ += 0x9e3779b97f4a7c15ull); }
+  std::uint64_t bits() { return mix_.bits(); }
   /// Uniform in 0 .. count - 1 (up to a bias of count / 2^64).
   int below(int count) { return static_cast<int>(bits() % static_cast<std::uint64_t>(count)); }
   /// Both ends included.
@@ -34,13 +32,7 @@ class PairRandom {
   }
 
  private:
-  static std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
-
-  std::uint64_t state_;
+  SplitMix64 mix_;
 };
 
 // Pairs of triangles that touch or just do not, each kind hard for another reason.

@@ -326,7 +326,7 @@ std::string RecordedFrames::described() const {
 namespace {
 
 void require_no_other_motion(const text::JsonField& body, const Scene& scene) {
-  if (scene.simulation) body.at("recording").fail("is not allowed in a simulated scene");
+  if (scene.simulation()) body.at("recording").fail("is not allowed in a simulated scene");
   for (const char* key : {"copies", "motion", "material", "velocity"})
     if (body.has(key)) body.at(key).fail("is not allowed beside a \"recording\"");
 }

@@ -26,8 +26,9 @@ bool Scene::judges(Level level) const {
 }
 
 std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
-  CONTACTCHECK_INVARIANT(scripted() || ((simulation || sweep) && time == 0.0),
-                         "a recording has frames, a simulation a start: neither has times");
+  CONTACTCHECK_INVARIANT(
+      scripted() || ((simulation() != nullptr || sweep() != nullptr) && time == 0.0),
+      "a recording has frames, a simulation a start: neither has times");
   std::vector<std::vector<Vec3>> nodes;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const BodyShape& shape = *bodies[b].shape;
@@ -41,7 +42,7 @@ std::vector<std::vector<Vec3>> Scene::nodes_at(double time) const {
 std::vector<std::vector<Vec3>> Scene::nodes_of_frame(std::size_t frame) const {
   CONTACTCHECK_INVARIANT(frame < frames, "the scene has this frame");
   if (scripted()) return nodes_at(time_of(frame));
-  if (pairs) return pairs->nodes(frame);
+  if (pairs() != nullptr) return pairs()->nodes(frame);
   CONTACTCHECK_INVARIANT(frame < recorded.size(), "a simulated scene has been run, a sweep placed");
   return recorded[frame];
 }
@@ -58,13 +59,14 @@ Scene make_pairs_scene(const PairSpec& spec) {
   Scene scene;
   scene.id = kPairsSceneId;
   scene.title = "Random hard pairs of triangles: touching, or apart by rounding";
-  scene.pairs = std::make_shared<RandomPairs>(spec);
-  scene.frames = scene.pairs->frames();
+  scene.kind = std::make_shared<RandomPairs>(spec);
+  scene.frames = scene.pairs()->frames();
   scene.time_step = 1.0;
   scene.levels = {Level::kBody, Level::kCell, Level::kTriangle};
   for (const char* name : {"a", "b"}) {
-    scene.bodies.push_back({name, scene.pairs->shape()});
-    scene.origins.push_back({name, "made from the seed", describe(scene.pairs->shape()->topology)});
+    scene.bodies.push_back({name, scene.pairs()->shape()});
+    scene.origins.push_back(
+        {name, "made from the seed", describe(scene.pairs()->shape()->topology)});
   }
   return scene;
 }

@@ -91,6 +91,12 @@ struct DrawnSpec {
   std::vector<std::filesystem::path> meshes;  ///< in place of those of the rules; empty: those
 };
 
+/// Positions are given: by the motions of bodies, or as recorded.
+struct GivenFrames {};
+/// How the frames of a scene come about. Random pairs make theirs one by one.
+using SceneKind = std::variant<GivenFrames, SimulationSpec, SweepSpec, CaseFamily,
+                               std::shared_ptr<const RandomPairs>>;
+
 struct Scene {
   std::string id;
   std::string title;  ///< one line
@@ -101,25 +107,33 @@ struct Scene {
   std::vector<Level> levels;    ///< to be judged; nothing else is computed
   std::vector<Motion> motions;  ///< per body; empty for a recording; simulated: the pose at time 0
   /// Recorded nodes [frame][body]; empty for a scripted scene. A scene with recorded bodies has
-  /// them of all its bodies. Of a simulated scene, simulate_scene.h (simulate) fills it before any
-  /// frame is asked for; of a sweep sweep_poses.h does.
+  /// them of all its bodies, and a family those of its cases. Of a simulated scene,
+  /// simulate_scene.h (simulate) fills it before any frame is asked for; of a sweep sweep_poses.h
+  /// does.
   std::vector<std::vector<std::vector<Vec3>>> recorded;
-  std::optional<SimulationSpec> simulation;  ///< simulated scenes only
-  std::optional<SweepSpec> sweep;            ///< sweeps only
-  std::vector<FitError> fits;                ///< bodies with a lattice fitted to a recording
-  std::optional<CaseFamily> family;          ///< families of hard cases only; `recorded` has them
-  std::shared_ptr<const RandomPairs> pairs;  ///< random pairs only: makes the frames
-  std::optional<Drawn> drawn;                ///< drawn from a seed
+  SceneKind kind;
+  std::vector<FitError> fits;  ///< bodies with a lattice fitted to a recording
+  std::optional<Drawn> drawn;  ///< drawn from a seed, whatever its kind
+
+  /// Null for scenes of other kinds, as are the next.
+  const SimulationSpec* simulation() const { return std::get_if<SimulationSpec>(&kind); }
+  SimulationSpec* simulation() { return std::get_if<SimulationSpec>(&kind); }
+  const SweepSpec* sweep() const { return std::get_if<SweepSpec>(&kind); }
+  const CaseFamily* family() const { return std::get_if<CaseFamily>(&kind); }
+  const RandomPairs* pairs() const {
+    const auto* pairs = std::get_if<std::shared_ptr<const RandomPairs>>(&kind);
+    return pairs == nullptr ? nullptr : pairs->get();
+  }
 
   /// Positions follow from the time alone.
-  bool scripted() const { return recorded.empty() && !simulation && !sweep && !pairs; }
+  bool scripted() const { return recorded.empty() && std::holds_alternative<GivenFrames>(kind); }
   /// First contacts are searched between frames. (Of a drawn scene they are not: many searches cost
   /// more than all else, and its frames are what is drawn.)
   bool bisects_time() const { return scripted() && !drawn; }
   /// Random pairs differ in scale from frame to frame: their lengths and distances do not add up.
-  bool grades_lengths() const { return !pairs; }
+  bool grades_lengths() const { return pairs() == nullptr; }
   /// Frames of families, sweeps and random pairs are cases, not moments: there is no first contact.
-  bool follows_time() const { return !family && !sweep && !pairs; }
+  bool follows_time() const { return !family() && !sweep() && !pairs(); }
   bool judges(Level level) const;
   double time_of(std::size_t frame) const { return static_cast<double>(frame) * time_step; }
   /// Lattice nodes of every body. @pre scripted(), or simulated or a sweep and time 0: the start

@@ -79,7 +79,7 @@ void parse_times(const text::JsonField& root, std::size_t frames, std::size_t wa
 
 // Steps keep their length: another one would be another simulation.
 void parse_simulated_times(const text::JsonField& root, std::size_t wanted_frames, Scene& scene) {
-  scene.simulation = parse_simulation(root.at("simulation"));
+  scene.kind = parse_simulation(root.at("simulation"));
   for (const char* key : {"duration", "time_step"}) {
     if (!root.has(key)) continue;
     root.at(key).fail("is not allowed beside \"simulation\", whose step and every give the time");
@@ -87,7 +87,7 @@ void parse_simulated_times(const text::JsonField& root, std::size_t wanted_frame
   const std::size_t frames = root.at("frames").whole(1, kMostFrames);
   scene.frames = wanted_frames > 0 ? wanted_frames : frames;
   scene.time_step =
-      scene.simulation->settings.time_step * static_cast<double>(scene.simulation->every);
+      scene.simulation()->settings.time_step * static_cast<double>(scene.simulation()->every);
 }
 
 void add_body(const text::JsonField& field, const std::string& name, const Workshop::Made& made,
@@ -95,8 +95,8 @@ void add_body(const text::JsonField& field, const std::string& name, const Works
   scene.bodies.push_back({name, made.shape});
   scene.origins.push_back({name, mesh::described_source(mesh), made.notes});
   scene.motions.push_back(std::move(motion));
-  if (scene.simulation) {
-    add_simulated_body(field, *made.shape, scene.motions.back(), *scene.simulation);
+  if (scene.simulation()) {
+    add_simulated_body(field, *made.shape, scene.motions.back(), *scene.simulation());
   } else {
     require_no_simulation_keys(field);
   }
@@ -141,7 +141,7 @@ void parse_sweep(const text::JsonField& root, std::size_t wanted_frames, Scene& 
       root.at(key).fail("is not allowed beside \"sweep\", which says what frames there are");
   const text::JsonField field = root.at("sweep");
   field.only_keys({"separations", "orientations", "seed"});
-  SweepSpec& spec = scene.sweep.emplace();
+  SweepSpec& spec = scene.kind.emplace<SweepSpec>();
   for (const text::JsonField& item : field.at("separations").items(1)) {
     const double separation = item.number(kSeparation);
     if (!spec.separations.empty() && !(separation > spec.separations.back()))
@@ -249,7 +249,7 @@ Scene load_scene_text(const SceneText& document, std::size_t wanted_frames) {
   for (const text::JsonField& body : root.at("bodies").items(1)) {
     parse_body(body, document.folder, workshop, recorded, scene);
   }
-  if (scene.sweep) require_sweep_bodies(root, scene);
+  if (scene.sweep()) require_sweep_bodies(root, scene);
   if (recorded.empty()) return scene;
   const std::size_t frames = recorded_frames(root, recorded, scene);
   parse_times(root, frames, 0, scene);

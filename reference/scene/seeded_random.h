@@ -11,6 +11,7 @@
 
 #include "core/types/hash.h"
 #include "core/types/vec3.h"
+#include "reference/scene/split_mix.h"
 
 namespace contactcheck::scene {
 
@@ -32,25 +33,15 @@ std::array<double, N> drawn_on_sphere(Draw&& draw) {
   }
 }
 
-/// SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, 2014).
 class SeededRandom {
  public:
   SeededRandom(std::uint64_t seed, std::uint64_t scene, std::uint64_t attempt,
-               std::string_view name) {
-    Fnv1a hash;
-    for (const std::uint64_t key : {seed, scene, attempt}) hash.value(key);
-    hash.bytes(name.data(), name.size());
-    state_ = hash.digest();
+               std::string_view name)
+      : mix_(hash_of(seed, scene, attempt, name)) {
     bits();  // FNV leaves the last letters of a name in the low bits alone
   }
 
-  std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15ull;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
+  std::uint64_t bits() { return mix_.bits(); }
   /// In [0, 1).
   double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * unit(); }
@@ -90,7 +81,15 @@ class SeededRandom {
   }
 
  private:
-  std::uint64_t state_ = 0;
+  static std::uint64_t hash_of(std::uint64_t seed, std::uint64_t scene, std::uint64_t attempt,
+                               std::string_view name) {
+    Fnv1a hash;
+    for (const std::uint64_t key : {seed, scene, attempt}) hash.value(key);
+    hash.bytes(name.data(), name.size());
+    return hash.digest();
+  }
+
+  SplitMix64 mix_;
 };
 
 }  // namespace contactcheck::scene

@@ -11,17 +11,17 @@ namespace contactcheck::scene {
 namespace {
 
 double total_mass(const Scene& scene) {
-  const auto& materials = scene.simulation->materials;
+  const auto& materials = scene.simulation()->materials;
   return std::accumulate(materials.begin(), materials.end(), 0.0,
                          [](double sum, const auto& m) { return sum + (m ? m->mass : 0.0); });
 }
 
 std::string place_of(const Scene& scene) {
-  return "scene \"" + scene.id + "\", driver " + scene.simulation->driver + ": ";
+  return "scene \"" + scene.id + "\", driver " + scene.simulation()->driver + ": ";
 }
 
 DetectorSpec parsed_driver(const DetectorCatalog& catalog, const Scene& scene) {
-  DetectorSpec spec = catalog.parse(scene.simulation->driver);
+  DetectorSpec spec = catalog.parse(scene.simulation()->driver);
   const std::string& absent_because = catalog.find(spec.id)->absent_because;
   if (!absent_because.empty()) throw InputError(absent_because);
   return spec;
@@ -30,7 +30,7 @@ DetectorSpec parsed_driver(const DetectorCatalog& catalog, const Scene& scene) {
 }  // namespace
 
 SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& on_step) {
-  const std::size_t every = scene.simulation->every;
+  const std::size_t every = scene.simulation()->every;
   DrivenSimulation driven(scene, detector);
   SimulatedMotion motion;
   motion.energy.push_back(driven.simulation().energy().total());
@@ -51,7 +51,7 @@ SimulatedMotion simulate(const Scene& scene, Detector& detector, const OnStep& o
 
 std::vector<SimulationState> states_along_motion(const Scene& scene, Detector& driver,
                                                  std::size_t wanted, const OnStep& on_step) {
-  const std::size_t steps = scene.frames * scene.simulation->every;
+  const std::size_t steps = scene.frames * scene.simulation()->every;
   const std::size_t count = std::min(wanted, steps);
   DrivenSimulation driven(scene, driver);
   std::vector<SimulationState> states;
@@ -65,18 +65,18 @@ std::vector<SimulationState> states_along_motion(const Scene& scene, Detector& d
 }
 
 void check_simulation(const DetectorCatalog& catalog, const Scene& scene) {
-  if (!scene.simulation) return;
+  if (!scene.simulation()) return;
   try {
     parsed_driver(catalog, scene);
-    const Simulation at_rest(scene.bodies, scene.simulation->materials, scene.simulation->settings,
-                             start_of(scene));
+    const Simulation at_rest(scene.bodies, scene.simulation()->materials,
+                             scene.simulation()->settings, start_of(scene));
   } catch (const InputError& e) {
     throw InputError(place_of(scene) + e.what());
   }
 }
 
 void record_simulation(const DetectorCatalog& catalog, const OnStep& on_step, Scene& scene) {
-  if (!scene.simulation) return;
+  if (!scene.simulation()) return;
   const std::string place = place_of(scene);
   try {
     const std::unique_ptr<Detector> driver = catalog.make(parsed_driver(catalog, scene));

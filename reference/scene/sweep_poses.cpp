@@ -75,7 +75,7 @@ class Poses {
   const Nodes& first() const { return still_[0]; }
 
  private:
-  const std::vector<double>& separations() const { return scene_.sweep->separations; }
+  const std::vector<double>& separations() const { return scene_.sweep()->separations; }
 
   Nodes mapped(std::size_t body, const Nodes& nodes) const {
     Nodes out(scene_.bodies[body].shape->mesh.vertices.size());
@@ -144,10 +144,10 @@ std::vector<Nodes> drawn(const Scene& scene, std::size_t orientation, Draws& dra
 }  // namespace
 
 void place_sweep(const OnPose& on_pose, Scene& scene) {
-  if (!scene.sweep) return;
-  const std::size_t separations = scene.sweep->separations.size(),
-                    orientations = scene.sweep->orientations;
-  Draws draws(scene.sweep->seed);
+  if (!scene.sweep()) return;
+  const std::size_t separations = scene.sweep()->separations.size(),
+                    orientations = scene.sweep()->orientations;
+  Draws draws(scene.sweep()->seed);
   Poses poses(scene);
   std::vector<std::vector<Nodes>> frames(separations * orientations);
   for (std::size_t o = 0; o < orientations; ++o) {

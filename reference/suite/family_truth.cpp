@@ -23,12 +23,12 @@ CaseTruth case_truth(const scene::Scene& scene, std::size_t frame, oracle::Oracl
   oracle::Truth truth =
       oracle.judge(judge::make_frame(frame, 0.0, scene.recorded[frame], vertices), wanted);
   CaseTruth out;
-  out.value = scene.family->values[frame];
+  out.value = scene.family()->values[frame];
   out.bodies = truth.surface.bodies.size();
   out.containment = truth.containment.size();
   out.hash = results::hex(chain_hash(0, 0, truth.surface));
   out.triangles = std::move(truth.surface.triangles);
-  for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge}) {
+  for (const Level level : kSelfClasses) {
     if (!scene.judges(level)) continue;
     const auto pairs = judge::self_pairs(level, scene.bodies, truth.surface.self);
     out.self.insert(out.self.end(), pairs.begin(), pairs.end());
@@ -69,7 +69,7 @@ ExpectedCase summary_of(const CaseTruth& truth) {
 }
 
 std::vector<CaseTruth> family_truth(const scene::Scene& scene) {
-  CONTACTCHECK_INVARIANT(scene.family.has_value(), "a family of cases");
+  CONTACTCHECK_INVARIANT(scene.family() != nullptr, "a family of cases");
   oracle::Oracle oracle(scene.bodies);
   std::vector<CaseTruth> out;
   for (std::size_t f = 0; f < scene.frames; ++f) out.push_back(case_truth(scene, f, oracle));

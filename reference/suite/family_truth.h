@@ -35,7 +35,7 @@ struct ExpectedCase {
 
 ExpectedCase summary_of(const CaseTruth& truth);
 
-/// By the oracle, in the order of the values. @pre scene.family
+/// By the oracle, in the order of the values. @pre the scene is a family
 std::vector<CaseTruth> family_truth(const scene::Scene& scene);
 
 using ExpectedFamilies = std::map<std::string, std::vector<ExpectedCase>>;  ///< by family's id

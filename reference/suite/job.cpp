@@ -14,36 +14,33 @@ namespace contactcheck::suite {
 namespace {
 using json = nlohmann::ordered_json;
 
+// Every setting, by its name in the file.
+template <typename Settings, typename Visit>
+void for_each_setting(Settings& s, const Visit& visit) {
+  visit("detectors", s.detectors);
+  visit("plugins", s.plugins);
+  visit("frames", s.frames);
+  visit("processes", s.processes);
+  visit("one_pass_beyond", s.one_pass_beyond);
+  visit("seed", s.seed);
+  visit("step_repeats", s.step_repeats);
+  visit("timing", s.timing);
+  visit("closed_loop", s.closed_loop);
+  visit("threads", s.threads);
+  visit("call_limit", s.call_limit);
+  visit("memory_limit", s.memory_limit);
+}
+
 RunSettings settings_from(const json& j) {
   RunSettings s;
-  j.at("detectors").get_to(s.detectors);
-  j.at("plugins").get_to(s.plugins);
-  j.at("frames").get_to(s.frames);
-  j.at("processes").get_to(s.processes);
-  j.at("one_pass_beyond").get_to(s.one_pass_beyond);
-  j.at("seed").get_to(s.seed);
-  j.at("step_repeats").get_to(s.step_repeats);
-  j.at("timing").get_to(s.timing);
-  j.at("closed_loop").get_to(s.closed_loop);
-  j.at("threads").get_to(s.threads);
-  j.at("call_limit").get_to(s.call_limit);
-  j.at("memory_limit").get_to(s.memory_limit);
+  for_each_setting(s, [&](const char* name, auto& value) { j.at(name).get_to(value); });
   return s;
 }
 
 json to_json(const RunSettings& s) {
-  return {{"detectors", s.detectors},
-          {"plugins", s.plugins},
-          {"frames", s.frames},
-          {"processes", s.processes},
-          {"one_pass_beyond", s.one_pass_beyond},
-          {"seed", s.seed},
-          {"step_repeats", s.step_repeats},
-          {"timing", s.timing},
-          {"closed_loop", s.closed_loop},
-          {"threads", s.threads},
-          {"call_limit", s.call_limit},
-          {"memory_limit", s.memory_limit}};
+  json out;
+  for_each_setting(s, [&](const char* name, const auto& value) { out[name] = value; });
+  return out;
 }
 
 // Of the records of each list that has any.
@@ -53,7 +50,7 @@ json to_json(const judge::JudgedAnswers& answers) {
     json frames = json::array();
     for (const judge::AnswerFingerprint& print : question.frames) {
       json lists = json::array();
-      for (std::size_t list = 0; list < judge::kAnswerLists; ++list)
+      for (std::size_t list = 0; list < kContactLists; ++list)
         if (print.sizes[list] > 0) lists.push_back({list, print.sizes[list], print.hashes[list]});
       frames.push_back(std::move(lists));
     }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reference/scene/scene.h"
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 
 namespace contactcheck::suite {
 

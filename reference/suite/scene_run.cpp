@@ -17,7 +17,7 @@
 #include "reference/results/references.h"
 #include "reference/scene/drawn_scene.h"
 #include "reference/suite/partial_results.h"
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 #include "reference/suite/supervisor.h"
 #include "reference/suite/worker.h"
 #include "reference/text/printable.h"

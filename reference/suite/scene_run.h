@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "reference/suite/partial_results.h"
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 #include "reference/suite/supervisor.h"
 
 namespace contactcheck::suite {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 
 #include "reference/results/results.h"
 #include "reference/suite/shard.h"

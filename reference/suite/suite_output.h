@@ -6,7 +6,7 @@
 
 #include "reference/results/results.h"
 #include "reference/suite/partial_results.h"
-#include "reference/suite/suite_run.h"
+#include "reference/suite/suite_request.h"
 
 namespace contactcheck::suite {
 

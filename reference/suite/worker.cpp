@@ -28,7 +28,7 @@ namespace {
 // seed say all, and take less room.
 void record_scene(const WorkerState& worker) {
   const scene::Scene& scene = worker.scene;
-  if (worker.job.recording_file.empty() || scene.pairs) return;
+  if (worker.job.recording_file.empty() || scene.pairs()) return;
   Recording recording;
   recording.scene = scene.id;
   recording.bodies = scene.bodies;
@@ -44,7 +44,7 @@ void record_scene(const WorkerState& worker) {
 // judged; nothing to do for other scenes.
 // @throws InputError when it cannot be read, or has other frames or nodes than the scene
 void replay_recording(const std::filesystem::path& file, scene::Scene& scene) {
-  if (!scene.simulation && !scene.sweep) return;
+  if (!scene.simulation() && !scene.sweep()) return;
   Recording recording = read_recording(file);
   const bool same_nodes =
       std::equal(recording.bodies.begin(), recording.bodies.end(), scene.bodies.begin(),
@@ -77,7 +77,7 @@ void arrange_scene(WorkerState& worker) {
     worker.progress.enter(process::SharedProgress::kNoDetector, number, process::Phase::kScene);
   };
   scene = scene::load_any_scene(worker.job.scene, worker.job.settings.frames);
-  if (scene.simulation) scene.simulation->settings.threads = worker.job.settings.threads;
+  if (scene.simulation()) scene.simulation()->settings.threads = worker.job.settings.threads;
   if (!worker.judges() && !worker.job.recording_file.empty()) {
     replay_recording(worker.job.recording_file, scene);
     return;
@@ -143,10 +143,10 @@ SceneAnswer judged_answer(const WorkerState& worker) {
   const Job& job = worker.job;
   const judge::JudgedScene& judged = worker.judged;
   // Random pairs are far too many for pictures; a scene that is refused or not judged has no truth.
-  const bool lists_contacts = !worker.scene.pairs && judged.refused.empty() && !job.unjudged;
+  const bool lists_contacts = !worker.scene.pairs() && judged.refused.empty() && !job.unjudged;
   // Random pairs are not recorded.
   const std::string recording =
-      worker.scene.pairs ? "" : "../recordings/" + job.recording_file.filename().string();
+      worker.scene.pairs() ? "" : "../recordings/" + job.recording_file.filename().string();
   SceneAnswer answer;
   // `detector`: who is wrong; "oracle" where rational arithmetic contradicts it.
   const auto add_cases = [&](const std::string& detector,
@@ -196,7 +196,7 @@ void work(WorkerState& worker) {
       record_scene(worker);
       worker.separations = judge::separations(worker.judged, worker.progress);
       judge_detectors(worker);
-      if (worker.job.settings.closed_loop && worker.scene.simulation)
+      if (worker.job.settings.closed_loop && worker.scene.simulation())
         simulate_with_detectors(worker);
     }
   }
@@ -214,7 +214,7 @@ void work(WorkerState& worker) {
 
 // The bodies of hard cases are as they are; a body of a scene file can be given a lattice.
 std::string lattice_cure(const scene::Scene& scene, const std::string& refusal) {
-  if (scene.family || refusal.find("lattice") == std::string::npos) return "";
+  if (scene.family() || refusal.find("lattice") == std::string::npos) return "";
   return std::string("; a body of a scene file gets one by \"lattice\": {\"kept\": 150") +
          (scene.recorded.empty() ? "}" : ", \"fit\": true}");
 }

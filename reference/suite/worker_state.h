@@ -69,7 +69,7 @@ void take_turns(WorkerState& worker);
 
 /// For every usable detector that can drive the simulated scene: the motion that it drives, judged
 /// (closed_loop.h), and, with timing, whole steps timed (lockstep.h).
-/// @pre worker.scene.simulation has a value
+/// @pre the worker's scene is simulated
 void simulate_with_detectors(WorkerState& worker);
 
 }  // namespace contactcheck::suite

@@ -99,7 +99,7 @@ void time_whole_steps(WorkerState& worker) {
     });
     if (made) lockstep.push_back({entry.position, std::move(made), 0, {}, ""});
   }
-  const DetectorSpec driver = worker.catalog.parse(worker.scene.simulation->driver);
+  const DetectorSpec driver = worker.catalog.parse(worker.scene.simulation()->driver);
   timing::LockstepSettings settings;
   settings.repeats = worker.job.settings.step_repeats;
   settings.sweep_bytes = timing::sweep_bytes();

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "reference/process/process_tree.h"
+#include "reference/text/counted.h"
 
 namespace contactcheck::timing {
 namespace {
@@ -160,8 +161,8 @@ std::string CpuBook::complaint() const {
   const std::size_t threads = threads_ + (command ? 1 : 0);
   if (in_calls_ > static_cast<double>(threads) * time_of_calls_ + slack)
     return "it has used " + milliseconds(in_calls_) + " of CPU time in " +
-           milliseconds(time_of_calls_) + " of calls; it may use " + std::to_string(threads_) +
-           (threads_ == 1 ? " thread" : " threads") + " (--threads)";
+           milliseconds(time_of_calls_) + " of calls; it may use " +
+           text::counted(threads_, "thread") + " (--threads)";
   // Threads that it may have may wait for the next call without sleeping.
   if (between_calls_ > slack + static_cast<double>(threads_ - 1) * time_between_)
     return "it has used " + milliseconds(between_calls_) +

@@ -37,7 +37,7 @@ struct LockstepSettings {
 
 /// The motion is that of the scene's own driver. Within a repeat the entries take turns at every
 /// step (A B C, next repeat B C A), all with cold caches.
-/// @pre scene.simulation has a value; `driver` can drive it
+/// @pre the scene is simulated; `driver` can drive it
 /// @throws what the driver throws
 void run_lockstep(const scene::Scene& scene, Detector& driver, const LockstepSettings& settings,
                   std::vector<LockstepEntry>& entries, process::ProgressWriter& progress);

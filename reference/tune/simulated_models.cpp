@@ -27,7 +27,7 @@ class StepTimer {
  public:
   StepTimer(const scene::Scene& scene, const DetectorCatalog& catalog,
             const StepCostSettings& settings, const scene::OnStep& on_step)
-      : driver_(catalog.make(catalog.parse(scene.simulation->driver))),
+      : driver_(catalog.make(catalog.parse(scene.simulation()->driver))),
         states_(scene::states_along_motion(scene, *driver_, settings.steps, on_step)),
         driven_(scene, *driver_),
         now_ms_(settings.now_ms),
@@ -133,7 +133,7 @@ std::size_t body_named(const scene::Scene& scene, const std::string& name) {
 // far into the ground before it is answered that it does not come out again.
 std::uint32_t substeps_for(const scene::Scene& scene, double relaxation_time) {
   constexpr double kMost = 1000.0;  // that a scene file may ask for
-  const SimulationSettings& settings = scene.simulation->settings;
+  const SimulationSettings& settings = scene.simulation()->settings;
   const double wanted = std::ceil(settings.time_step / relaxation_time);
   return std::max(settings.substeps, static_cast<std::uint32_t>(std::min(wanted, kMost)));
 }
@@ -142,7 +142,7 @@ std::uint32_t substeps_for(const scene::Scene& scene, double relaxation_time) {
 
 std::string deformer_of(const scene::Scene& scene) {
   std::string name;
-  for (const std::optional<Material>& material : scene.simulation->materials) {
+  for (const std::optional<Material>& material : scene.simulation()->materials) {
     if (!material) continue;
     const std::string own = scene::name_of(material->model);
     if (!name.empty() && name != own) return "mixed";
@@ -164,7 +164,7 @@ fs::path write_deformer_variant(const fs::path& file, DeformableModel model,
           if (!body.contains("material")) continue;
           const std::size_t b = body_named(scene, body.at("name").get<std::string>());
           const Material material =
-              equivalent_material(*scene.simulation->materials[b], model, *scene.bodies[b].shape);
+              equivalent_material(*scene.simulation()->materials[b], model, *scene.bodies[b].shape);
           body["material"] = json_of(material);
           shortest_time = std::min(shortest_time, material.relaxation_time);
         }
@@ -182,7 +182,7 @@ std::vector<SimulatedModel> simulate_models(const SimulationRequest& request,
   const auto record = [&](const std::string& deformer, const fs::path& file) {
     starts(deformer);
     scene::Scene scene = scene::load_scene(file, 2 * request.frames);
-    scene.simulation->settings.threads = request.settings.threads;
+    scene.simulation()->settings.threads = request.settings.threads;
     scene::record_simulation(
         catalog, [](std::size_t) {}, scene);
     SimulatedModel model;

@@ -163,7 +163,7 @@ void confirm(const TuningRequest& request, const FrameSplit& split, Tuning& tuni
 
 FrameSplit split_of(const TuningRequest& request, const scene::Scene& scene,
                     const DetectorCatalog& catalog, Teller& teller, Tuning& tuning) {
-  if (scene.simulation) {
+  if (scene.simulation()) {
     if (request.space.lattices.size() > 1)
       throw InputError("--lattice: scene \"" + request.target +
                        "\" is simulated: in other lattices its materials would be others");

@@ -101,7 +101,7 @@ std::vector<KnownDeviation> libccd_boxes() {
       {gjk + mpr,
        "refused",
        {{"rebuilt-structure", 1}},
-       {"contactcheck", "any options", "design.md, level box"},
+       {"contactcheck", "any options", "fixtures/README.md, level box"},
        "boxes are those of lattice cells: a body without a lattice has none"},
   };
 }

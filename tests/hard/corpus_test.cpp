@@ -24,8 +24,8 @@ constexpr std::size_t kFewestCases = 300;
 TEST(HardCorpus, HasAtLeastThreeHundredCases) {
   std::size_t cases = 0;
   for (const std::string& id : family_ids()) {
-    ASSERT_TRUE(hard_family(id).scene.family) << id;
-    cases += hard_family(id).scene.family->values.size();
+    ASSERT_TRUE(hard_family(id).scene.family()) << id;
+    cases += hard_family(id).scene.family()->values.size();
   }
   EXPECT_GE(cases, kFewestCases);
 }
@@ -104,8 +104,7 @@ TEST(HardCorpus, RationalArithmeticGivesTheTruthOfBodiesThatTouchThemselves) {
     }
   }
   EXPECT_GT(tested, 5000u);
-  for (const Level level : {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge})
-    EXPECT_GT(meeting[level], 30u) << name_of(level);
+  for (const Level level : kSelfClasses) EXPECT_GT(meeting[level], 30u) << name_of(level);
 }
 
 // A vertex stands where the family put it, to the bit, where its lattice is one of nodes.

@@ -94,7 +94,7 @@ std::string case_name(const std::string& family, std::size_t index, const std::s
 
 void register_cases(const std::string& detector) {
   for (const std::string& family : test::family_ids()) {
-    const std::vector<std::string>& values = hard_family(family).scene.family->values;
+    const std::vector<std::string>& values = hard_family(family).scene.family()->values;
     for (std::size_t v = 0; v < values.size(); ++v)
       ::testing::RegisterTest(("HardCase_" + plain(detector)).c_str(),
                               case_name(family, v, values[v]).c_str(), nullptr, nullptr, __FILE__,

@@ -85,20 +85,22 @@ TEST(EmbeddedPatch, IsNeverClaimedOfTrianglesThatMeet) {
 
 // Turned inside out, mirrored, flattened, and far out: what no distance in space tells.
 TEST(EmbeddedPatch, IsNeverClaimedOfCellsThatAreInvertedOrFlat) {
+  Tally folded;
   for (const NamedShape& named : shapes()) {
     if (!named.shape->lattice) continue;
     SCOPED_TRACE(named.name);
     OneBody body(named.shape, false);
     const PatchTree tree = make_patch_tree(*named.shape, body.tree());
     const std::vector<Patch> patches = patches_of(body);
+    Tally scaled;
     for (const Vec3& factor : {Vec3(1, 1, 0), Vec3(1, 0, 0), Vec3(-1, 1, 1), Vec3(1, 1, 1e-9),
                                Vec3(1e-200, 1e-200, 1e-200), Vec3(1e100, 1e100, 1e100)}) {
       std::vector<Vec3> nodes = rest_nodes_at(*named.shape, Vec3::Zero());
       for (Vec3& n : nodes) n = n.cwiseProduct(factor);
       body.begin(nodes);
-      Tally tally;
-      check(body, tree, patches, tally);
+      check(body, tree, patches, scaled);
     }
+    EXPECT_GT(scaled.meeting, 0) << "flattened triangles lie on each other";
     // Every second layer is folded over its neighbour.
     std::vector<Vec3> nodes = rest_nodes_at(*named.shape, Vec3::Zero());
     const Lattice& lattice = *named.shape->lattice;
@@ -107,9 +109,9 @@ TEST(EmbeddedPatch, IsNeverClaimedOfCellsThatAreInvertedOrFlat) {
       nodes[n].x() = lattice.lines[0][layer % 2];
     }
     body.begin(nodes);
-    Tally tally;
-    check(body, tree, patches, tally);
+    check(body, tree, patches, folded);
   }
+  EXPECT_GT(folded.meeting, 0) << "lattices of one cell cannot fold, others do";
 }
 
 TEST(EmbeddedPatch, IsClaimedWhereNothingOrLittleIsBent) {

@@ -108,8 +108,8 @@ TEST(ClosedLoop, EveryPassageCounts) {
   scene.origins.push_back({"third", "code", ""});
   scene.motions.push_back(scene.motions[0]);
   scene.motions.back().path.position[0].keys = {{0.0, 1.0}};
-  scene.simulation->materials.push_back(scene.simulation->materials[0]);
-  scene.simulation->velocities.push_back(Vec3::Zero());
+  scene.simulation()->materials.push_back(scene.simulation()->materials[0]);
+  scene.simulation()->velocities.push_back(Vec3::Zero());
   EXPECT_EQ(drive<Blind>(scene).tunnelling_events, 2u);
 }
 
@@ -127,7 +127,7 @@ TEST(ClosedLoop, HoverIsTheTrueDistanceOfAPairThatIsReportedTooEarly) {
 
 TEST(ClosedLoop, BodiesThatCannotBeMovedHaveNoEnergyGainToSpeakOf) {
   scene::Scene scene = shot(5);
-  for (auto& material : scene.simulation->materials) material.reset();
+  for (auto& material : scene.simulation()->materials) material.reset();
   const results::ClosedLoop loop = drive<Blind>(scene);
   EXPECT_EQ(loop.energy_gain, std::nullopt);
   EXPECT_EQ(loop.last_speed, 0.0);
@@ -152,13 +152,13 @@ TEST(ClosedLoop, OpenBodiesHaveNoPenetration) {
 
 TEST(ClosedLoop, FramesAreEveryNthStep) {
   scene::Scene scene = shot(6);
-  scene.simulation->every = 3;
+  scene.simulation()->every = 3;
   EXPECT_EQ(drive<Blind>(scene).steps, 18u);
 }
 
 TEST(ClosedLoop, MotionThatDivergesIsAResultAndNoException) {
   scene::Scene scene = shot(5);
-  scene.simulation->settings.gravity = Vec3(0.0, -1e12, 0.0);
+  scene.simulation()->settings.gravity = Vec3(0.0, -1e12, 0.0);
   const results::ClosedLoop loop = drive<TruthfulDetector>(scene);
   EXPECT_THAT(loop.error, testing::HasSubstr("diverged"));
   EXPECT_THAT(loop.error, testing::HasSubstr("\"first\""));

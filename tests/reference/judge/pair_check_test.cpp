@@ -24,7 +24,7 @@ class RandomPairsJudged : public testing::Test {
   PairTally tally_with(const std::vector<oracle::Truth>& truth, unsigned threads = 0) const {
     PairTally tally;
     for (std::size_t f = 0; f < scene_.frames; ++f)
-      check_pairs(*scene_.pairs, f, judged_.positions[f].vertices, truth[f], tally, threads);
+      check_pairs(*scene_.pairs(), f, judged_.positions[f].vertices, truth[f], tally, threads);
     return tally;
   }
 
@@ -53,7 +53,7 @@ TEST_F(RandomPairsJudged, QuarterToThreeQuartersOfEveryKindTouch) {
 TEST_F(RandomPairsJudged, QuickRationalTestAgreesWithTheLinearProgram) {
   for (std::size_t f = 0; f < kFrames; ++f)
     for (std::size_t slot = 0; slot < scene::RandomPairs::kSlots; ++slot) {
-      const scene::HardPair p = scene_.pairs->pair(f, slot);
+      const scene::HardPair p = scene_.pairs()->pair(f, slot);
       ASSERT_EQ(oracle::rational::triangles_intersect_by_clipping(p.a, p.b),
                 oracle::rational::triangles_intersect(p.a, p.b))
           << "frame " << f << ", slot " << slot;

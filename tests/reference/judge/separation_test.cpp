@@ -37,9 +37,17 @@ TEST(Separations, AreTheGapsAndZeroInContactFrames) {
               ElementsAre(DoubleNear(0.5, close), DoubleNear(0.25, close), 0.0, 0.0));
 }
 
+// Frames of a family are recorded.
+scene::Scene as_family(const scene::Scene& moments) {
+  scene::Scene out = moments;
+  for (std::size_t f = 0; f < moments.frames; ++f)
+    out.recorded.push_back(moments.nodes_of_frame(f));
+  out.kind = scene::CaseFamily{};
+  return out;
+}
+
 TEST(Separations, OfCasesAndOfOneBodyAreNone) {
-  scene::Scene family = approaching_boxes();
-  family.family.emplace();
+  const scene::Scene family = as_family(approaching_boxes());
   EXPECT_TRUE(separations_of(family).empty());
   scene::Scene alone = approaching_boxes();
   alone.bodies.pop_back();
@@ -71,7 +79,7 @@ TEST(SceneScale, IsOfTrianglesAtRestAndOfAllFrames) {
       << "sides of a half, halved along a diagonal";
   EXPECT_DOUBLE_EQ(scale->longest_edge, std::sqrt(0.5));
   EXPECT_DOUBLE_EQ(scale->reach, 2.0) << "of the second box in the first frame, at 1.5";
-  scene.family.emplace();
+  scene = as_family(scene);
   EXPECT_FALSE(summary_of(scene).scale.has_value());
 }
 

@@ -45,15 +45,15 @@ inline scene::Scene two_balls(const BallStart& first, const BallStart& second, s
     spec.velocities.push_back(start.velocity);
   }
   scene.time_step = spec.settings.time_step;
-  scene.simulation = std::move(spec);
+  scene.kind = std::move(spec);
   return scene;
 }
 
 /// The first lies just above the ground, the second falls on it, a little aside.
 inline scene::Scene falling_balls(std::size_t frames) {
   scene::Scene scene = two_balls({{0.0, 0.27, 0.0}}, {{0.05, 0.9, 0.03}}, frames);
-  scene.simulation->settings.gravity = Vec3(0.0, -9.81, 0.0);
-  scene.simulation->settings.ground = Ground{};
+  scene.simulation()->settings.gravity = Vec3(0.0, -9.81, 0.0);
+  scene.simulation()->settings.ground = Ground{};
   return scene;
 }
 

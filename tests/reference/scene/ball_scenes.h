@@ -29,8 +29,8 @@ inline void add_body(scene::Scene& scene, const Body& body, const Vec3& place, c
   scene.bodies.push_back(body);
   scene.origins.push_back({body.name, "test", ""});
   scene.motions.push_back({{}, at(place)});
-  scene.simulation->materials.push_back(material);
-  scene.simulation->velocities.push_back(velocity);
+  scene.simulation()->materials.push_back(material);
+  scene.simulation()->velocities.push_back(velocity);
 }
 
 /// Of 1 kg, so soft that few substeps do.
@@ -49,9 +49,9 @@ inline scene::Scene empty_scene(std::size_t frames) {
   scene::Scene scene;
   scene.id = "test-balls";
   scene.frames = frames;
-  scene.simulation.emplace();
-  scene.simulation->driver = "ffd-aabb-sphere2+tri";
-  scene.time_step = scene.simulation->settings.time_step;
+  scene.kind = scene::SimulationSpec{};
+  scene.simulation()->driver = "ffd-aabb-sphere2+tri";
+  scene.time_step = scene.simulation()->settings.time_step;
   return scene;
 }
 

@@ -135,7 +135,7 @@ TEST_P(SimulatedFixture, LoadsWithAFiniteStart) {
   if (!data_installed()) GTEST_SKIP() << "install libcgal-demo and povray-examples";
   const Scene scene = load_scene(GetParam().file);
   EXPECT_EQ(scene.id, GetParam().id);
-  ASSERT_TRUE(scene.simulation.has_value());
+  ASSERT_NE(scene.simulation(), nullptr);
   EXPECT_TRUE(scene.judges(Level::kTriangle));
   // Long enough to fall and to hit; at full resolution no longer than that, else until rest.
   const bool full = scene.id.ends_with("-full");

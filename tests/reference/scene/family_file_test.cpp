@@ -45,10 +45,10 @@ std::vector<Vec3> vertices(const Scene& scene, std::size_t frame) {
 
 TEST(FamilyFile, HasAFrameForEveryValue) {
   const Scene scene = load_family(family(triangle(R"(, "lattice": "nodes")")));
-  ASSERT_TRUE(scene.family);
+  ASSERT_TRUE(scene.family());
   EXPECT_EQ(scene.frames, 3u);
-  EXPECT_EQ(scene.family->parameter, "gap, m");
-  EXPECT_EQ(scene.family->values[1], "0x1p-52");
+  EXPECT_EQ(scene.family()->parameter, "gap, m");
+  EXPECT_EQ(scene.family()->values[1], "0x1p-52");
   EXPECT_FALSE(scene.scripted());
   EXPECT_EQ(vertices(scene, 1)[0], Vec3(0, 0, 0x1p-52));
   EXPECT_EQ(vertices(scene, 1)[1], Vec3(1, 0, 1 + 0x1p-52));
@@ -112,8 +112,8 @@ TEST(FamilyFile, MaySayThatItsParameterIsASizeOrADistance) {
     std::string text = family(triangle(""), values);
     return text.insert(1, "\"range\": \"" + range + "\", ");
   };
-  EXPECT_EQ(load_family(with_range("size", R"("1e-3", "1")")).family->range, "size");
-  EXPECT_EQ(load_family(family(triangle(""))).family->range, "");
+  EXPECT_EQ(load_family(with_range("size", R"("1e-3", "1")")).family()->range, "size");
+  EXPECT_EQ(load_family(family(triangle(""))).family()->range, "");
   EXPECT_EQ(refusal(with_range("weight", R"("1")")),
             "range is \"weight\"; it must be one of size, distance.");
   for (const char* value : {"0", "-0", "-1"})

@@ -113,13 +113,13 @@ std::vector<Aabb> start_boxes(const Scene& scene) {
 
 TEST_P(PaperScene, StartsAboveTheGroundAndApart) {
   const Scene scene = load();
-  ASSERT_TRUE(scene.simulation.has_value());
-  ASSERT_TRUE(scene.simulation->settings.ground.has_value());
-  const Ground& ground = *scene.simulation->settings.ground;
+  ASSERT_NE(scene.simulation(), nullptr);
+  ASSERT_TRUE(scene.simulation()->settings.ground.has_value());
+  const Ground& ground = *scene.simulation()->settings.ground;
   const std::vector<Aabb> boxes = start_boxes(scene);
   double lowest = boxes[0].lo[ground.axis];
   for (std::size_t a = 0; a < boxes.size(); ++a) {
-    EXPECT_TRUE(scene.simulation->materials[a].has_value()) << scene.bodies[a].name;
+    EXPECT_TRUE(scene.simulation()->materials[a].has_value()) << scene.bodies[a].name;
     lowest = std::min(lowest, boxes[a].lo[ground.axis]);
     for (std::size_t b = 0; b < a; ++b) {
       EXPECT_FALSE(boxes[a].overlaps(boxes[b]))
@@ -150,10 +150,10 @@ TEST_P(PaperScene, InFullDiffersInItsMeshesAlone) {
   EXPECT_GE(counts_of(full).triangles, 3 * counts_of(scene).triangles);
   EXPECT_EQ(full.time_step, scene.time_step);
   ASSERT_EQ(full.bodies.size(), scene.bodies.size());
-  EXPECT_EQ(full.simulation->velocities, scene.simulation->velocities);
+  EXPECT_EQ(full.simulation()->velocities, scene.simulation()->velocities);
   const std::vector<std::vector<Vec3>> coarse = scene.nodes_at(0.0), fine = full.nodes_at(0.0);
   for (std::size_t b = 0; b < full.bodies.size(); ++b) {
-    const Material &m = *scene.simulation->materials[b], &n = *full.simulation->materials[b];
+    const Material &m = *scene.simulation()->materials[b], &n = *full.simulation()->materials[b];
     EXPECT_TRUE(m.model == n.model && m.mass == n.mass && m.stiffness == n.stiffness &&
                 m.damping == n.damping);
     ASSERT_EQ(full.bodies[b].shape->lattice->nodes, scene.bodies[b].shape->lattice->nodes);

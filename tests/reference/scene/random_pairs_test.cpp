@@ -131,7 +131,7 @@ TEST(RandomPairs, AreAScene) {
   EXPECT_EQ(scene.frames, 2u);
   EXPECT_FALSE(scene.scripted());
   EXPECT_EQ(scene.bodies.size(), 2u);
-  EXPECT_EQ(scene.nodes_of_frame(1), scene.pairs->nodes(1));
+  EXPECT_EQ(scene.nodes_of_frame(1), scene.pairs()->nodes(1));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::string fault_of(Scene scene, const DetectorCatalog& catalog = test::core_ca
 
 TEST(RecordSimulation, FillsTheFramesByTheScenesOwnDriver) {
   Scene scene = test::falling_balls();
-  const std::unique_ptr<Detector> driver = test::core_detector(scene.simulation->driver);
+  const std::unique_ptr<Detector> driver = test::core_detector(scene.simulation()->driver);
   const SimulatedMotion motion = simulate(scene, *driver, kSilent);
   std::size_t steps = 0;
   record_simulation(
@@ -35,7 +35,7 @@ TEST(RecordSimulation, FillsTheFramesByTheScenesOwnDriver) {
 
 TEST(RecordSimulation, HasNothingToDoForScriptedScenes) {
   Scene scene = test::falling_balls();
-  scene.simulation.reset();
+  scene.kind = GivenFrames{};
   int steps = 0;
   record_simulation(
       DetectorCatalog(), [&](std::size_t) { ++steps; }, scene);
@@ -46,7 +46,7 @@ TEST(RecordSimulation, HasNothingToDoForScriptedScenes) {
 
 TEST(RecordSimulation, AnUnknownDriverIsNamedWithItsScene) {
   Scene scene = test::falling_balls(2);
-  scene.simulation->driver = "ffd-crystal-ball";
+  scene.simulation()->driver = "ffd-crystal-ball";
   EXPECT_THAT(fault_of(scene), AllOf(StartsWith("scene \"test-balls\", driver ffd-crystal-ball: "),
                                      HasSubstr("unknown detector")));
   EXPECT_TRUE(scene.recorded.empty());
@@ -54,7 +54,7 @@ TEST(RecordSimulation, AnUnknownDriverIsNamedWithItsScene) {
 
 TEST(RecordSimulation, AnUnknownOptionOfTheDriverIsNamedWithItsScene) {
   Scene scene = test::falling_balls(2);
-  scene.simulation->driver = "ffd-grid:colour=red";
+  scene.simulation()->driver = "ffd-grid:colour=red";
   EXPECT_THAT(fault_of(scene), AllOf(StartsWith("scene \"test-balls\", driver ffd-grid:colour=red"),
                                      HasSubstr("unknown option \"colour\"")));
 }
@@ -65,7 +65,7 @@ TEST(RecordSimulation, AnAbsentDriverIsNamedWithTheReason) {
   info.absent_because = "not built here";
   catalog.add(info);
   Scene scene = test::falling_balls(2);
-  scene.simulation->driver = "blind";
+  scene.simulation()->driver = "blind";
   EXPECT_EQ(fault_of(scene, catalog), "scene \"test-balls\", driver blind: not built here");
 }
 
@@ -74,18 +74,18 @@ TEST(RecordSimulation, ADriverThatCannotDriveOrRefusesIsNamedWithTheReason) {
   catalog.add(test::blind_info("bodies-only", Question::kBody));
   catalog.add(test::blind_info("picky", Question::kTriangles, true));
   Scene scene = test::falling_balls(2);
-  scene.simulation->driver = "bodies-only";
+  scene.simulation()->driver = "bodies-only";
   EXPECT_THAT(fault_of(scene, catalog),
               AllOf(StartsWith("scene \"test-balls\", driver bodies-only: "),
                     HasSubstr("neither cells nor triangles")));
-  scene.simulation->driver = "picky";
+  scene.simulation()->driver = "picky";
   EXPECT_EQ(fault_of(scene, catalog),
             "scene \"test-balls\", driver picky: a frame it does not like");
 }
 
 TEST(RecordSimulation, ABodyThatIsTooStiffIsNamedWithItsScene) {
   Scene scene = test::falling_balls(2);
-  scene.simulation->materials[1]->stiffness = 1e16;
+  scene.simulation()->materials[1]->stiffness = 1e16;
   EXPECT_THAT(fault_of(scene),
               AllOf(StartsWith("scene \"test-balls\""), HasSubstr("body \"lower\" is too stiff")));
 }
@@ -93,7 +93,7 @@ TEST(RecordSimulation, ABodyThatIsTooStiffIsNamedWithItsScene) {
 TEST(RecordSimulation, DivergenceNamesSceneDriverBodyNodeAndStep) {
   for (double speed : {1e300, std::numeric_limits<double>::quiet_NaN()}) {
     Scene scene = test::falling_balls(2);
-    scene.simulation->velocities[1].y() = speed;
+    scene.simulation()->velocities[1].y() = speed;
     EXPECT_EQ(fault_of(scene),
               "scene \"test-balls\", driver ffd-aabb-sphere2+tri: the simulation diverged: body "
               "\"lower\", node 0, step 0.");

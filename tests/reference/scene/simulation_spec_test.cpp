@@ -46,13 +46,13 @@ Scene load_simulated(const std::string& text, std::size_t frames = 0) {
 }
 
 Material material_of(const std::string& text) {
-  return *load_simulated(changed(kSpring, text)).simulation->materials[0];
+  return *load_simulated(changed(kSpring, text)).simulation()->materials[0];
 }
 
 TEST(SimulationSpec, ReadsEveryKeyOfTheRoot) {
   const Scene scene = load_simulated(kGoodSimulation);
-  ASSERT_TRUE(scene.simulation.has_value());
-  const SimulationSettings& settings = scene.simulation->settings;
+  ASSERT_NE(scene.simulation(), nullptr);
+  const SimulationSettings& settings = scene.simulation()->settings;
   EXPECT_EQ(settings.time_step, 0.01);
   EXPECT_EQ(settings.substeps, 7u);
   EXPECT_EQ(settings.gravity, Vec3(0, 1, -2));
@@ -61,40 +61,40 @@ TEST(SimulationSpec, ReadsEveryKeyOfTheRoot) {
   EXPECT_EQ(settings.ground->height, -1.5);
   EXPECT_EQ(settings.ground->restitution, 0.125);
   EXPECT_EQ(settings.ground->friction, 0.75);
-  EXPECT_EQ(scene.simulation->driver, "ffd-grid");
-  EXPECT_EQ(scene.simulation->every, 3u);
+  EXPECT_EQ(scene.simulation()->driver, "ffd-grid");
+  EXPECT_EQ(scene.simulation()->every, 3u);
 }
 
 TEST(SimulationSpec, FillsInTheDefaultsOfTheRoot) {
   std::string text = kGoodSimulation;
   const std::size_t begin = text.find(R"({"step")"), end = text.find(R"("bodies")");
   const Scene scene = load_simulated(text.replace(begin, end - begin, "{}, "));
-  const SimulationSettings& settings = scene.simulation->settings;
+  const SimulationSettings& settings = scene.simulation()->settings;
   EXPECT_EQ(settings.time_step, 1.0 / 60);
   EXPECT_EQ(settings.substeps, 0u);
   EXPECT_EQ(settings.gravity, Vec3(0, -9.81, 0));
   EXPECT_FALSE(settings.ground.has_value());
-  EXPECT_EQ(scene.simulation->driver, "ffd-aabb-sphere2+tri");
-  EXPECT_EQ(scene.simulation->every, 1u);
+  EXPECT_EQ(scene.simulation()->driver, "ffd-aabb-sphere2+tri");
+  EXPECT_EQ(scene.simulation()->every, 1u);
   EXPECT_EQ(scene.time_step, 1.0 / 60);
 }
 
 TEST(SimulationSpec, EmptyGroundLiesLevelAtTheOrigin) {
   const Scene scene = load_simulated(
       changed(R"({"axis": "z", "height": -1.5, "restitution": 0.125, "friction": 0.75})", "{}"));
-  ASSERT_TRUE(scene.simulation->settings.ground.has_value());
-  EXPECT_EQ(scene.simulation->settings.ground->axis, 1);
-  EXPECT_EQ(scene.simulation->settings.ground->height, 0.0);
+  ASSERT_TRUE(scene.simulation()->settings.ground.has_value());
+  EXPECT_EQ(scene.simulation()->settings.ground->axis, 1);
+  EXPECT_EQ(scene.simulation()->settings.ground->height, 0.0);
 }
 
 TEST(SimulationSpec, ReadsBodiesInTheirOrder) {
   const Scene scene = load_simulated(kGoodSimulation);
-  ASSERT_EQ(scene.simulation->materials.size(), 2u);
-  ASSERT_EQ(scene.simulation->velocities.size(), 2u);
-  ASSERT_TRUE(scene.simulation->materials[0].has_value());
-  EXPECT_FALSE(scene.simulation->materials[1].has_value());
-  EXPECT_EQ(scene.simulation->velocities[0], Vec3(1, -2, 3));
-  EXPECT_EQ(scene.simulation->velocities[1], Vec3(0, 0, 0));
+  ASSERT_EQ(scene.simulation()->materials.size(), 2u);
+  ASSERT_EQ(scene.simulation()->velocities.size(), 2u);
+  ASSERT_TRUE(scene.simulation()->materials[0].has_value());
+  EXPECT_FALSE(scene.simulation()->materials[1].has_value());
+  EXPECT_EQ(scene.simulation()->velocities[0], Vec3(1, -2, 3));
+  EXPECT_EQ(scene.simulation()->velocities[1], Vec3(0, 0, 0));
 }
 
 TEST(SimulationSpec, ReadsMassSpring) {
@@ -142,7 +142,7 @@ TEST(SimulatedScene, FramesCountJudgedFramesAndStepsKeepTheirLength) {
   EXPECT_DOUBLE_EQ(scene.time_step, 0.03);
   EXPECT_EQ(longer.frames, 9u);
   EXPECT_EQ(longer.time_step, scene.time_step);
-  EXPECT_EQ(longer.simulation->settings.time_step, 0.01);
+  EXPECT_EQ(longer.simulation()->settings.time_step, 0.01);
 }
 
 TEST(SimulatedScene, HasAStartAndIsNotScripted) {

@@ -56,7 +56,7 @@ TEST_F(SweepPoses, StandAtTheDistancesThatTheSceneSays) {
   const double tolerance = kSweepTolerance * 2.0;  // the ring is the larger one
   for (std::size_t s = 1; s < 5; ++s)
     for (std::size_t o = 0; o < 6; ++o) {
-      const double wanted = 2.0 * scene.sweep->separations[s];
+      const double wanted = 2.0 * scene.sweep()->separations[s];
       const oracle::DistanceInterval is = distance(scene, scene.nodes_of_frame(s * 6 + o));
       EXPECT_GE(is.upper, wanted - 0.5 * tolerance) << s << " " << o;
       EXPECT_LE(is.upper, wanted + tolerance) << s << " " << o;

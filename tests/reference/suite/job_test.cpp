@@ -194,7 +194,7 @@ TEST(Answer, JudgedAnswersReadBackEvenWhereTheyAreEmpty) {
   ASSERT_EQ(in[0].frames.size(), 2u);
   EXPECT_EQ(in[0].frames[0].sizes, print.sizes);
   EXPECT_EQ(in[0].frames[0].hashes, print.hashes);
-  EXPECT_EQ(in[0].frames[1].sizes, judge::AnswerSizes{});
+  EXPECT_EQ(in[0].frames[1].sizes, judge::ListNumbers{});
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST_F(Lockstep, EveryEntryHasStepsAndRepeatsAsAskedAndPositiveSums) {
 
 TEST_F(Lockstep, ShortMotionHasNoMoreStepsThanItsOwn) {
   scene_ = falling_balls(4);
-  scene_.simulation->every = 2;
+  scene_.simulation()->every = 2;
   add<Blind>();
   run({.steps = 40, .repeats = 2});
   expect_times(entries_[0], 8, 2);

@@ -32,9 +32,9 @@ TEST_F(DeformerVariant, HasTheEquivalentMaterialInEveryCopyAndLeavesWhatCannotBe
     const scene::Scene variant = scene::load_scene(file);
     EXPECT_EQ(variant.bodies.size(), 3u);
     const Material wanted =
-        equivalent_material(*scene.simulation->materials[0], model, *scene.bodies[0].shape);
+        equivalent_material(*scene.simulation()->materials[0], model, *scene.bodies[0].shape);
     for (const std::size_t copy : {0, 1}) {
-      const Material& made = *variant.simulation->materials[copy];
+      const Material& made = *variant.simulation()->materials[copy];
       EXPECT_EQ(made.model, model);
       EXPECT_EQ(made.mass, 5.0);
       if (model == DeformableModel::kFiniteElements) {
@@ -42,10 +42,10 @@ TEST_F(DeformerVariant, HasTheEquivalentMaterialInEveryCopyAndLeavesWhatCannotBe
         EXPECT_EQ(made.damping_time, 1.0 / 600.0);
       } else {
         EXPECT_EQ(made.relaxation_time, wanted.relaxation_time);
-        EXPECT_GE(made.relaxation_time * variant.simulation->settings.substeps, 1.0 / 60);
+        EXPECT_GE(made.relaxation_time * variant.simulation()->settings.substeps, 1.0 / 60);
       }
     }
-    EXPECT_FALSE(variant.simulation->materials[2]);
+    EXPECT_FALSE(variant.simulation()->materials[2]);
     EXPECT_EQ(deformer_of(variant), variant.id.substr(std::string("falling-").size()));
   }
 }
@@ -53,10 +53,10 @@ TEST_F(DeformerVariant, HasTheEquivalentMaterialInEveryCopyAndLeavesWhatCannotBe
 TEST_F(DeformerVariant, KnowsTheScenesOwn) {
   EXPECT_EQ(deformer_of(load(falling_scene())), "mass-spring");
   scene::Scene mixed = load(falling_scene());
-  mixed.simulation->materials[1]->model = DeformableModel::kShapeMatching;
+  mixed.simulation()->materials[1]->model = DeformableModel::kShapeMatching;
   EXPECT_EQ(deformer_of(mixed), "mixed");
   scene::Scene still = load(falling_scene());
-  for (auto& material : still.simulation->materials) material.reset();
+  for (auto& material : still.simulation()->materials) material.reset();
   EXPECT_THAT(sentence_of([&] { deformer_of(still); }), HasSubstr("none of its bodies"));
 }
 

@@ -17,7 +17,7 @@ TEST(StepCost, OfManySubstepsIsHigherThanOfFew) {
   const test::Scratch scratch;
   const scene::Scene few = scene::load_scene(scratch.write("few.json", test::falling_scene()));
   scene::Scene many = few;
-  many.simulation->settings.substeps = 500;
+  many.simulation()->settings.substeps = 500;
   DetectorCatalog catalog;
   register_core_detectors(catalog);
   StepCostSettings settings;

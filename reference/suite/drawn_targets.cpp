@@ -1,4 +1,4 @@
-#include "reference/cli/drawn_targets.h"
+#include "reference/suite/drawn_targets.h"
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +12,7 @@
 #include "reference/text/file_text.h"
 #include "reference/text/json_value.h"
 
-namespace contactcheck::cli {
+namespace contactcheck::suite {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,15 +39,15 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> numbers_of(const std::str
   return std::pair(seed, number);
 }
 
-void check_flags(const std::string& name, const RunArguments& arguments) {
-  if (arguments.frames > 0)
+void check_flags(const std::string& name, const RunTargets& wanted) {
+  if (wanted.frames > 0)
     throw InputError("--frames: the scenes of " + text::in_quotes(name) +
                      " are drawn with their frames and cannot be given others");
   const scene::MeshSceneRequest usual;
-  if (arguments.meshes.motion != usual.motion || arguments.meshes.size != usual.size)
+  if (wanted.meshes.motion != usual.motion || wanted.meshes.size != usual.size)
     throw InputError("--motion and --size: the scenes of " + text::in_quotes(name) +
                      " are drawn with motions and sizes of their own");
-  for (const fs::path& mesh : arguments.meshes.meshes) scene::check_drawn_mesh(mesh);
+  for (const fs::path& mesh : wanted.meshes.meshes) scene::check_drawn_mesh(mesh);
 }
 
 bool names_files(const text::JsonValue& value) {
@@ -58,7 +58,7 @@ bool names_files(const text::JsonValue& value) {
 }
 
 // The scene file, as it may lie in the folder.
-std::string text_of(const suite::SceneTask& task, const fs::path& folder) {
+std::string text_of(const SceneTask& task, const fs::path& folder) {
   if (const auto* text = std::get_if<scene::SceneText>(&task.source)) return text->text;
   if (const auto* drawn = std::get_if<scene::DrawnSpec>(&task.source))
     return scene::draw_scene(*drawn, folder).text.text;
@@ -76,27 +76,26 @@ std::string text_of(const suite::SceneTask& task, const fs::path& folder) {
 }
 
 // Where the scene files of this run lie.
-fs::path folder_of(const fs::path& path, const std::vector<suite::SceneTask>& run) {
+fs::path folder_of(const fs::path& path, const std::vector<SceneTask>& run) {
   return run.size() == 1 ? fs::absolute(path).parent_path() : fs::absolute(path);
 }
 
-fs::path place_of(const fs::path& path, const std::vector<suite::SceneTask>& run,
-                  const suite::SceneTask& task) {
+fs::path place_of(const fs::path& path, const std::vector<SceneTask>& run, const SceneTask& task) {
   return run.size() == 1 ? path : path / (task.id + ".json");
 }
 
-bool is_in(const std::vector<suite::SceneTask>& tasks, const std::string& id) {
+bool is_in(const std::vector<SceneTask>& tasks, const std::string& id) {
   return std::any_of(tasks.begin(), tasks.end(),
-                     [&](const suite::SceneTask& task) { return task.id == id; });
+                     [&](const SceneTask& task) { return task.id == id; });
 }
 
 }  // namespace
 
-std::optional<DrawnTarget> find_drawn(const std::string& name, const RunArguments& arguments) {
+std::optional<DrawnTarget> find_drawn(const std::string& name, const RunTargets& wanted) {
   scene::DrawnSpec spec;
-  std::size_t first = 1, last = arguments.count.value_or(kUsualCount);
+  std::size_t first = 1, last = wanted.count.value_or(kUsualCount);
   fs::path file = scene::fixtures_directory() / "drawn.json";
-  spec.seed = arguments.seed;
+  spec.seed = wanted.seed;
   const std::string prefix = std::string(kSuite) + "-";
   if (name.starts_with(prefix) && !is_file(name)) {
     const auto numbers = numbers_of(name.substr(prefix.size()));
@@ -116,10 +115,10 @@ std::optional<DrawnTarget> find_drawn(const std::string& name, const RunArgument
   }
   spec.rules = text::read_file_bytes(file, "rules file");
   spec.rules_name = "rules file " + text::in_quotes(file.string());
-  spec.meshes = arguments.meshes.meshes;
+  spec.meshes = wanted.meshes.meshes;
   DrawnTarget out;
   out.detectors = scene::parse_draw_rules(spec.rules, spec.rules_name).detectors;
-  check_flags(name, arguments);
+  check_flags(name, wanted);
   for (std::size_t number = first; number <= last; ++number) {
     spec.number = number;
     out.scenes.push_back(spec);
@@ -127,18 +126,18 @@ std::optional<DrawnTarget> find_drawn(const std::string& name, const RunArgument
   return out;
 }
 
-void save_scenes(const fs::path& path, const std::vector<suite::SceneTask>& run,
-                 const std::vector<suite::SceneTask>& own) {
+void save_scenes(const fs::path& path, const std::vector<SceneTask>& run,
+                 const std::vector<SceneTask>& own) {
   if (path.empty()) return;
   const fs::path folder = folder_of(path, run);
   std::vector<std::pair<fs::path, std::string>> files;  // all are made before one is written
-  for (const suite::SceneTask& task : run) {
+  for (const SceneTask& task : run) {
     if (std::holds_alternative<scene::DrawnSpec>(task.source) && !is_in(own, task.id)) continue;
     const fs::path file = place_of(path, run, task);
     std::string text = text_of(task, folder);
     if (!fs::exists(file)) {
       files.emplace_back(file, std::move(text));
-    } else if (suite::read_text_file(file) != text) {
+    } else if (read_text_file(file) != text) {
       throw InputError("--save-scene: \"" + file.string() +
                        "\" is there already and is not written over");
     }
@@ -151,12 +150,12 @@ void save_scenes(const fs::path& path, const std::vector<suite::SceneTask>& run,
   for (const auto& [file, text] : files) write_file_atomically(file, text);
 }
 
-void save_redrawn(const fs::path& path, const std::vector<suite::SceneTask>& run,
-                  const std::vector<suite::SceneTask>& own, const results::Results& results) {
+void save_redrawn(const fs::path& path, const std::vector<SceneTask>& run,
+                  const std::vector<SceneTask>& own, const results::Results& results) {
   if (path.empty()) return;
   for (const results::Scene& scene : results.scenes) {
     if (!scene.drawn || scene.drawn->redrawn == 0 || !scene.unjudged.empty()) continue;
-    for (suite::SceneTask task : own) {
+    for (SceneTask task : own) {
       auto* const drawn = std::get_if<scene::DrawnSpec>(&task.source);
       if (drawn == nullptr || task.id != scene.id) continue;
       drawn->redrawn = scene.drawn->redrawn;
@@ -166,4 +165,4 @@ void save_redrawn(const fs::path& path, const std::vector<suite::SceneTask>& run
   }
 }
 
-}  // namespace contactcheck::cli
+}  // namespace contactcheck::suite

@@ -1,0 +1,80 @@
+// Frames that are to have no contact, or none but what is allowed: for meshes that nobody claims
+// anything of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/detect/detector.h"
+#include "core/detect/registry.h"
+#include "reference/oracle/oracle.h"
+#include "reference/oracle/surface_geometry.h"
+#include "reference/scene/frame_positions.h"
+#include "reference/scene/scene.h"
+
+namespace contactcheck::judge {
+
+/// The detector that finds; the oracle confirms.
+inline constexpr const char* kFrameDetector = "full-refit";
+
+struct AllowedContact {
+  bool contact = false, self = false;
+  std::optional<double> depth;  ///< metres, of contacts between bodies
+};
+
+/// What is not allowed in one frame.
+struct BadFrame {
+  struct Pair {
+    BodyPair bodies;
+    std::size_t triangles = 0;
+    std::optional<std::array<std::uint32_t, 2>> first;  ///< none: one body is inside the other
+    oracle::SurfaceDepth depth;
+  };
+  struct Self {
+    std::uint32_t body = 0;
+    std::map<Level, std::size_t> pairs;
+    std::array<std::uint32_t, 2> first{};
+  };
+  std::size_t frame = 0;
+  std::vector<Pair> pairs;
+  std::vector<Self> selfs;
+};
+
+/// By body: the first frame in which it is open, with the edge: what lies inside it is not judged.
+using OpenBodies = std::map<std::uint32_t, std::string>;
+
+/// Finds with full-refit, and confirms what it finds by the oracle.
+class FrameChecker {
+ public:
+  /// `scene` must outlive it.
+  FrameChecker(const scene::Scene& scene, const AllowedContact& allowed,
+               const DetectorCatalog& catalog);
+
+  /// None: nothing that is not allowed.
+  /// @throws InputError where welded vertices come apart, or a frame cannot be judged;
+  /// std::runtime_error where detector and oracle disagree, which is an error of contactcheck
+  std::optional<BadFrame> check(std::size_t frame);
+
+  const OpenBodies& open() const { return open_; }
+
+ private:
+  oracle::Truth judged(std::size_t f, const Frame& frame, const oracle::WantedTruth& wanted);
+  std::optional<BadFrame> confirmed(std::size_t f, const Frame& frame, const ContactSet& found);
+  void add_pairs(const Frame& frame, const oracle::Truth& truth, BadFrame& out);
+
+  const scene::Scene& scene_;
+  AllowedContact allowed_;
+  scene::FramePositions positions_;
+  std::unique_ptr<Detector> detector_;
+  oracle::Oracle oracle_;
+  oracle::SurfaceGeometry geometry_;
+  OpenBodies open_;
+};
+
+}  // namespace contactcheck::judge

@@ -171,7 +171,9 @@ void parse_bound(const text::JsonField& field, Rule& rule) {
 void parse_timing(const text::JsonField& field, Rule& rule) {
   constexpr text::NumberRange kShare{0.0, false, 10.0, false},
       kMicroseconds{0.0, false, 1e9, false};
-  rule.question = field.at("question").one_of({"triangles", "body", "cells", "contacts"});
+  std::vector<std::string> questions;
+  for (const Question question : kQuestions) questions.push_back(name_of(question));
+  rule.question = field.at("question").one_of(questions);
   rule.reference = field.at("reference").text();
   if (field.has("part"))
     rule.part = field.at("part").one_of({"playback", "cold", "contact_frames", "without_map"});

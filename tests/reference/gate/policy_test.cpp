@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/types/check.h"
+#include "core/types/semantics.h"
 #include "reference/scene/catalogue.h"
 #include "tests/reference/scene/scratch.h"
 
@@ -60,6 +61,19 @@ TEST(Policy, ThatSaysNothingLetsNoisePassAndErrorsAndRefusalsFail) {
   EXPECT_EQ(rule.level, "");
   EXPECT_EQ(rule.part, "playback");
   EXPECT_FALSE(needs_baseline(rule));
+}
+
+// fixtures/policies/README.md lists them.
+TEST(Policy, MayBeAboutTheTimesOfEveryQuestion) {
+  for (const Question question : kQuestions) {
+    const std::string name = name_of(question);
+    const Rule rule = policy_of(
+                          "'scenes': ['*'], 'detectors': ['*'], 'measure': 'speedup', "
+                          "'question': '" +
+                          name + "', 'reference': 'embree', 'at_least': 1")
+                          .rules.at(0);
+    EXPECT_EQ(rule.question, name);
+  }
 }
 
 TEST(Policy, TakesAWindowOfSpeedUpsAndRefusesOneWithoutRoom) {

@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [
     "README.md", "core/detect/README.md", "core/lazy/README.md", "fixtures/README.md",
     "fixtures/hard/README.md", "fixtures/policies/README.md", "reference/adapters/README.md",
-    "reference/cli/README.md",
+    "reference/README.md", "reference/cli/README.md",
     "reference/packaging/README.md", "reference/plugin/README.md", "reference/reproduce/README.md",
     "reference/suite/sweep/README.md", "reference/tune/README.md",
 ]

@@ -8,6 +8,7 @@
 
 #include "reference/report/tables/family_result.h"
 #include "reference/report/tables/format.h"
+#include "reference/report/tables/run_row.h"
 #include "reference/report/tables/scale_ranges.h"
 #include "reference/report/tables/section.h"
 

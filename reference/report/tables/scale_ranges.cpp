@@ -8,6 +8,7 @@
 #include <string>
 
 #include "reference/report/tables/family_result.h"
+#include "reference/report/tables/run_row.h"
 #include "reference/results/scale_ranges.h"
 
 namespace contactcheck::report {

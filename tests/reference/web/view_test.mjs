@@ -10,7 +10,10 @@ import {kMissed, reportOf} from "./view_scene.mjs";
 
 const kPage =
   process.argv[2] ??
-  join(process.env.CONTACTCHECK_WEB_WORK ?? "build/release/reference/report/formats/web/work", "page.html");
+  join(
+    process.env.CONTACTCHECK_WEB_WORK ?? "build/release/reference/report/formats/web/work",
+    "page.html",
+  );
 if (!existsSync(kPage)) {
   console.log(`skipped: no ${kPage}: npm ci failed; build again with a network`);
   process.exit(0);

@@ -80,8 +80,11 @@ Json sections_json(const results::Index& index) {
   for (const Section* section : sections()) {
     if (section->build == nullptr || section->drawn_on_page) continue;
     Json blocks = Json::array();
-    for (const Block& block : section->build(index))
-      blocks.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
+    for (const Block& block : section->build(index)) {
+      const auto* table = std::get_if<TitledTable>(&block);
+      if (table == nullptr || !table->rows.empty())
+        blocks.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
+    }
     if (!blocks.empty())
       out.push_back({{"id", section->id},
                      {"title", section->title},

@@ -226,6 +226,7 @@ std::string terminal_tables(const results::Results& results, bool color, bool ex
   for (const Section* section : sections()) {
     if (section->terminal == nullptr) continue;
     for (TerminalPart& part : section->terminal(index)) {
+      if (part.lines.empty() && part.table.rows.empty()) continue;
       out += paint(part.title, kBold, color) + (part.aside.empty() ? "" : "  " + part.aside) +
              "\n" + part.lines;
       out += part.table.rows.empty() ? "\n" : table(std::move(part.table));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <vector>
 
@@ -39,7 +38,6 @@ double share_of(std::int64_t part, std::int64_t whole) {
 
 }  // namespace
 
-// Results may come from anywhere: an id must not lead out of the folder.
 std::string stability_plot(const results::Scene& scene, const std::vector<FamilyResult>& results) {
   std::vector<FamilyResult> rows;
   for (const FamilyResult& result : results)

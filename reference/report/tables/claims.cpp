@@ -227,15 +227,15 @@ TitledTable bullet_cluster_claim(const Index& index) {
 }
 
 Blocks claims_blocks(const Index& index) {
-  Blocks out;
-  for (TitledTable& claim : std::vector<TitledTable>{
-           hover_claim(index),
-           speed_claim(index, "ffd-aabb-sphere2+tri", Question::kTriangles, Level::kTriangle),
-           speed_claim(index, "ffd-aabb-sphere2", Question::kBody, Level::kBody), fcl_claim(index),
-           bullet_scale_claim(index), bullet_inside_claim(index), bullet_normal_claim(index),
-           bullet_cluster_claim(index), known_ranges_table(index)})
-    if (!claim.rows.empty()) out.emplace_back(std::move(claim));
-  return out;
+  return {hover_claim(index),
+          speed_claim(index, "ffd-aabb-sphere2+tri", Question::kTriangles, Level::kTriangle),
+          speed_claim(index, "ffd-aabb-sphere2", Question::kBody, Level::kBody),
+          fcl_claim(index),
+          bullet_scale_claim(index),
+          bullet_inside_claim(index),
+          bullet_normal_claim(index),
+          bullet_cluster_claim(index),
+          known_ranges_table(index)};
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ Blocks detectors_blocks(const results::Index& index) {
     if (run.ok() && !run.semantics.levels.empty() && seen.insert(run.detector).second)
       table.rows.push_back(
           {run.detector, options_text(run.options), semantics_text(run.semantics)});
-  return table.rows.empty() ? Blocks{} : Blocks{std::move(table)};
+  return {std::move(table)};
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ std::optional<double> FamilyResult::milliseconds() const {
   return run.times.front().playback.frame;
 }
 
+// Results may come from anywhere: an id must not lead out of the folder.
 std::string stability_plot_file(const results::Scene& scene) {
   std::string name = scene.id;
   for (char& c : name)

@@ -61,15 +61,10 @@ TitledTable goals_table(const results::Index& index) {
   return out;
 }
 
-Blocks goals_blocks(const results::Index& index) {
-  TitledTable table = goals_table(index);
-  return table.rows.empty() ? Blocks{} : Blocks{std::move(table)};
-}
+Blocks goals_blocks(const results::Index& index) { return {goals_table(index)}; }
 
 std::vector<TerminalPart> goals_in_terminal(const results::Index& index) {
-  TitledTable table = goals_table(index);
-  if (table.rows.empty()) return {};
-  return {{"goals", "", "", std::move(table)}};
+  return {{"goals", "", "", goals_table(index)}};
 }
 
 }  // namespace

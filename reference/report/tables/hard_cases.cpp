@@ -226,10 +226,8 @@ Blocks hard_blocks(const results::Index& index) {
 }
 
 std::vector<TerminalPart> hard_in_terminal(const results::Index& index) {
-  TitledTable sums = hard_sums(index);
-  if (sums.rows.empty()) return {};
   std::vector<TerminalPart> out = {
-      {"hard cases", "errors by family: report.md, \"Where they go wrong\"", "", std::move(sums)}};
+      {"hard cases", "errors by family: report.md, \"Where they go wrong\"", "", hard_sums(index)}};
   for (TitledTable& table : range_tables(scale_ranges(index))) {
     const std::string title = table.title, lines = "  " + table.text + "\n";
     out.push_back({title, "", lines, std::move(table)});

@@ -136,18 +136,15 @@ namespace {
 Blocks known_defects_blocks(const results::Index& index) {
   const std::optional<results::DefectCounts>& known = index.results().known_defects;
   if (!known) return {};
-  Blocks out = {Paragraph{known_defects_sentence(*known)}};
-  for (TitledTable& table : std::vector<TitledTable>{
-           defects_table("", known->defects, false),
-           defects_table("Expected of our readings of the paper, which are as it is written.",
-                         known->readings, true),
-           groups_table("Shown with another count than the listed one.", known->changed),
-           groups_table("Listed, and not shown: mended in this build of the library, or the case "
-                        "has changed.",
-                        known->not_shown),
-           groups_table("Shown, and not listed.", known->unlisted)})
-    if (!table.rows.empty()) out.emplace_back(std::move(table));
-  return out;
+  return {Paragraph{known_defects_sentence(*known)},
+          defects_table("", known->defects, false),
+          defects_table("Expected of our readings of the paper, which are as it is written.",
+                        known->readings, true),
+          groups_table("Shown with another count than the listed one.", known->changed),
+          groups_table("Listed, and not shown: mended in this build of the library, or the case "
+                       "has changed.",
+                       known->not_shown),
+          groups_table("Shown, and not listed.", known->unlisted)};
 }
 
 std::vector<TerminalPart> known_defects_in_terminal(const results::Index& index) {

@@ -28,12 +28,12 @@ struct Picture {
   std::string file, what;  ///< in words, for who cannot see it
 };
 
-/// A table without rows is not shown.
+/// A table without rows is not shown, whatever the format, nor a section that has nothing else.
 using Block = std::variant<Paragraph, Heading, Items, Picture, TitledTable>;
 using Blocks = std::vector<Block>;
 
 /// What a terminal shows of a section: its title, more on the same line, whole lines below, a
-/// table.
+/// table. Not shown without lines and rows.
 struct TerminalPart {
   std::string title, aside, lines;
   TitledTable table = {};
@@ -43,7 +43,7 @@ struct Section {
   const char* id;  ///< its place on the page
   const char* title;
   const char* short_title;  ///< in the page's contents
-  /// Nothing where the results have nothing to say in it.
+  /// No block that is shown: the results have nothing to say in it.
   Blocks (*build)(const results::Index& index);
   /// None: the terminal does not show it.
   std::vector<TerminalPart> (*terminal)(const results::Index& index) = nullptr;

@@ -115,10 +115,7 @@ TitledTable summary_table(const results::Results& results) {
   return out;
 }
 
-Blocks summary_blocks(const results::Index& index) {
-  TitledTable table = summary_table(index.results());
-  return table.rows.empty() ? Blocks{} : Blocks{std::move(table)};
-}
+Blocks summary_blocks(const results::Index& index) { return {summary_table(index.results())}; }
 
 // Of one scene its own table says the same.
 std::vector<TerminalPart> summary_in_terminal(const results::Index& index) {

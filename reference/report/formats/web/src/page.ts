@@ -60,7 +60,6 @@ export interface TextSection {
   blocks: Block[];
 }
 
-/** A table without rows is not shown. */
 export type Block = {text: string} | {heading: string} | {items: string[]} | {table: TextTable};
 
 export interface TextColumn {

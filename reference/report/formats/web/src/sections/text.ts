@@ -11,8 +11,7 @@ function shown(block: Block, section: string): Child[] {
   if ("text" in block) return [p(...withCode(block.text))];
   if ("heading" in block) return [h("h3", {}, ...withCode(block.heading))];
   if ("items" in block) return [list(block.items)];
-  const {id, title, rows} = block.table;
-  if (rows.length === 0) return [];
+  const {id, title} = block.table;
   return [
     title && h("h3", {id}, ...withCode(title)),
     ...textTable(block.table, title || block.table.text || section),

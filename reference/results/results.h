@@ -313,6 +313,7 @@ struct MeasuredGoal : Goal {
 struct Plugin {
   std::string detector, kind, source, content, version;
   bool unisolated = false;  ///< its process could not be ended: its rows are never gated
+  bool transient = false;   ///< no later run can reach it: no command runs it again
 };
 
 struct DefectCount {

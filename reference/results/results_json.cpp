@@ -5,67 +5,40 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <type_traits>
-#include <variant>
 
-namespace contactcheck::results {
-namespace {
+#include "reference/text/described_json.h"
+
+namespace contactcheck {
+
+template <typename Io>
+void fields(Io& io, Semantics& s) {
+  io("levels", s.levels);
+  io("informative", s.informative);
+  io("questions", s.questions);
+  std::string body = s.solid ? "solid" : "surface", touching = s.closed ? "closed" : "open";
+  io("body", body);
+  io("touching", touching);
+  if constexpr (Io::kReads) {
+    s.solid = body == "solid";
+    s.closed = touching == "closed";
+  }
+  io("exact", s.exact);
+  io("margin", s.margin);
+  io("precision", s.precision);
+  io("scale", s.scale);
+  io("depth_kind", s.depth);
+  io("means", s.means);
+  io.unless_empty("local_origin", s.local_origin);
+  io.unless_empty("no_early_end", s.no_early_end);
+}
+
+namespace results {
 
 using Json = nlohmann::ordered_json;
 
-// Each struct has one description, fields(io, value), in the order of the file; reader and writer
-// both go through it:
-//   io("key", member)            always written; missing leaves it as it is
-//   io.unless_empty("key", m)    written when it has a value, an element, a character
-
-template <typename T>
-void read(const Json& json, T& value);
-template <typename T>
-Json written(const T& value);
-
-class Reader {
- public:
-  static constexpr bool kReads = true;
-  explicit Reader(const Json& json) : json_(json) {}
-  const Json& json() const { return json_; }
-
-  template <typename T>
-  void operator()(const char* key, T& value) {
-    if (const auto it = json_.find(key); it != json_.end()) read(*it, value);
-  }
-  template <typename T>
-  void unless_empty(const char* key, T& value) {
-    (*this)(key, value);
-  }
-
- private:
-  const Json& json_;
-};
-
-class Writer {
- public:
-  static constexpr bool kReads = false;
-  explicit Writer(Json& json) : json_(json) {}
-
-  template <typename T>
-  void operator()(const char* key, const T& value) {
-    json_[key] = written(value);
-  }
-  template <typename T>
-  void unless_empty(const char* key, const T& value) {
-    bool empty = false;
-    if constexpr (requires { value.empty(); })
-      empty = value.empty();
-    else
-      empty = !value;
-    if (!empty) (*this)(key, value);
-  }
-
- private:
-  Json& json_;
-};
-
-// --- one description per struct
+constexpr std::array<Status, 4> values_of(Status) {
+  return {Status::kOk, Status::kError, Status::kAbsent, Status::kRefused};
+}
 
 template <typename Io>
 void fields(Io& io, Machine& m) {
@@ -230,43 +203,21 @@ void fields(Io& io, StepTimes& t) {
   io("total_by_repeat", t.total_by_repeat);
 }
 
-template <typename Io>
-void fields(Io& io, Semantics& s) {
-  io("levels", s.levels);
-  io("informative", s.informative);
-  io("questions", s.questions);
-  std::string body = s.solid ? "solid" : "surface", touching = s.closed ? "closed" : "open";
-  io("body", body);
-  io("touching", touching);
-  if constexpr (Io::kReads) {
-    s.solid = body == "solid";
-    s.closed = touching == "closed";
-  }
-  io("exact", s.exact);
-  io("margin", s.margin);
-  io("precision", s.precision);
-  io("scale", s.scale);
-  io("depth_kind", s.depth);
-  io("means", s.means);
-  io.unless_empty("local_origin", s.local_origin);
-  io.unless_empty("no_early_end", s.no_early_end);
-}
-
 // `prepare` is repeated in the times of every question, and is there without timing, too.
-Json times_json(const Run& run, std::size_t question) {
+static Json times_json(const Run& run, std::size_t question) {
   Json out = {{"prepare", run.prepare_ms}};
-  if (question < run.times.size()) out.update(written(run.times[question]));
+  if (question < run.times.size()) out.update(text::described(run.times[question]));
   return out;
 }
 
-void read_times(const Json& json, Run& run) {
+static void read_times(const Json& json, Run& run) {
   const auto own = json.find("time_ms");
   if (own == json.end()) return;
   if (own->contains("prepare")) own->at("prepare").get_to(run.prepare_ms);
   if (!own->contains("question")) return;
-  read(*own, run.times.emplace_back());
+  text::read_described(*own, run.times.emplace_back());
   for (const Json& other : json.value("time_ms_other_questions", Json::array()))
-    read(other, run.times.emplace_back());
+    text::read_described(other, run.times.emplace_back());
 }
 
 template <typename Io>
@@ -461,6 +412,7 @@ void fields(Io& io, Plugin& p) {
   io("content", p.content);
   io("version", p.version);
   io.unless_empty("unisolated", p.unisolated);
+  io.unless_empty("transient", p.transient);
 }
 
 template <typename Io>
@@ -565,135 +517,23 @@ void fields(Io& io, Results& r) {
   io.unless_empty("finding", r.finding);
 }
 
-// --- values, lists and maps
-
-constexpr auto values_of(Level) { return kLevels; }
-constexpr auto values_of(Question) { return kQuestions; }
-constexpr std::array<DepthKind, 3> values_of(DepthKind) {
-  return {DepthKind::kNone, DepthKind::kVertexSurface, DepthKind::kConvexPair};
-}
-constexpr std::array<Precision, 2> values_of(Precision) {
-  return {Precision::kDouble, Precision::kSingle};
-}
-constexpr std::array<Status, 4> values_of(Status) {
-  return {Status::kOk, Status::kError, Status::kAbsent, Status::kRefused};
-}
-
-template <typename T>
-T value_named(const Json& json) {
-  for (const T value : values_of(T{}))
-    if (json.get_ref<const std::string&>() == name_of(value)) return value;
-  throw Json::other_error::create(501, "unknown name " + json.dump(), &json);
-}
-
-template <typename T>
-concept HasFields = requires(Reader& reader, T& value) { fields(reader, value); };
-template <typename T>
-concept Optional = requires(T& value) { value.reset(); };
-/// A map, or a list of pairs of which the first is a name: both are objects in the file.
-template <typename T>
-concept Keyed = requires { typename T::value_type::second_type; };
-template <typename T>
-concept List = requires(T& value) { value.emplace_back(); };
-
-using CountOrReason = std::variant<std::uint64_t, std::string>;
-
-template <typename T>
-void read(const Json& json, T& value) {
-  if constexpr (std::is_same_v<T, Json>) {
-    value = json;
-  } else if constexpr (std::is_enum_v<T>) {
-    value = value_named<T>(json);
-  } else if constexpr (HasFields<T>) {
-    if (!json.is_object()) throw Json::type_error::create(304, "not an object", &json);
-    Reader reader(json);
-    fields(reader, value);
-  } else if constexpr (std::is_same_v<T, BodyPair>) {
-    value = {json.at(0).get<std::uint32_t>(), json.at(1).get<std::uint32_t>()};
-  } else if constexpr (std::is_same_v<T, CountOrReason>) {
-    if (json.is_string())
-      value = json.get<std::string>();
-    else
-      value = json.get<std::uint64_t>();
-  } else if constexpr (std::is_same_v<T, Texts>) {
-    value.clear();
-    for (const auto& [key, item] : json.items())  // options of other programs may be numbers
-      value[key] = item.is_string() ? item.template get<std::string>() : item.dump();
-  } else if constexpr (Optional<T>) {
-    if (json.is_null())
-      value.reset();
-    else
-      read(json, value.emplace());
-  } else if constexpr (Keyed<T>) {
-    value.clear();
-    for (const auto& [key, item] : json.items())
-      if constexpr (List<T>) {
-        auto& [name, held] = value.emplace_back();
-        name = key;
-        read(item, held);
-      } else {
-        typename T::key_type place{};
-        read(Json(key), place);
-        read(item, value[place]);
-      }
-  } else if constexpr (List<T>) {
-    value.clear();
-    for (const Json& item : json) read(item, value.emplace_back());
-  } else {
-    json.get_to(value);
-  }
-}
-
-template <typename T>
-Json written(const T& value) {
-  if constexpr (std::is_same_v<T, Json>) {
-    return value;
-  } else if constexpr (std::is_enum_v<T>) {
-    return name_of(value);
-  } else if constexpr (HasFields<T>) {
-    Json out = Json::object();
-    Writer writer(out);
-    // A description takes the struct to read into; a writer changes nothing in it.
-    fields(writer, const_cast<T&>(value));
-    return out;
-  } else if constexpr (std::is_same_v<T, BodyPair>) {
-    return {value.a, value.b};
-  } else if constexpr (std::is_same_v<T, CountOrReason>) {
-    return std::visit([](const auto& held) { return Json(held); }, value);
-  } else if constexpr (Optional<T>) {
-    return value ? written(*value) : Json(nullptr);
-  } else if constexpr (Keyed<T>) {
-    Json out = Json::object();
-    for (const auto& [key, item] : value)
-      out[written(key).template get<std::string>()] = written(item);
-    return out;
-  } else if constexpr (List<T>) {
-    Json out = Json::array();
-    for (const auto& item : value) out.push_back(written(item));
-    return out;
-  } else {
-    return value;
-  }
-}
-
-}  // namespace
-
 Results from_json(const nlohmann::ordered_json& json) {
   Results results;
-  read(json, results);
+  text::read_described(json, results);
   return results;
 }
 
-nlohmann::ordered_json to_json(const Semantics& semantics) { return written(semantics); }
-nlohmann::ordered_json to_json(const Machine& machine) { return written(machine); }
-nlohmann::ordered_json to_json(const Scene& scene) { return written(scene); }
-nlohmann::ordered_json to_json(const ClosedLoop& loop) { return written(loop); }
-nlohmann::ordered_json to_json(const ScaleRange& range) { return written(range); }
+nlohmann::ordered_json to_json(const Semantics& semantics) { return text::described(semantics); }
+nlohmann::ordered_json to_json(const Machine& machine) { return text::described(machine); }
+nlohmann::ordered_json to_json(const Scene& scene) { return text::described(scene); }
+nlohmann::ordered_json to_json(const ClosedLoop& loop) { return text::described(loop); }
+nlohmann::ordered_json to_json(const ScaleRange& range) { return text::described(range); }
 
 nlohmann::ordered_json to_json(const Results& results) {
   Json out = {{"schema", kSchema}};
-  out.update(written(results));
+  out.update(text::described(results));
   return out;
 }
 
-}  // namespace contactcheck::results
+}  // namespace results
+}  // namespace contactcheck

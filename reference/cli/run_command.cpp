@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,25 +37,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A case names every detector but one from outside.
-std::string own_words(const std::string& detector, const results::Results& results) {
-  return results.plugin_of(detector) == nullptr ? ""
-                                                : " " + results::detector_words(results, detector);
-}
-
-// The first wrong answer that can be reduced; one of a detector from outside before all others, but
-// none of a class in Python, whose command answers in this run alone.
+// The first wrong answer that can be reduced; one of a plug-in before all others. A case names its
+// detector, but for a plug-in the command must load it.
 void print_next(const RunArguments& arguments, const results::Results& results) {
-  const bool by_python = std::getenv("CONTACTCHECK_PYTHON_SOCKET") != nullptr;
   const results::Disagreement* next = nullptr;
   std::string words;
   for (const results::Disagreement& d : results.disagreements) {
     if (d.detector == "oracle" || !reduce::can_be_reduced(d.level)) continue;
-    const std::string own = own_words(d.detector, results);
-    if (!own.empty() ? by_python : next != nullptr) continue;
+    const results::Plugin* const plugin = results.plugin_of(d.detector);
+    if (plugin != nullptr ? plugin->transient : next != nullptr) continue;
     next = &d;
-    words = own;
-    if (!own.empty()) break;
+    if (plugin == nullptr) continue;
+    words = " " + results::detector_words(results, d.detector);
+    break;
   }
   if (next == nullptr) return;
   // As it was called: after a build it is on no path.

@@ -83,18 +83,24 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict) {
   const results::Scene* const scene = index.scene(row.scene);
-  const std::string detector = " " + results::detector_words(index.results(), row.detector);
-  if (scene != nullptr && scene->pairs) return pairs_command(*scene) + detector + " --no-timing";
+  const bool timed = is_timing(*rule.measure);
+  std::vector<std::string> detectors = {row.detector};
+  if (timed) detectors.push_back(rule.reference);
+  std::string flags;
+  for (const std::string& detector : detectors) {
+    const std::string words = results::detector_words(index.results(), detector);
+    if (words.empty()) return "";
+    flags += " " + words;
+  }
+  flags += timed ? timing_flags(index.results(), verdict) : " --no-timing";
+  if (scene != nullptr && scene->pairs) return pairs_command(*scene) + flags;
   const std::string target = results::scene_words(index.results(), row.scene);
   std::string command = "contactcheck run " + target;
   // The frames of families and recordings are fixed.
   const bool fixed = (scene != nullptr && scene->family) || target.ends_with(".ccr") ||
                      target.ends_with(".ccr'") || row.frames == 0;
   if (!fixed) command += " --frames " + std::to_string(row.frames);
-  command += detector;
-  if (!is_timing(*rule.measure)) return command + " --no-timing";
-  return command + " " + results::detector_words(index.results(), rule.reference) +
-         timing_flags(index.results(), verdict);
+  return command + flags;
 }
 
 std::string pairs_command(const results::Scene& scene) {

@@ -18,6 +18,7 @@ std::string worst_frame(const Rule& rule, const results::Index& index, const res
 /// A shell command that runs this row again: the scene, as the results' own command names it where
 /// it was a file, the detector with its options, the number of frames; of a timing rule with its
 /// reference and as many processes, and with enough for an interval where it could not be judged.
+/// Empty where a detector is transient.
 std::string rerun_command(const Rule& rule, const results::Index& index, const results::Run& row,
                           Verdict verdict);
 

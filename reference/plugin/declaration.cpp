@@ -127,6 +127,7 @@ Declaration read_declaration(const text::JsonField& field) {
       (item.one_of({"vertices", "nodes"}) == "nodes" ? out.needs_nodes : out.needs_vertices) = true;
   }
   if (field.has("unisolated")) out.unisolated = field.at("unisolated").boolean();
+  if (field.has("transient")) out.transient = field.at("transient").boolean();
   out.semantics = read_semantics(field.at("semantics"));
   return out;
 }
@@ -137,9 +138,14 @@ nlohmann::ordered_json to_json(const Declaration& d) {
   if (d.needs_vertices) needs.push_back("vertices");
   if (d.needs_nodes) needs.push_back("nodes");
   semantics["whole_cells"] = d.semantics.whole_cells;  // which results.json does not have
-  return {
-      {"id", d.id},     {"summary", d.summary},       {"version", d.version},  {"options", options},
-      {"needs", needs}, {"unisolated", d.unisolated}, {"semantics", semantics}};
+  return {{"id", d.id},
+          {"summary", d.summary},
+          {"version", d.version},
+          {"options", options},
+          {"needs", needs},
+          {"unisolated", d.unisolated},
+          {"transient", d.transient},
+          {"semantics", semantics}};
 }
 
 std::string semantics_fault(const Semantics& s) {

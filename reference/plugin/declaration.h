@@ -29,6 +29,7 @@ struct Declaration {
   Semantics semantics;  ///< with the default options, before prepare
   bool needs_vertices = true, needs_nodes = true;
   bool unisolated = false;  ///< it is asked in a process that cannot be ended with it
+  bool transient = false;   ///< no later run can reach it: it lives in the caller of this one
 };
 
 /// Reads one strictly; README.md beside this header gives its keys. Keys that it does not know are

@@ -112,7 +112,8 @@ std::vector<results::Plugin> plugins_in_results(const std::vector<Plugin>& plugi
     const std::string& text = plugin.source.text;
     out.push_back({plugin.declaration.id, name_of(plugin.source.kind),
                    library ? fs::path(text).filename().string() : text, plugin.content,
-                   plugin.declaration.version, plugin.declaration.unisolated});
+                   plugin.declaration.version, plugin.declaration.unisolated,
+                   plugin.declaration.transient});
   }
   return out;
 }

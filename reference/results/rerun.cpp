@@ -42,6 +42,7 @@ std::vector<std::pair<std::string, std::string>> flags_of(const std::string& com
 
 std::string detector_words(const Results& results, const std::string& detector) {
   const Plugin* const plugin = results.plugin_of(detector);
+  if (plugin != nullptr && plugin->transient) return "";
   if (plugin != nullptr && plugin->kind == "command")
     return "--detector-cmd " + text::in_shell(plugin->source);
   if (plugin != nullptr)

@@ -9,6 +9,7 @@ namespace contactcheck::results {
 
 /// "--detector NAME", or how the results' command named a detector from outside: a library with its
 /// options, "--detector ./libmine.so:leaf=8", or a command, "--detector-cmd 'python3 mine.py'".
+/// Empty for a transient detector, which no command can run again.
 std::string detector_words(const Results& results, const std::string& detector);
 
 /// The scene as `run` takes it: its id, or the file or the meshes, with motion and size, that the

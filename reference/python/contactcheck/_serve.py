@@ -138,10 +138,14 @@ def _answer(answer: Any) -> tuple[dict, bytes]:
 
 
 def declaration(detector: Any) -> dict:
-    """Its line of `hello`, from its attribute `declares`: what is no key of the line is semantics."""
+    """Its line of `hello`, from its attribute `declares`: what is no key of the line is semantics.
+
+    It is transient: it lives in this interpreter, and no later run can start it.
+    """
     declares = dict(detector.declares)
     name = getattr(detector, "__name__", type(detector).__name__)
-    line = {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": ["vertices"]}
+    line = {"message": "hello", "protocol": PROTOCOL, "id": name, "needs": ["vertices"],
+            "transient": True}
     line.update({key: declares.pop(key) for key in ("id", "summary", "version", "options", "needs")
                  if key in declares})
     if declares.pop("unisolated", False):

@@ -65,6 +65,17 @@ def test_rerun_quotes_what_a_shell_would_take_apart(touch, results, old, name, w
         TOUCH_AGAIN + word + " --no-timing")
 
 
+@pytest.mark.parametrize("detector", ["exact", "ref"])
+def test_no_rerun_of_a_transient_detector_or_reference(touch, results, detector):
+    # A class in an interpreter that has ended: the command was printed and did nothing.
+    results["plugins"] = [{"detector": detector, "kind": "command", "source": "it", "content": "c",
+                           "version": "", "transient": True}]
+    rule = {"measure": "speedup", "question": "triangles", "reference": "ref"}
+    assert touch("exact", results, at_least=9, **rule).rerun == ""
+    results["plugins"] = []
+    assert touch("exact", results, at_least=9, **rule).rerun.startswith(EXACT_AGAIN)
+
+
 @pytest.mark.parametrize("passes, seed, fails, cannot_judge", [
     (7, 1, " --processes 7", None),
     (3, 1, " --processes 3", " --processes 5"),

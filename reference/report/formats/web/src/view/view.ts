@@ -50,6 +50,8 @@ class SceneViewer implements View {
   private readonly cases: Map<string, string[]>;
   /** The command that shrinks a pair, but for its level and kind. */
   private readonly reduce: (detector: string, recording: string) => string;
+  /** Detectors that no command can run again. */
+  private readonly transient: Set<string>;
   private pairs: ListedPair[] = [];
   private chosen: ListedPair | null = null;
   private started = false;
@@ -63,6 +65,7 @@ class SceneViewer implements View {
       [...scenes, ...families].find(({id}) => id === scene)?.title ?? scene;
     this.reduce = (detector, recording) =>
       `contactcheck reduce ${out}/recordings/${recording} ${reduce[detectors.indexOf(detector)]}`;
+    this.transient = new Set(detectors.filter((_, at) => reduce[at] === ""));
     this.cases = new Map(families.map(({id, values}) => [id, values]));
     this.panel = new Panel(container.scenes, title, {
       scene: (id) => this.show({scene: id, frame: busiestFrame(container, id)}),
@@ -310,7 +313,7 @@ class SceneViewer implements View {
         " and ",
         h("strong", {class: "view-second"}, other),
         ".",
-        ...(level === "vertex" || level === "containment"
+        ...(level === "vertex" || level === "containment" || this.transient.has(this.detector)
           ? []
           : [
               code(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "core/deform/grid.h"
 #include "core/deform/mapping.h"
@@ -13,10 +14,10 @@ namespace contactcheck {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Rounding of what is computed at rest: far more than it can be.
+// Factors for the rounding of what is computed at rest, far more than it can be.
 constexpr double kUp = 1 + 1e-6, kDown = 1 - 1e-6;
 constexpr std::uint32_t kMostCells = 8;  // of a patch; more are not worth a look
-// Sides of cells, and square of DF, that are looked at.
+// The range of sides of cells, and of the square of DF, for which the bounds are derived.
 constexpr double kLeastSide = 0x1p-100, kMostSide = 0x1p100;
 constexpr double kLeastSquare = 0x1p-200, kMostSquare = 0x1p200;
 
@@ -40,7 +41,7 @@ PatchRest patch_of(const BodyShape& shape, std::uint32_t triangle, const Triangl
     out.lo[k] = box.lo[k];
     out.hi[k] = box.hi[k];
   }
-  // Of a coordinate on a line, either cell would do: F is continuous.
+  // For a coordinate on a line either cell would do: F is continuous.
   const Grid grid(shape.lattice->lines);
   out.first_cell = grid.cell_of(box.lo);
   out.last_cell = grid.cell_of(box.hi);
@@ -139,18 +140,6 @@ class PatchBuilder {
 // Three numbers and a 0, as the terms of a cell have them.
 using Double4 = Eigen::Array4d;
 
-/// Entries of DF over parts of cells: a column per axis at rest.
-struct Range {
-  Double4 lo[3], hi[3];
-  Range() {
-    for (int k = 0; k < 3; ++k) lo[k].setConstant(kInfinity), hi[k].setConstant(-kInfinity);
-  }
-  void add(int axis, const Double4& middle, const Double4& half) {
-    lo[axis] = lo[axis].min(middle - half);
-    hi[axis] = hi[axis].max(middle + half);
-  }
-};
-
 // The smallest eigenvalue of a symmetric positive semidefinite matrix, from below: Newton's method
 // from 0 on the characteristic polynomial, which is concave and increasing up to its first root.
 //   * Determinant, minors and the values of the polynomial round by less than 2^-46 of trace^3,
@@ -178,57 +167,76 @@ double smallest_eigenvalue(const Eigen::Matrix3d& m) {
   return std::max(0.0, x * kDown - kRounding * trace);
 }
 
-constexpr std::uint8_t kUnknown = 0, kEmbedded = 1, kNotTold = 2;
-
 /// The part of the cells between two neighbouring grid lines that Q meets, in y = 2 x - 1 of a
 /// cell.
 struct AxisPart {
   double middle, half, inverse;  ///< inverse: GridSlice::inverse
 };
 
-// The conditions of the claim for one frame. @pre at most kMostCells cells
-bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& patch) {
-  if (!(patch.gap > 0.0f)) return false;
-
+/// The cells that Q meets, axis by axis.
+struct PatchCells {
   AxisPart parts[3][kMostCells];
-  double largest_inverse = 0.0;  // 2 over the shortest side, along axes in which Q extends
-  double farthest = 0.0;         // |coordinate| of an end of these cells, at rest
-  std::size_t cells = 1, kept = 0;
-  bool long_row = false;  // more than two cells along an axis
-  std::array<bool, 3> flat{};
+  std::array<bool, 3> flat{};    ///< Q has no extent along this axis
+  double largest_inverse = 0.0;  ///< 2 over the shortest side, along axes in which Q extends
+  double farthest = 0.0;         ///< |coordinate| of an end of these cells, at rest
+  std::size_t count = 1;
+  bool long_row = false;  ///< more than two along an axis
+
+  double shortest_side() const { return 2.0 / largest_inverse; }
+};
+
+// Nothing where a side is not looked at. @pre at most kMostCells along each axis
+std::optional<PatchCells> cells_of(const PatchTree& patches, const PatchRest& patch) {
+  PatchCells out;
   for (int k = 0; k < 3; ++k) {
     const std::uint32_t first = patch.first_cell[k], last = patch.last_cell[k];
-    cells *= last - first + std::size_t{1};
-    long_row = long_row || last - first > 1;
-    flat[k] = patch.lo[k] == patch.hi[k];
+    out.count *= last - first + std::size_t{1};
+    out.long_row = out.long_row || last - first > 1;
+    out.flat[k] = patch.lo[k] == patch.hi[k];
     for (std::uint32_t at = first; at <= last; ++at) {
       const GridSlice& slice = patches.slices[k][at];
-      if (slice.inverse == 0.0) return false;
-      if (!flat[k]) largest_inverse = std::max(largest_inverse, slice.inverse);
-      farthest = std::max(farthest, slice.farthest);
+      if (slice.inverse == 0.0) return {};
+      if (!out.flat[k]) out.largest_inverse = std::max(out.largest_inverse, slice.inverse);
+      out.farthest = std::max(out.farthest, slice.farthest);
       // Differences round by 2^-53 of them, of which `half` has 1e-12 to spare.
       const double from = std::max(-1.0,
                                    (patch.lo[k] - slice.low) * patches.scale * slice.inverse - 1.0),
                    to = std::min(1.0,
                                  (patch.hi[k] - slice.low) * patches.scale * slice.inverse - 1.0);
-      parts[k][at - first] = {0.5 * (from + to), std::max(0.0, 0.5 * (to - from)) + 1e-12,
-                              slice.inverse};
+      out.parts[k][at - first] = {0.5 * (from + to), std::max(0.0, 0.5 * (to - from)) + 1e-12,
+                                  slice.inverse};
     }
   }
-  const double finest = 2.0 / largest_inverse;
+  return out;
+}
 
-  // DF over the part of each cell that Q holds.
-  Range range;
-  double bend = 0.0;  // m, where Q is in one cell
+/// DF over the parts of kept cells that Q meets: a column per axis at rest.
+struct Derivative {
+  Double4 lo[3], hi[3];
+  double bend = 0.0;  ///< change per length, where Q is in one cell
+  std::size_t kept = 0;
+
+  Derivative() {
+    for (int k = 0; k < 3; ++k) lo[k].setConstant(kInfinity), hi[k].setConstant(-kInfinity);
+  }
+  void add(int axis, const Double4& middle, const Double4& half) {
+    lo[axis] = lo[axis].min(middle - half);
+    hi[axis] = hi[axis].max(middle + half);
+  }
+};
+
+Derivative derivative_over(const LazyState& state, const PatchTree& patches, const PatchRest& patch,
+                           const PatchCells& cells) {
+  Derivative out;
   for (std::uint32_t z = patch.first_cell[2]; z <= patch.last_cell[2]; ++z)
     for (std::uint32_t y = patch.first_cell[1]; y <= patch.last_cell[1]; ++y)
       for (std::uint32_t x = patch.first_cell[0]; x <= patch.last_cell[0]; ++x) {
         const std::uint32_t cell = patches.kept.find({x, y, z});
         if (cell == GridPlaces::kNone) continue;
         const CellTerms& f = state.cells[cell];
-        const AxisPart* const part[3] = {&parts[0][x - patch.first_cell[0]],
-                                         &parts[1][y - patch.first_cell[1]],
-                                         &parts[2][z - patch.first_cell[2]]};
+        const AxisPart* const part[3] = {&cells.parts[0][x - patch.first_cell[0]],
+                                         &cells.parts[1][y - patch.first_cell[1]],
+                                         &cells.parts[2][z - patch.first_cell[2]]};
         const Double4 mixed = f.term[7].cast<double>();
         double mixed_norm[3] = {};  // of the derivatives along k and the next axis
         for (int k = 0; k < 3; ++k) {
@@ -243,53 +251,123 @@ bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& pa
                         along_j = (with_j + mixed * ci).abs();
           const Double4 middle = own + with_i * ci + with_j * cj + mixed * (ci * cj);
           const Double4 half = along_i * ei + along_j * ej + mixed.abs() * (ei * ej);
-          range.add(k, middle * inverse, half * inverse);
-          if (cells > 1 || flat[k] || flat[i]) continue;
+          out.add(k, middle * inverse, half * inverse);
+          if (cells.count > 1 || cells.flat[k] || cells.flat[i]) continue;
           const double second = (along_i + mixed.abs() * ej).matrix().norm();
           mixed_norm[k] = second * inverse * inverse_i;
         }
         // The largest row sum of a symmetric matrix bounds its norm.
-        for (int k = 0; k < 3; ++k) bend = std::max(bend, mixed_norm[k] + mixed_norm[(k + 2) % 3]);
-        ++kept;
+        for (int k = 0; k < 3; ++k)
+          out.bend = std::max(out.bend, mixed_norm[k] + mixed_norm[(k + 2) % 3]);
+        ++out.kept;
       }
-  if (kept == 0 || (long_row && kept < cells)) return false;
+  return out;
+}
 
-  // What the terms are off by: near nodes and sums of eight of them in floats, which may underflow.
-  const double off = (64.0 * 0x1p-24 * state.reach + 64.0 * 0x1p-149) * 2.0 / finest;
-  Eigen::Matrix3d a, half;
+/// A, the middle of DF: its norm, how little it stretches, how far DF is from it.
+struct LinearPart {
+  double norm;       ///< at least |A|
+  double stretch;    ///< s: at most the smallest singular value
+  double variation;  ///< d: at least the distance of DF, as an operator
+};
+
+// `off`: what entries of DF are off by.
+LinearPart linear_part(const Derivative& derivative, const std::array<bool, 3>& flat, double off) {
+  Eigen::Matrix3d middle, half;
   for (int k = 0; k < 3; ++k)
     for (int r = 0; r < 3; ++r) {
-      a(r, k) = 0.5 * (range.lo[k][r] + range.hi[k][r]);
-      half(r, k) = 0.5 * (range.hi[k][r] - range.lo[k][r]) + off;
+      middle(r, k) = 0.5 * (derivative.lo[k][r] + derivative.hi[k][r]);
+      half(r, k) = 0.5 * (derivative.hi[k][r] - derivative.lo[k][r]) + off;
     }
   // What Q has no extent in takes no part; in the product below it is as large as all others.
-  Eigen::Matrix3d extended = a;
+  Eigen::Matrix3d extended = middle;
   for (int k = 0; k < 3; ++k)
     if (flat[k]) extended.col(k).setZero(), half.col(k).setZero();
   Eigen::Matrix3d product = extended.transpose() * extended;
   const double all = product.trace();
   for (int k = 0; k < 3; ++k)
     if (flat[k]) product(k, k) = all;
-  // Of all matrices with such entries.
-  const double d =
+  // The norm of any matrix with entries up to those of `half`.
+  const double variation =
       kUp * std::sqrt(std::min(half.squaredNorm(),
                                half.rowwise().sum().maxCoeff() * half.colwise().sum().maxCoeff()));
-  const double s = std::sqrt(smallest_eigenvalue(product)) * kDown;
-  // A mapped vertex, and a vertex at rest (whose local coordinates are off by 2^-50 at most), in
-  // the body's frame.
+  return {middle.norm(), std::sqrt(smallest_eigenvalue(product)) * kDown, variation};
+}
+
+// The conditions of the claim for one frame. @pre at most kMostCells cells
+bool holds(const LazyState& state, const PatchTree& patches, const PatchRest& patch) {
+  if (!(patch.gap > 0.0f)) return false;
+  const std::optional<PatchCells> cells = cells_of(patches, patch);
+  if (!cells) return false;
+  const Derivative derivative = derivative_over(state, patches, patch, *cells);
+  const std::size_t kept = derivative.kept;
+  if (kept == 0 || (cells->long_row && kept < cells->count)) return false;
+
+  // What the terms are off by: near nodes and sums of eight of them in floats, which may underflow.
+  const double side = cells->shortest_side();
+  const double off = (64.0 * 0x1p-24 * state.reach + 64.0 * 0x1p-149) * 2.0 / side;
+  const LinearPart linear = linear_part(derivative, cells->flat, off);
+  const double variation = linear.variation;
+  // e: how far a mapped vertex is off, and a vertex at rest (whose local coordinates are off by
+  // 2^-50 at most), in the body's frame.
   const double unit = state.precision == Precision::kSingle ? 0x1p-24 : 0x1p-53;
   const double error = 2.0 * mapping_error_bound(state.largest) * state.scale +
-                       64.0 * unit * state.reach + 32.0 * 0x1p-53 * farthest * (a.norm() + d) +
-                       1e-37;
-  const double h = patch.edge, off_slope = 2.0 * error / patch.altitude;
-  // What the terms are off by is in both ends of a cell.
-  const double m = cells == 1 ? kUp * (bend + 16.0 * off / finest) : kInfinity;
-  const double neighbours = std::min(patch.ratio * patch.stretch * (d + off_slope),
-                                     d + patch.ratio * patch.stretch * (m * h + off_slope));
-  if (!(s > neighbours * kUp)) return false;
-  const double r = cells <= 2 || kept == cells ? 1.0 : 1.4142136;
-  const double interpolation = std::min(d * h * 0.57735027, m * h * h / 6.0) + error;
-  return (s - r * d) * patch.gap > 2.0 * interpolation * kUp;
+                       64.0 * unit * state.reach +
+                       32.0 * 0x1p-53 * cells->farthest * (linear.norm + variation) + 1e-37;
+  const double edge = patch.edge, error_slope = 2.0 * error / patch.altitude;
+  // m: what the terms are off by is in both ends of a cell.
+  const double bend = cells->count == 1 ? kUp * (derivative.bend + 16.0 * off / side) : kInfinity;
+
+  // Neighbours, steps 3 and 4.
+  const double longest_path = patch.ratio * patch.stretch;  // k c
+  const double neighbours = std::min(longest_path * (variation + error_slope),
+                                     variation + longest_path * (bend * edge + error_slope));
+  if (!(linear.stretch > neighbours * kUp)) return false;
+  // Others, steps 2 to 4.
+  const double detour = cells->count <= 2 || kept == cells->count ? 1.0 : 1.4142136;  // r
+  const double interpolation =
+      std::min(variation * edge * 0.57735027, bend * edge * edge / 6.0) + error;
+  return (linear.stretch - detour * variation) * patch.gap > 2.0 * interpolation * kUp;
+}
+
+// Verdicts on a patch in a frame, as they are cached.
+constexpr std::uint8_t kUnasked = 0, kProven = 1, kUnproven = 2;
+
+// The claim for all triangles within some cells, computed once a frame.
+bool region_proven(const LazyState& state, const PatchTree& patches, const PatchRest& region,
+                   std::uint8_t& cached) {
+  if (cached == kUnasked) cached = holds(state, patches, region) ? kProven : kUnproven;
+  return cached == kProven;
+}
+
+// The claim for one patch or two together: by the cells that it meets where these are few, else by
+// the patch itself.
+bool proven(LazyState& state, const PatchTree& patches, const PatchRest& patch) {
+  std::uint32_t cells = 1, longest = 1;
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t more = patch.last_cell[k] - patch.first_cell[k];
+    if (more >= kMostCells) return false;
+    cells *= more + 1;  // at most kMostCells^3
+    longest = std::max(longest, more + 1);
+  }
+  if (cells > kMostCells) return false;
+  if (longest > 2) return holds(state, patches, patch);
+  if (cells == 1) {
+    const std::uint32_t one = patches.ones.places.find(patch.first_cell);
+    if (region_proven(state, patches, patches.ones.patches[one], state.embedded_ones[one]))
+      return true;
+  }
+  const std::uint32_t eight = patches.eights.places.find(patch.first_cell);
+  return region_proven(state, patches, patches.eights.patches[eight],
+                       state.embedded_eights[eight]) ||
+         holds(state, patches, patch);
+}
+
+bool child_proven(LazyState& state, const PatchTree& patches, std::uint32_t child) {
+  std::uint8_t& cached = state.embedded_children[child];
+  if (cached == kUnasked)
+    cached = proven(state, patches, patches.children[child]) ? kProven : kUnproven;
+  return cached == kProven;
 }
 
 }  // namespace
@@ -310,55 +388,16 @@ PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree) {
   return out;
 }
 
-namespace {
-
-// Of all triangles within some cells, asked once a frame: `told` is what is known of it.
-bool region_holds(const LazyState& state, const PatchTree& patches, const PatchRest& region,
-                  std::uint8_t& told) {
-  if (told == kUnknown) told = holds(state, patches, region) ? kEmbedded : kNotTold;
-  return told == kEmbedded;
-}
-
-// One patch, or two together: by the cells it meets where these are few, else by itself.
-bool told(LazyState& state, const PatchTree& patches, const PatchRest& patch) {
-  std::uint32_t cells = 1, longest = 1;
-  for (int k = 0; k < 3; ++k) {
-    const std::uint32_t more = patch.last_cell[k] - patch.first_cell[k];
-    if (more >= kMostCells) return false;
-    cells *= more + 1;  // at most kMostCells^3
-    longest = std::max(longest, more + 1);
-  }
-  if (cells > kMostCells) return false;
-  if (longest > 2) return holds(state, patches, patch);
-  if (cells == 1) {
-    const std::uint32_t one = patches.ones.places.find(patch.first_cell);
-    if (region_holds(state, patches, patches.ones.patches[one], state.embedded_ones[one]))
-      return true;
-  }
-  const std::uint32_t eight = patches.eights.places.find(patch.first_cell);
-  return region_holds(state, patches, patches.eights.patches[eight],
-                      state.embedded_eights[eight]) ||
-         holds(state, patches, patch);
-}
-
-bool told_alone(LazyState& state, const PatchTree& patches, std::uint32_t child) {
-  std::uint8_t& known = state.embedded_children[child];
-  if (known == kUnknown)
-    known = told(state, patches, patches.children[child]) ? kEmbedded : kNotTold;
-  return known == kEmbedded;
-}
-
-}  // namespace
-
 bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b) {
   if (state.embedded_children.empty()) {
-    state.embedded_ones.assign(patches.ones.patches.size(), kUnknown);
-    state.embedded_eights.assign(patches.eights.patches.size(), kUnknown);
-    state.embedded_children.assign(patches.children.size(), kUnknown);
+    state.embedded_ones.assign(patches.ones.patches.size(), kUnasked);
+    state.embedded_eights.assign(patches.eights.patches.size(), kUnasked);
+    state.embedded_children.assign(patches.children.size(), kUnasked);
   }
-  // Of what is not told of one of them, no more is told of both.
-  if (!told_alone(state, patches, a) || (a != b && !told_alone(state, patches, b))) return false;
-  return a == b || told(state, patches, patches.children[a].united(patches.children[b]));
+  // Where the claim is not proven for one of them, it is not proven for both.
+  if (!child_proven(state, patches, a) || (a != b && !child_proven(state, patches, b)))
+    return false;
+  return a == b || proven(state, patches, patches.children[a].united(patches.children[b]));
 }
 
 }  // namespace contactcheck

@@ -1,5 +1,5 @@
-// Patches of a surface that its lattice keeps from meeting themselves, told without a look at their
-// vertices.
+// Proves, without looking at vertices, that the lattice keeps a patch of a surface from meeting
+// itself.
 //
 // Claim: no two triangles of a patch share more than the vertices that both name.
 //
@@ -70,11 +70,11 @@
 
 namespace contactcheck {
 
-/// What is known at rest of the triangles below a child of a block, or below two. Lengths are in
-/// the scale of the mesh.
+/// Bounds at rest for the triangles below a child of a block, or below two. Lengths are in the
+/// scale of the mesh.
 struct PatchRest {
   std::array<double, 3> lo{}, hi{};                 ///< box of the triangles, exact, in metres
-  GridIndex first_cell{}, last_cell{};              ///< of the cells that it meets
+  GridIndex first_cell{}, last_cell{};              ///< the corners of the cells that it meets
   float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;  ///< c, k, h: at least; or infinite
   float gap = 0.0f, altitude = 0.0f;                ///< g, a: at most
 
@@ -106,7 +106,7 @@ struct GridSlice {
 /// All triangles within some cells, one or two by two by two; those regions that have a triangle.
 struct PatchRegions {
   std::vector<PatchRest> patches;  ///< ascending in (z, y, x) of their lowest cell
-  GridPlaces places;               ///< of that cell
+  GridPlaces places;               ///< where each lowest cell is in `patches`
 
   std::size_t bytes() const { return patches.capacity() * sizeof(PatchRest) + places.bytes(); }
 };
@@ -115,8 +115,8 @@ struct PatchTree {
   std::vector<PatchRest> children;               ///< [block * kBlockWidth + lane]
   std::array<std::vector<GridSlice>, 3> slices;  ///< by axis
   PatchRegions ones, eights;  ///< no more than the kept cells, and eight times as many
-  GridPlaces kept;            ///< of the lattice's cells
-  double scale = 1.0;         ///< of lengths at rest (rest_scale)
+  GridPlaces kept;            ///< where each cell is in the lattice
+  double scale = 1.0;         ///< for lengths at rest (rest_scale)
 
   /// Bytes held, for the report.
   std::size_t bytes() const;
@@ -125,8 +125,9 @@ struct PatchTree {
 /// @pre the shape has a lattice, and the tree is its
 PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree);
 
-/// True only if the claim holds for the frame, of the patch below one child or of those below two
-/// together. `a`, `b`: indices of PatchTree::children. @pre find_cells() of this frame; one thread
+/// True only if the claim holds in the frame for the patch below one child (a == b), or for those
+/// below two together. `a`, `b`: indices of PatchTree::children. @pre find_cells() was called for
+/// this frame; one thread
 bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b);
 
 }  // namespace contactcheck

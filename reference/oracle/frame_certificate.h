@@ -2,72 +2,19 @@
 // be disjoint; every pair of one body, to meet in more than the vertices it shares, or not to.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/deform/body.h"
 #include "core/types/contact_set.h"
 #include "core/types/frame.h"
 #include "core/types/mesh.h"
-#include "core/types/shared_corners.h"
-#include "core/types/vec3.h"
-#include "reference/oracle/exact_predicates.h"
+#include "reference/oracle/pair_certificate.h"
 
 namespace contactcheck::oracle::certify {
-
-// Proofs about one pair of closed triangles that anybody can check with exact arithmetic: a common
-// point, or a plane between the two. Degenerate triangles are the segment or the point that they
-// are. Constructed in rational arithmetic of this layer's own, so that a wrong verdict of the
-// oracle leaves nothing to write down.
-
-/// A common point, as weights of the corners of either triangle: integers, not negative, with a
-/// positive sum, in hexadecimal digits ("1f"). The point is the sum of the corners times their
-/// weights over the sum of the weights.
-struct Witness {
-  std::array<std::string, 3> p, q;
-};
-
-/// A finite double, or, where none serves, a rational: an integer or two with '/' between them, in
-/// hexadecimal digits ("-1f/20").
-using ExactNumber = std::variant<double, std::string>;
-
-/// normal * x <= offset for the corners x of p, > offset for those of q.
-struct Plane {
-  std::array<ExactNumber, 3> normal;
-  ExactNumber offset;
-};
-
-/// Nothing when the triangles share no point. @pre all coordinates finite, of all three functions
-std::optional<Witness> common_point(const oracle::TriangleCorners& p,
-                                    const oracle::TriangleCorners& q);
-/// Nothing when they share one; exactly one of the two functions answers.
-std::optional<Plane> separating_plane(const oracle::TriangleCorners& p,
-                                      const oracle::TriangleCorners& q);
-
-/// A point of either triangle, as near to one another as the triangles are; each coordinate cut to
-/// a double.
-std::array<Vec3, 2> nearest_points_rounded(const oracle::TriangleCorners& p,
-                                           const oracle::TriangleCorners& q);
-
-/// Of two triangles of one mesh, the corners they share first in both: a common point off the hull
-/// of these. Nothing when there is none. @pre 1 or 2 are shared, and stand at the same places
-std::optional<Witness> further_point(const oracle::TriangleCorners& p,
-                                     const oracle::TriangleCorners& q, std::uint32_t shared);
-/// Of two triangles that share one corner, the first of both, and not both segments: a plane
-/// through it with p on one closed side and q on the other, and all corners of one of them, but the
-/// shared one, off it. Then that corner is all they share. Nothing when they share more.
-std::optional<Plane> plane_through_corner(const oracle::TriangleCorners& p,
-                                          const oracle::TriangleCorners& q);
-/// Of two that share an edge, or that are both segments: do they share its hull alone? A matter of
-/// few products, which a checker does itself.
-bool share_hull_alone(const oracle::TriangleCorners& p, const oracle::TriangleCorners& q,
-                      std::uint32_t shared);
 
 // Boxes over ranges of one body's triangles: what the proof that no pair was forgotten speaks of.
 //

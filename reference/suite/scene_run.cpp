@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -12,12 +11,9 @@
 
 #include "core/types/check.h"
 #include "core/types/hash.h"
-#include "reference/judge/contacts_json.h"
 #include "reference/process/exit_codes.h"
-#include "reference/results/references.h"
 #include "reference/scene/drawn_scene.h"
-#include "reference/suite/partial_results.h"
-#include "reference/suite/suite_request.h"
+#include "reference/suite/scene_rows.h"
 #include "reference/suite/supervisor.h"
 #include "reference/suite/worker.h"
 #include "reference/text/printable.h"
@@ -27,171 +23,6 @@
 
 namespace contactcheck::suite {
 namespace {
-
-// Where a worker was when it ended and why: "scene s, frame 2, phase update: signal 11 (...)".
-std::string place_of(const std::string& scene, const WorkerOutcome& outcome) {
-  return process::place_text(scene, outcome.frame, outcome.phase) + ": " + outcome.reason;
-}
-
-// What the processes of one scene have answered, as one scene of results.json.
-
-/// How the worker of each detector that broke one has ended, by its position in the task.
-using BrokenDetectors = std::map<std::uint32_t, WorkerOutcome>;
-
-/// The turns of all passes, by the detector's position in the task.
-using TakenTurns = std::map<std::uint32_t, std::vector<TurnAnswer>>;
-
-using Samples = std::vector<timing::QuestionSamples>;  // one per question
-
-using SampleListener = decltype(SuiteListener::samples);
-
-/// References to what the caller keeps for the call.
-struct SceneAnswers {
-  const SceneTask& task;
-  const SceneAnswer& judged;
-  const TakenTurns& turns;
-  const std::vector<std::size_t>& cold_frames;
-  const BrokenDetectors& broken;
-  bool recorded = false;  ///< the scene's recording is in its place
-};
-
-const std::vector<TurnAnswer>& turns_of(const TakenTurns& turns, std::uint32_t position) {
-  static const std::vector<TurnAnswer> none;
-  const auto found = turns.find(position);
-  return found == turns.end() ? none : found->second;
-}
-
-// A detector that fails in one turn has no times at all. Null: none failed.
-const TurnAnswer* failed_turn(const TakenTurns& turns, std::uint32_t position) {
-  for (const TurnAnswer& answer : turns_of(turns, position))
-    if (!answer.error.empty()) return &answer;
-  return nullptr;
-}
-
-template <typename Value>
-bool contains(const std::vector<Value>& values, const Value& value) {
-  return std::find(values.begin(), values.end(), value) != values.end();
-}
-
-// The result of judging, and what the turns add to it but times. Fills `samples` where the detector
-// was timed without a failure.
-results::Run judged_row(const SceneAnswers& scene, const DetectorAnswer& detector,
-                        Samples& samples) {
-  results::Run run = detector.run;
-  if (scene.recorded) run.recording = "recordings/" + scene.task.id + ".ccr";
-  const std::vector<TurnAnswer>& turns = turns_of(scene.turns, detector.position);
-  std::vector<std::string> notes;
-  for (const TurnAnswer& answer : turns)
-    for (const std::string& note : answer.notes)
-      if (!contains(notes, note)) notes.push_back(note);
-  for (const std::string& note : notes)
-    if (!contains(detector.run.notes, note)) run.notes.push_back(note + " (while timed)");
-  if (!run.ok() || turns.empty()) return run;
-  if (const TurnAnswer* failed = failed_turn(scene.turns, detector.position)) {
-    // It was judged well and fails now: that is its result.
-    run.status = results::Status::kError;
-    run.message = failed->error;
-    run.failed_frame = failed->failed_frame;
-    return run;
-  }
-  for (const Question question : run.semantics.questions) {
-    timing::QuestionSamples& of_question = samples.emplace_back();
-    of_question.question = question;
-    for (const TurnAnswer& answer : turns) {
-      if (answer.turn.question != question) continue;
-      of_question.lazy_map = answer.lazy_map;
-      (answer.turn.cold ? of_question.cold : of_question.playback).push_back(answer.samples);
-    }
-  }
-  return run;
-}
-
-results::Run broken_row(const SceneAnswers& scene, std::uint32_t position) {
-  const WorkerOutcome& outcome = scene.broken.at(position);
-  results::Run run;
-  run.scene = scene.task.id;
-  run.detector = scene.task.detectors[position];
-  run.status = results::Status::kError;
-  run.failed_frame = outcome.frame;
-  run.message = place_of(scene.task.id, outcome) +
-                (outcome.detector ? "" : " in the suite's own code, after this detector had run");
-  run.frames = scene.judged.scene.frames;
-  run.contact_frames = scene.judged.scene.contact_frames;
-  return run;
-}
-
-// Contacts are the same question only where they are of one kind: depth of vertices, of triangles
-// or of boxes.
-bool same_contacts(const Semantics& semantics, const Semantics& other) {
-  return semantics.depth == other.depth &&
-         contains(semantics.levels, Level::kTriangle) == contains(other.levels, Level::kTriangle);
-}
-
-// The scene with one row per detector, in the task's order. A detector that broke a worker, or
-// was judged well and fails in a turn, has an error's row and no times. `tell` is given each
-// detector's samples before they are summed up.
-FinishedScene assemble(const SceneAnswers& scene, const SampleListener& tell) {
-  const SceneAnswer& judged = scene.judged;
-  const std::vector<std::string>& names = scene.task.detectors;
-  std::map<std::uint32_t, Samples> samples;
-  std::map<std::uint32_t, results::Run> runs;
-  for (const DetectorAnswer& detector : judged.detectors) {
-    if (scene.broken.contains(detector.position)) continue;
-    Samples own;
-    runs[detector.position] = judged_row(scene, detector, own);
-    if (!own.empty()) samples[detector.position] = std::move(own);
-  }
-
-  // Times, and speed-ups over the references in the same question.
-  const timing::TimedFrames frames = {judged.contact_frames, scene.cold_frames};
-  for (const auto& [position, own] : samples) {
-    results::Run& run = runs.at(position);
-    run.per_frame.frame_ms = timing::frame_ms(own.front());
-    for (const timing::QuestionSamples& question : own) {
-      run.times.push_back(timing::summarize_times(question, frames));
-      for (const auto& [other, theirs] : samples) {
-        const std::string& name = names[other];
-        const bool is_reference =
-            results::is_reference(name) || contains(scene.task.references, name);
-        const auto same =
-            std::ranges::find(theirs, question.question, &timing::QuestionSamples::question);
-        if (!is_reference || same == theirs.end()) continue;
-        const results::Run& reference = runs.at(other);
-        if (question.question == Question::kContacts &&
-            !same_contacts(run.semantics, reference.semantics))
-          continue;
-        if (question.question == Question::kBody && reference.semantics.no_early_end) continue;
-        results::Speedup speedup = timing::compute_speedup(*same, question, frames);
-        speedup.reference_options = reference.options;
-        run.speedup[question.question][name] = std::move(speedup);
-      }
-    }
-  }
-  for (const auto& [position, questions] : samples)
-    for (const timing::QuestionSamples& question : questions)
-      tell(scene.task.id, names[position], question);
-
-  FinishedScene finished;
-  finished.scene = judged.scene;
-  finished.scene.cold_frames = scene.cold_frames;
-  for (std::uint32_t i = 0; i < names.size(); ++i)
-    finished.runs.push_back(scene.broken.contains(i) ? broken_row(scene, i)
-                                                     : std::move(runs.at(i)));
-  for (const results::Disagreement& d : judged.disagreements) {
-    const auto broke = [&](const auto& broken) { return names[broken.first] == d.detector; };
-    if (std::none_of(scene.broken.begin(), scene.broken.end(), broke))
-      finished.disagreements.push_back(d);
-  }
-  if (judged.truth_contacts.empty()) return finished;
-  // Of those whose answers count: one that broke later, in another process, has no contacts either.
-  std::vector<std::string> contacts;
-  for (const DetectorAnswer& detector : judged.detectors)
-    if (finished.runs.at(detector.position).ok() && !detector.contacts.empty())
-      contacts.push_back(detector.contacts);
-  finished.scene.contacts = judge::contacts_path(scene.task.id);
-  finished.contacts = judge::contacts_text(scene.task.id, judged.truth_contacts, contacts);
-  return finished;
-}
 
 namespace fs = std::filesystem;
 
@@ -271,7 +102,7 @@ class SceneRun {
     std::optional<std::size_t> own;  // the process of our detectors
     for (const std::size_t i : timing::draw_order(turns.size(), seed.digest())) {
       const std::string& name = task_.detectors[turns[i].position];
-      if (contains(job_.settings.plugin_ids, name.substr(0, name.find(':')))) {
+      if (std::ranges::count(job_.settings.plugin_ids, name.substr(0, name.find(':'))) > 0) {
         out.push_back({turns[i]});
         continue;
       }
@@ -308,11 +139,12 @@ class SceneRun {
       std::error_code ignored;
       fs::remove_all(job_.temporary, ignored);
       if (outcome.done) return read_answer(job_.answer_file);
-      book(outcome);
+      take_note(outcome);
     }
   }
 
-  void book(const WorkerOutcome& outcome) {
+  // Decides what the next process does differently.
+  void take_note(const WorkerOutcome& outcome) {
     // It costs its scene, not the run: a frame may hold more work than the limits allow. Random
     // pairs are made to be judged, and a process that only times does not judge.
     const bool before_detectors = outcome.over_limit && !outcome.detector &&
@@ -338,7 +170,7 @@ class SceneRun {
         outcome.exit_code == process::kExitBadInput || outcome.exit_code == process::kExitInternal;
     const std::optional<std::uint32_t> suspect =
         outcome.detector || by_itself ? outcome.detector : outcome.last_detector;
-    // One that did not run again cannot have died again: then the worker's page is no witness.
+    // One that did not run again cannot have died again: then the worker's page is no evidence.
     if (!suspect || broken_.contains(*suspect)) throw_for_scene(outcome);
     show_last_words(task_.detectors[*suspect], outcome.error_text);
     broken_[*suspect] = outcome;

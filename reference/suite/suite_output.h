@@ -10,13 +10,6 @@
 
 namespace contactcheck::suite {
 
-// What a suite hoped to measure, beside what it measured.
-
-/// One entry per goal: what was measured, with its interval where it has one, in "x" or "us"; or
-/// why it could not be.
-std::vector<results::MeasuredGoal> measure_goals(const std::vector<results::Goal>& goals,
-                                                 const results::Results& results);
-
 class SuiteOutput {
  public:
   /// `out`: with the folders of make_out_folders; `scratch`: with a folder `contacts`.

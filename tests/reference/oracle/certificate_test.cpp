@@ -1,6 +1,6 @@
 // Every certificate is checked here by other rational arithmetic than made it, and the verdict by
 // linear programming.
-#include "reference/oracle/frame_certificate.h"
+#include "reference/oracle/pair_certificate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reference/suite/suite_output.h"
+#include "reference/suite/measured_goals.h"
 
 #include <gtest/gtest.h>
 

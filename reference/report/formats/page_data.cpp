@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/types/check.h"
+#include "reference/report/pictures/speed_error_plot.h"
 #include "reference/report/pictures/stability_plot.h"
 #include "reference/report/tables/detector_group.h"
 #include "reference/report/tables/error_spreads.h"
@@ -74,23 +75,44 @@ Json block_json(const Picture& picture) {
   return {};
 }
 
-// Those that the page shows block by block.
+// Adds a section that the page shows block by block, if it has something to say.
+void add_section(Json& all, const Section& section, const Blocks& blocks) {
+  Json shown = Json::array();
+  for (const Block& block : blocks) {
+    const auto* table = std::get_if<TitledTable>(&block);
+    if (table == nullptr || !table->rows.empty())
+      shown.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
+  }
+  if (!shown.empty())
+    all.push_back({{"id", section.id},
+                   {"title", section.title},
+                   {"short", section.short_title},
+                   {"blocks", std::move(shown)}});
+}
+
+// Of random pairs the other formats say the same in the part of their scene.
+Blocks pairs_blocks(const results::Results& results) {
+  Blocks out;
+  for (const results::Scene& scene : results.scenes)
+    if (scene.pairs) out.emplace_back(pairs_table(scene));
+  if (!out.empty())
+    out.insert(
+        out.begin(),
+        Paragraph{"Pairs of triangles that touch or are apart by rounding, made from a seed. "
+                  "The oracle, which judges everything else, is held against rational "
+                  "arithmetic on every one of them."});
+  return out;
+}
+
 Json sections_json(const results::Index& index) {
   Json out = Json::array();
-  for (const Section* section : sections()) {
-    if (section->build == nullptr || section->drawn_on_page) continue;
-    Json blocks = Json::array();
-    for (const Block& block : section->build(index)) {
-      const auto* table = std::get_if<TitledTable>(&block);
-      if (table == nullptr || !table->rows.empty())
-        blocks.push_back(std::visit([](const auto& one) { return block_json(one); }, block));
-    }
-    if (!blocks.empty())
-      out.push_back({{"id", section->id},
-                     {"title", section->title},
-                     {"short", section->short_title},
-                     {"blocks", std::move(blocks)}});
-  }
+  for (const Section* section : sections())
+    if (section->build != nullptr && !section->drawn_on_page)
+      add_section(out, *section, section->build(index));
+  add_section(out, {"pairs", "Random pairs", "Random pairs", nullptr},
+              pairs_blocks(index.results()));
+  add_section(out, {"machine", "Machine, libraries and command", "Machine", nullptr},
+              {Items{machine_lines(index.results())}});
   return out;
 }
 
@@ -270,7 +292,13 @@ Json speed_error_json(const results::Index& index, const std::vector<Level>& lev
         of_scenes[name_of(level)] = std::move(of_level);
     all.push_back(std::move(of_scenes));
   }
+  Json shapes = Json::array();
+  for (const QuestionShape& shape : question_shapes())
+    shapes.push_back({{"question", name_of(shape.question)},
+                      {"outline", shape.outline},
+                      {"means", shape.means}});
   return {{"columns", columns_json(speed_error_columns())},
+          {"shapes", std::move(shapes)},
           {"first", charts.first()},
           {"charts", std::move(all)}};
 }
@@ -351,9 +379,6 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
   Json reduce = Json::array();
   for (const std::string& detector : index.detectors())
     reduce.push_back(results::detector_words(results, detector));
-  Json pairs = Json::array();
-  for (const results::Scene& scene : results.scenes)
-    if (scene.pairs) pairs.push_back({{"scene", scene.id}, {"table", to_json(pairs_table(scene))}});
   const results::Machine& machine = results.machine;
   Json out = {{"version", results.version},
               {"title", headline.title},
@@ -361,7 +386,6 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"run", fmt::format("`{}` on {}, {} cores, {}.", results.command, machine.cpu,
                                   machine.cores, machine.isa)},
               {"parts", part_sentences(results)},
-              {"machine", machine_lines(results)},
               {"out", text::in_shell(results::out_folder(results))},
               {"detectors", index.detectors()},
               {"options", options_of(index)},
@@ -373,7 +397,6 @@ nlohmann::ordered_json page_data(const Results& results, const std::optional<Pap
               {"fastest", headline.fastest},
               {"references", results::kReferences},
               {"sections", sections_json(index)},
-              {"pairs", std::move(pairs)},
               {"levels", levels_json(index, levels)},
               {"result_columns", columns_json(result_columns())},
               {"choices", std::move(words)},

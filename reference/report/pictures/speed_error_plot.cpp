@@ -23,21 +23,16 @@ constexpr double kRadius = 5.5;
 // Names stand in a font whose letters are all as wide, so that they are known not to overlap.
 constexpr double kNameLetter = 6.7, kNameHeight = 12, kLegendLetter = 6.7;
 
-struct Shape {
-  Question question;
-  const char* outline;
-  const char* means;
-};
-constexpr Shape kShapes[] = {
+constexpr QuestionShape kShapes[] = {
     {Question::kTriangles, "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z", "timed: all pairs of triangles"},
     {Question::kBody, "M-4.5-4.5h9v9h-9Z", "timed: which bodies touch"},
     {Question::kCells, "M0-5.5L5.5 4.5h-11Z", "timed: all pairs of cells"},
     {Question::kContacts, "M0-6L4 0L0 6L-4 0Z", "timed: contacts with depth and normal"},
     {Question::kSelf, "M0 5.5L5.5-4.5h-11Z", "timed: contacts of bodies with themselves"}};
 
-const Shape& shape_of(Question question) {
+const QuestionShape& shape_of(Question question) {
   return *std::find_if(std::begin(kShapes), std::end(kShapes),
-                       [&](const Shape& shape) { return shape.question == question; });
+                       [&](const QuestionShape& shape) { return shape.question == question; });
 }
 
 std::string class_of(std::size_t group) { return fmt::format("dot g{}", group); }
@@ -78,7 +73,7 @@ std::vector<LegendEntry> legend_of(const Points& points) {
   std::vector<LegendEntry> entries;
   for (const std::size_t g : groups)
     entries.push_back({"M-5-5h10v10h-10Z", class_of(g), detector_group(g).name});
-  for (const Shape& shape : kShapes)
+  for (const QuestionShape& shape : kShapes)
     if (questions.count(shape.question) > 0) entries.push_back({shape.outline, "key", shape.means});
   double x = kPlotMargin;
   std::size_t line = 0;
@@ -105,6 +100,8 @@ Points front_of(const Points& points, Question question) {
 }
 
 }  // namespace
+
+std::span<const QuestionShape> question_shapes() { return kShapes; }
 
 std::string speed_error_plot(const SpeedError& chart, const std::string& machine) {
   const Points& points = chart.points;
@@ -149,7 +146,7 @@ std::string speed_error_plot(const SpeedError& chart, const std::string& machine
 
   // A front is drawn as steps: what lies to the right of them or above is beaten.
   std::vector<PictureSegment> fronts;
-  for (const Shape& shape : kShapes) {
+  for (const QuestionShape& shape : kShapes) {
     const Points front = front_of(points, shape.question);
     if (front.empty()) continue;
     PicturePoint at{x_of(front[0].ms), top};

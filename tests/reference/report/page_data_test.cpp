@@ -27,7 +27,8 @@ Json blocks_of(const Json& page, const std::string& id) {
 TEST(PageData, SaysWhatRanWhere) {
   const Json page = data_of(test::sample_results());
   EXPECT_EQ(page.at("run"), "`contactcheck run hello` on A CPU, 2 cores, AVX2.");
-  EXPECT_EQ(page.at("machine").at(3), "libraries: eigen 3.4.0, fcl 0.7.0");
+  EXPECT_EQ(blocks_of(page, "machine").at(0).at("items").at(3),
+            "libraries: eigen 3.4.0, fcl 0.7.0");
   EXPECT_TRUE(page.at("parts").empty());
   EXPECT_EQ(page.at("detectors").size(), 5u);
   EXPECT_EQ(page.at("options").size(), 5u);
@@ -133,7 +134,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   results::Results results = results::from_json(test::sample_results());
   Json report = page_data(results, std::nullopt);
   EXPECT_TRUE(blocks_of(report, "goals").is_null());
-  EXPECT_TRUE(report.at("pairs").empty());
+  EXPECT_TRUE(blocks_of(report, "pairs").is_null());
   EXPECT_TRUE(blocks_of(report, "defects").is_null());
   results.goals.resize(2);
   results.goals[0].at_most = 5.0;
@@ -146,8 +147,7 @@ TEST(PageData, GoalsPairsAndKnownDefectsAreTables) {
   EXPECT_EQ(goals.at("rows").size(), 2u);
   EXPECT_EQ(goals.at("rows").at(0).back(), "no");
   EXPECT_TRUE(goals.at("columns").back().at("verdict"));
-  EXPECT_EQ(report.at("pairs").at(0).at("scene"), "hello");
-  EXPECT_EQ(report.at("pairs").at(0).at("table").at("rows").dump(),
+  EXPECT_EQ(blocks_of(report, "pairs").at(1).at("table").at("rows").dump(),
             R"([["sliver","4","1","0.250"]])");
   const Json known = blocks_of(report, "defects");
   ASSERT_EQ(known.size(), 2u);

@@ -58,6 +58,31 @@ test("every detector that was timed and judged in all scenes is a point", async 
   );
 });
 
+const timedBySelf = useReport("two_scenes.json", {
+  change({runs}) {
+    for (const run of runs)
+      if (run.detector === "ffd-grid" && run.time_ms) run.time_ms.question = "self";
+  },
+});
+
+test("points of the question self have a shape of their own, and the legend names it", async () => {
+  // They were circles, as those of the question triangles.
+  const {page} = await timedBySelf.shared();
+  const outline = (detector) =>
+    section(page).locator(`.points [aria-label^="${detector}:"]`).first().getAttribute("d");
+  assert.match(await outline("ffd-grid"), /^M0,5\.5L5\.5,-4\.5L-5\.5,-4\.5Z$/);
+  assert.match(await outline("ffd-aabb"), /^M0,-5\.5L5\.5,4\.5L-5\.5,4\.5Z$/);
+  assert.match(await outline("ffd-lazy"), /A/);
+  const text = await section(page).textContent();
+  for (const words of [
+    "all pairs of triangles",
+    "all pairs of cells",
+    "contacts of bodies with themselves",
+  ])
+    assert.ok(text.includes(`timed: ${words}`), words);
+  assert.ok(!text.includes("timed: which bodies touch"));
+});
+
 test("where there are few points, each has its name", async () => {
   const {page} = await report.shared();
   const names = await section(page).locator(".names text").allTextContents();

@@ -7,8 +7,6 @@ import {graded} from "./sections/graded";
 import {hard} from "./sections/hard";
 import {header} from "./sections/headline";
 import {levels} from "./sections/levels";
-import {machine} from "./sections/machine";
-import {pairs} from "./sections/pairs";
 import {paper} from "./sections/paper";
 import {scenes} from "./sections/scenes";
 import {speedError} from "./sections/speed_error";
@@ -32,10 +30,8 @@ const kDrawn: Section[] = [
   stages,
   summary,
   hard,
-  pairs,
   paper,
   scenes,
-  machine,
   words,
 ];
 

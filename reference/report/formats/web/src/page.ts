@@ -11,7 +11,6 @@ export interface Page {
   run: string;
   /** Of what whole this is a part. */
   parts: string[];
-  machine: string[];
   /** The folder of the run, as a word of a shell. */
   out: string;
   /**
@@ -32,7 +31,6 @@ export interface Page {
   references: string[];
   /** Of texts and tables alone, in the order of the other reports; those that have something to say. */
   sections: TextSection[];
-  pairs: {scene: string; table: TextTable}[];
   hard?: Hard;
   /** Where reproduction.json is of the same run. */
   paper?: PaperPart;
@@ -228,6 +226,8 @@ export interface TextTable {
 
 /** The points of the chart of speed against error. */
 export interface SpeedError {
+  /** By question: an SVG path about (0, 0), and what the legend says. */
+  shapes: {question: string; outline: string; means: string}[];
   /** Of the choices of scenes. */
   first: number;
   columns: TextColumn[];

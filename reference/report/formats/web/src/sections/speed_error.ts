@@ -45,22 +45,25 @@ const kAxis: Record<Measure, string> = {
   missed: "share of true contacts missed",
   spurious: "share of reports that are no contact",
 };
-// Per question: Plot's name of the shape, and its outline for the legend.
-const kShapes: [string, Plot.SymbolType, string][] = [
-  ["triangles", "circle", "M5 0A5 5 0 1 1-5 0A5 5 0 1 1 5 0Z"],
-  ["body", "square", "M-4.5-4.5h9v9h-9Z"],
-  ["cells", "triangle", "M0-5.5L5.5 4.5h-11Z"],
-  ["contacts", "diamond", "M0-6L4 0L0 6L-4 0Z"],
-];
-const kAnswers: Record<string, string> = {
-  triangles: "all pairs of triangles",
-  body: "which bodies touch",
-  cells: "all pairs of cells",
-  contacts: "contacts with depth and normal",
-};
-
-const shapeOf = (question: string) =>
-  (kShapes.find(([name]) => name === question) ?? kShapes[0])[1];
+/** A circle, or the polygon of an outline's points. */
+function plotSymbol(outline: string): Plot.SymbolType {
+  if (outline.includes("A")) return "circle";
+  let at = [0, 0];
+  const corners = [...outline.matchAll(/([MLhv])(-?[\d.]+) ?(-?[\d.]+)?/g)].map(
+    ([, command, first, second]) => {
+      if (command === "h") at = [at[0] + Number(first), at[1]];
+      else if (command === "v") at = [at[0], at[1] + Number(first)];
+      else at = [Number(first), Number(second)];
+      return at;
+    },
+  );
+  return {
+    draw(context: CanvasPath) {
+      corners.forEach(([x, y], i) => (i === 0 ? context.moveTo(x, y) : context.lineTo(x, y)));
+      context.closePath();
+    },
+  };
+}
 
 function sentenceOf({cells, options}: Point): string {
   const {detector, question, time, level, truth, missed, reported, spurious} = cells;
@@ -93,6 +96,9 @@ function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
   const highest = Math.max(0.01, ...all.map((point) => point.error));
   const top = Math.min(1, 1.6 * highest);
   const xy = {x: "ms", y: "error"} as const;
+  const symbols = new Map(
+    page.speed_error.shapes.map(({question, outline}) => [question, plotSymbol(outline)]),
+  );
   return Plot.plot({
     width,
     height: Math.min(460, 260 + width / 4),
@@ -134,7 +140,7 @@ function draw(page: Page, width: number, all: Point[], choice: Choice): Node {
         r: 5.5,
         fill: (d: Point) => groupColour(page, d.detector),
         stroke: "var(--surface)",
-        symbol: (d: Point) => shapeOf(d.question),
+        symbol: (d: Point) => symbols.get(d.question),
         ariaLabel: sentenceOf,
         className: "points",
       }),
@@ -152,12 +158,9 @@ function legends(page: Page, all: Point[]): HTMLElement {
     text: group.name,
     swatch: square(group.colour),
   }));
-  const shapes = kShapes
-    .filter(([question]) => all.some((point) => point.question === question))
-    .map(([question, , outline]) => ({
-      text: `timed: ${kAnswers[question]}`,
-      swatch: symbol(outline),
-    }));
+  const shapes = page.speed_error.shapes
+    .filter(({question}) => all.some((point) => point.question === question))
+    .map(({outline, means}) => ({text: means, swatch: symbol(outline)}));
   return legend([...colours, ...shapes]);
 }
 

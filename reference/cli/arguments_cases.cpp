@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck::cli {
 
@@ -54,9 +55,9 @@ void add_export(CommandLine& line) {
       ->add_option("targets", arguments->targets, "suites, scenes, families, .json or .ccr files")
       ->required();
   exported->add_option("--frames", arguments->frames, "frames per scene, same duration")
-      ->check(whole_in(1, 100000));
+      ->check(whole_in(1, scene::kMostFrames));
   exported->add_option("--every", arguments->every, "write every Nth frame (default 1)")
-      ->check(whole_in(1, 100000));
+      ->check(whole_in(1, scene::kMostFrames));
   exported
       ->add_option("--out", arguments->out,
                    "folder for surfaces, certificates, check.py (default out/export)")

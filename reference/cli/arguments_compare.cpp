@@ -4,6 +4,7 @@
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
 #include "reference/results/statistics.h"
+#include "reference/scene/scene.h"
 
 namespace contactcheck::cli {
 namespace {
@@ -45,7 +46,7 @@ void add_ab(CommandLine& line) {
   ab->add_option("--rounds", arguments->rounds, "rounds, each runs both (default 7)")
       ->check(whole_in(results::kFewestForInterval, 1000));
   ab->add_option("--frames", arguments->frames, "frames per scene, same duration")
-      ->check(whole_in(1, 100000));
+      ->check(whole_in(1, scene::kMostFrames));
   add_ab_limits(*ab, *arguments);
   ab->add_option("--out", arguments->out, "folder for the last round's results (default out/ab)")
       ->type_name("DIR");

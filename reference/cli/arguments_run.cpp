@@ -7,6 +7,7 @@
 #include "reference/cli/commands.h"
 #include "reference/scene/amount.h"
 #include "reference/scene/drawn_scene.h"
+#include "reference/scene/scene.h"
 #include "reference/text/file_text.h"
 
 namespace contactcheck::cli {
@@ -149,7 +150,7 @@ void add_run(CommandLine& line) {
       ->type_name("SUITE");
   add_commands(*run, arguments.commands);
   run->add_option("--frames", arguments.frames, "frames per scene, same duration")
-      ->check(whole_in(1, 100000));
+      ->check(whole_in(1, scene::kMostFrames));
   run->add_option("--processes", arguments.processes,
                   "timed passes, each in a fresh process (default 3)")
       ->check(whole_in(1, 100))
@@ -202,7 +203,7 @@ void add_reproduce(CommandLine& line) {
       "reproduce", "Simulates the paper's scenes and compares its tables with ours");
   reproduce->add_option("scenes", arguments->targets, "scenes of the suite paper (default: all)");
   reproduce->add_option("--frames", arguments->frames, "frames per scene, same time step")
-      ->check(whole_in(1, 100000));
+      ->check(whole_in(1, scene::kMostFrames));
   reproduce->add_option("--repeat", arguments->step_repeats, "timed repeats per step (default 5)")
       ->check(whole_in(1, 1000));
   add_threads(*reproduce, arguments->threads);

@@ -3,6 +3,7 @@
 
 #include "reference/cli/arguments.h"
 #include "reference/cli/commands.h"
+#include "reference/scene/scene.h"
 #include "reference/scene/simulation_spec.h"
 
 namespace contactcheck::cli {
@@ -67,7 +68,7 @@ void add_tune(CommandLine& line) {
   add_error_limits(*tune, *arguments);
   add_space(*tune, *arguments);
   tune->add_option("--frames", arguments->frames, "frames to choose by (default: at most 30)")
-      ->check(whole_in(4, 100000));
+      ->check(whole_in(4, scene::kMostFrames));
   tune->add_option("--processes", arguments->processes,
                    "passes, each in a fresh process (default 5)")
       ->check(whole_in(1, 100));

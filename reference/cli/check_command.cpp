@@ -20,6 +20,7 @@
 #include "reference/scene/frame_files.h"
 #include "reference/text/counted.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 #include "reference/text/shell_word.h"
 
 namespace contactcheck::cli {
@@ -156,10 +157,8 @@ class CheckReport {
   }
   std::string unchecked_text() const {
     constexpr std::size_t kMostNamed = 4;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(unchecked_.size(), kMostNamed); ++i)
-      names += (i == 0 ? "" : ", ") + unchecked_[i];
-    return "not checked, because not every body has that frame: " + names +
+    return "not checked, because not every body has that frame: " +
+           text::first_joined(unchecked_, kMostNamed) +
            (unchecked_.size() > kMostNamed
                 ? " and " + counted(unchecked_.size() - kMostNamed, "more file")
                 : "") +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "reference/text/lists.h"
+
 namespace contactcheck::cli {
 ValueKind kind_of(const OptionWords& option) {
   const std::string& name = option.flags.back();
@@ -45,12 +47,6 @@ namespace {
 
 constexpr ValueKind kNamed[] = {ValueKind::kScenes, ValueKind::kFamilies, ValueKind::kDetectors,
                                 ValueKind::kFormats};
-
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : separator) + word;
-  return out;
-}
 
 std::vector<std::string> command_names(const ProgramWords& program) {
   std::vector<std::string> names;
@@ -99,19 +95,19 @@ void write_bash_values(std::ostream& out, const ProgramWords& program) {
   for (const ValueKind kind : kNamed) {
     const std::vector<std::string> flags = flags_that_take(program, kind);
     if (flags.empty()) continue;
-    out << "    " << joined(flags, "|") << ")\n      mapfile -t COMPREPLY < <(compgen -W \"$("
+    out << "    " << text::joined(flags, "|") << ")\n      mapfile -t COMPREPLY < <(compgen -W \"$("
         << names_command(kind, "\"${COMP_WORDS[0]}\"") << ")\" -- \"$word\")\n      return ;;\n";
   }
-  out << "    " << joined(flags_that_take(program, ValueKind::kFile), "|") << ")\n"
+  out << "    " << text::joined(flags_that_take(program, ValueKind::kFile), "|") << ")\n"
       << "      mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n      return ;;\n"
-      << "    " << joined(flags_that_take(program, ValueKind::kWord), "|") << ") return ;;\n"
+      << "    " << text::joined(flags_that_take(program, ValueKind::kWord), "|") << ") return ;;\n"
       << "  esac\n";
 }
 
 void write_bash_commands(std::ostream& out, const ProgramWords& program) {
   out << "  case ${COMP_WORDS[1]} in\n";
   for (const CommandWords& command : program.commands) {
-    out << "    " << command.name << ") flags=\"" << joined(flags_of(command), " ") << "\"";
+    out << "    " << command.name << ") flags=\"" << text::joined(flags_of(command), " ") << "\"";
     const std::string names = names_command(words_kind(command), "\"${COMP_WORDS[0]}\"");
     if (!names.empty()) out << "\n      [[ $word == -* ]] || names=$(" << names << ")";
     out << " ;;\n";
@@ -173,8 +169,8 @@ std::string bash_completion(const ProgramWords& program) {
       << "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
       << "  local flags=\"\" names=\"\"\n  COMPREPLY=()\n"
       << "  if ((COMP_CWORD == 1)); then\n    mapfile -t COMPREPLY < <(compgen -W \""
-      << joined(command_names(program), " ") << " " << joined(flags_of(program.own), " ")
-      << "\" -- \"$word\")\n    return\n  fi\n";
+      << text::joined(command_names(program), " ") << " "
+      << text::joined(flags_of(program.own), " ") << "\" -- \"$word\")\n    return\n  fi\n";
   write_bash_values(out, program);
   write_bash_commands(out, program);
   out << "  if [[ $word == -* ]]; then\n"

@@ -18,6 +18,7 @@
 #include "reference/scene/catalogue.h"
 #include "reference/text/file_text.h"
 #include "reference/text/json_field.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::cli {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "reference/text/lists.h"
+
 namespace contactcheck::cli {
 namespace {
 
@@ -24,9 +26,9 @@ std::string bold(const std::string& text) { return "\\fB" + escaped(text) + "\\f
 std::string slanted(const std::string& text) { return "\\fI" + escaped(text) + "\\fR"; }
 
 std::string option_heading(const OptionWords& option) {
-  std::string heading;
-  for (const std::string& flag : option.flags)
-    heading += (heading.empty() ? "" : ", ") + (option.positional ? slanted(flag) : bold(flag));
+  std::string heading = text::joined(option.flags, [&](const std::string& flag) {
+    return option.positional ? slanted(flag) : bold(flag);
+  });
   if (!option.value.empty()) heading += " " + slanted(option.value);
   return heading;
 }

@@ -12,6 +12,7 @@
 #include "reference/gate/blame.h"
 #include "reference/gate/timing_rule.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::gate {
 namespace {
@@ -26,10 +27,7 @@ Check failure(const std::string& rule, const std::string& reason) {
 }
 
 std::string quoted(const std::vector<std::string>& patterns) {
-  std::string out;
-  for (const std::string& pattern : patterns)
-    out += (out.empty() ? "" : ", ") + text::in_quotes(pattern);
-  return out;
+  return text::joined(patterns, [](const std::string& one) { return text::in_quotes(one); });
 }
 
 // Whether it shared a process with what it could have changed, and that with it.

@@ -10,6 +10,7 @@
 
 #include "core/types/check.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::mesh {
 namespace {
@@ -105,10 +106,8 @@ LoadedMesh load_dataset(const std::string& name, const std::vector<std::filesyst
   const std::string member = "data/meshes/" + name + ".off";
   const std::optional<std::string> bytes = read_tar_member(archive, member);
   if (!bytes) {
-    std::string known;
-    for (const std::string& each : known_datasets()) known += (known.empty() ? "" : ", ") + each;
     throw InputError("libcgal-demo holds no mesh " + text::in_quotes(name) +
-                     "; among its meshes are " + known + ".");
+                     "; among its meshes are " + text::joined(known_datasets()) + ".");
   }
   return read_mesh_bytes(SoupFormat::kOff, *bytes,
                          "mesh " + text::in_quotes(name) + " of libcgal-demo");

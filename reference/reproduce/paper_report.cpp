@@ -9,6 +9,7 @@
 #include "reference/report/formats/markdown.h"
 #include "reference/report/tables/format.h"
 #include "reference/text/json_field.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::reproduce {
 namespace {

@@ -10,6 +10,7 @@
 #include "reference/report/tables/format.h"
 #include "reference/reproduce/paper_report.h"
 #include "reference/reproduce/reproduction.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::reproduce {
 namespace {
@@ -132,10 +133,9 @@ report::TitledTable closed_loop_table(const Json& loops) {
       table.rows.push_back({text(loop.at("detector")), error, "", "", "", "", "", ""});
       continue;
     }
-    std::string recalls;
-    for (const auto& [level, counts] : loop.at("levels").items())
-      recalls += fmt::format("{}{} {}", recalls.empty() ? "" : ", ", level,
-                             report::format_rate(real(counts.at("recall"))));
+    const std::string recalls = text::joined(loop.at("levels").items(), [](const auto& level) {
+      return level.key() + " " + report::format_rate(real(level.value().at("recall")));
+    });
     table.rows.push_back({text(loop.at("detector")),
                           report::format_millimetres(real(loop.at("hover_at_rest_max"))),
                           report::format_millimetres(real(loop.at("hover_at_rest_mean"))),

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "reference/text/counted.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::results {
 namespace {
@@ -126,11 +127,9 @@ ResultsDiff diff_results(const results::Results& before, const results::Results&
 std::string change_line(const RowChange& change) {
   // A row may differ at seven levels and in eleven errors.
   constexpr std::size_t kDifferencesPerLine = 3;
-  std::string what;
-  const std::size_t shown = std::min(change.what.size(), kDifferencesPerLine);
-  for (std::size_t i = 0; i < shown; ++i) what += (i > 0 ? ", " : "") + change.what[i];
-  if (const std::size_t left = change.what.size() - shown; left > 0)
-    what += fmt::format(", and {} more", left);
+  std::string what = text::first_joined(change.what, kDifferencesPerLine);
+  if (change.what.size() > kDifferencesPerLine)
+    what += fmt::format(", and {} more", change.what.size() - kDifferencesPerLine);
   return fmt::format("{}  {}  {}", change.scene, change.detector, what);
 }
 

@@ -7,6 +7,7 @@
 
 #include "reference/text/file_text.h"
 #include "reference/text/json_value.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::results {
 namespace {
@@ -44,10 +45,8 @@ bool is_of_type(const Json& value, const std::string& type) {
 Json listed(const Json& value) { return value.is_array() ? value : Json::array({value}); }
 
 std::string joined_texts(const Json& values) {
-  std::string out;
-  for (const Json& v : values)
-    out += (out.empty() ? "" : ", ") + (v.is_string() ? v.get<std::string>() : v.dump());
-  return out;
+  return text::joined(
+      values, [](const Json& v) { return v.is_string() ? v.get<std::string>() : v.dump(); });
 }
 
 // A keyword that nothing here checks would be ignored in silence.

@@ -21,6 +21,7 @@
 #include "reference/scene/mesh_scene.h"
 #include "reference/scene/seeded_random.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::scene {
 namespace {
@@ -521,9 +522,9 @@ std::string motion_text(const Motion& motion) {
 }
 
 std::string drawn_text(const Drawn& drawn) {
-  std::string parameters;
-  for (const auto& [name, value] : drawn.parameters)
-    parameters += (parameters.empty() ? "" : ", ") + ("\"" + name + "\": ") + shown(value);
+  const std::string parameters = text::joined(drawn.parameters, [](const auto& one) {
+    return "\"" + one.first + "\": " + shown(one.second);
+  });
   return "{\"seed\": " + std::to_string(drawn.seed) +
          ", \"number\": " + std::to_string(drawn.number) +
          ", \"redrawn\": " + std::to_string(drawn.redrawn) + ", \"happens\": \"" + drawn.happens +

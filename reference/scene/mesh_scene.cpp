@@ -21,6 +21,7 @@
 #include "reference/text/id_check.h"
 #include "reference/text/json_field.h"
 #include "reference/text/json_value.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::scene {
 namespace {

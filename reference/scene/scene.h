@@ -58,6 +58,8 @@ struct SweepSpec {
 /// Of the scene's size: how far a separation may be from what it says.
 inline constexpr double kSweepTolerance = 1e-6;
 
+inline constexpr std::size_t kMostFrames = 100'000;  // of a scene file, a sequence or an option
+
 /// How far a lattice that was fitted to a recording is from it.
 struct FitError {
   std::size_t body = 0;

@@ -23,7 +23,6 @@
 namespace contactcheck::scene {
 namespace {
 
-constexpr std::size_t kMostFrames = 100'000;
 constexpr double kLongest = 1e6;  // seconds
 constexpr text::NumberRange kSeconds = {0.0, true, kLongest, false};
 

@@ -5,6 +5,7 @@
 
 #include "core/types/check.h"
 #include "reference/text/file_text.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::text {
 
@@ -122,12 +123,6 @@ Vec3 JsonField::vector(const NumberRange& range) const {
     refuse("an array of three numbers");
   const std::vector<JsonField> parts = items();
   return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
 }
 
 }  // namespace contactcheck::text

@@ -72,7 +72,4 @@ class JsonField {
   std::string path_;  // empty for the root
 };
 
-/// "a, b, c"
-std::string joined(const std::vector<std::string>& words);
-
 }  // namespace contactcheck::text

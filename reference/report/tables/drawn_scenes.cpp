@@ -14,6 +14,7 @@
 #include "reference/report/tables/section.h"
 #include "reference/results/references.h"
 #include "reference/results/statistics.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::report {
 namespace {
@@ -88,9 +89,9 @@ void add_accuracy(const Index& index, const Scenes& scenes, const std::string& d
     found->wrong += own.missed > 0 || own.spurious > 0;
     found->counts.add(*run, level);
   }
-  std::string no_answer;  // "1 error, 2 refused"
-  for (const auto& [status, count] : statuses)
-    no_answer += fmt::format("{}{} {}", no_answer.empty() ? "" : ", ", count, name_of(status));
+  std::string no_answer = text::joined(statuses, [](const auto& one) {  // "1 error, 2 refused"
+    return fmt::format("{} {}", one.second, name_of(one.first));
+  });
   if (no_answer.empty()) no_answer = "-";
   if (all.empty() && !statuses.empty()) all.emplace_back();
   for (const Accuracy& own : all) {
@@ -366,10 +367,9 @@ TitledTable correlations_table(const std::vector<Compared>& all) {
     if (one.ratios.size() < kFewestForCorrelation) continue;
     const std::vector<Correlation> correlations = correlations_of(one.ratios);
     if (correlations.empty()) continue;
-    std::string text;
-    for (const Correlation& own : correlations)
-      text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", name_in_words(own.parameter),
-                          own.value);
+    const std::string text = text::joined(correlations, [](const Correlation& own) {
+      return fmt::format("{} {:+.2f}", name_in_words(own.parameter), own.value);
+    });
     const auto thirds = thirds_of(one.ratios, correlations.front().parameter);
     out.rows.push_back(
         {one.detector, one.reference, fmt::format("{}", one.ratios.size()),

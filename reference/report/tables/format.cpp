@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/text/lists.h"
+
 namespace contactcheck::report {
 namespace {
 
@@ -81,9 +83,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string short_list(const std::vector<std::string>& names, std::size_t most) {
   if (names.size() <= most + 1) return listed(names);
-  std::string text;
-  for (std::size_t i = 0; i < most; ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return text + " and " + std::to_string(names.size() - most) + " more";
+  return text::first_joined(names, most) + " and " + std::to_string(names.size() - most) + " more";
 }
 
 std::string format_counts(const Range& range) {

@@ -7,14 +7,14 @@
 
 #include "reference/report/tables/run_row.h"
 #include "reference/results/statistics.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::report {
 
 std::vector<std::string> machine_lines(const results::Results& results) {
   const results::Machine& m = results.machine;
-  std::string libraries;
-  for (const auto& [name, version] : results.libraries)
-    libraries += (libraries.empty() ? "" : ", ") + name + " " + version;
+  const std::string libraries =
+      text::joined(results.libraries, [](const auto& one) { return one.first + " " + one.second; });
   std::vector<std::string> out = {
       fmt::format("command: `{}`", results.command),
       fmt::format("machine: {}, {} cores, {}, {}", m.cpu, m.cores, m.isa, m.os),
@@ -86,9 +86,7 @@ std::vector<std::string> part_sentences(const results::Results& results) {
   else if (!results.merged.empty())
     out.push_back(fmt::format("Put together from {} shard{} (`contactcheck merge`).",
                               results.merged.size(), results.merged.size() == 1 ? "" : "s"));
-  std::string resumed;
-  for (const std::string& scene : results.resumed.value_or(std::vector<std::string>{}))
-    resumed += (resumed.empty() ? "" : ", ") + scene;
+  const std::string resumed = text::joined(results.resumed.value_or(std::vector<std::string>{}));
   // Their times are of another process than the others'.
   if (!resumed.empty())
     out.push_back(fmt::format(

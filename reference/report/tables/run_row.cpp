@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/results/references.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::report {
 namespace {
@@ -35,9 +36,7 @@ std::string speed_cell(const Run& run, const char* reference, const results::Que
 
 template <typename Value>
 std::string names_of(const std::vector<Value>& values) {
-  std::string text;
-  for (const Value value : values) text += (text.empty() ? "" : ", ") + std::string(name_of(value));
-  return text;
+  return text::joined(values, [](Value value) { return name_of(value); });
 }
 
 }  // namespace
@@ -204,9 +203,8 @@ std::optional<double> mean_frame_ms(const std::vector<const Run*>& runs, bool co
 }
 
 std::string options_text(const results::Texts& options) {
-  std::string text;
-  for (const auto& [name, value] : options) text += (text.empty() ? "" : ", ") + name + "=" + value;
-  return text.empty() ? "-" : text;
+  if (options.empty()) return "-";
+  return text::joined(options, [](const auto& one) { return one.first + "=" + one.second; });
 }
 
 std::string semantics_text(const Semantics& s) {

@@ -14,6 +14,7 @@
 #include "reference/report/tables/run_row.h"
 #include "reference/report/tables/stage_losses.h"
 #include "reference/results/statistics.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::report {
 namespace {
@@ -300,13 +301,11 @@ TitledTable speedups_table(const RunList& runs) {
 
 // "body 12, triangle 334, vertex not judged: open"
 std::string truth_text(const results::Scene& scene) {
-  std::string out;
-  for (const auto& [level, truth] : scene.truth) {
-    const auto* count = std::get_if<std::uint64_t>(&truth);
-    out += (out.empty() ? "" : ", ") + std::string(name_of(level)) + " " +
-           (count != nullptr ? format_count(*count) : std::get<std::string>(truth));
-  }
-  return out;
+  return text::joined(scene.truth, [](const auto& one) {
+    const auto* count = std::get_if<std::uint64_t>(&one.second);
+    return std::string(name_of(one.first)) + " " +
+           (count != nullptr ? format_count(*count) : std::get<std::string>(one.second));
+  });
 }
 
 // What a reader must know about single runs and no table shows.

@@ -7,6 +7,7 @@
 #include "reference/report/tables/run_row.h"
 #include "reference/report/tables/section.h"
 #include "reference/results/references.h"
+#include "reference/text/lists.h"
 
 namespace contactcheck::report {
 namespace {
@@ -54,9 +55,9 @@ std::vector<std::string> cells_of(Sums s) {
   const auto count = [&](std::uint64_t LevelCounts::*member) {
     return s.counts ? format_count(*s.counts.*member) : "-";
   };
-  std::string not_ok;  // "1 error, 2 refused"
-  for (const auto& [status, scenes] : s.not_ok)
-    not_ok += (not_ok.empty() ? "" : ", ") + std::to_string(scenes) + " " + name_of(status);
+  const std::string not_ok = text::joined(s.not_ok, [](const auto& one) {  // "1 error, 2 refused"
+    return std::to_string(one.second) + " " + name_of(one.first);
+  });
   const std::string scenes = std::to_string(s.scenes) + (not_ok.empty() ? "" : " (" + not_ok + ")");
   std::vector<std::string> cells = {
       s.detector,

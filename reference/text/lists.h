@@ -1,0 +1,38 @@
+// Lists in sentences.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace contactcheck::text {
+
+/// "a, b, c": the texts that `word` gives for each element.
+template <typename List, typename Word>
+  requires(!std::is_convertible_v<Word, std::string>)
+std::string joined(const List& list, const Word& word, const std::string& between = ", ") {
+  std::string out;
+  bool first = true;
+  for (const auto& element : list) {
+    if (!first) out += between;
+    out += word(element);
+    first = false;
+  }
+  return out;
+}
+
+inline std::string joined(const std::vector<std::string>& words,
+                          const std::string& between = ", ") {
+  return joined(
+      words, [](const std::string& word) { return word; }, between);
+}
+
+/// The first `most`, joined.
+inline std::string first_joined(const std::vector<std::string>& words, std::size_t most) {
+  const auto end = words.begin() + static_cast<std::ptrdiff_t>(std::min(most, words.size()));
+  return joined(std::vector<std::string>(words.begin(), end));
+}
+
+}  // namespace contactcheck::text

@@ -1,5 +1,5 @@
-// Everything of core that an installed program may use: detectors, the bodies and frames that they
-// are given, recordings and simulations. Other headers of core are not installed.
+// Everything of core that an installed program may use: detectors, their input bodies and frames,
+// recordings and simulations. Of core's headers only these, and those they include, are installed.
 #pragma once
 
 #include "core/deform/body.h"

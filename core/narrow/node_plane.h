@@ -39,7 +39,7 @@ BoxPlanesOf<T> planes_of_box(const std::array<Vec3Of<T>, 8>& corners) {
 }
 
 /// Closed: a node on a plane counts as inside. An approximation by nature, in plain arithmetic of
-/// its precision; what it misses and invents is what the suite measures.
+/// its precision; the suite measures its false negatives and false positives.
 template <typename T>
 bool node_inside(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of<T>>& node) {
   for (int f = 0; f < 6; ++f) {
@@ -49,15 +49,15 @@ bool node_inside(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of
   return true;
 }
 
-/// How a node leaves a box that it is inside of, by node_inside().
+/// The shortest way out of a box for a node that node_inside() finds inside.
 struct NodeDepth {
   double depth = 0.0;           ///< metres to the nearest plane, never negative
   Vec3 outward = Vec3::Zero();  ///< unit normal of that plane; zero: no plane has a normal
 };
 
-/// By the same planes, those without area left out: moving the node by depth * outward takes it
-/// onto the nearest one. Exact for parallelepipeds up to rounding; for other boxes it inherits what
-/// their planes are, approximations. No verdict hangs on it.
+/// Depth by the same planes, except faces without area: moving the node by depth * outward takes it
+/// onto the nearest plane. Exact for parallelepipeds up to rounding; an approximation for other
+/// boxes, as their planes are. No verdict depends on it.
 /// @pre node_inside(planes, node)
 template <typename T>
 NodeDepth node_depth(const BoxPlanesOf<T>& planes, const std::type_identity_t<Vec3Of<T>>& node) {

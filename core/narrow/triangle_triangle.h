@@ -21,7 +21,7 @@ inline TrianglePoints in_doubles(const TrianglePointsOf<float>& t) {
   return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
 }
 
-/// The same of floats, as exact: floats are doubles.
+/// The same test of floats, equally exact: every float is a double.
 inline bool triangles_intersect(const TrianglePointsOf<float>& p,
                                 const TrianglePointsOf<float>& q) {
   return triangles_intersect(in_doubles(p), in_doubles(q));

@@ -1,4 +1,4 @@
-// Arenas of oneTBB, used again.
+// Reuses arenas of oneTBB.
 #pragma once
 
 #include <oneapi/tbb/task_arena.h>
@@ -7,8 +7,8 @@
 
 namespace contactcheck {
 
-/// An arena for that many threads, nobody else's for as long as this lives. oneTBB 2021.8 keeps up
-/// to 7 kB of each arena that is destroyed (its issue 967), and a simulation needs one per step.
+/// An arena for `threads` threads, used by this object alone and pooled after it: oneTBB 2021.8
+/// leaks up to 7 kB per destroyed arena (its issue 967), and a simulation needs one per step.
 class BorrowedArena {
  public:
   explicit BorrowedArena(int threads);

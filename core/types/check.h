@@ -22,7 +22,7 @@ class RefusedInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What this machine lacks: the run's status becomes `absent`.
+/// A requirement that this machine does not meet: the run's status becomes `absent`.
 class Unavailable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -38,7 +38,7 @@ struct SelfPair {
 /// Makes pairs a set: orients each (lower body first), sorts, removes repeats.
 void canonicalize(std::vector<ElementPair>& pairs);
 
-/// A vertex of `body` with the solid body `in` that holds it strictly inside.
+/// A vertex of `body` that lies strictly inside the solid body `in`.
 struct VertexInBody {
   std::uint32_t body = 0, in = 0, vertex = 0;
   std::array<std::uint32_t, 3> ids() const { return {body, in, vertex}; }
@@ -77,9 +77,9 @@ struct ContactSet {
   std::vector<ElementPair> triangles;
   std::vector<VertexInBody> vertices;
   std::vector<NearPair> near;
-  /// For the question `self`, as are the next three.
+  /// This list and the next three answer the question `self`.
   std::vector<std::uint32_t> self_bodies;
-  std::vector<SelfPair> self;        ///< of all three classes, which the mesh tells apart
+  std::vector<SelfPair> self;        ///< all three classes; the mesh tells which
   std::vector<SelfPair> self_cells;  ///< cells (level self-cell)
   std::vector<NearPair> self_near;   ///< other = body
   /// For the question `contacts`, in addition to the sets above: several per pair or vertex are
@@ -89,13 +89,13 @@ struct ContactSet {
 
   /// Keeps the capacity, so a reused set does not allocate.
   void clear();
-  /// Orients every pair (lower body first), sorts, removes repeats. Element, cell and near pairs
-  /// imply their body pair, those of one body that body: it is added. Contacts are oriented (a
-  /// normal turns with its pair) and sorted by their pair or vertex; none is removed.
+  /// Sorts all lists, and removes repeats from all but the two lists of contacts. Unordered pairs
+  /// are oriented (lower body or element first), a contact's normal with them. Adds the body pairs
+  /// and bodies that pairs of triangles and cells, near pairs and self pairs imply.
   void canonicalize();
 };
 
-/// The lists of a set, those that others imply before these.
+/// The lists of a set. A list comes before those that imply its entries: bodies before cells.
 enum class ContactList : std::size_t {
   kBodies,
   kCells,
@@ -111,8 +111,8 @@ enum class ContactList : std::size_t {
 };
 inline constexpr std::size_t kContactLists = 11;
 
-/// Calls visit(ContactList, list...) for each of them, with that list of every one of `sets`. What
-/// is done to all lists is written once, and a new list is a line here.
+/// Calls visit(ContactList, list...) once per list, with that list of each of `sets`. Code that
+/// treats all lists alike uses it, so a new list needs only one line here.
 template <typename Visit, typename... Set>
 void for_each_list(const Visit& visit, Set&... sets) {
   visit(ContactList::kBodies, sets.bodies...);
@@ -128,8 +128,8 @@ void for_each_list(const Visit& visit, Set&... sets) {
   visit(ContactList::kVertexContacts, sets.vertex_contacts...);
 }
 
-/// Order-free hash of a canonical set, chained over frames: feed the previous frame's value. Depths
-/// and normals are no part of it.
+/// Hash of a canonical set, chained over frames: `previous` is the value of the frame before. The
+/// two lists of contacts, with their depths and normals, are not hashed.
 std::uint64_t chain_hash(std::uint64_t previous, std::uint64_t frame, const ContactSet& contacts);
 
 }  // namespace contactcheck

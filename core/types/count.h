@@ -1,4 +1,4 @@
-// Counts of what is numbered by 32 bits.
+// Limits counts to what 32-bit indices can number.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace contactcheck {
 
-/// Of things that are numbered by 32 bits, with room for the number behind the last.
+/// The largest number of items with 32-bit indices; the index past the last one fits, too.
 inline constexpr std::uint64_t kMostNumbered = std::numeric_limits<std::uint32_t>::max();
 
-/// `count` as 32 bits: a number that was cut would name something else.
+/// Converts `count` to 32 bits. It never truncates: a truncated index would name another item.
 /// @throws Error, naming `what` and the count, when it is above kMostNumbered
 template <class Error>
 std::uint32_t in_32_bits(std::uint64_t count, const char* what) {

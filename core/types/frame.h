@@ -1,4 +1,4 @@
-// One moment of a scene, as every detector is given it.
+// One frame of a scene: the input of every detector.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@ namespace contactcheck {
 
 /// The deformed state of one body. `nodes` are the lattice nodes (of the kept cells, in the
 /// lattice's node order) or, for a body without a lattice, its vertices. `vertices` are the mapped
-/// vertices, or empty for a detector that said it does not need them.
+/// vertices, or empty for a detector that does not need them (Detector::needs_vertices). Metres.
 struct BodyState {
   std::span<const Vec3> nodes;
   std::span<const Vec3> vertices;
 };
 
-/// All values finite: the runner refuses NaN and infinity before any detector sees them.
+/// All values are finite: the runner refuses NaN and infinity before any detector sees them.
 struct Frame {
   std::size_t index = 0;
   double time = 0.0;  ///< seconds

@@ -1,5 +1,5 @@
-// A vertex that no triangle uses is no part of a body. It is dropped where a mesh comes in, and
-// what people give and see still numbers the vertices as the mesh did.
+// Vertices that no triangle uses are dropped when a mesh is loaded. Users still give and see the
+// vertex indices of the mesh as it was given.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +12,23 @@
 
 namespace contactcheck {
 
-/// Which vertices of a mesh as it was given a body has. A number is the index of a vertex there.
+/// Maps a body's vertices to those of its mesh as given. A "number" is a vertex index of that mesh.
 struct GivenVertices {
-  /// The number of each vertex of the body, ascending; empty where none was dropped.
+  /// Per vertex of the body its number, ascending; empty if no vertex was dropped.
   std::vector<std::uint32_t> numbers;
   std::size_t dropped = 0;
 
   std::uint32_t number_of(std::uint32_t vertex) const {
     return numbers.empty() ? vertex : numbers[vertex];
   }
-  /// The body's vertex of that number; none where it was dropped. @pre the number was given
+  /// The body's vertex with this number; none if it was dropped. @pre the given mesh has the number
   std::optional<std::uint32_t> vertex_of(std::uint32_t number) const {
     if (numbers.empty()) return number;
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
     if (found == numbers.end() || *found != number) return std::nullopt;
     return static_cast<std::uint32_t>(found - numbers.begin());
   }
-  /// Of one value per given vertex, those of the body's.
+  /// Selects the values of the body's vertices. `given`: one value per vertex of the given mesh.
   template <typename T>
   std::vector<T> kept(std::vector<T> given) const {
     if (numbers.empty()) return given;
@@ -37,8 +37,8 @@ struct GivenVertices {
     for (const std::uint32_t number : numbers) out.push_back(given[number]);
     return out;
   }
-  /// Of one value per vertex of the body, one per given vertex: a dropped one has the value of the
-  /// nearest kept one before it, or else of the first. No box grows by it.
+  /// Turns one value per vertex of the body into one per given vertex: a dropped vertex repeats the
+  /// value of the kept one before it, or else of the first, so that no bounding box grows.
   template <typename T>
   std::vector<T> spread(const std::vector<T>& values) const {
     if (numbers.empty()) return values;
@@ -50,7 +50,7 @@ struct GivenVertices {
     }
     return out;
   }
-  /// The body's triangles, by numbers.
+  /// Replaces the body's vertex indices in `triangles` by their numbers.
   std::vector<Triangle> numbered(std::vector<Triangle> triangles) const {
     for (Triangle& triangle : triangles)
       for (std::uint32_t& vertex : triangle) vertex = number_of(vertex);
@@ -58,7 +58,7 @@ struct GivenVertices {
   }
 };
 
-/// Drops what no triangle uses; the order of the rest is kept. @pre indices are in range
+/// Drops the vertices that no triangle uses; keeps the others' order. @pre indices are in range
 GivenVertices drop_unused_vertices(TriangleMesh& mesh);
 
 }  // namespace contactcheck

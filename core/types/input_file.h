@@ -10,11 +10,11 @@
 
 namespace contactcheck {
 
-/// What keeps `file` from being read, as a sentence goes on after its name: " does not exist", " is
-/// a pipe, not a regular file". Empty for a regular file and a link to one. Opens nothing.
+/// Why `file` cannot be read, worded to follow its name: " does not exist", " is a pipe, not a
+/// regular file". Empty for a regular file and a link to one. Does not open the file.
 std::string input_file_fault(const std::filesystem::path& file);
 
-/// `file`, open to be read as bytes. `name` is its name in messages: "mesh file \"x.off\"".
+/// Opens `file` for reading bytes. `name` is its name in messages: "mesh file \"x.off\"".
 /// @throws InputError, one sentence, when it has a fault or cannot be opened
 std::ifstream open_input_file(const std::filesystem::path& file, const std::string& name);
 

@@ -1,6 +1,6 @@
-// Single precision about a local origin: a float holds about seven digits, and far from the origin
-// of the world they are used up by the place where things are. So a detector in single precision
-// subtracts one origin per frame, in double, and rounds once.
+// Single precision about a local origin. A float has about seven digits; far from the world origin
+// they are spent on where the scene is. So a detector in single precision subtracts one origin per
+// frame, in double, and rounds once.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ namespace contactcheck {
 inline constexpr float kSingleLimit = 0x1p40f;
 
 /// The centre of the box round BodyState::nodes of all bodies: lattice nodes, or the vertices of a
-/// body without a lattice. Zero without bodies. The same for every order of bodies and nodes, never
-/// overflows, and no node's distance from it does.
+/// body without a lattice. Zero without bodies. It does not depend on the order of bodies and
+/// nodes. Neither it nor a node's coordinate about it overflows.
 /// @pre all nodes finite
 Vec3 local_origin(const Frame& frame);
 
@@ -25,8 +25,8 @@ Vec3 local_origin(const Frame& frame);
 /// once: store it as a float or in a volatile.)
 inline float local_value(double x, double origin) { return static_cast<float>(x - origin); }
 
-/// local_value() of every coordinate of `points`. @pre as many places in `out` as points
-/// @throws RefusedInput when one is farther than kSingleLimit from the origin, or no number
+/// Writes local_value() of every coordinate of `points` to `out`. @pre both have the same size
+/// @throws RefusedInput when one is farther than kSingleLimit from the origin, or NaN
 void round_to_local(std::span<const Vec3> points, const Vec3& origin, std::span<Vec3f> out);
 
 }  // namespace contactcheck

@@ -19,7 +19,7 @@ struct TriangleMesh {
 };
 
 Aabb bounding_box(const std::vector<Vec3>& points);
-/// Of the vertices that triangles use: others are no part of a body. @pre indices are in range
+/// Bounds the vertices that triangles use; a body has no others. @pre indices are in range
 Aabb bounding_box(const TriangleMesh& mesh);
 
 /// 64-bit FNV-1a over the bits of vertices and indices: the same mesh, the same hash, everywhere.

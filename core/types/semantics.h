@@ -18,7 +18,7 @@ enum class Level {
   kTriangle,
   kVertex,
   kNear,
-  // Of a body with itself.
+  // Levels of contact of a body with itself:
   kSelf,        ///< pairs of triangles that share no vertex, and meet
   kSelfVertex,  ///< pairs that share one vertex, and meet in more
   kSelfEdge,    ///< pairs that share two vertices, and meet in more than the segment between them
@@ -32,29 +32,29 @@ inline constexpr std::array kLevels = {
     Level::kBody,     Level::kContainment, Level::kCell,    Level::kBox,        Level::kTriangle,
     Level::kVertex,   Level::kNear,        Level::kSelf,    Level::kSelfVertex, Level::kSelfEdge,
     Level::kSelfBody, Level::kSelfCell,    Level::kSelfNear};
-/// The first of these that a detector claims is its finest.
+/// From fine to coarse: the first of these that a detector claims is its finest level.
 inline constexpr std::array kFineToCoarse = {
     Level::kTriangle, Level::kNear,       Level::kVertex,     Level::kCell,     Level::kBox,
     Level::kSelf,     Level::kSelfVertex, Level::kSelfEdge,   Level::kSelfNear, Level::kSelfCell,
     Level::kSelfBody, Level::kBody,       Level::kContainment};
 /// The classes of pairs of one body's triangles.
 inline constexpr std::array kSelfClasses = {Level::kSelf, Level::kSelfVertex, Level::kSelfEdge};
-/// Is it about a body and itself?
+/// True for levels of contact of a body with itself.
 constexpr bool is_self(Level level) { return level >= Level::kSelf; }
-/// Is one of them?
+/// True if one of `levels` is such a level.
 bool any_self(const std::vector<Level>& levels);
 
-/// What a number of a pair counts; kNone: nothing, the pair is one of bodies.
+/// The kind of element that an index of a contact refers to; kNone: the contact has no such index.
 enum class Element { kTriangle, kCell, kVertex, kNone };
 struct NamedElements {
   Element first = Element::kNone, second = Element::kNone;
   bool operator==(const NamedElements&) const = default;
 };
-/// What a missed contact of the level names, or a spurious one: of cells a missed one is a pair of
-/// triangles.
+/// The elements that a missed or spurious contact of `level` names. At the levels `cell` and
+/// `self-cell` a missed contact names two triangles, a spurious one two cells.
 NamedElements named_elements(Level level, bool missed);
 
-/// What is asked of a detector when its time is taken.
+/// The kinds of query that a detector may answer.
 enum class Question {
   kTriangles,  ///< all pairs of intersecting triangles
   kBody,       ///< pairs of bodies in contact; early-out allowed
@@ -74,7 +74,7 @@ const char* name_of(Question question);
 const char* name_of(Precision precision);
 const char* name_of(DepthKind kind);
 std::optional<Level> level_from_name(std::string_view name);
-/// Of kLevels, in order.
+/// The names of kLevels, in order.
 std::vector<std::string> level_names();
 
 struct Semantics {
@@ -86,25 +86,25 @@ struct Semantics {
   bool exact = false;               ///< true: it claims no miss and nothing spurious at its levels
   double margin = 0.0;              ///< metres; near = closer than this, strictly; 0 without one
   Precision precision = Precision::kDouble;
-  double scale = 1.0;  ///< with single precision it is fed fed_value(x, scale) and not x
-  /// Only with single precision, and then at scale 1: in every frame it subtracts local_origin() in
-  /// double before it rounds: it works on local_value(x, origin[axis]) (local_origin.h). One that
-  /// needs vertices is fed these values and is judged by their ground truth as well. One that needs
-  /// none rounds the nodes and maps its own vertices, which no other program knows. It is judged by
-  /// the ground truth of x alone.
+  double scale = 1.0;  ///< in single precision the detector gets fed_value(x, scale), not x
+  /// Only in single precision, and then at scale 1: in every frame the detector subtracts
+  /// local_origin() in double before it rounds, so it works on local_value(x, origin[axis])
+  /// (local_origin.h). A detector that needs vertices gets these values and is judged by their
+  /// ground truth as well. One that needs none rounds the nodes and maps its own vertices, which no
+  /// other program sees; it is judged by the ground truth of x alone.
   bool local_origin = false;
   DepthKind depth = DepthKind::kNone;
-  bool whole_cells = false;  ///< of one that answers with cells: it tests these, not FFD-AABBs
-  /// Asked which bodies touch it still finds all contacts: a speed-up over it in that question
-  /// would be no fair one, and is not given.
+  bool whole_cells = false;  ///< if it answers with cells: it tests cells, not FFD-AABBs
+  /// Finds all contacts even for the question `body`. A speed-up over such a detector in that
+  /// question would not be fair, so none is reported.
   bool no_early_end = false;
-  std::string means;  ///< what it calls contact, where that is not contact of the surfaces
+  std::string means;  ///< its definition of contact, if that is not contact of surfaces
 
   bool claims(Level level) const;
   bool answers(Question question) const;
 };
 
-/// A coordinate as a detector in single precision is fed it: scaled in double, then rounded once.
+/// The coordinate that a detector in single precision gets: scaled in double, then rounded once.
 inline float fed_value(double x, double scale) { return static_cast<float>(scale * x); }
 
 }  // namespace contactcheck

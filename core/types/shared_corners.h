@@ -14,12 +14,12 @@ namespace contactcheck {
 struct SharedCorners {
   std::uint32_t count = 0;  ///< different vertices that both name
   bool duplicates = false;  ///< both name the same set of vertices
-  /// Numbers of corners.
+  /// Corner indices of each triangle, in that order.
   std::array<std::uint8_t, 3> p = {0, 1, 2}, q = {0, 1, 2};
 };
 
-/// Of a welded mesh: of triangles that name its welded vertices (BodyShape::linked). A triangle may
-/// name a vertex twice; it counts once.
+/// For a welded mesh pass triangles of BodyShape::linked(). They may name a vertex twice; it counts
+/// once.
 inline SharedCorners shared_corners(const Triangle& p, const Triangle& q) {
   SharedCorners out;
   const auto has = [](const Triangle& t, std::uint32_t vertex) {

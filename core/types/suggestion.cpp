@@ -41,7 +41,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
   if (found.empty()) {
     std::size_t fewest = word.size() / 3;
     for (const std::string& name : names) {
-      // Of names that are longer or shorter by more, the lengths alone say so.
+      // The difference of the lengths is a lower bound of the number of edits.
       const std::size_t longer = std::max(name.size(), word.size()),
                         shorter = std::min(name.size(), word.size());
       if (longer - shorter > fewest) continue;

@@ -2,6 +2,6 @@
 #pragma once
 
 /// Arm's vectors of unknown length cannot stand in a struct or an array, and the loops here hold
-/// whole boxes in registers that way: such machines run NEON. (HWY_SVE and its kind have values on
-/// every platform; elsewhere this says nothing.)
+/// whole boxes in registers that way: such machines run NEON. (The macros HWY_SVE... are defined on
+/// every platform; elsewhere this has no effect.)
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

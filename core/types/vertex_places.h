@@ -1,4 +1,4 @@
-// Vertices at one place.
+// Finds vertices with equal coordinates.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace contactcheck {
 
-/// For each vertex the first one with equal coordinates (-0 = 0), which may be itself. @pre finite
+/// Per vertex the lowest index of a vertex with equal coordinates (-0 = 0), or its own. @pre finite
 std::vector<std::uint32_t> first_at_place(std::span<const Vec3> vertices);
 
 }  // namespace contactcheck

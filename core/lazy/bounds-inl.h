@@ -1,16 +1,16 @@
 // Bounds of the eight children of a block, from deformed lattice nodes. Compiled once per
 // instruction set (kernels.cpp).
 //
-// Why the slacks suffice. Exact bounds hold the exact images of the vertices (lattice_tree.h). The
-// following is how far computed bounds differ from exact ones, and mapped vertices from exact
-// images.
+// Why the slacks suffice. Exact bounds contain the exact images of the vertices (lattice_tree.h).
+// The following bounds how far computed bounds differ from exact ones, and mapped vertices from
+// exact images.
 //
 // Notation:
 //   * u = 2^-24. A float operation with a result of at most v rounds by at most u v. Errors are
 //     counted to first order in u.
 //   * M: LazyState::reach, not below any |coordinate| of the body's nodes in its frame.
 //   * c, e: middle and half-widths of a piece. They are exact, and |c| + e <= 1 along each axis.
-//     (Quantisation lets that reach 1 + 2^-14, which no error below feels by a thousandth.)
+//     (Quantisation lets that reach 1 + 2^-14. This changes no error below by a thousandth.)
 //   * t_i: the eight terms of a coordinate in a cell (CellTerms). w_i: the product of |c_k| + e_k
 //     over the bits k of i, at most 1.
 //
@@ -18,7 +18,7 @@
 //   * A box is wrong by at most 44 u M. Its slack is 64 u M (LazyState::slack).
 //   * A slab is wrong by at most 175 u M and a test of two slabs in one frame (meeting-inl.h) by
 //     100 u M. The slack of a slab is 384 u M (LazyState::slab_slack).
-//   * What is no multiple of u M is added to both slacks.
+//   * Errors that are no multiples of u M are added to both slacks.
 //
 // Two rules:
 //   * Rounded sums. If a value is computed by products and sums alone, every number that goes into
@@ -31,7 +31,7 @@
 //
 // Box. Its ends are f(c) -+ the sum of |g_k| e_k, of |f_st| es et (as su, tu) and |f_stu| es et eu:
 //   * A node as a float is wrong by u M. The float nodes are taken as the nodes, so their bounds
-//     are exact for images that are u M beside: u M. (The rounding of x - origin in double comes
+//     are exact for images that are u M off: u M. (The rounding of x - origin in double comes
 //     last, below.)
 //   * A term is the result of three levels of sums and differences. Each takes pairs (x, y) to
 //     (x + y, x - y). That doubles a sum of squares, the errors' as the values'. So the errors of
@@ -89,19 +89,19 @@
 //   * the rounding of x - origin, 2^-53 of |x| and of |origin|, four times;
 //   * 1e-37 for float underflow.
 // They are errors per coordinate. Along n, of length 1, they come at most sqrt(3) times: slabs get
-// them twice. (Far out they are no longer small beside M, and are rounded with the rest, by some u
+// them twice. (Far out they are no longer small against M, and are rounded with the rest, by some u
 // of themselves. They are taken 1.01 times.)
 //
 // Single precision (lazy_state.h). The float nodes are the nodes. All of the above holds, with the
 // first u M to spare:
-//   * Bounded are vertices that are mapped from these nodes in floats. Pieces were made for exact
+//   * The bounded vertices are mapped from these nodes in floats. Pieces were made for exact
 //     local coordinates. The mapped vertices differ from the exact images of those by 10 u M in
 //     blends (mapping_error_bound() of floats) and by 3 u M as three local coordinates are rounded
 //     (place_in_single() in lazy_state.cpp). That makes 13 u M, and below 26 u M along n.
 //   * These are added to 64 u M and 384 u M.
 //   * M is the scene's half-width, the same for all bodies.
-//   * Boxes of triangles and of refitted bodies are made of the very floats that are tested. They
-//     need no slack.
+//   * Boxes of triangles and of refitted bodies are made from the floats that are tested. They need
+//     no slack.
 //   * So all triangles are tested whose boxes overlap, except those that slabs separate. Those
 //     share no point. What is found is what intersects, as in doubles.
 
@@ -127,7 +127,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Bounds of eight children, over the pieces joined so far.
 struct alignas(64) RunningBounds {
   float lo[kBlockWidth][4], hi[kBlockWidth][4];        // box and slab
-  float world[kBlockWidth][4], local[kBlockWidth][4];  // of SlabDirection; last of local: inverse
+  float world[kBlockWidth][4], local[kBlockWidth][4];  // SlabDirection; inverse_square: local[][3]
 };
 
 HWY_INLINE void store_rows(const FloatVec& x, const FloatVec& y, const FloatVec& z,
@@ -140,7 +140,7 @@ HWY_INLINE void store_direction(const SlabDirection& n, std::size_t first, Runni
   store_rows(n.local[0], n.local[1], n.local[2], n.inverse_square, out.local + first);
 }
 
-// The direction of each lane's child.
+// Loads the slab direction of each lane's child.
 HWY_INLINE SlabDirection load_direction(const RunningBounds& from, const PieceLanes& pieces,
                                         std::size_t first) {
   const auto rows_of = [&](const float(&all)[kBlockWidth][4]) HWY_ATTR {
@@ -174,7 +174,7 @@ HWY_INLINE void store_ranges(const PieceRanges& ranges, float (*lo)[4], float (*
   store_rows(axis[0].hi, axis[1].hi, axis[2].hi, slab.hi, hi);
 }
 
-// Bounds of the first pieces of the children, lane by lane, and their directions.
+// Bounds the first piece of each child, one per lane, and computes the children's slab directions.
 HWY_INLINE PieceRanges begin_block(const LazyState& state, const PieceLanes& pieces,
                                    const BlockSlabs& slabs, std::size_t first, SlabDirection& n) {
   const Middles middle = middles_of(pieces, first);
@@ -278,7 +278,7 @@ HWY_NOINLINE inline void bound_block(const LazyState& state, std::uint32_t index
   finish_block(state, running, block.children, out);
 }
 
-// The bounds of a block's children in this frame, computed when first asked for.
+// The bounds of a block's children in this frame, computed on first use.
 HWY_INLINE const BlockBounds& bounds(LazyState& state, std::uint32_t index, FrameArena& arena) {
   if (const BlockBounds* known = state.blocks.find(index)) return *known;
   auto& out = *static_cast<BlockBounds*>(arena.take(sizeof(BlockBounds)));

@@ -16,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Factors for the rounding of what is computed at rest, far more than it can be.
 constexpr double kUp = 1 + 1e-6, kDown = 1 - 1e-6;
-constexpr std::uint32_t kMostCells = 8;  // of a patch; more are not worth a look
+constexpr std::uint32_t kMostCells = 8;  // a patch with more is not worth a test
 // The range of sides of cells, and of the square of DF, for which the bounds are derived.
 constexpr double kLeastSide = 0x1p-100, kMostSide = 0x1p100;
 constexpr double kLeastSquare = 0x1p-200, kMostSquare = 0x1p200;
@@ -41,7 +41,7 @@ PatchRest patch_of(const BodyShape& shape, std::uint32_t triangle, const Triangl
     out.lo[k] = box.lo[k];
     out.hi[k] = box.hi[k];
   }
-  // For a coordinate on a line either cell would do: F is continuous.
+  // For a coordinate on a grid line either cell would do: F is continuous.
   const Grid grid(shape.lattice->lines);
   out.first_cell = grid.cell_of(box.lo);
   out.last_cell = grid.cell_of(box.hi);
@@ -238,7 +238,7 @@ Derivative derivative_over(const LazyState& state, const PatchTree& patches, con
                                          &cells.parts[1][y - patch.first_cell[1]],
                                          &cells.parts[2][z - patch.first_cell[2]]};
         const Double4 mixed = f.term[7].cast<double>();
-        double mixed_norm[3] = {};  // of the derivatives along k and the next axis
+        double mixed_norm[3] = {};  // norms of the derivatives along k and the next axis
         for (int k = 0; k < 3; ++k) {
           const int i = (k + 1) % 3, j = (k + 2) % 3;
           const Double4 own = f.term[1 << k].cast<double>(),
@@ -279,7 +279,7 @@ LinearPart linear_part(const Derivative& derivative, const std::array<bool, 3>& 
       middle(r, k) = 0.5 * (derivative.lo[k][r] + derivative.hi[k][r]);
       half(r, k) = 0.5 * (derivative.hi[k][r] - derivative.lo[k][r]) + off;
     }
-  // What Q has no extent in takes no part; in the product below it is as large as all others.
+  // An axis without extent in Q takes no part: in the product below it is as large as all others.
   Eigen::Matrix3d extended = middle;
   for (int k = 0; k < 3; ++k)
     if (flat[k]) extended.col(k).setZero(), half.col(k).setZero();
@@ -287,7 +287,7 @@ LinearPart linear_part(const Derivative& derivative, const std::array<bool, 3>& 
   const double all = product.trace();
   for (int k = 0; k < 3; ++k)
     if (flat[k]) product(k, k) = all;
-  // The norm of any matrix with entries up to those of `half`.
+  // Bounds the norm of every matrix with entries up to those of `half`, by two norms.
   const double variation =
       kUp * std::sqrt(std::min(half.squaredNorm(),
                                half.rowwise().sum().maxCoeff() * half.colwise().sum().maxCoeff()));

@@ -1,5 +1,5 @@
-// Proves, without looking at vertices, that the lattice keeps a patch of a surface from meeting
-// itself.
+// Proves that patches of a surface do not meet themselves in a frame, from the lattice nodes alone:
+// no vertex is mapped for it.
 //
 // Claim: no two triangles of a patch share more than the vertices that both name.
 //
@@ -15,8 +15,8 @@
 //     direction lies between those of two edges, at an angle of at most t.
 //   * ratio k: for points x, y of it and of a neighbour (that shares a vertex), a path over the two
 //     triangles has length at most k |x - y|.
-//   * gap g: at least so far (or at least the longest edge h) are all triangles that share no
-//     vertex with it.
+//   * gap g: all triangles that share no vertex with it are at least g away. It is at most the
+//     longest edge h.
 //   * altitude a, the smallest; longest edge h.
 // Every cell that a triangle meets is kept. Mapped vertices are off by at most e each.
 //
@@ -51,11 +51,11 @@
 // Range. Lengths at rest are in the scale of the mesh (rest_scale) and mapped ones in that of the
 // frame, so that bodies of any size have entries of DF near 1. Products are in doubles. What comes
 // from squares of lengths below 2^-200, sides of cells outside [2^-100, 2^100], or a DF whose
-// square is outside [2^-200, 2^200] is not looked at: there nothing is claimed.
+// square is outside [2^-200, 2^200] is not used: there nothing is claimed.
 //
-// The same is asked first of every cell, and of every two by two by two, with all triangles in it:
-// once a frame, since many patches lie in one. Two patches together are asked about only where the
-// claim holds for each.
+// The claim is tested first for the cell, or the 2 x 2 x 2 cells, that contain a patch, with all
+// triangles in them: once a frame, since many patches share them. Two patches are tested together
+// only where the claim holds for each.
 #pragma once
 
 #include <algorithm>
@@ -70,13 +70,13 @@
 
 namespace contactcheck {
 
-/// Bounds at rest for the triangles below a child of a block, or below two. Lengths are in the
-/// scale of the mesh.
+/// Bounds, at rest, on the triangles below one child of a block, or below two. Lengths are in the
+/// scale of the mesh (rest_scale).
 struct PatchRest {
   std::array<double, 3> lo{}, hi{};                 ///< box of the triangles, exact, in metres
-  GridIndex first_cell{}, last_cell{};              ///< the corners of the cells that it meets
-  float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;  ///< c, k, h: at least; or infinite
-  float gap = 0.0f, altitude = 0.0f;                ///< g, a: at most
+  GridIndex first_cell{}, last_cell{};              ///< of the cells that it meets
+  float stretch = 0.0f, ratio = 0.0f, edge = 0.0f;  ///< not below c, k, h; or infinite
+  float gap = 0.0f, altitude = 0.0f;                ///< not above g, a
 
   PatchRest united(const PatchRest& other) const {
     PatchRest out;
@@ -100,13 +100,13 @@ struct PatchRest {
 struct GridSlice {
   double low = 0.0;       ///< metres
   double farthest = 0.0;  ///< |coordinate| of the lines
-  double inverse = 0.0;   ///< 2 over the side; 0: the side is not looked at
+  double inverse = 0.0;   ///< 2 / side; 0: nothing is claimed for this side
 };
 
-/// All triangles within some cells, one or two by two by two; those regions that have a triangle.
+/// Regions of one cell, or of 2 x 2 x 2 cells, each with all triangles inside it; none is empty.
 struct PatchRegions {
   std::vector<PatchRest> patches;  ///< ascending in (z, y, x) of their lowest cell
-  GridPlaces places;               ///< where each lowest cell is in `patches`
+  GridPlaces places;               ///< finds a region by that cell
 
   std::size_t bytes() const { return patches.capacity() * sizeof(PatchRest) + places.bytes(); }
 };
@@ -114,20 +114,20 @@ struct PatchRegions {
 struct PatchTree {
   std::vector<PatchRest> children;               ///< [block * kBlockWidth + lane]
   std::array<std::vector<GridSlice>, 3> slices;  ///< by axis
-  PatchRegions ones, eights;  ///< no more than the kept cells, and eight times as many
-  GridPlaces kept;            ///< where each cell is in the lattice
-  double scale = 1.0;         ///< for lengths at rest (rest_scale)
+  PatchRegions ones, eights;                     ///< at most 1 and 8 per kept cell
+  GridPlaces kept;                               ///< finds kept cells
+  double scale = 1.0;                            ///< factor on lengths at rest (rest_scale)
 
   /// Bytes held, for the report.
   std::size_t bytes() const;
 };
 
-/// @pre the shape has a lattice, and the tree is its
+/// @pre the shape has a lattice, and `tree` was made from it
 PatchTree make_patch_tree(const BodyShape& shape, const LatticeTree& tree);
 
-/// True only if the claim holds in the frame for the patch below one child (a == b), or for those
-/// below two together. `a`, `b`: indices of PatchTree::children. @pre find_cells() was called for
-/// this frame; one thread
+/// True only if the claim is proven in this frame for the patch below `a`, or below `a` and `b`
+/// together (indices of PatchTree::children). @pre find_cells() was called; `state`, which caches
+/// results, is used by one thread
 bool stays_embedded(LazyState& state, const PatchTree& patches, std::uint32_t a, std::uint32_t b);
 
 }  // namespace contactcheck

@@ -1,4 +1,4 @@
-// Which entry of a list is of which cell of a grid, in memory that grows with the list alone.
+// Maps grid positions to list indices, in memory proportional to the list, not to the grid.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@ class GridPlaces {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   GridPlaces() = default;
-  /// @pre `list` holds no position twice
+  /// @pre `list` contains no position twice
   /// @throws RefusedInput for 2^32 - 1 positions and more
   explicit GridPlaces(const std::vector<GridIndex>& list) {
     const std::uint32_t end = in_32_bits<RefusedInput>(list.size() + 1, "positions in a grid") - 1;
@@ -32,7 +32,7 @@ class GridPlaces {
     }
   }
 
-  /// Its place in the list; kNone where it is not there.
+  /// The index of `at` in the list, or kNone.
   std::uint32_t find(const GridIndex& at) const {
     if (slots_.empty()) return kNone;
     std::size_t slot = first_slot(at);
@@ -56,7 +56,7 @@ class GridPlaces {
     return static_cast<std::size_t>(h >> 32) & (slots_.size() - 1);
   }
 
-  std::vector<Slot> slots_;  ///< a power of two of them
+  std::vector<Slot> slots_;  ///< empty, or a power of two of them
 };
 
 }  // namespace contactcheck

@@ -35,19 +35,19 @@ struct FrontPart {
   std::span<const LeafPair> leaves;
 };
 
-/// What one thread works with. Lives as long as the states that point into its arena.
+/// Working memory of one thread. Lives as long as the states that point into its arena.
 struct LazyScratch {
   FrameArena arena;
   BvttFront open;
   std::vector<SlotPair> level;
-  std::vector<std::uint32_t> own_blocks;  ///< to be crossed with themselves
+  std::vector<std::uint32_t> own_blocks;  ///< blocks still to be tested against themselves
   TriangleBatchSet<double> batches;
   TriangleBatchSet<float> single_batches;          ///< used instead in single precision
-  LazyCounters counters;                           ///< without what count_made() adds
+  LazyCounters counters;                           ///< without those that count_made() adds
   std::vector<ElementPair>* candidates = nullptr;  ///< if set, records tested pairs
 };
 
-/// Two bodies of one frame and one precision, placed and with their nodes known (lazy_state.h).
+/// Two placed bodies of one frame and one precision, after find_cells() or bound_all().
 struct BodiesToTest {
   BodyPair names;
   LazyState& a;
@@ -59,7 +59,7 @@ struct LazyKernels {
   /// Appends the intersecting pairs of triangles, each once; stops at the first if `first_only`.
   void (*collide)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                   std::vector<ElementPair>& out);
-  /// The same of one body with itself (`bodies` names it twice): pairs of its triangles that meet
+  /// The same for one body and itself (`bodies` names it twice): pairs of its triangles that meet
   /// in more than the vertices they share.
   void (*collide_self)(BodiesToTest bodies, bool first_only, LazyScratch& scratch,
                        std::vector<ElementPair>& out);
@@ -80,12 +80,12 @@ struct LazyKernels {
 };
 
 /// The kernels for this processor, or for a named instruction set.
-/// @throws Unavailable, naming what there is, when it is not compiled in or does not run here
+/// @throws Unavailable, naming the available ones, when it is not compiled in or does not run here
 const LazyKernels& lazy_kernels(const std::string& isa = "best");
 
-/// Able to run here, best first.
+/// Names of the instruction sets that run here, best first.
 std::vector<std::string> lazy_isas();
-/// Compiled in, best first.
+/// Names of those that are compiled in, best first.
 std::vector<std::string> compiled_lazy_isas();
 
 }  // namespace contactcheck

@@ -24,8 +24,8 @@ static_assert(3 * kLeafTriangles <= 256, "vertices of a leaf, in LeafCorners");
 // A piece of a child: what it has in one home cell.
 struct Piece {
   std::uint32_t child = 0, cell = 0;
-  std::uint32_t vertices = 0;  // of triangles, with repeats
-  Aabb box;                    // of y = 2 x - 1
+  std::uint32_t vertices = 0;  // number of triangle corners in it
+  Aabb box;                    // bounds of y = 2 x - 1
   double slab_lo = std::numeric_limits<double>::infinity(), slab_hi = -slab_lo;
 };
 
@@ -128,7 +128,7 @@ class TreeBuilder {
       sum += (rest(b) - rest(a)).cross(rest(c) - rest(a));
     }
     const Vec3 normal = sum.cwiseProduct(sides);
-    // All of it: what the largest of numbers with a NaN among them is, nobody promises.
+    // Checks all components: maxCoeff() is unspecified if one of them is NaN.
     const double largest = normal.cwiseAbs().maxCoeff();
     if (!normal.allFinite() || !(largest > 0.0)) return {1, 0, 0};
     return (normal / largest * BlockSlabs::kNormalSteps).array().round().cast<int>();

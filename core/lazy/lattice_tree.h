@@ -1,6 +1,6 @@
 // The hierarchy that the lazy detector descends: built once at rest, shared by all instances.
 //
-// Leaves hold up to kLeafTriangles triangles. A block is a node with up to eight children that are
+// Leaves have up to kLeafTriangles triangles. A block is a node with up to eight children that are
 // bounded together from the deformed lattice nodes alone; no vertex is mapped for it. Triangles are
 // grouped by the cell that owns them (the home cell of most of their vertices), so that children
 // span few cells.
@@ -29,8 +29,8 @@
 //     m, which holds for n normal to the deformed surface.
 //
 // Triangles:
-//   * Deformed triangles are flat between mapped vertices. A convex set that holds the three
-//     vertices holds the triangle, also where it crosses a displaced cell that holds none of them.
+//   * Deformed triangles are flat between mapped vertices. A convex set with the three vertices
+//     contains the triangle, also where it crosses a displaced cell that contains none of them.
 //
 // Source of the idea, lazily evaluated bounds of a free-form deformation: the project's feasibility
 // study; Larsson and Akenine-Moeller, Collision Detection for Continuously Deforming Bodies, 2001,
@@ -49,7 +49,7 @@ namespace contactcheck {
 
 inline constexpr std::uint32_t kLeafTriangles = 16;
 inline constexpr std::uint32_t kBlockWidth = 8;
-/// Vector loads may read this many elements beyond the last one of a leaf.
+/// Elements that a vector load may read beyond the last one of a leaf.
 inline constexpr std::uint32_t kLeafPadding = 8;
 
 /// Child of a block: a leaf or another block.
@@ -63,16 +63,16 @@ struct TreeChild {
 /// Eight pieces of the children of a block, one per SIMD lane: each what a child has in one of its
 /// home cells. Bounds of y = 2 x - 1 are quantised outward to steps that floats represent.
 struct PieceLanes {
-  static constexpr double kSteps = 0x1p14;  ///< of y in [-1, 1]
+  static constexpr double kSteps = 0x1p14;  ///< steps per unit of y
   std::array<std::uint32_t, kBlockWidth> cell{};
   std::array<std::uint8_t, kBlockWidth> child{};
   std::array<std::array<std::int16_t, kBlockWidth>, 3> lo{}, hi{};  ///< per axis
-  std::array<float, kBlockWidth> slab_lo{}, slab_hi{};              ///< of m.y, outward
+  std::array<float, kBlockWidth> slab_lo{}, slab_hi{};              ///< bounds of m.y, outward
 };
 
 /// Per child of a block: the normal m of its surface at rest, in local coordinates.
 struct BlockSlabs {
-  static constexpr double kNormalSteps = 127.0;  ///< of the largest component
+  static constexpr double kNormalSteps = 127.0;  ///< steps of the largest component
   std::array<std::array<std::int8_t, kBlockWidth>, 3> normal{};
 };
 
@@ -91,10 +91,10 @@ struct TreeLeaf {
   std::uint16_t triangles = 0, vertices = 0, runs = 0;
 };
 
-/// Per corner of its triangles: which of the leaf's vertices it is.
+/// [corner][triangle]: the index of that corner among the leaf's vertices.
 using LeafCorners = std::array<std::array<std::uint8_t, kLeafTriangles>, 3>;
 
-/// Vertices of a leaf with one home cell are contiguous.
+/// A contiguous run of a leaf's vertices: those with the home cell `cell`.
 struct VertexRun {
   std::uint32_t cell = 0;
   std::uint32_t count = 0;
@@ -111,7 +111,7 @@ struct LatticeTree {
   std::vector<std::uint32_t> leaf_vertices;       ///< index in the mesh, and padding
   std::vector<VertexRun> runs;                    ///< with a lattice
   std::array<std::vector<double>, 3> leaf_local;  ///< with a lattice: s, t, u, and padding
-  /// In single precision instead: rounded; and for kVertices in the order of the batch mapping.
+  /// Replace leaf_local in single precision: rounded; for kVertices in order of the batch mapping.
   std::array<std::vector<float>, 3> single_leaf_local;
   SingleLocal single_sorted_local;
 

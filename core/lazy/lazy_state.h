@@ -1,17 +1,16 @@
-// What the lazy detector knows about one body in one frame. Bounds and mapped leaves are made when
-// first asked for, by any thread, and stamped with the frame.
+// The lazy detector's state of one body in one frame. Bounds and mapped leaves are computed on
+// first use, by any thread, and stamped with the frame.
 //
 // Bounds are floats in the body's frame: (x - origin) * scale, with a power of two common to all
 // bodies as scale. The origin is the middle of the scene where bodies are not small against it,
-// else the middle of each body. So a scene far out loses nothing, nor does a body far from the
-// others, and neither overflow nor underflow spoils a bound.
+// else the middle of each body. So neither a scene far out nor a body far from the others loses
+// precision, and neither overflow nor underflow spoils a bound.
 //
 // In single precision that frame is all there is: float(x - origin) * scale, with the local origin
-// of the scene (core/types/local_origin.h) and the power of two that brings its half-width to at
-// most
-// 1. Nodes are rounded once, by the difference; the scale changes no digit of what is not lost
-// against the scene anyway (less than 2^-126 of it). Vertices are mapped from these floats, boxes
-// made and triangles tested of them, without a look back at the doubles.
+// of the scene (core/types/local_origin.h) and the power of two that brings its half-width below 1.
+// Nodes are rounded once, by the difference; the scale changes no digit, except of values below
+// 2^-126 of the scene. Vertices are mapped from these floats, and boxes and triangle tests use only
+// them, never the doubles.
 //
 // What is found in single precision: exactly the pairs of triangles of these floats that intersect.
 // The same on every instruction set and number of threads, and whether bounds come from nodes or
@@ -63,10 +62,10 @@ class FrameArena {
   std::size_t chunk_ = 0, used_ = 0;
 };
 
-/// What was made in this frame, by index. Threads that miss an entry at the same time each make it
-/// in their own arena and store it. All make the same bits, so it does not matter whose entry
-/// stays, nor which one a reader sees. `Stamp`: an unsigned type that frames are counted in; when
-/// it is used up, all entries are made anew.
+/// Cache of entries computed in this frame, by index. Threads that miss an entry at the same time
+/// each compute it in their own arena and store it. All compute the same bits, so it does not
+/// matter whose entry stays or is read. `Stamp`: the unsigned type of the frame counter; before it
+/// overflows, the table is cleared.
 template <class T, class Stamp = std::uint32_t>
 class FrameTable {
  public:
@@ -78,7 +77,7 @@ class FrameTable {
     }
     ++frame_;
   }
-  /// The entry of this frame, or none.
+  /// The entry of this frame, or null.
   T* find(std::uint32_t index) const {
     const Entry& entry = entries_[index];
     if (entry.frame.load(std::memory_order_acquire) != frame_) return nullptr;
@@ -101,7 +100,7 @@ class FrameTable {
   Stamp frame_ = 0;
 };
 
-using Float4 = Eigen::Array4f;  ///< the last is 0
+using Float4 = Eigen::Array4f;  ///< x, y, z, 0
 
 /// The deformed cell as a function of y = 2 x - 1 in [-1, 1]^3: the sum over i of term[i] times the
 /// product of y_k over the bits k of i.
@@ -124,7 +123,7 @@ struct alignas(64) LaneSlabs {
 };
 inline constexpr float kNoSlab = 1e30f;
 
-/// Of the eight children of a block.
+/// Bounds of the eight children of a block, in the body's frame.
 struct BlockBounds {
   LaneBoxes box;
   LaneSlabs slab;  ///< never written where bounds come from vertices
@@ -137,23 +136,22 @@ struct LeafCacheOf {
   const Real* x = nullptr;
   const Real* y = nullptr;
   const Real* z = nullptr;
-  const LaneBoxes* boxes = nullptr;  ///< of kLeafTriangles triangles
-  const LaneBoxes* whole = nullptr;  ///< lane 0: of all of them
+  const LaneBoxes* boxes = nullptr;  ///< one lane per triangle
+  const LaneBoxes* whole = nullptr;  ///< lane 0: box of all triangles
 };
 using LeafCache = LeafCacheOf<double>;
 using SingleLeafCache = LeafCacheOf<float>;
 
-/// What a body in single precision has instead of nodes, vertices and leaves in doubles: the same
-/// in the body's frame.
+/// Replaces the nodes, vertices and leaves of a body in single precision. All coordinates are in
+/// the body's frame.
 struct SingleBody {
   std::vector<Vec3f> nodes;
   std::span<const Vec3f> vertices;  ///< if from_vertices
   FrameTable<SingleLeafCache> leaves;
 };
 
-/// What was done, since the last update. Where all pairs were asked for, all but the first depend
-/// on the frame alone; which blocks are bounded depends on the order of the pairs, so on the
-/// threads.
+/// Work done since the last update. If all pairs were queried, all counters but the first depend on
+/// the frame alone. Which blocks are bounded depends on the order of the pairs, so on the threads.
 struct LazyCounters {
   std::uint64_t blocks_bounded = 0;  ///< eight children each
   std::uint64_t leaves_mapped = 0;
@@ -170,22 +168,22 @@ struct LazyState {
   const BodyShape* shape = nullptr;
   const LatticeTree* tree = nullptr;
   Precision precision = Precision::kDouble;
-  const PatchTree* patches = nullptr;  ///< where known: what cannot meet itself
-  /// What is known in this frame of regions and children of `patches`; no children: not asked.
+  const PatchTree* patches = nullptr;  ///< for self-contact; else null
+  /// Results of stays_embedded() cached in this frame; no embedded_children: none yet.
   std::vector<std::uint8_t> embedded_ones, embedded_eights, embedded_children;
   bool from_vertices = false;      ///< all bounds are refitted to `vertices`; else lazily to nodes
   std::span<const Vec3> nodes;     ///< the frame's
   std::span<const Vec3> vertices;  ///< the same, if from_vertices
-  Aabb box;                        ///< holds all nodes or vertices; single: in the body's frame
-  double largest = 0.0;            ///< |coordinate|
+  Aabb box;                        ///< contains all nodes or vertices; single: in the body's frame
+  double largest = 0.0;            ///< |coordinate| of them
 
   Vec3 origin = Vec3::Zero();
   double scale = 1.0;
   double reach = 0.0;       ///< largest |coordinate| of the body in its frame
   float slack = 0.0f;       ///< by which bounds are moved outward; derivation in bounds-inl.h
   float slab_slack = 0.0f;  ///< the same for slabs
-  std::vector<Float4> near_nodes;  ///< nodes in the body's frame, over 8
-  std::vector<CellTerms> cells;    ///< in the body's frame
+  std::vector<Float4> near_nodes;  ///< nodes in the body's frame, divided by 8
+  std::vector<CellTerms> cells;    ///< per kept cell, in the body's frame
   bool cells_known = false;
 
   FrameTable<BlockBounds> blocks;
@@ -193,7 +191,7 @@ struct LazyState {
   SingleBody single;
 };
 
-/// What leaves are mapped from and where they are kept, for loops of either precision.
+/// Inputs and caches of mapped leaves, selected by precision.
 template <class Real>
 std::span<const Vec3Of<Real>> nodes_in(const LazyState& state) {
   if constexpr (std::is_same_v<Real, float>) {
@@ -219,46 +217,46 @@ FrameTable<LeafCacheOf<Real>>& leaves_in(LazyState& state) {
   }
 }
 
-/// The power of two that brings x to at most 1 and above 1/2, as near as it and its inverse are
-/// doubles: an x above 2^1000 to below 2^24, one below 2^-1000 to 2^-74 at least. 1 for 0.
+/// The power of two that brings x into [1/2, 1), limited to 2^-1000 .. 2^1000: an x above 2^1000
+/// comes below 2^24, one below 2^-1000 to 2^-74 at least. 1 for 0.
 double scale_to_one(double x);
 
 /// Invalidates per-frame state.
 void forget_frame(LazyState& state);
 
-/// Forgets the last frame, in doubles (in single precision: begin_frame_in_single); the body's box
-/// is that of its lattice's nodes. Where `from_vertices`, `vertices` is to be set before blocks are
-/// bounded. @pre shape, tree and from_vertices are set
+/// Starts a frame in doubles (single precision: begin_frame_in_single). The body's box is that of
+/// its lattice's nodes, enlarged by rounding. If `from_vertices`, the caller sets `vertices` before
+/// blocks are bounded. @pre shape, tree and from_vertices are set
 void begin_frame_by_nodes(LazyState& state, std::span<const Vec3> nodes);
 
-/// The same for a body whose vertices are known. @pre also from_vertices
+/// The same for a body with given vertices. @pre also from_vertices
 void begin_frame_by_vertices(LazyState& state, std::span<const Vec3> vertices);
 
-/// Chooses origins, scale and slacks of all bodies of a frame. @pre begin_frame_by_... of each
+/// Chooses origins, scale and slacks of all bodies. @pre begin_frame_by_... was called for each
 void place(std::span<LazyState> states);
 
-/// Forgets the last frame and rounds `nodes` (vertices, without a lattice) about the origin.
+/// Starts a frame in single precision: rounds `nodes` (without a lattice: vertices) about `origin`.
 /// @pre shape, tree and from_vertices are set; in single precision
 /// @throws RefusedInput when one is farther from the origin than kSingleLimit
 void begin_frame_in_single(LazyState& state, std::span<const Vec3> nodes, const Vec3& origin);
 
-/// Takes the rounded nodes into the frame common to all bodies, and finds boxes and slacks. Where
-/// from_vertices, `single.vertices` is to be set before blocks are bounded.
-/// @pre begin_frame_in_single of each with this origin
+/// Scales the rounded nodes to the frame common to all bodies, and computes boxes and slacks. If
+/// from_vertices, the caller sets `single.vertices` before blocks are bounded.
+/// @pre begin_frame_in_single was called for each with this origin
 void place_in_single(std::span<LazyState> states, const Vec3& origin);
 
-/// The body's vertices in the frame, one by one by map_point() (core/deform): what leaves and
-/// refitted bodies are made of, for tests. @pre place_in_single
+/// The body's vertices in its frame, mapped one by one by map_point() (core/deform). For tests:
+/// leaves and refitted bodies must have the same. @pre place_in_single was called
 std::vector<Vec3f> single_vertices(const LazyState& state);
 
-/// Adds the blocks, leaves and vertices made in this frame.
+/// Adds the numbers of blocks bounded, leaves and vertices mapped in this frame.
 void count_made(const LazyState& state, LazyCounters& counters);
 
-/// Takes the lattice into the body's frame, once per frame. @pre place, or place_in_single
+/// Computes near_nodes and cells once per frame, unless from_vertices. @pre the bodies are placed
 void find_cells(LazyState& state);
 
-/// Checks what the bounds promise for the mapped `vertices`: every block's lane holds the vertices
-/// of every triangle below it. Returns a sentence for the first broken promise, or "".
+/// Checks that every block's lane contains the mapped `vertices` of every triangle below it.
+/// Returns a sentence for the first violation, or "".
 /// @pre all blocks are bounded in this frame (LazyKernels::bound_all)
 std::string validate(const LazyState& state, std::span<const Vec3> vertices);
 

@@ -63,7 +63,7 @@ class LeafPairTests {
     const std::uint32_t in_b = meeting_triangles(*a.whole, 0, to_b_, b);
     if (in_b == 0) return;
     const std::uint32_t in_a = meeting_triangles(*b.whole, 0, to_a_, a);
-    // One by one on the side that has fewer.
+    // Loops over the side with fewer triangles.
     if (own_ && pair.a == pair.b) {
       for (std::uint32_t i : Bits(in_a))
         for (std::uint32_t j : Bits(in_b & partners(a, i, to_b_, b) & ~((2u << i) - 1)))
@@ -84,7 +84,7 @@ class LeafPairTests {
  private:
   using Leaf = LeafCacheOf<Real>;
 
-  // Triangles of one leaf, sixteen bits, whose boxes meet that of one triangle of the other.
+  // Bit i, of sixteen: the box of triangle i of `leaf` overlaps lane `lane` of `box`.
   static HWY_INLINE std::uint32_t meeting_triangles(const LaneBoxes& box, std::uint32_t lane,
                                                     const Translation& translation,
                                                     const Leaf& leaf) {
@@ -92,7 +92,7 @@ class LeafPairTests {
            overlapping_triangles(box, lane, translation, leaf.boxes[1]) << kBlockWidth;
   }
 
-  // Those that may meet triangle i.
+  // Triangles of `other` whose boxes overlap that of triangle i of `leaf`, as bits.
   static HWY_INLINE std::uint32_t partners(const Leaf& leaf, std::uint32_t i,
                                            const Translation& translation, const Leaf& other) {
     return meeting_triangles(leaf.boxes[i / kBlockWidth], i % kBlockWidth, translation, other);
@@ -154,7 +154,7 @@ class LeafPairTests {
   const Translation& to_b_;
   LazyScratch& scratch_;
   TriangleBatchSet<Real>& batches_;
-  bool own_;  ///< of one body with itself
+  bool own_;  ///< both leaves are of one body
   std::vector<ElementPair>& out_;
 };
 

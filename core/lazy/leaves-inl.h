@@ -104,7 +104,7 @@ HWY_INLINE float extreme(const float* lanes) {
   return hn::GetLane(least ? hn::MinOfLanes(d, best) : hn::MaxOfLanes(d, best));
 }
 
-// Boxes of a leaf's triangles along one axis, and of all of them. `near`: in the body's frame.
+// Boxes of a leaf's triangles, and of the whole leaf, along one axis. `near`: in the body's frame.
 HWY_INLINE void bound_leaf(const float* near, const LeafCorners& corners, std::uint32_t triangles,
                            float slack, int axis, LaneBoxes* boxes) {
   for (std::uint32_t half = 0; half < 2; ++half)

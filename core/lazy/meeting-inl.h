@@ -39,10 +39,10 @@ class Bits {
   std::uint32_t word_;
 };
 
-// From one body's frame to another's, with what its rounding adds to boxes and slabs.
+// Translation from one body's frame to another's, with the slacks that cover its rounding.
 struct Translation {
   float offset[3], slack, slab_slack;
-  bool none;  // one frame for both, and one reach: either's slack covers a test
+  bool none;  // both have one frame and one reach: either's slack covers a test
 };
 
 // One child's bounds, read in place: copies of single floats into a struct that vectors are
@@ -59,7 +59,7 @@ struct ChildBounds {
   static float slab_slack() { return 0.0f; }
 };
 
-// The same, moved into another body's frame, outward.
+// ChildBounds moved into another body's frame and rounded outward.
 struct MovedBounds {
   const ChildBounds& child;
   const Translation& translation;
@@ -75,7 +75,7 @@ struct MovedBounds {
   float slab_slack() const { return translation.slab_slack; }
 };
 
-// From the frame of `from` to that of `to`.
+// The translation from the frame of `from` to that of `to`.
 //
 // Claim: the slacks cover all rounding of MovedBounds and of a test with them.
 //
@@ -180,7 +180,7 @@ HWY_INLINE std::uint32_t not_separated(const Bounds& one, const BlockBounds& lan
   return out;
 }
 
-// Bit i: the box of lane i shares a point with that of `one`.
+// Bit i: the box of lane i overlaps that of `one`.
 template <class Bounds>
 HWY_INLINE std::uint32_t overlapping(const Bounds& one, const LaneBoxes& lanes) {
   const FloatLanes d;

@@ -29,7 +29,7 @@ std::span<const T> part_of(const std::vector<T>& all, std::size_t begin, std::si
 
 struct ThreadTeam::Arena {
   explicit Arena(int threads) : tasks(threads) {
-    // oneTBB starts no more threads than there are cores unless it is told to.
+    // By default oneTBB starts no more threads than there are cores.
     if (threads > tbb::info::default_concurrency())
       more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
@@ -87,7 +87,7 @@ void PairTasks::run(std::span<LazyState> states, std::span<const BodyPair> pairs
     }
   }
   if (found_.size() < tasks_.size()) found_.resize(tasks_.size());
-  std::vector<std::atomic<bool>> known(pairs.size());  // that the bodies of a pair meet
+  std::vector<std::atomic<bool>> known(pairs.size());  // true: these bodies meet
   team_.for_each(tasks_.size(), [&](std::size_t t, LazyScratch& scratch) {
     const Task& task = tasks_[t];
     found_[t].clear();

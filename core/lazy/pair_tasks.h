@@ -1,4 +1,4 @@
-// The tests of the pairs of bodies of a frame, shared out to threads.
+// Distributes the tests of a frame's pairs of bodies over threads.
 #pragma once
 
 #include <cstddef>
@@ -21,28 +21,28 @@ class ThreadTeam {
   ~ThreadTeam();
 
   std::size_t threads() const { return scratch_.size(); }
-  /// One per thread.
+  /// One scratch per thread.
   std::span<LazyScratch> scratch() { return scratch_; }
   std::span<const LazyScratch> scratch() const { return scratch_; }
 
-  /// work(i, scratch of the thread that does it) for all i < count, in any order, at once on all
-  /// threads; in order where there is one thread.
+  /// Calls work(i, scratch of the executing thread) for all i < count, concurrently and in any
+  /// order; with one thread in order.
   void for_each(std::size_t count, const std::function<void(std::size_t, LazyScratch&)>& work);
 
  private:
   struct Arena;
   std::vector<LazyScratch> scratch_;
-  std::unique_ptr<Arena> arena_;  ///< none where the calling thread works alone
+  std::unique_ptr<Arena> arena_;  ///< null: the calling thread works alone
 };
 
-/// Tests the pairs. What it finds does not depend on the number of threads: tasks are cut by the
-/// number of pairs and by their fronts alone, and each writes what it finds to its own list.
+/// Tests pairs of bodies. The set found does not depend on the number of threads; only with
+/// `first_only` may other triangles stand for a pair of bodies. Each task writes to its own list.
 class PairTasks {
  public:
   PairTasks(const LazyKernels& kernels, ThreadTeam& team) : kernels_(kernels), team_(team) {}
 
   /// Appends all intersecting pairs of triangles, or one per pair of bodies if `first_only`.
-  /// @pre the bodies of all pairs are placed and refitted, or their nodes known
+  /// @pre the bodies of all pairs are placed, and find_cells(), or bound_all() if refitted, is done
   void run(std::span<LazyState> states, std::span<const BodyPair> pairs, bool first_only,
            std::vector<ElementPair>& out);
 

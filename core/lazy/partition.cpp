@@ -136,8 +136,8 @@ class Splitter {
     return middle;
   }
 
-  // Of all planes between cells the one that divides the triangles most evenly. Along an axis that
-  // is one of the two about the cell of the median triangle, so that no loop is over the grid.
+  // Splits at the plane between cells that divides the triangles most evenly. Along an axis that is
+  // one of the two at the cell of the median triangle, so that no loop is over the grid.
   std::uint32_t split_between_cells(const Part& part) {
     const std::uint32_t count = part.last - part.first;
     int best_axis = 0;

@@ -15,8 +15,8 @@ struct Part {
 };
 
 struct Partition {
-  std::vector<std::uint32_t> order;  ///< triangles
-  Part root;                         ///< with at least one child
+  std::vector<std::uint32_t> order;  ///< triangle indices
+  Part root;                         ///< has at least one child
 };
 
 /// Parts of several cells are split between cells, parts of one cell at the median along the axis

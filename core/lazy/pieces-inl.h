@@ -24,7 +24,7 @@ using FloatVec = hn::Vec<FloatLanes>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Running bounds of some lanes.
+// Lower and upper bounds, one per lane.
 struct Range {
   FloatVec lo, hi;
 };

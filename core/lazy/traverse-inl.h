@@ -50,7 +50,7 @@ class PairTraversal {
     finish();
   }
 
-  /// Of one body. Every two of its triangles are under two children of one block, or in one leaf.
+  /// Tests one body with itself: any two triangles are below two children of a block, or in a leaf.
   HWY_INLINE void run_self() {
     std::vector<std::uint32_t>& own = scratch_.own_blocks;
     own.assign(1, 0);
@@ -132,8 +132,8 @@ class PairTraversal {
                             : meeting_lanes(MovedBounds{one, translation}, slabs_, lanes);
   }
 
-  // The named children of one block against those of another. What is tested one by one is the
-  // side that has fewer.
+  // Tests children of one block, bits `in_a`, against those of another, bits `in_b`. Loops over the
+  // side with fewer.
   HWY_NOINLINE void cross(std::uint32_t block_a, std::uint32_t in_a, std::uint32_t block_b,
                           std::uint32_t in_b) {
     ++scratch_.counters.block_pairs;
@@ -169,7 +169,7 @@ class PairTraversal {
     }
   }
 
-  // Children of a below the slot that may meet the slot of b, and the other way round.
+  // Bits of the children below slot a that may meet slot b; below_b: the other way round.
   HWY_NOINLINE std::uint32_t below_a(const SlotPair& slots) {
     const BlockBounds& above_b = bounds(bodies_.b, slots.block_b, scratch_.arena);
     const TreeChild a = child_a(slots.block_a, slots.lane_a);
@@ -195,7 +195,7 @@ class PairTraversal {
     }
   }
 
-  // Begins with the block whose bounds are known: the other may not be needed.
+  // Begins with the block whose bounds are cached: the other's may not be needed.
   void open_both(const SlotPair& slots, std::uint32_t a, std::uint32_t b) {
     std::uint32_t in_a = 0, in_b = 0;
     if (bodies_.b.blocks.find(b) != nullptr) {
@@ -208,7 +208,7 @@ class PairTraversal {
     if (in_a != 0 && in_b != 0) cross(a, in_a, b, in_b);
   }
 
-  // Blocks are bounded in floats whatever the precision: it matters here first.
+  // Blocks are bounded in floats in both precisions, so the precision matters here first.
   HWY_NOINLINE void test_leaf_pairs() {
     if (bodies_.a.precision == Precision::kSingle) {
       test_leaf_pairs_in<float>();
@@ -229,7 +229,7 @@ class PairTraversal {
   bool first_only_;
   LazyScratch& scratch_;
   std::vector<ElementPair>& out_;
-  const PatchTree* patches_;  // of one body with itself, where known
+  const PatchTree* patches_;  // null, except for self-contact
   bool slabs_;
   Translation to_a_, to_b_;
 };

@@ -27,14 +27,14 @@ struct alignas(64) TriangleBatchOf {
       for (int k = 0; k < 3; ++k) out[c][k] = corner[triangle][c][k][lane];
     return out;
   }
-  /// The exact test of one pair.
+  /// Tests one pair exactly.
   bool meets(std::size_t lane) const {
     SharedCorners first;
     first.count = shared;
     return meet_beyond_shared(first, points(0, lane), points(1, lane));
   }
 };
-/// By the number of shared corners.
+/// One batch per number of shared corners: 0, 1, 2.
 template <class Real>
 struct TriangleBatchSet {
   TriangleBatchOf<Real> of[3] = {};
@@ -45,10 +45,10 @@ struct TriangleBatchSet {
 using TriangleBatch = TriangleBatchOf<double>;
 using SingleTriangleBatch = TriangleBatchOf<float>;
 
-/// Bit i for lane i.
+/// The result of a filtered test; bit i is lane i.
 struct BatchVerdict {
   std::uint32_t meet = 0;     ///< share a point (beyond shared corners)
-  std::uint32_t unknown = 0;  ///< the lanes cannot tell: left to TriangleBatchOf::meets()
+  std::uint32_t unknown = 0;  ///< undecided by the filter: left to TriangleBatchOf::meets()
 };
 
 }  // namespace contactcheck

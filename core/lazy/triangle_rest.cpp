@@ -17,14 +17,13 @@ namespace contactcheck {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of what is measured, by the longest edge: nearly parallel edges count as far apart as two of
-// their points, too far by as much.
+// Error of a measured distance, relative to the longest edge: between nearly parallel edges the
+// distance of two of their points is taken, which is too large by up to this.
 constexpr double kRounding = 1e-5;
 // Measured for one triangle. With more about it, as in a bundle of needles, nothing is claimed.
 constexpr int kMostMeasured = 200;
-// Of a longest edge, in the scale of the body: products of four lengths of such a triangle, with
-// the least altitude that is looked at, are still normal doubles. Of a smaller one nothing is
-// claimed.
+// Least longest edge, in the scale of the body: products of four lengths of such a triangle, with
+// the least altitude allowed, are still normal doubles. For smaller triangles nothing is claimed.
 constexpr double kLeastEdge = 0x1p-200;
 
 // 1 / sin(angle / 2) of the angle with this cosine.
@@ -44,7 +43,7 @@ TriangleRest lone_triangle(const TrianglePoints& p) {
   }
   const double twice_area = (p[1] - p[0]).cross(p[2] - p[0]).norm();
   out.altitude = twice_area / out.edge;
-  const double square = 0.5 * (1.0 + smallest_cosine - 1e-12);  // of the cosine of half the angle
+  const double square = 0.5 * (1.0 + smallest_cosine - 1e-12);  // cosine of half the angle, squared
   out.stretch =
       square > 1e-6 && out.altitude > 1e-6 * out.edge ? 1.0 / std::sqrt(square) : kInfinity;
   out.gap = out.edge >= kLeastEdge ? out.edge : 0.0;
@@ -133,7 +132,7 @@ double point_distance(const Vec3& p, const TrianglePoints& t) {
   return std::abs((p - t[0]).dot(normal)) / std::sqrt(area);
 }
 
-// Of triangles that share no point; in doubles.
+// The distance of triangles that share no point, computed in doubles.
 double triangle_distance(const TrianglePoints& p, const TrianglePoints& q) {
   double out = kInfinity;
   for (int i = 0; i < 3; ++i) {
@@ -144,13 +143,13 @@ double triangle_distance(const TrianglePoints& p, const TrianglePoints& q) {
   return out;
 }
 
-// At most the distance of what they hold.
+// A lower bound of the distance between their contents.
 double box_distance(const Aabb& a, const Aabb& b) {
   const Vec3 apart = (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(Vec3::Zero());
   return apart.norm() * (1 - 1e-6);  // rounding
 }
 
-// The body, its vertices in its scale.
+// A body with its vertices times rest_scale().
 struct ScaledBody {
   const BodyShape& shape;
   std::vector<Vec3> vertices;
@@ -211,7 +210,7 @@ class GapSearch {
     }
   }
 
-  // For both: the other one has less to look for then. False: they share a vertex.
+  // Updates the gaps of both, which shortens the other's search. False: they share a vertex.
   bool measure(std::uint32_t own, std::uint32_t slot) {
     const std::uint32_t s = tree_.ids[own], t = tree_.ids[slot];
     const std::vector<Triangle>& linked = body_.shape.linked();

@@ -1,6 +1,6 @@
 // Eight pairs of triangles at a time: the generic case of triangles_intersect() (core/narrow), with
-// its filter, on vector lanes. Whatever the filter cannot decide is left to that function, so the
-// answers are the same. Compiled once per instruction set (kernels.cpp).
+// its filter, on vector lanes. That function decides what the filter cannot, so the answers are the
+// same. Compiled once per instruction set (kernels.cpp).
 //
 // Claim: the sign of a determinant that exceeds error_bound() is right (LaneFilter).
 //   * The operations and their order are those of orient3d. None is fused.
@@ -126,7 +126,7 @@ HWY_INLINE PointOf<Real> extents(const PointOf<Real> (&p)[3], const PointOf<Real
           extent<Real>(p[0].z, p[1].z, p[2].z, q[0].z, q[1].z, q[2].z)};
 }
 
-// A bound where the filter may decide by it, else infinity.
+// The error bound where the filter may use it, else infinity.
 template <class Real>
 HWY_INLINE PairVec<Real> sound_bound(PairVec<Real> product, const PointOf<Real>& extents) {
   using Filter = LaneFilter<Real>;
@@ -145,7 +145,7 @@ HWY_INLINE PairVec<Real> error_bound(const PointOf<Real> (&p)[3], const PointOf<
   return sound_bound<Real>(hn::Mul(hn::Mul(e.x, e.y), e.z), e);
 }
 
-// Where three signs are known: which lanes are above and below.
+// Lanes in which a point is above or below a plane; in neither set the sign is unknown.
 template <class Real>
 struct Sides {
   PairMask<Real> above[3], below[3];
@@ -214,7 +214,7 @@ HWY_INLINE PairMask<Real> share_a_corner(const PointOf<Real> (&p)[3], const Poin
   return any;
 }
 
-// Among lanes that are unknown.
+// Decides lanes with unknown verdicts: triangles with a common corner meet.
 template <class Real>
 HWY_INLINE Verdict<Real> look_for_corners(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3],
                                           const Verdict<Real>& found) {
@@ -223,8 +223,8 @@ HWY_INLINE Verdict<Real> look_for_corners(const PointOf<Real> (&p)[3], const Poi
   return {hn::Or(found.meet, share), hn::AndNot(share, found.unknown)};
 }
 
-// Triangles of one plane have no sign that a determinant could tell. Where they are apart in the
-// view along an axis, which is a matter of areas, they are apart in space.
+// For coplanar triangles all determinants are zero. Where they are separated in the view along an
+// axis, which signs of areas decide, they are separated in space.
 //
 // Claim: in such a view a line holds corners of one triangle and has its third corner, or has all
 // of its corners but a shared one, on one side (or on it), and all corners of the other one, but
@@ -263,7 +263,7 @@ class Views {
   PointOf<Real> bounds_;
 };
 
-// Is one triangle apart from the other by the line of one of its edges?
+// Lanes in which the line of an edge of p separates the triangles in some view.
 template <class Real>
 HWY_INLINE PairMask<Real> apart_by_edges(const Views<Real>& views, const PointOf<Real> (&p)[3],
                                          const PointOf<Real> (&q)[3]) {
@@ -276,7 +276,7 @@ HWY_INLINE PairMask<Real> apart_by_edges(const Views<Real>& views, const PointOf
   return hn::Or(by_edge(0), hn::Or(by_edge(1), by_edge(2)));
 }
 
-// Among lanes that are unknown; `shared` corners come first in both.
+// Returns the unknown lanes that no view separates; `shared` corners come first in both.
 template <class Real>
 HWY_NOINLINE PairMask<Real> look_at_views(const PointOf<Real> (&p)[3], const PointOf<Real> (&q)[3],
                                           std::uint32_t shared, PairMask<Real> unknown) {

@@ -53,11 +53,11 @@ class Grid {
   }
 
  private:
-  /// The cells from `lo` to `hi` of which some are met; false: `visit` said so.
+  /// Visits the cells from `lo` to `hi` that are met; returns false once `visit` has.
   template <typename Visit>
   bool visit_part(const TrianglePoints& triangle, const GridIndex& lo, const GridIndex& hi,
                   Visit& visit) const {
-    // Halves of z, then of y, then of x: so cells come in their order.
+    // Halves z, then y, then x, so that cells are visited in (z, y, x) order.
     const std::size_t axis = lo[2] < hi[2] ? 2 : lo[1] < hi[1] ? 1 : 0;
     if (lo[axis] == hi[axis]) return !triangle_meets_box(triangle, cell_box(lo)) || visit(lo);
     GridIndex last = hi, first = lo;

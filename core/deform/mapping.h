@@ -42,7 +42,7 @@ Vec3Of<T> map_point(const CornersOf<T>& c, const Vec3Of<T>& local) {
 /// the order of the mesh. SIMD with run-time dispatch.
 void map_vertices(const Lattice& lattice, const Embedding& embedding, std::span<const Vec3> nodes,
                   std::span<Vec3> out);
-/// `local`: single_local(embedding).
+/// The same in single precision. `local`: single_local(embedding).
 void map_vertices(const Lattice& lattice, const Embedding& embedding, const SingleLocal& local,
                   std::span<const Vec3f> nodes, std::span<Vec3f> out);
 

@@ -24,7 +24,7 @@ struct RestFrame {
   }
 };
 
-// The same angle twice: each sine has a unit that it takes without rounding.
+// Takes the angle in both units: each kind of sine takes its own without rounding.
 SineCosine sine_cosine(double radians, double degrees, bool portable) {
   if (portable) return portable_sine_cosine(degrees);
   return {std::sin(radians), std::cos(radians)};

@@ -25,13 +25,13 @@ struct Curve {
   double at(double time) const;
 };
 
-/// Rotates each cross-section about the axis by angle_per_metre * (height above the centre).
+/// Rotates each cross-section about `axis`, in proportion to its height above the rest centre.
 struct Twist {
   int axis = 2;
   Curve angle;  ///< degrees over the whole body height
 };
 
-/// Bends the body about `axis_of_bend` along `axis`, total angle over the body height.
+/// Bends the body along `axis` towards `toward`: its centre line becomes an arc.
 struct Bend {
   int axis = 2;    ///< the direction that is bent
   int toward = 0;  ///< the direction it is bent to
@@ -80,8 +80,8 @@ struct Motion {
   bool portable_sines = false;  ///< portable_sine.h: nodes have the same bits on every machine
 };
 
-/// Nodes of the shape's lattice (or its vertices, without one) at `time`. NodeKeys need a lattice.
 struct BodyShape;
+/// The shape's lattice nodes (without a lattice: vertices) at `time`, s. NodeKeys need a lattice.
 std::vector<Vec3> nodes_at(const BodyShape& shape, const Motion& motion, double time);
 
 }  // namespace contactcheck

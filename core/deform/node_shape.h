@@ -13,11 +13,11 @@ namespace contactcheck {
 
 struct NodeShape {
   std::shared_ptr<const BodyShape> shape;
-  /// Per lattice node: the vertex that it is; a node that is no vertex follows the last vertex.
+  /// Per lattice node the given number of its vertex; nodes without a vertex follow the last one.
   std::vector<std::uint32_t> vertex_of_node;
 
-  /// The nodes that put the vertices where they are wanted. @pre one position per vertex as given:
-  /// one that no triangle uses is no vertex of the shape, but still a node
+  /// Node positions that map the shape exactly to `vertices`. @pre one position per given vertex,
+  /// also for those that no triangle uses: they are nodes, but not vertices of the shape
   std::vector<Vec3> nodes_for(std::span<const Vec3> vertices) const;
 };
 

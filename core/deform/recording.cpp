@@ -25,7 +25,7 @@ constexpr std::string_view kMagic(
     "\x89"
     "CCR\r\n\x1a\n",
     8);
-// Version 2 is written where version 1 has no place for what is known: levels, and welded meshes.
+// Version 2 is written only for what version 1 cannot store: levels, and welded meshes.
 constexpr std::uint64_t kPlainVersion = 1, kVersion = 2;
 constexpr std::uint64_t kHasLattice = 1, kIsWelded = 2;
 constexpr std::size_t kHeaderSize = 24, kHashSize = 8;

@@ -17,10 +17,10 @@ struct Recording {
   std::vector<Body> bodies;  ///< instances share one shape, by content hash
   double time_step = 0.0;    ///< seconds
   std::vector<std::vector<std::vector<Vec3>>> frames;  ///< nodes [frame][body][node]
-  std::vector<Level> levels = {};                      ///< that are judged; empty: not said
+  std::vector<Level> levels = {};                      ///< judged levels; empty: unspecified
 };
 
-/// Written under a temporary name and renamed. @throws InputError with the path when it cannot be.
+/// Writes under a temporary name, then renames. @throws InputError with the path when that fails.
 void write_recording(const std::filesystem::path& file, const Recording& recording);
 
 /// @throws InputError: not a recording, wrong version, truncated, inconsistent, non-finite value

@@ -1,4 +1,4 @@
-// Whether a shape that came from outside keeps what Lattice and Embedding promise.
+// Checks that a shape from outside satisfies what Lattice and Embedding promise.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,8 @@ namespace contactcheck {
 
 namespace shape_check_detail {
 
-/// By which a local coordinate may differ from its position over the cell's side: a few roundings
-/// of numbers in [0, 1]. What detectors allow for a vertex at rest (core/lazy/embedded_patch.h) is
-/// more.
+/// Tolerance of a local coordinate against its position divided by the cell's side: a few roundings
+/// of numbers in [0, 1]. Detectors allow more for a vertex at rest (embedded_patch.h).
 inline constexpr double kLocalTolerance = 0x1p-50;
 
 inline bool ascending_in_grid(const std::vector<GridIndex>& indices) {

@@ -48,7 +48,7 @@ class BdTreeDetectorOf : public Detector {
   BdSettings settings_;
   Semantics semantics_;
   std::vector<BdTreeOf<T>> trees_;
-  // Nodes in single precision, per body: as floats, and these as doubles. Empty in doubles.
+  // Single precision only, per body: nodes as floats, and the same values as doubles.
   std::vector<std::vector<Vec3f>> floats_;
   std::vector<std::vector<Vec3>> rounded_;
   std::vector<std::uint64_t> triangles_;  // per body

@@ -30,7 +30,7 @@ struct StageRecord {
     kLabelCells,  ///< triangle pairs whose labels (Embedding) include these cell pairs
     kOwnerCells,  ///< triangle pairs whose owner cells are these cell pairs; see `owner`
     kTriangles,   ///< these triangle pairs
-    // Of body pairs; any active cell of one body with any of the other.
+    // Of these body pairs, any active cell of one body with any active cell of the other:
     kActiveLabelCells,  ///< triangle pairs that both have an active label
     kActiveOwnerCells   ///< triangle pairs whose owner cells are both active
   };
@@ -47,15 +47,14 @@ struct StageRecord {
   std::vector<std::vector<char>> active;  ///< [body][cell]
 };
 
-/// The stages of one frame, in order. `owner[body][triangle]` is set when a stage is of owner
-/// cells.
+/// The stages of one frame, in order. `owner[body][triangle]` is set if a stage has owner cells.
 struct StageTrace {
   std::vector<StageRecord> stages;
   std::vector<std::vector<std::uint32_t>> owner;
 };
 
 /// One detector on one scene. Calls come in the order prepare, then (update, query...) per frame;
-/// frames may come in any order and repeat. A detector holds no state that changes the answer to a
+/// frames may come in any order and repeat. A detector has no state that changes the answer to a
 /// later frame. Two detectors (also of one kind) may be used by two threads at once. An exception
 /// is recorded as status `error` (RefusedInput: `refused`); after it the detector is only
 /// destroyed.
@@ -66,26 +65,26 @@ class Detector {
   Detector& operator=(const Detector&) = delete;
   virtual ~Detector() = default;
 
-  /// Final once prepare() has run: a scale may be taken from the bodies.
+  /// Constant after prepare(), which may take a scale from the bodies.
   virtual const Semantics& semantics() const = 0;
   /// True when update() reads BodyState::vertices; the mapping is then timed as phase `map`.
   virtual bool needs_vertices() const = 0;
-  /// Before prepare(), if at all: the questions that will be asked. What only others need can be
-  /// left out, and what these need be done before it is asked for.
+  /// Optional, before prepare(): the questions that will be asked. The detector may skip work that
+  /// only other questions need, and do work for these in advance.
   virtual void expect(const std::vector<Question>&) {}
-  /// Once per scene. The bodies outlive the detector.
+  /// Called once per scene. The caller keeps `bodies` alive longer than the detector.
   virtual void prepare(const std::vector<Body>& bodies) = 0;
   virtual void update(const Frame& frame) = 0;
-  /// Appends to `out` (the caller clears it); canonicalize() is the caller's, untimed.
+  /// Appends to `out`. The caller clears it before and canonicalizes it afterwards, untimed.
   /// @pre semantics().answers(question)
   virtual void query(Question question, ContactSet& out) = 0;
   /// The stages of the last updated frame; empty for detectors without stages. Untimed.
   virtual StageTrace trace() { return {}; }
-  /// What the last updated frame took, counted in the detector's own units, always the same names
-  /// in the same order; since its update, so asking once more adds to it. Untimed.
+  /// Work of the last update() and of all queries since, in the detector's own units: always the
+  /// same names in the same order. Untimed.
   virtual std::vector<Count> counts() { return {}; }
-  /// What the detector itself says its last update() or query() took, nanoseconds; none: it says
-  /// nothing. For a detector behind a pipe this excludes the time of the pipe. Untimed.
+  /// Nanoseconds of the last update() or query() as measured by the detector itself; none if it
+  /// measures none. For a detector behind a pipe this excludes the time of the pipe. Untimed.
   virtual std::optional<double> reported_ns() const { return std::nullopt; }
   /// What a reader must know about the answer to the last updated frame: limits that were reached,
   /// triangles that the library cannot see. One sentence each, the same words for the same fact in

@@ -21,7 +21,7 @@ class NodePlaneStageOf {
   void begin_frame(const FfdModels<T>& models);
 
   /// Reading `paper`: reports (cell of the probe, box's cell) for every probe inside its box.
-  /// `first_only`: at most one report per pair of bodies.
+  /// `first_only`: at most one probe per pair of bodies reports.
   void run_probes(const FfdModels<T>& models, const FfdStates<T>& states, CellVolume volume,
                   const std::vector<ProbeHit>& hits, bool first_only,
                   std::vector<ElementPair>& out);
@@ -62,7 +62,7 @@ class TriangleStageOf {
   /// may be appended several times.
   void run(const FfdModels<T>& models, const std::vector<ElementPair>& candidates, bool first_only,
            std::vector<ElementPair>& out);
-  /// The same of each cell of the body with itself.
+  /// The same for each cell of the body with itself.
   void run_within_cells(const FfdModels<T>& models, std::uint32_t body,
                         std::vector<ElementPair>& out);
 

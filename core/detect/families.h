@@ -5,7 +5,7 @@
 
 namespace contactcheck {
 
-/// The FFD-AABB family: ffd-grid, ffd-aabb, ffd-aabb-sphere, -sphere2, -sphereN, each with `+tri`.
+/// Adds ffd-grid, ffd-aabb, ffd-aabb-sphere, -sphere2, -sphereN, each also with `+tri`.
 void register_ffd_detectors(DetectorCatalog& catalog);
 
 /// Adds aabb-tree, spatial-hash and sphere-tree: historic broad phases over triangles, each with
@@ -15,7 +15,7 @@ void register_triangle_detectors(DetectorCatalog& catalog);
 /// Adds bd-tree.
 void register_bd_tree(DetectorCatalog& catalog);
 
-/// ffd-lazy and full-refit.
+/// Adds ffd-lazy and full-refit.
 void register_lazy_detectors(DetectorCatalog& catalog);
 
 }  // namespace contactcheck

@@ -1,5 +1,5 @@
-// The vertices that a detector is fed, in its precision: the frame's own doubles, or these about
-// the local origin of the frame, rounded to floats once (local_origin.h).
+// The vertices that a detector gets, in its precision: the frame's own doubles, or these about the
+// local origin of the frame, rounded to floats once (local_origin.h).
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace contactcheck {
 
-/// `part` of every body, its nodes or its vertices, about `origin` in floats. `out` keeps its
-/// memory from frame to frame.
+/// Rounds the nodes or the vertices (`part`) of every body to floats about `origin`. `out` keeps
+/// its memory from frame to frame.
 /// @throws RefusedInput when a coordinate is beyond single precision (round_to_local)
 inline void round_bodies(const Frame& frame, std::span<const Vec3> BodyState::*part,
                          const Vec3& origin, std::vector<std::vector<Vec3f>>& out) {
@@ -29,7 +29,7 @@ class FedVertices {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, float>);
 
  public:
-  /// In doubles the frame's vertices must outlive their use.
+  /// In doubles spans() refers to the frame's vertices: the caller keeps them alive.
   /// @throws RefusedInput when a coordinate is beyond single precision (round_to_local)
   void update(const Frame& frame) {
     if constexpr (std::is_same_v<T, double>) {

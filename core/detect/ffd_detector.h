@@ -6,7 +6,7 @@
 // Guarantee: with bounds `safe`, the triangle test and spheres not made smaller (`radius` from 1
 // on) it reports exactly the intersecting pairs of triangles, for all finite frames; in single
 // precision, exactly those among the vertices that it mapped itself in floats. With bounds `paper`
-// it may miss: measuring what, and at which stage, is what this suite is for.
+// it may have false negatives; this suite measures which, and at which stage.
 //
 // Members that claim the level `box` answer the question `contacts` too: per node inside a box the
 // distance to the nearest of its planes, in metres, and the unit normal (see element_stages.h).
@@ -31,8 +31,8 @@
 namespace contactcheck {
 
 /// The nodes and vertices of a frame in the precision of a detector: the frame's own doubles, or
-/// floats about the local origin of the frame (local_origin.h), of which the vertices are mapped
-/// from the rounded nodes in single precision.
+/// floats about the local origin of the frame (local_origin.h). Vertices in floats are mapped from
+/// the rounded nodes.
 template <typename T>
 class FrameNumbers;
 
@@ -40,7 +40,7 @@ template <>
 class FrameNumbers<double> {
  public:
   void prepare(const std::vector<Body>&, bool) {}
-  /// The frame must outlive the use of its nodes and vertices.
+  /// The caller keeps the frame's nodes and vertices alive while they are used.
   void update(const Frame& frame);
   Vec3 origin() const { return Vec3::Zero(); }
   std::span<const Vec3> nodes(std::size_t body) const { return nodes_[body]; }
@@ -68,7 +68,7 @@ class FrameNumbers<float> {
     const BodyShape* shape;
     SingleLocal local;  // empty without vertices
   };
-  std::vector<Source> sources_;  // per body, as all
+  std::vector<Source> sources_;  // per body, like the next three
   std::vector<std::vector<Vec3f>> nodes_, vertices_;
   std::vector<std::span<const Vec3f>> spans_;
   Vec3 origin_ = Vec3::Zero();
@@ -76,7 +76,7 @@ class FrameNumbers<float> {
 };
 
 /// T: the precision. In single precision everything after the rounding of the nodes is computed in
-/// floats, +tri included, which then maps its own vertices and needs none.
+/// floats. The +tri variants, too: they then map their own vertices and do not need the frame's.
 template <typename T>
 class FfdDetectorOf : public Detector {
  public:

@@ -75,8 +75,8 @@ double mean_edge_of(const std::vector<Corners>& boxes) {
   return boxes.empty() ? 0.0 : sum / (12.0 * static_cast<double>(boxes.size()));
 }
 
-// Of what the safe reading hashes: one box per owner, round all its pieces. (The pieces' own edges
-// are far shorter, most being points, and would make every box meet hundreds of buckets.)
+// The mean edge of the boxes that the safe reading hashes, one per owner round all its pieces. (The
+// pieces' own edges are far shorter, and would make every box meet hundreds of buckets.)
 double mean_owner_edge(const FfdModel& model, const std::vector<Corners>& corners) {
   double sum = 0.0;
   for (std::uint32_t cell : model.cells) {

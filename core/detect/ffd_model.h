@@ -9,9 +9,9 @@
 // triangles lie: the bounds of their local coordinates there (or that whole cell, for ffd-grid).
 //
 // Claim: the bounds of an owner's boxes contain every triangle that it owns, whichever cells the
-// triangle's vertices lie in, also across a displaced cell that holds none of them. The bounds are
-//   * an AABB of all corners of the boxes, moved out by 2 e, and
-//   * a ball that holds all these corners, enlarged by 2 sqrt(3) e.
+// triangle's vertices lie in, also across a displaced cell that contains none of them. Bounds are
+//   * an AABB of all corners of the boxes, moved out by 2 e (and e for its own rounding), and
+//   * a ball that contains all these corners, enlarged by 2 sqrt(3) e.
 //
 // Assumptions:
 //   * v is a vertex of an owned triangle, in home cell H with local coordinates x, and B the
@@ -26,9 +26,9 @@
 //   2. The computed image of v is within e of its exact image, and a computed corner within e of
 //      its own. So the computed image of v lies within 2 e, per coordinate, of the hull of the
 //      computed corners: within 2 sqrt(3) e in distance.
-//   3. An AABB or ball round all computed corners holds this hull. Enlarged by as much, it holds v.
+//   3. An AABB or ball round all computed corners contains this hull. Enlarged so, it contains v.
 //   4. A deformed triangle is flat between mapped vertices. So it lies inside any convex set that
-//      holds the three.
+//      contains the three.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ struct Rows {
   }
 };
 
-/// What a model has whatever the precision.
+/// The part of a model that does not depend on the precision.
 struct FfdStructure {
   const BodyShape* shape = nullptr;
   std::vector<FfdPiece> pieces;            ///< ascending by cell
@@ -66,7 +66,7 @@ struct FfdStructure {
   Rows triangles;                          ///< per kept cell: labelled (paper) or owned (safe)
   std::vector<std::uint32_t> owner;        ///< per triangle; safe only
   Rows node_cells;                         ///< per lattice node: the kept cells around it
-  SphereTree spheres;                      ///< no levels without spheres
+  SphereTree spheres;                      ///< without spheres it has no levels
   double mean_edge = 0.0;  ///< metres, at rest: of the boxes (paper), of owners' AABBs (safe)
 
   std::span<const FfdPiece> pieces_of(std::uint32_t cell) const {
@@ -83,10 +83,10 @@ struct FfdModelOf : FfdStructure {
 using FfdModel = FfdModelOf<double>;
 
 /// The same model with its numbers rounded once. Rounding is monotone: the safe reading's boxes
-/// hold the rounded local coordinates of their vertices as they held the doubles.
+/// contain the rounded local coordinates of their vertices as they contained the doubles.
 FfdModelOf<float> rounded_model(FfdModel model);
 
-/// @throws RefusedInput when the shape has no lattice, or more of anything than 32 bits number
+/// @throws RefusedInput when the shape has no lattice, or a count exceeds what 32 bits can number
 FfdModel make_ffd_model(const BodyShape& shape, const FfdConfig& config);
 
 }  // namespace contactcheck

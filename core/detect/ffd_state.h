@@ -25,13 +25,13 @@ struct FfdStateOf {
 };
 using FfdState = FfdStateOf<double>;
 
-/// Per body.
+/// One per body.
 template <typename T>
 using FfdModels = std::vector<FfdModelOf<T>>;
 template <typename T>
 using FfdStates = std::vector<FfdStateOf<T>>;
 
-/// `nodes` must outlive the state's use.
+/// Computes the state of a frame. The caller keeps `nodes` alive while `state` is used.
 template <typename T>
 void update_state(const FfdModelOf<T>& model, const FfdConfig& config,
                   std::span<const Vec3Of<T>> nodes, FfdStateOf<T>& state);

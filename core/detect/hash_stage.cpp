@@ -155,7 +155,7 @@ void ProbeHashStageOf<T>::run(const FfdModels<T>& models, const FfdStates<T>& st
       if (!active_[body][probe]) continue;
       hash_.for_each(keys_[body][probe], [&](std::uint32_t id) {
         const BoxId box = boxes_[id];
-        if (survivors.active(body, box.body))  // of its own body where that is asked for alone
+        if (survivors.active(body, box.body))  // with `own`, only boxes of the same body
           out.push_back({body, probe, box.body, box.cell});
       });
     }

@@ -33,9 +33,9 @@ void for_cells_of_probe(const FfdStructure& model, CellVolume volume, std::uint3
   }
 }
 
-/// Reading `paper`: a node goes into the one bucket that holds it, a box into the buckets of its
-/// eight nodes; only nodes inside colliding spheres of the finest level (strictly inside, from two
-/// levels on) take part.
+/// Reading `paper`: a node goes into the one bucket that contains it, a box into the buckets of its
+/// eight nodes. Only nodes of colliding bodies take part; from two sphere levels on, only those
+/// strictly inside a colliding sphere of the finest level.
 template <typename T>
 class ProbeHashStageOf {
  public:
@@ -62,15 +62,15 @@ class ProbeHashStageOf {
   void hash_boxes(const FfdModels<T>& models, const FfdConfig& config);
 
   std::vector<std::vector<char>> active_;   // per body and probe
-  std::vector<std::vector<GridKey>> keys_;  // the same; of active probes
+  std::vector<std::vector<GridKey>> keys_;  // per body and probe; set for active probes
   SpatialHash hash_;
   std::vector<BoxId> boxes_;
 };
 
-/// Reading `safe`: the AABB of an owner cell goes into every bucket it meets; survivors are all
-/// pairs of owner cells, of colliding finest spheres, whose AABBs overlap. (An owner outside the
-/// common parts of its sphere's bounds with those of the spheres that this one collides with has no
-/// such pair and is not hashed.)
+/// Reading `safe`: the AABB of an owner cell goes into every bucket it meets. Survivors are pairs
+/// of owner cells whose AABBs overlap, among them all pairs under colliding finest spheres. (An
+/// owner outside the common parts of its sphere's bounds with those of the spheres that this one
+/// collides with is not in such a pair and is not hashed.)
 template <typename T>
 class BoxHashStageOf {
  public:
@@ -81,7 +81,7 @@ class BoxHashStageOf {
                                                      const SphereSurvivors& survivors);
 
  private:
-  // The cells under one finest sphere, and where they can meet others.
+  // Where the cells under one finest sphere can meet others.
   struct Group {
     AabbOf<T> bounds;
     AabbOf<T> reach;  // bounds of the regions

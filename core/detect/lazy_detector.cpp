@@ -74,8 +74,8 @@ void LazyDetector::prepare(const std::vector<Body>& bodies) {
   single_mapped_.assign(bodies.size(), {});
 }
 
-// What the tests of a body's pairs start from: all its bounds where it is refitted, else its cells;
-// bounds are then made on demand.
+// Prepares a body for pair tests: computes all its bounds if it is refitted, else its cells (bounds
+// are then computed on demand).
 void LazyDetector::bound(std::size_t index, LazyScratch& scratch) {
   LazyState& state = states_[index];
   if (!state.from_vertices) return find_cells(state);
@@ -150,7 +150,7 @@ void LazyDetector::query(Question question, ContactSet& out) {
   for (const ElementPair& pair : found_) out.bodies.push_back({pair.body_a, pair.body_b});
 }
 
-// Where bounds come from nodes: what a refitted body has known of its vertices is more.
+// Makes the patch tree of a body whose bounds come from nodes; a refitted body uses none.
 void LazyDetector::know_patches(std::size_t index) {
   LazyState& state = states_[index];
   if (state.from_vertices || state.patches != nullptr) return;
@@ -172,7 +172,7 @@ void LazyDetector::find_self(std::vector<SelfPair>& out) {
   for (const ElementPair& pair : found) out.push_back({pair.body_a, pair.a, pair.b});
 }
 
-// On one thread: what is tested is the same.
+// Runs on one thread: the tests are the same.
 StageTrace LazyDetector::trace() {
   std::vector<std::uint64_t> triangles;
   for (const LazyState& state : states_) triangles.push_back(state.shape->mesh.triangles.size());

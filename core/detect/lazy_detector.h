@@ -13,7 +13,7 @@
 
 namespace contactcheck {
 
-/// Where the bounds of the tree come from.
+/// The source of a tree's bounds.
 enum class BoundSource {
   kNodes,     ///< from lattice nodes, on demand; bodies without a lattice from their vertices
   kVertices,  ///< from the given mapped vertices, all of them in every frame
@@ -27,10 +27,10 @@ struct LazyConfig {
   Precision precision = Precision::kDouble;
 };
 
-/// In doubles exact for all that are finite: bounds only cull, and contain what they bound. In
-/// single precision nodes are rounded about the local origin, vertices mapped from those floats,
-/// whatever the source of bounds, and these triangles tested exactly (core/lazy/lazy_state.h).
-/// The contacts do not depend on the instruction set nor on the number of threads.
+/// Exact in doubles for all finite frames: bounds only cull, and contain what they bound. In single
+/// precision, for every source of bounds, nodes are rounded about the local origin, vertices mapped
+/// from those floats, and these triangles tested exactly (core/lazy/lazy_state.h). Contacts do not
+/// depend on the instruction set or the number of threads.
 class LazyDetector : public Detector {
  public:
   explicit LazyDetector(const LazyConfig& config);
@@ -48,12 +48,12 @@ class LazyDetector : public Detector {
   std::vector<Count> counts() override;
 
   /// Bounds everything in the frame of the last update and checks it against `vertices`, per body,
-  /// or in single precision against vertices mapped one by one from its rounded nodes; "" or a
-  /// sentence for the first broken promise.
+  /// or in single precision against vertices mapped one by one from its rounded nodes. Returns a
+  /// sentence for the first violation, or "".
   std::string validate(const std::vector<std::vector<Vec3>>& vertices);
-  /// Since the last update.
+  /// Work since the last update.
   LazyCounters counters() const;
-  /// Bytes of all trees; bytes of everything else that the bodies hold.
+  /// Bytes of trees and patches, which instances share; bytes of the bodies' states and arenas.
   std::size_t shared_bytes() const;
   std::size_t instance_bytes() const;
 
@@ -69,12 +69,12 @@ class LazyDetector : public Detector {
   Semantics semantics_;
   std::vector<std::shared_ptr<const LatticeTree>> trees_;  // per body; instances share
   std::vector<LazyState> states_;
-  std::map<const BodyShape*, PatchTree> patches_;  // of bodies asked for contacts with themselves
+  std::map<const BodyShape*, PatchTree> patches_;  // for self-contact
   std::vector<std::vector<Vec3>> mapped_;          // per body that is mapped here
   std::vector<std::vector<Vec3f>> single_mapped_;  // instead in single precision
   std::vector<BodyPair> candidates_;
   std::vector<std::size_t> to_bound_;
-  std::vector<bool> bounded_;  // in this frame
+  std::vector<bool> bounded_;  // per body: bound() was called in this frame
   bool expects_self_ = false;
   std::vector<ElementPair> found_;
   ThreadTeam team_;

@@ -19,7 +19,7 @@ inline OptionInfo choice_option(std::string name, std::string value,
   return o;
 }
 
-/// A number in [min, max]; `integer`: a whole one.
+/// An option that is a number in [min, max], whole if `integer`.
 inline OptionInfo numeric_option(std::string name, std::string value, double min, double max,
                                  bool integer, std::string help, double step = 2.0) {
   OptionInfo o;

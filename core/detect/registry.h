@@ -19,7 +19,7 @@ struct OptionInfo {
   double min = 0.0, max = 0.0;
   bool integer = false;
   std::string help;
-  double step = 2.0;  ///< of a number: the factor from one value worth trying to the next
+  double step = 2.0;  ///< numbers: the factor from one value worth trying to the next
 };
 
 /// Options by name, complete: every option of the detector has a value here.
@@ -31,7 +31,7 @@ struct DetectorInfo {
   std::vector<OptionInfo> options;
   std::function<std::unique_ptr<Detector>(const Options&)> make;
   std::string given;           ///< what makes it as fast as it can be: sweep, batches, early end
-  std::string absent_because;  ///< not empty: known, but not built into this program
+  std::string absent_because;  ///< why it is not built into this program; empty if it is
 };
 
 struct DetectorSpec {
@@ -56,7 +56,7 @@ class DetectorCatalog {
   std::vector<DetectorInfo> infos_;
 };
 
-/// The detectors of core.
+/// Adds the detectors of core.
 void register_core_detectors(DetectorCatalog& catalog);
 
 /// @pre the option exists; values were checked by parse

@@ -36,7 +36,7 @@ void test_children(const FfdModels<T>& models, const FfdStates<T>& states, Bound
     const SphereOf<T>* const spheres_a = states[p.bodies.a].spheres[level].data();
     const SphereOf<T>* const spheres_b = states[p.bodies.b].spheres[level].data();
     for (std::uint32_t a = above_a.child_begin; a < above_a.child_end; ++a)
-      // Of a sphere with itself every pair of children once.
+      // For a sphere with itself, each pair of children once.
       for (std::uint32_t b = &above_a == &above_b ? a : above_b.child_begin; b < above_b.child_end;
            ++b) {
         ++out.tested;

@@ -35,13 +35,13 @@ template <typename T>
 inline constexpr Precision kPrecision =
     std::is_same_v<T, float> ? Precision::kSingle : Precision::kDouble;
 
-/// Can this broad phase name the candidates of a body's contacts with itself?
+/// True if this broad phase finds candidates for contacts of a body with itself.
 template <typename Broad>
 inline constexpr bool kFindsSelf =
     requires(Broad broad) { broad.visit_own_candidates([](const SelfPair&) { return false; }); };
 
-/// What a detector claims that tests triangle pairs exactly. In single precision the triangles are
-/// those of vertices, or of nodes, rounded about the local origin: it is not exact.
+/// The claims of a detector that tests triangle pairs exactly. In single precision it is not exact:
+/// its triangles are those of vertices, or of nodes, rounded about the local origin.
 inline Semantics exact_triangle_semantics(Precision precision = Precision::kDouble,
                                           bool self = false) {
   Semantics s;
@@ -61,13 +61,13 @@ inline Semantics exact_triangle_semantics(Precision precision = Precision::kDoub
 /// Broad:
 ///   Real                          double, or float: vertices rounded about the local origin
 ///   kName, kVisitedUnit           texts for the stage trace
-///   kBoxesOverlap                 true: every candidate's two AABBs are known to overlap
+///   kBoxesOverlap                 true: the two AABBs of every candidate overlap
 ///   prepare(bodies), update(vertices)   per body
 ///   visit_candidates(visit)       calls bool visit(const ElementPair&) for a superset of the
 ///                                 intersecting pairs of triangles of different bodies; once it has
 ///                                 returned true the rest of these two bodies may be left out
-///   visit_own_candidates(visit)   optional: the same of two triangles of one body, as SelfPair; a
-///                                 detector that has it answers the question `self`
+///   visit_own_candidates(visit)   optional: the same for two triangles of one body, as SelfPair;
+///                                 the detector then answers the question `self`
 ///   visited()                     what the last visit_candidates looked at
 /// Narrow:
 ///   bool operator()(p, q)         two triangles of Reals whose AABBs overlap

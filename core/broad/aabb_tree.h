@@ -30,7 +30,7 @@ class AabbTreeOf {
 
   const TriangleTree& tree() const { return *tree_; }
   const AabbOf<T>& box(std::uint32_t node) const { return nodes_[node]; }
-  /// Of the triangle in a slot of the tree.
+  /// The box of the triangle in `slot` of the tree.
   const AabbOf<T>& triangle_box(std::uint32_t slot) const { return triangles_[slot]; }
 
   bool overlap(std::uint32_t node, const AabbTreeOf& other, std::uint32_t other_node) const {
@@ -42,12 +42,12 @@ class AabbTreeOf {
     return extent.x() + extent.y() + extent.z();
   }
 
-  /// "" or which box does not hold what it must. Slow: for tests.
+  /// Returns "", or names a box that does not contain what it must. Slow: for tests.
   std::string validate(std::span<const Vec3Of<T>> vertices) const;
 
  private:
   std::shared_ptr<const TriangleTree> tree_;
-  std::vector<AabbOf<T>> nodes_;      // as tree_->nodes
+  std::vector<AabbOf<T>> nodes_;      // parallel to tree_->nodes
   std::vector<AabbOf<T>> triangles_;  // per slot, so those of a leaf are read in one go
 };
 using AabbTree = AabbTreeOf<double>;
@@ -70,7 +70,7 @@ class AabbTreesOf {
   /// Calls `visit(ElementPair)`; true: the rest of these two bodies is skipped.
   template <typename Visit>
   void visit_candidates(Visit&& visit);
-  /// The same of two triangles of one body: calls `visit(SelfPair)`, in either order of the two;
+  /// The same for two triangles of one body: calls `visit(SelfPair)`, in either order of the two;
   /// true: the rest of this body is skipped.
   template <typename Visit>
   void visit_own_candidates(Visit&& visit);

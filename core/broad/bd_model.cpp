@@ -190,11 +190,11 @@ class Builder {
   double largest_ = 0.0;    // |coordinate| of the nodes at rest
   std::vector<std::uint32_t> seen_;
   std::uint32_t stamp_ = 0;
-  // Of the sphere in work:
+  // Scratch of the current sphere:
   std::vector<std::uint32_t> vertices_, support_, chosen_;
   // Per lattice node, valid for those in support_:
   std::vector<double> center_weight_, spread_;
-  std::vector<std::uint32_t> touches_;  // by vertices of the sphere
+  std::vector<std::uint32_t> touches_;  // number of the sphere's vertices that the node moves
   std::vector<char> in_support_;
 };
 

@@ -1,6 +1,6 @@
 // What a BD-tree prepares once per shape: for every sphere the lattice nodes that move it, with the
-// weights of its centre and the largest weight differences of its vertices. bd_tree.h has
-// the bounds that are made of these, and their proof.
+// weights of its centre and the largest weight differences of its vertices. bd_tree.h derives the
+// bounds from these, with a proof.
 #pragma once
 
 #include <array>
@@ -18,23 +18,23 @@ namespace contactcheck {
 /// How one lattice node moves one sphere.
 struct BdInfluence {
   std::uint32_t node = 0;
-  double weight = 0.0;  ///< of the centre: a multiple of 2^-50; those of a sphere sum to 1 exactly
+  double weight = 0.0;  ///< in the centre: a multiple of 2^-50; those of a sphere sum to 1 exactly
   double spread = 0.0;  ///< not below |weight of a vertex - weight|, over the sphere's vertices
 };
 
 struct BdSphere {
-  std::uint32_t first = 0, count = 0;  ///< its influences
-  Vec3 rest_center = Vec3::Zero();     ///< metres; of the nodes at rest, by the weights
-  double rest_radius = 0.0;            ///< metres; round that, and round the exact one
-  /// Of the sum of (r - c)(r - c)^T over its nodes at rest; makes a least-squares map of a moment.
+  std::uint32_t first = 0, count = 0;  ///< range in BdModel::influences
+  Vec3 rest_center = Vec3::Zero();     ///< metres; weighted mean of the nodes at rest
+  double rest_radius = 0.0;            ///< metres; valid about rest_center and the exact mean
+  /// The inverse of the sum of (r - c)(r - c)^T over its nodes at rest, for a least-squares map.
   Eigen::Matrix3d inverse_moment = Eigen::Matrix3d::Zero();
 };
 
 struct BdModel {
   const BodyShape* shape = nullptr;
   TriangleTree tree;
-  ReferenceFit reference;         ///< of the lattice's nodes
-  std::vector<BdSphere> spheres;  ///< as tree.nodes
+  ReferenceFit reference;         ///< for the lattice's nodes
+  std::vector<BdSphere> spheres;  ///< parallel to tree.nodes
   std::vector<BdInfluence> influences;
 
   std::span<const BdInfluence> influences_of(std::uint32_t node) const {
@@ -57,7 +57,7 @@ inline double blend_error_bound(std::size_t count, double largest) {
   return static_cast<double>(count) * 0x1p-52 * largest + 0x1p-1000;
 }
 
-/// @throws RefusedInput when the shape has no lattice, or more influences than 32 bits number
+/// @throws RefusedInput when the shape has no lattice, or more influences than 32 bits can number
 /// @pre leaf_size >= 1, the mesh has a triangle
 std::shared_ptr<const BdModel> make_bd_model(const BodyShape& shape, std::uint32_t leaf_size);
 

@@ -5,9 +5,9 @@
 // Source: James & Pai: BD-Tree: Output-Sensitive Collision Detection for Reduced Deformable Models,
 // ACM TOG 23(3), 2004.
 //
-// Claim: the closed ball of the stored centre and radius of a sphere holds every mapped vertex of
-// its set, and so their triangles. Two triangles that share a point have spheres that share it, at
-// every level, and collide_safe() keeps those.
+// Claim: the closed ball of the stored centre and radius of a sphere contains all mapped vertices
+// of its set, and so their triangles. Two triangles that share a point have spheres that share it,
+// at every level, and collide_safe() keeps those.
 //
 // Notation and assumptions:
 //   * Lattice nodes are r_j at rest and n_j now.
@@ -102,7 +102,7 @@ class BdTreeOf {
   BdTreeOf(std::shared_ptr<const BdModel> model, const BdSettings& settings);
 
   /// Fits the reference map and measures the displacements: O(lattice nodes). Reads nothing of an
-  /// earlier call. The nodes must outlive what is asked about them.
+  /// earlier call. The caller keeps the nodes alive until the next call.
   /// `origin`: what was subtracted from the nodes; it decides how tight ReferenceKind::kNone is,
   /// and no sphere's soundness.
   /// @pre one finite position per lattice node; T float: every coordinate is one, within
@@ -127,12 +127,12 @@ class BdTreeOf {
   /// How many spheres were computed and vertices mapped since begin_frame().
   std::size_t evaluated_spheres() const { return evaluated_spheres_; }
   std::size_t mapped_vertices() const { return mapped_vertices_; }
-  /// "" or which sphere does not hold one of its vertices. Computes everything; slow: for tests.
+  /// Returns "", or names a sphere that does not contain one of its vertices. Slow: for tests.
   std::string validate() const;
 
  private:
   void evaluate(std::uint32_t node) const;
-  /// Of the coordinates of a computed centre and of a mapped vertex: each of their errors.
+  /// Bounds the error per coordinate of a computed centre plus that of a mapped vertex.
   double coordinate_errors(std::size_t influences) const;
   double paper_radius(const BdSphere& sphere, std::span<const BdInfluence> influences,
                       double errors) const;
@@ -147,7 +147,7 @@ class BdTreeOf {
 
   std::span<const Vec3> nodes_;
   double stretch_ = 1.0;                // |A|_2, rounded up
-  double largest_ = 0.0;                // |coordinate| of the nodes
+  double largest_ = 0.0;                // largest |coordinate| of the nodes
   std::vector<double> residual_norms_;  // rounded up
 
   std::uint64_t frame_ = 0;  // caches of another frame are stale

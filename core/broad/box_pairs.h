@@ -1,5 +1,5 @@
-// All overlapping pairs of axis-aligned boxes of different bodies, or of one body each, through the
-// spatial hash.
+// Finds all overlapping pairs of axis-aligned boxes of different bodies, or within each body, by
+// spatial hashing.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,12 @@ struct BoxPairSettings {
   double cell_size = 1.0;               ///< metres, of the hash grid
   std::uint32_t table_size = 0;         ///< see SpatialHash
   double largest_buckets_per_box = 64;  ///< a box that meets more goes to the oversize list
-  bool own = false;                     ///< pairs of one body, in place of those of two
+  bool own = false;                     ///< true: pairs within bodies, instead of between them
 };
 
-/// In double or in single precision, whose grid keys are those of floats. Complete and without
-/// repeats: an AABB is put into every bucket it meets, and a pair is taken
-/// only in the bucket of the lower corner of the two boxes' intersection, which both have. Boxes
-/// that meet too many buckets are tested against all others.
+/// T: double or float, also for grid keys. Complete and without repeats: an AABB is put into every
+/// bucket it meets, and a pair is taken only in the bucket of the lower corner of the two boxes'
+/// intersection, which both meet. Boxes that meet too many buckets are tested against all others.
 template <typename T>
 class BoxPairFinderOf {
  public:

@@ -1,6 +1,6 @@
 // The affine map that carries a lattice from rest to where it is now, as nearly as one affine map
-// can, and the residual displacements. Bounds that follow the map pay for residuals only: a body
-// that flies and turns has none.
+// can, and the residual displacements. Bounds that follow the map pay for residuals only: a body in
+// rigid motion has none.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,7 +53,7 @@ class ReferenceFit {
   /// The map of the kind asked for; the zero map (linear and offset 0) where that could overflow:
   /// T(rest node) and its difference from the node are always finite.
   /// `origin`: what was subtracted from the nodes and not from the rest (local_origin.h); kNone
-  /// takes it off, too, the others find it by themselves.
+  /// subtracts it, too; the other kinds fit it.
   /// @pre `nodes`: one per rest node, finite
   AffineMap fit(ReferenceKind kind, std::span<const Vec3> nodes,
                 const Vec3& origin = Vec3::Zero()) const;

@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kLargestHashTable = std::uint32_t{1} << 31;
 /// @throws RefusedInput for more entries than 32 bits number
 std::uint32_t hash_table_size(std::uint32_t wanted, std::uint64_t entries);
 
-/// A table built once per frame. Keys that fall into one bucket are told apart by their
+/// A table built once per frame. Keys that fall into one bucket are distinguished by their
 /// coordinates, so what lookups find does not depend on the table's size.
 class SpatialHash {
  public:
@@ -64,7 +64,7 @@ class SpatialHash {
   void insert(const GridKey& key, std::uint32_t id) { entries_.push_back({key, id}); }
   /// To be called between the last insert and the first lookup. @throws as hash_table_size() does
   void build();
-  /// Entries of one bucket: those with other keys are the caller's to skip.
+  /// All entries of the bucket of `key`. The caller skips those with other keys.
   std::span<const Entry> bucket(const GridKey& key) const { return bucket_at(slot(key)); }
 
   template <typename Visit>

@@ -41,19 +41,19 @@ template <typename T>
 bool collide_safe(const SphereOf<T>& a, const SphereOf<T>& b) {
   const T reach = (a.radius + b.radius) + kSphereTiny<T>;
   const T distance2 = squared_distance<T>(a.center, b.center);
-  // Beyond about 1e154 the squares overflow: nothing is known, nothing is excluded.
+  // Squares overflow beyond about 1e154 (of floats 1e19): then no pair is excluded.
   return !(distance2 > reach * reach * kSphereRoundUp<T>) ||
          distance2 > std::numeric_limits<T>::max();
 }
 
-/// The radius about a centre that holds points moved by at most `slack` each, rounded up, from the
-/// largest squared distance of a point to the centre as squared_distance() computes it.
+/// The radius of a ball that contains points moved by at most `slack` each, rounded up, from the
+/// largest squared distance of a point to its centre as squared_distance() computes it.
 template <typename T>
 T covering_radius(T largest_squared_distance, T slack) {
   return (std::sqrt(largest_squared_distance) + slack) * kSphereRoundUp<T> + kSphereTiny<T>;
 }
 
-/// The same of the points: the closed ball holds the exact points moved by at most `slack` each.
+/// The same for `points`: the closed ball contains the exact points moved by at most `slack` each.
 inline double covering_radius(const Vec3& center, std::span<const Vec3> points, double slack) {
   double largest = 0.0;
   for (const Vec3& p : points) largest = std::max(largest, squared_distance<double>(p, center));

@@ -1,6 +1,6 @@
 // The hierarchy of bounding spheres of one shape, at rest: which lattice node is each sphere's
 // centre and which cells belong to it. One sphere at the top; each sphere of the next level belongs
-// to one of the level above and holds a part of its cells.
+// to one of the level above and contains a part of its cells.
 // Source: Jeon, Hong, Choi, Jeong 2013: level 1 encloses the object, level 2 "somewhat overlapped",
 // each centre a node of the object; deeper levels are named there and not done.
 #pragma once

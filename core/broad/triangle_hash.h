@@ -36,19 +36,19 @@ class TriangleHashOf {
   explicit TriangleHashOf(const TriangleHashSettings& settings) : settings_(settings) {}
 
   void prepare(const std::vector<Body>& bodies);
-  /// Fits the boxes to the frame. Hashing is left to the traversal: which triangles take part is
-  /// known here, but a frame that is not queried needs no table.
+  /// Fits the boxes to the frame and selects the triangles that take part. They are hashed by
+  /// visit_candidates(): a frame that is not queried needs no table.
   /// @pre `vertices`: per prepared body, one finite position per vertex
   void update(const std::vector<std::span<const Vec3Of<T>>>& vertices);
   /// Calls `visit(ElementPair)`. The table is walked to its end whatever `visit` returns: all pairs
   /// are found first, as the method has no order of bodies.
   template <typename Visit>
   void visit_candidates(Visit&& visit);
-  /// Entries that the last traversal compared with another one of their bucket.
+  /// Comparisons of the last traversal: see BoxPairFinderOf::visited().
   std::uint64_t visited() const { return visited_; }
 
   double cell_size() const { return cell_size_; }  ///< metres
-  /// Triangles that the last update put up for hashing.
+  /// The number of triangles that the last update selected for hashing.
   std::size_t hashed() const { return boxes_.size(); }
 
  private:

@@ -13,20 +13,20 @@
 // above.
 //
 // Let B(s) be the exact closed ball of a sphere's centre and radius as they are stored. Each B
-// holds all triangles below its node:
+// contains all triangles below its node:
 //   1. Leaf. covering_radius() is at least the exact distance from the centre to every vertex,
-//      whatever number the centre is. So B holds the vertices. It is convex and holds their
+//      whatever number the centre is. So B contains the vertices. It is convex and contains their
 //      triangles.
 //   2. Parent round its children. Its radius is at least |c - c_i| + r_i, exactly, for both
 //      children i, again whatever c is: rounding of c costs tightness, not safety. By the triangle
-//      inequality B holds both children's balls, which hold their triangles.
-//   3. Parent round a box. Minima and maxima are exact, so the box holds all vertices below. The
+//      inequality B contains both children's balls, which contain their triangles.
+//   3. Parent round a box. Minima and maxima are exact, so the box contains all vertices below. The
 //      radius is at least the exact distance to the box's farthest corner, as in 1.
-//   4. Two triangles that share a point x lie in balls that all hold x. collide_safe() is true for
-//      every two balls that share a point. Hence no pair of nodes above them is ever dropped.
+//   4. Two triangles that share a point x lie in balls that all contain x. collide_safe() is true
+//      for every two balls that share a point. Hence no pair of nodes above them is ever dropped.
 //
 // Overflow:
-//   * It makes a radius infinite, and such a ball holds everything.
+//   * It makes a radius infinite, and such a ball contains everything.
 //   * No NaN arises: every step takes maxima and sums of values that are >= 0, and no centre is
 //     ever infinite.
 //   * Within kSingleLimit of the local origin nothing overflows in floats: squares stay below 2^84.
@@ -46,13 +46,13 @@
 
 namespace contactcheck {
 
-/// A sphere that holds both, rounded outward: the smallest one up to rounding, or one round the
+/// A sphere that contains both, rounded outward: the smallest one up to rounding, or one round the
 /// centre of `a` where the distance of the centres overflows.
 /// @pre finite centres, radii >= 0 (infinite ones are allowed)
 template <typename T>
 SphereOf<T> enclosing_sphere(const SphereOf<T>& a, const SphereOf<T>& b);
 
-/// A sphere that holds the box, rounded outward: the smallest one up to rounding.
+/// A sphere that contains the box, rounded outward: the smallest one up to rounding.
 /// @pre lo <= hi, all finite
 template <typename T>
 SphereOf<T> enclosing_sphere(const AabbOf<T>& box);
@@ -81,7 +81,7 @@ class TriangleSphereTreeOf {
   void fit_parent(std::size_t node);
 
   std::shared_ptr<const TriangleTree> tree_;
-  std::vector<SphereOf<T>> nodes_;  // as tree_->nodes
+  std::vector<SphereOf<T>> nodes_;  // parallel to tree_->nodes
   std::vector<AabbOf<T>> boxes_;    // the same
 };
 using TriangleSphereTree = TriangleSphereTreeOf<double>;

@@ -118,7 +118,7 @@ class Builder {
     const double extent = centers.hi[axis] - centers.lo[axis];
     if (!(extent > 0.0) || !std::isfinite(extent)) return;
     const Bins bins = fill_bins(range, centers, axis);
-    std::array<double, kBins> cost_behind = {};  // of the bins after this one
+    std::array<double, kBins> cost_behind = {};  // cost of the bins after this one
     Part behind, before;
     for (int bin = kBins - 1; bin > 0; --bin) {
       behind.add(bins.boxes[bin], bins.counts[bin]);

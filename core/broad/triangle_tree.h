@@ -1,5 +1,5 @@
-// The shape of a binary tree over the triangles of one mesh, and the traversal of two such trees at
-// once. Which volumes the nodes have (boxes, spheres) is up to the trees that use it.
+// The topology of a binary tree over the triangles of one mesh, and the traversal of two such trees
+// at once. Trees that use it decide which volumes the nodes have (boxes, spheres).
 // Sources: van den Bergen: Efficient Collision Detection of Complex Deformable Models using AABB
 // Trees, Journal of Graphics Tools, 1997 (a topology made once, at rest); Wald: On Fast
 // Construction of SAH-Based Bounding Volume Hierarchies, RT 2007 (where a node is split).
@@ -16,8 +16,8 @@
 
 namespace contactcheck {
 
-/// Shared by all instances of a mesh; it knows no positions. Node 0 is the root; children stand
-/// next to each other and behind their parent, so that a refit is one loop from back to front.
+/// Shared by all instances of a mesh; it has no positions. Node 0 is the root; children are next to
+/// each other and after their parent, so that a refit is one loop from back to front.
 struct TriangleTree {
   struct Node {
     std::uint32_t first = 0;  ///< leaf: its first slot; inner node: its first child
@@ -29,8 +29,8 @@ struct TriangleTree {
   std::vector<std::uint32_t> ids;  ///< index of the slot's triangle in the mesh
   std::vector<Triangle> corners;   ///< its vertices
 
-  /// "" or what is wrong: every triangle in exactly one leaf, children behind their parent and
-  /// each node the child of one, corners those of the mesh.
+  /// Returns "" or what is wrong. Checks: every triangle is in exactly one leaf, children are after
+  /// their parent, each node has one parent, corners are those of the mesh.
   std::string validate(const TriangleMesh& mesh) const;
 };
 
@@ -110,8 +110,8 @@ void traverse_self(const Volumes& volumes, std::vector<NodePair>& stack, std::ui
   }
 }
 
-/// traverse_pairs() of every two bodies, one tree of volumes each: calls `leaves(BodyPair, leaf of
-/// a, leaf of b)`; true: the rest of these two bodies is skipped. Sets `visited` anew.
+/// Calls traverse_pairs() for every two bodies, one tree of volumes each: calls `leaves(BodyPair,
+/// leaf of a, leaf of b)`; true: the rest of these two bodies is skipped. Resets `visited`.
 template <typename Volumes, typename Leaves>
 void traverse_bodies(const std::vector<Volumes>& trees, std::vector<NodePair>& stack,
                      std::uint64_t& visited, Leaves&& leaves) {
@@ -125,7 +125,7 @@ void traverse_bodies(const std::vector<Volumes>& trees, std::vector<NodePair>& s
 }
 
 /// Calls `visit(ElementPair)` for every triangle of one leaf with every one of another, until it
-/// returns true; says whether it did.
+/// returns true. Returns whether it did.
 template <typename Visit>
 bool visit_leaf_pairs(BodyPair bodies, const TriangleTree& a, std::uint32_t leaf_a,
                       const TriangleTree& b, std::uint32_t leaf_b, Visit&& visit) {

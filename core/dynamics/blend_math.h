@@ -1,4 +1,4 @@
-// A blend of nodes as one point: its velocity, its mass, and what an impulse at it does.
+// A blend of nodes as one point: its velocity, its inverse mass, and how an impulse acts at it.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ inline Vec3 blended(const NodeBlend& blend, std::span<const Vec3> values) {
   return out;
 }
 
-/// 1/kg, in every direction; 0 for a body that cannot be moved (no masses).
+/// Inverse mass, 1/kg, in every direction; 0 for a body that cannot be moved (no masses).
 inline double inverse_mass(const NodeBlend& blend, std::span<const double> masses) {
   double out = 0.0;
   if (masses.empty()) return out;

@@ -27,15 +27,15 @@ struct ContactPoint {
   double depth = 0.0;          ///< metres, not negative
 };
 
-/// Which box of a cell takes part: what the driving detector tests.
+/// The box of a cell that the driving detector tests.
 enum class ContactVolume { kCell, kFfdAabb };
 
 /// Turns the answers of a detector to one frame into points to respond at, in the order of the
 /// canonical set: from pairs of triangles where there are any, else from pairs of cells. The
-/// geometry is this class's own, the same for every detector: a detector decides where there is
+/// geometry is computed here and is the same for every detector: a detector decides where there is
 /// contact, not how it is answered. Two bodies are separated in one direction
-/// (agree_on_directions): the sum of the normals of two solids' triangles, else of the vectors
-/// between the centres of the cells that are, or hold, what is in contact.
+/// (agree_on_directions): the sum of the contact normals of two solids' triangles, else of the
+/// vectors between centres: of the cells' boxes, or of the triangles' home cells (else bodies).
 class ContactPoints {
  public:
   /// The bodies outlive this object.
@@ -57,10 +57,10 @@ class ContactPoints {
   std::vector<std::vector<Aabb>> boxes_;  // per body and cell, local; kFfdAabb only
 };
 
-/// The blend that is a vertex of the mesh: the 8 nodes of its home cell, or the vertex itself
-/// without a lattice.
+/// A vertex of the mesh as a blend: of the 8 nodes of its home cell, or of itself without a
+/// lattice.
 NodeBlend blend_of_vertex(const BodyShape& shape, std::uint32_t vertex);
-/// The blend that is a point of a kept cell, by local coordinates in [0, 1].
+/// A point of a kept cell, at local coordinates in [0, 1], as a blend of the cell's 8 nodes.
 NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3& local);
 
 // One direction of separation for two bodies. A point of contact has the direction out of one box
@@ -72,7 +72,7 @@ NodeBlend blend_of_local(const Lattice& lattice, std::uint32_t cell, const Vec3&
 using Directions = std::map<BodyPair, Vec3>;
 
 /// Gives every point whose normal is more than 60 degrees off its bodies' common direction that
-/// direction instead. Points keep their depths and places. A direction of zero says nothing.
+/// direction instead. Points keep their depths and places. A direction of zero is ignored.
 void agree_on_directions(const Directions& common, std::vector<ContactPoint>& points);
 
 }  // namespace contactcheck

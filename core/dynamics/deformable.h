@@ -1,4 +1,4 @@
-// What moves the lattice nodes of one body between contacts: the interface of all models.
+// The interface of all models that move the lattice nodes of a body between contacts.
 #pragma once
 
 #include <limits>
@@ -19,8 +19,8 @@ struct NodeState {
 };
 
 /// One body's lattice, at rest in the positions of Lattice::rest_nodes(). Uses additions, products,
-/// quotients and square roots alone, in a fixed order: the same bits on every machine. Holds no
-/// state that changes: one object may serve two threads.
+/// quotients and square roots alone, in a fixed order: the same bits on every machine. It has no
+/// mutable state: several threads may use one object.
 class Deformable {
  public:
   Deformable() = default;

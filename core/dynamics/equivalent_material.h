@@ -1,4 +1,4 @@
-// One material for another model of deformation: what it can say of the same stuff.
+// Converts a material to another deformation model, as far as that model can express it.
 //
 // The body stores the same energy under small uniform strains: summed over an orthonormal basis of
 // strains, which is the trace of the stiffness and the same for all axes. It is taken from the

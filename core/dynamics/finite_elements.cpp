@@ -93,8 +93,9 @@ HexahedronStiffness hexahedron_stiffness(const Vec3& sides, double youngs_modulu
   return out;
 }
 
-// Of K^64, squared six times: its Frobenius norm is that of its eigenvalues, at most sqrt(24) times
-// the largest, and 24^(1/128) = 1.026. Normalised after every step, so that no power overflows.
+// Takes the 64th root of the Frobenius norm of K^64 (K squared six times). That norm is at most
+// sqrt(24) times the largest eigenvalue of K^64, so the root is at most 24^(1/128) = 1.026 times
+// that of K. Each power is normalised, so that none overflows.
 double largest_eigenvalue_bound(const HexahedronStiffness& stiffness) {
   constexpr int kSquarings = 6;
   HexahedronStiffness power = stiffness;

@@ -11,7 +11,7 @@ namespace contactcheck {
 
 using Mat3 = Eigen::Matrix3d;
 
-// For columns of matrices, too.
+// Accepts columns of matrices, too.
 inline double ordered_dot(const Vec3& a, const Vec3& b) { return ordered_dot<double>(a, b); }
 
 /// m * v

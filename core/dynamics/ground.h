@@ -21,9 +21,8 @@ struct Ground {
   bool holds(const Vec3& point) const { return point[axis] <= height; }
 };
 
-/// The vertices of a body that the ground holds, ascending. Maps only vertices of cells of which a
-/// node reaches below the ground (a mapped vertex lies within its cell's nodes up to rounding,
-/// which is allowed for).
+/// The vertices of a body on or below the ground's plane, ascending. Maps only vertices of cells
+/// with a node there (up to rounding, a mapped vertex lies within the hull of its cell's nodes).
 std::vector<std::uint32_t> vertices_in_ground(const BodyShape& shape, std::span<const Vec3> nodes,
                                               const Ground& ground);
 

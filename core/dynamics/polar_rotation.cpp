@@ -98,7 +98,7 @@ Mat3 rotation_of(double w, double x, double y, double z) {
 std::optional<Mat3> horn_rotation(const Mat3& m) {
   Mat4 n = horn_matrix(m);
   Mat4 v = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-  // Of a matrix of entries up to 1: what is left turns the result by no more than rounding.
+  // Entries are up to 1: off-diagonal ones below this turn the result by no more than rounding.
   constexpr double kLeastEntry = 0x1p-54;
   int sweeps = 0;
   while (sweep(n, v, kLeastEntry))

@@ -12,7 +12,7 @@
 namespace contactcheck {
 namespace {
 
-// What the sweeps read and write of one body. Empty spans: nothing known, hence at rest.
+// The data of one body that the sweeps read and write. A body with empty `velocities` is at rest.
 struct Mover {
   std::span<const double> masses;  // empty: cannot be moved
   std::span<Vec3> velocities;
@@ -115,7 +115,7 @@ void Response::apply_impulse(const ContactPoint& point, const Vec3& impulse) {
   spread(point.b, impulse, b.masses, b.velocities);
 }
 
-// What earlier sweeps gave too much is taken back: only the sum must not pull.
+// Takes back excess impulses of earlier sweeps: only the sum must not pull.
 void Response::answer_normal(Constraint& c) {
   const double speed = ordered_dot(approach(*c.point), c.point->normal);
   const double wanted = c.normal_impulse + (c.target - speed) / c.inverse_mass;
@@ -172,8 +172,8 @@ void Response::change_velocities() {
   limit_energy();
 }
 
-// Measures anew how far the sides have come apart, so that a thousand points at one place push as
-// one does.
+// Recomputes how far the sides have moved apart, so that a thousand points at one place push as one
+// does.
 void Response::answer_depth(Constraint& c) {
   Mover &a = movers_[c.point->body_a], &b = movers_[c.point->body_b];
   const Vec3& normal = c.point->normal;

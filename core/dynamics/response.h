@@ -14,7 +14,7 @@
 
 namespace contactcheck {
 
-/// What a body is to the response. Infinite mass (a body without material): no inverse masses.
+/// A body as the response sees it. A body without material has no masses: it cannot be moved.
 struct ResponseBody {
   NodeState* state = nullptr;
   std::span<const double> masses;  ///< per node; empty: the body cannot be moved
@@ -23,8 +23,8 @@ struct ResponseBody {
 
 struct ResponseSettings {
   std::uint32_t iterations = 4;  ///< sweeps over all points, in order
-  /// Of the depth, per response. A correction moves nodes and not what they hang on: it strains
-  /// springs, and from about a third on it puts more energy in than damping takes out.
+  /// Share of the depth that a response corrects. It moves nodes, but not what they are tied to,
+  /// and so strains springs: from about a third on this adds more energy than damping removes.
   double corrected_share = 0.1;
   /// m/s: slower approaches do not bounce. Above what gravity adds in one step of 1/60 s, or bodies
   /// at rest would hop.
@@ -36,7 +36,7 @@ struct ResponseSettings {
 void respond_to_contacts(const std::vector<ContactPoint>& points, const ResponseSettings& settings,
                          std::vector<ResponseBody>& bodies);
 
-/// The same for the vertices of one body that the ground holds.
+/// The same for vertices of one body that are on or below the ground's plane.
 void respond_to_ground(const BodyShape& shape, const std::vector<std::uint32_t>& vertices,
                        const Ground& ground, const ResponseSettings& settings, ResponseBody& body);
 

@@ -1,5 +1,5 @@
-// Bodies that fall, hit and answer: one step after the other, each in the paper's order: deform
-// (MSS), ground, then whatever a detector reports is answered (response).
+// Simulates bodies that fall and collide. Each step is in the paper's order: deformation (MSS),
+// ground, then the response to what a detector reports.
 // Source: Jeon, Hong, Choi, Jeong 2013, the simulation loop of its Tables 1 and 3.
 #pragma once
 
@@ -20,14 +20,14 @@ namespace contactcheck {
 
 struct SimulationSettings {
   double time_step = 1.0 / 60;           ///< seconds
-  std::uint32_t substeps = 0;            ///< of a time step; 0: per body as few as are stable
+  std::uint32_t substeps = 0;            ///< per time step; 0: as few as are stable for all bodies
   Vec3 gravity = Vec3(0.0, -9.81, 0.0);  ///< m/s^2
   std::optional<Ground> ground;
   ResponseSettings response;
-  std::uint32_t threads = 1;  ///< bodies are deformed side by side; results do not depend on it
+  std::uint32_t threads = 1;  ///< bodies are deformed in parallel; results do not depend on it
 };
 
-/// A node left the finite numbers, or went faster than anything here can be meant to.
+/// A node's position or velocity became NaN, or reached 1e9 m or m/s.
 class Diverged : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -41,23 +41,23 @@ struct SimulationState {
 };
 
 struct Energy {
-  double kinetic = 0.0, elastic = 0.0, potential = 0.0;  ///< Joule; potential above the origin
+  double kinetic = 0.0, elastic = 0.0, potential = 0.0;  ///< joules; potential 0 at the origin
   double total() const { return kinetic + elastic + potential; }
 };
 
 class Simulation {
  public:
-  /// Bodies without a material stay where they are and cannot be moved. The bodies outlive this.
+  /// Bodies without a material cannot be moved. The caller keeps `bodies` alive longer than this.
   /// @throws InputError when a body is too stiff for the wanted substeps, or for 10,000 of them
-  /// @throws Diverged when the start is not finite
+  /// @throws Diverged when the start has diverged already
   Simulation(const std::vector<Body>& bodies, std::vector<std::optional<Material>> materials,
              const SimulationSettings& settings, std::vector<NodeState> start);
 
-  /// One time step without a new answer of a detector: deformation, gravity, ground, and the
-  /// contacts of the last answer held ("Updating MSS").
+  /// Makes one time step without a new answer of a detector: deformation, gravity, ground, and the
+  /// held contacts of the last answer ("Updating MSS").
   /// @throws Diverged, one sentence with body, node and step
   void advance();
-  /// Answers contacts of the present state.
+  /// Applies the response to contacts of the present state, and holds them for advance().
   void respond(std::vector<ContactPoint> points);
 
   const SimulationState& state() const { return state_; }
@@ -66,8 +66,8 @@ class Simulation {
 
   Energy energy() const;
   Vec3 momentum() const;  ///< kg m/s, of all movable bodies
-  /// Of a time step, for all bodies: as many as the one of the shortest stable step needs, unless
-  /// the settings want more.
+  /// Substeps per time step, for all bodies: as many as the body with the shortest stable step
+  /// needs, unless the settings want more.
   std::uint32_t substeps() const { return substeps_; }
 
  private:

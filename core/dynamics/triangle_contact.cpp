@@ -110,7 +110,7 @@ Vec3 halfway(const TrianglePoints& a, const TrianglePoints& b) {
                 point_at(nearest_on_triangle(centroid(a), b), b));
 }
 
-// Of the orthogonal projection; none without area, or where the projection lies outside.
+// Weights of the orthogonal projection; none for a triangle without area or a projection outside.
 std::optional<Barycentric> projected_inside(const Vec3& point, const TrianglePoints& t) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], from = point - t[0];
   const Vec3 normal = u.cross(v);

@@ -1,6 +1,6 @@
 // How two triangles in contact are to be separated: one direction, one depth, one point on each.
-// Guarantee: swapping the triangles turns the normal and changes nothing else, up to rounding; no
-// verdict hangs on any of it.
+// Guarantee: swapping the triangles flips the normal and changes nothing else, up to rounding. No
+// verdict depends on it.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace contactcheck {
 using Barycentric = std::array<double, 3>;
 
 struct TriangleContact {
-  /// Unit, from a to b; zero where the triangles name no direction: neither has a plane, or both
+  /// Unit, from a to b; zero where the triangles give no direction: neither has a plane, or both
   /// face the same way, and their centroids coincide.
   Vec3 normal = Vec3::Zero();
   double depth = 0.0;  ///< metres, not negative, at most the longest edge of the smaller triangle

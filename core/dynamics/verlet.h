@@ -29,7 +29,7 @@ inline double longest_verlet_step(double stiffness, double damping) {
 }
 
 /// One step of dt seconds. `add_forces(positions, velocities, forces)` adds newtons to the given
-/// zeros. Allocates in the first step of a thread alone.
+/// zeros. Allocates only when a thread steps more nodes than ever before.
 template <typename AddForces>
 void verlet_step(double dt, const Vec3& acceleration, std::span<const double> masses,
                  NodeState& state, AddForces&& add_forces) {
